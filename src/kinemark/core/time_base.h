@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace kinemark {
+
+/// Evenly spaced instants: frame i is at t0_s + i / rate_hz, for i in [0, frames).
+struct TimeBase {
+  double rate_hz = 0.0;  ///< > 0
+  double t0_s = 0.0;     ///< time of frame 0
+  std::int64_t frames = 0;
+
+  [[nodiscard]] double time_s(std::int64_t frame) const {
+    return t0_s + static_cast<double>(frame) / rate_hz;
+  }
+  /// Frame nearest to a time; may lie outside [0, frames).
+  [[nodiscard]] std::int64_t nearest_frame(double time_s) const {
+    return static_cast<std::int64_t>(std::llround((time_s - t0_s) * rate_hz));
+  }
+  friend bool operator==(const TimeBase&, const TimeBase&) = default;
+};
+
+}  // namespace kinemark

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/data/joint_motion.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinemark::data {
+
+std::string_view to_string(FrameStatus status) {
+  switch (status) {
+    case FrameStatus::converged:
+      return "converged";
+    case FrameStatus::not_converged:
+      return "not_converged";
+    case FrameStatus::underdetermined:
+      return "underdetermined";
+    case FrameStatus::no_markers:
+      return "no_markers";
+  }
+  return "unknown";
+}
+
+std::int64_t JointMotion::find(std::string_view coordinate) const {
+  const auto it = std::find(coordinates.begin(), coordinates.end(), coordinate);
+  return it == coordinates.end() ? -1 : it - coordinates.begin();
+}
+
+Status JointMotion::validate() const {
+  const auto F = static_cast<std::size_t>(std::max<std::int64_t>(0, frames()));
+  const std::size_t n = coordinates.size(), M = markers.size();
+  const auto wrong = [](std::string_view what, std::size_t has, std::size_t needs) {
+    return fail(Code::bad_input,
+                fmt::format("joint motion holds {} numbers of {}; need {}", has, what, needs));
+  };
+  if (!(time.rate_hz > 0.0))
+    return fail(Code::bad_input, fmt::format("joint motion has a rate of {} Hz", time.rate_hz));
+  if (is_rotation.size() != n) return wrong("is_rotation", is_rotation.size(), n);
+  if (q.size() != F * n) return wrong("q", q.size(), F * n);
+  if (!q_sd.empty() && q_sd.size() != F * n) return wrong("q_sd", q_sd.size(), F * n);
+  if (!determined.empty() && determined.size() != F * n) return wrong("determined", determined.size(), F * n);
+  if (!marker_error.empty() && marker_error.size() != 3 * F * M)
+    return wrong("marker_error", marker_error.size(), 3 * F * M);
+  if (!status.empty() && status.size() != F) return wrong("status", status.size(), F);
+  const auto bad = std::find_if(q.begin(), q.end(), [](double v) { return !std::isfinite(v); });
+  if (bad != q.end()) {
+    const auto i = static_cast<std::size_t>(bad - q.begin());
+    return fail(Code::bad_input,
+                fmt::format("coordinate '{}' of frame {} is not a finite number", coordinates[i % n], i / n));
+  }
+  return {};
+}
+
+}  // namespace kinemark::data

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+
+namespace kinemark::data {
+
+/// How the estimate of one frame ended.
+enum class FrameStatus : std::uint8_t {
+  converged,        ///< the gradient vanished to the asked tolerance
+  not_converged,    ///< the iteration limit was reached; the best pose found is given
+  underdetermined,  ///< converged, but at least one coordinate is not fixed by the visible markers
+  no_markers,       ///< no marker visible: the pose is held from the frame before and all coordinates are
+                    ///< undetermined
+};
+
+[[nodiscard]] std::string_view to_string(FrameStatus status);
+
+/// Joint coordinates through time: F frames, n coordinates, M markers. Angles in rad, translations in m.
+struct JointMotion {
+  std::vector<std::string> coordinates;  ///< n names, in the model's order
+  std::vector<bool> is_rotation;         ///< n; true: rad, false: m
+  std::vector<std::string> markers;      ///< M names of the markers that were used
+  TimeBase time;
+  Array<double> q;                 ///< F x n
+  Array<double> q_sd;              ///< F x n, one standard deviation; NaN where not determined or unknown
+  Array<std::uint8_t> determined;  ///< F x n; 0: the visible markers do not fix this coordinate
+  Array<double> marker_error;      ///< F x M x 3, measured minus model, m; NaN where not seen
+  Array<FrameStatus> status;       ///< F
+
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }
+  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(coordinates.size()); }
+  [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t coordinate) const {
+    return static_cast<std::size_t>(frame * size() + coordinate);
+  }
+  [[nodiscard]] std::int64_t find(std::string_view coordinate) const;
+  /// Shapes agree and q is finite.
+  [[nodiscard]] Status validate() const;
+};
+
+}  // namespace kinemark::data

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/data/trajectories.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace kinemark::data {
+
+std::string_view to_string(SampleState state) {
+  switch (state) {
+    case SampleState::missing:
+      return "missing";
+    case SampleState::measured:
+      return "measured";
+    case SampleState::interpolated:
+      return "interpolated";
+    case SampleState::model_filled:
+      return "model_filled";
+    case SampleState::upsampled:
+      return "upsampled";
+    case SampleState::rejected:
+      return "rejected";
+  }
+  return "unknown";
+}
+
+void Trajectories::set_missing(std::int64_t frame, std::int64_t marker, SampleState why) {
+  x(frame, marker).setConstant(std::numeric_limits<double>::quiet_NaN());
+  state[index(frame, marker)] = why;
+}
+
+std::int64_t Trajectories::find(std::string_view name) const {
+  const auto it = std::find(names.begin(), names.end(), name);
+  return it == names.end() ? -1 : it - names.begin();
+}
+
+std::int64_t Trajectories::count_missing() const {
+  return std::count_if(state.begin(), state.end(),
+                       [](SampleState s) { return s == SampleState::missing || s == SampleState::rejected; });
+}
+
+Trajectories Trajectories::all_missing(std::vector<std::string> names, const TimeBase& time) {
+  Trajectories t;
+  t.names = std::move(names);
+  t.time = time;
+  const auto samples = static_cast<std::size_t>(t.frames() * t.markers());
+  t.x_in_world.assign(3 * samples, std::numeric_limits<double>::quiet_NaN());
+  t.state.assign(samples, SampleState::missing);
+  return t;
+}
+
+Status Trajectories::validate() const {
+  const auto samples = static_cast<std::size_t>(std::max<std::int64_t>(0, frames()) * markers());
+  if (frames() < 0)
+    return fail(Code::bad_input, fmt::format("trajectories have {} frames; need 0 or more", frames()));
+  if (!(time.rate_hz > 0.0) || !std::isfinite(time.rate_hz))
+    return fail(Code::bad_input,
+                fmt::format("trajectories have a rate of {} Hz; need a positive number", time.rate_hz));
+  if (!std::isfinite(time.t0_s))
+    return fail(Code::bad_input, "trajectories start at a time that is not a number");
+  if (x_in_world.size() != 3 * samples || state.size() != samples)
+    return fail(
+        Code::bad_input,
+        fmt::format(
+            "trajectories of {} frames and {} markers hold {} coordinates and {} states; need {} and {}",
+            frames(), markers(), x_in_world.size(), state.size(), 3 * samples, samples));
+  if (!covariance.empty() && covariance.size() != 6 * samples)
+    return fail(Code::bad_input, fmt::format("trajectories hold {} covariance numbers; need {} or none",
+                                             covariance.size(), 6 * samples));
+  std::set<std::string_view> seen;
+  for (const std::string& name : names) {
+    if (name.empty()) return fail(Code::bad_input, "a marker has no name");
+    if (!seen.insert(name).second)
+      return fail(Code::bad_input, fmt::format("marker name '{}' occurs twice", name));
+  }
+  for (std::int64_t f = 0; f < frames(); ++f) {
+    for (std::int64_t m = 0; m < markers(); ++m) {
+      const auto p = x(f, m);
+      if (present(f, m) ? !p.allFinite() : !p.array().isNaN().all())
+        return fail(Code::bad_input,
+                    fmt::format("marker '{}' frame {} is marked {} but its coordinates are {} {} {}",
+                                names[static_cast<std::size_t>(m)], f, to_string(state[index(f, m)]), p.x(),
+                                p.y(), p.z()));
+    }
+  }
+  return {};
+}
+
+}  // namespace kinemark::data

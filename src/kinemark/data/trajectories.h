@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+
+namespace kinemark::data {
+
+/// Where a sample comes from. Anything but `measured` was made by somebody or is not there.
+enum class SampleState : std::uint8_t { missing, measured, interpolated, model_filled, upsampled, rejected };
+
+/// Name of a state as written in files and tables: "missing", "measured", ...
+[[nodiscard]] std::string_view to_string(SampleState state);
+
+/// Labelled points through time: F frames, M markers, metres in the laboratory frame of the file.
+///
+/// Element (frame, marker, axis) is x_in_world[(frame * M + marker) * 3 + axis]. Where state is missing or
+/// rejected all three coordinates are NaN.
+struct Trajectories {
+  std::vector<std::string> names;  ///< M, unique
+  TimeBase time;                   ///< F = time.frames
+  Array<double> x_in_world;        ///< F x M x 3, m
+  Array<SampleState> state;        ///< F x M
+  Array<double> covariance;        ///< F x M x 6 (xx xy xz yy yz zz), m^2; empty when unknown
+
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }
+  [[nodiscard]] std::int64_t markers() const { return static_cast<std::int64_t>(names.size()); }
+  [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t marker) const {
+    return static_cast<std::size_t>(frame * markers() + marker);
+  }
+  [[nodiscard]] Eigen::Map<const Eigen::Vector3d> x(std::int64_t frame, std::int64_t marker) const {
+    return Eigen::Map<const Eigen::Vector3d>(x_in_world.data() + 3 * index(frame, marker));
+  }
+  [[nodiscard]] Eigen::Map<Eigen::Vector3d> x(std::int64_t frame, std::int64_t marker) {
+    return Eigen::Map<Eigen::Vector3d>(x_in_world.data() + 3 * index(frame, marker));
+  }
+  /// True where there are coordinates: measured or made, but neither missing nor rejected.
+  [[nodiscard]] bool present(std::int64_t frame, std::int64_t marker) const {
+    const SampleState s = state[index(frame, marker)];
+    return s != SampleState::missing && s != SampleState::rejected;
+  }
+  void set_missing(std::int64_t frame, std::int64_t marker, SampleState why = SampleState::missing);
+  /// Index of a marker, or -1.
+  [[nodiscard]] std::int64_t find(std::string_view name) const;
+  /// Number of (frame, marker) pairs that are not present.
+  [[nodiscard]] std::int64_t count_missing() const;
+
+  /// F x M samples, all missing.
+  static Trajectories all_missing(std::vector<std::string> names, const TimeBase& time);
+
+  /// Shapes agree, names are unique and not empty, the rate is positive and finite, present samples are
+  /// finite and the others NaN. O(F M).
+  [[nodiscard]] Status validate() const;
+};
+
+}  // namespace kinemark::data

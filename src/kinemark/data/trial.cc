@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/data/trial.h"
+
+#include <fmt/core.h>
+
+namespace kinemark::data {
+
+Status Trial::validate() const {
+  if (auto status = markers.validate(); !status) return status;
+  const auto samples = static_cast<std::size_t>(markers.frames() * markers.markers());
+  if (!residual_m.empty() && residual_m.size() != samples)
+    return fail(Code::bad_input,
+                fmt::format("trial holds {} residuals; need {} or none", residual_m.size(), samples));
+  if (!camera_mask.empty() && camera_mask.size() != samples)
+    return fail(Code::bad_input,
+                fmt::format("trial holds {} camera masks; need {} or none", camera_mask.size(), samples));
+  if (analog.values.size() != static_cast<std::size_t>(analog.samples) * analog.names.size())
+    return fail(Code::bad_input, fmt::format("trial holds {} analog values; need {} samples of {} channels",
+                                             analog.values.size(), analog.samples, analog.names.size()));
+  if (!analog.units.empty() && analog.units.size() != analog.names.size())
+    return fail(Code::bad_input, fmt::format("trial names {} analog units for {} channels",
+                                             analog.units.size(), analog.names.size()));
+  for (const ForcePlate& plate : force_plates)
+    for (const int channel : plate.channel_idx)
+      if (channel < 0 || channel >= static_cast<int>(analog.names.size()))
+        return fail(Code::bad_input, fmt::format("a force plate uses analog channel {}; the file has {}",
+                                                 channel + 1, analog.names.size()));
+  return {};
+}
+
+}  // namespace kinemark::data

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+
+namespace kinemark::data {
+
+/// Analog channels sampled evenly: S samples, K channels, in the unit that each channel names.
+struct AnalogChannels {
+  std::vector<std::string> names;  ///< K
+  std::vector<std::string> units;  ///< K, as the file says ("V", "N", "Nmm"), may be empty
+  double rate_hz = 0.0;
+  std::int64_t samples = 0;  ///< S
+  Array<double> values;      ///< S x K
+};
+
+/// An instant that somebody labelled.
+struct Event {
+  std::string label;    ///< "Foot Strike"
+  std::string context;  ///< "Left", "Right", "General" or empty
+  double time_s = 0.0;  ///< on the trial's clock
+};
+
+/// Geometry of one force plate; its channels are indices into AnalogChannels.
+struct ForcePlate {
+  int type = 0;                                               ///< C3D type 1 to 7
+  std::array<Eigen::Vector3d, 4> corners_in_world{};          ///< m
+  Eigen::Vector3d origin_in_plate = Eigen::Vector3d::Zero();  ///< m, as the file gives it
+  std::vector<int> channel_idx;                               ///< zero-based
+};
+
+/// What one marker file holds, in SI units.
+struct Trial {
+  std::string source;            ///< file name as given
+  std::string format;            ///< "C3D", "TRC"
+  std::string units_in_file;     ///< length unit of the file: "mm", "m", or empty when it did not say
+  std::string software;          ///< who wrote the file, or empty
+  std::int64_t first_frame = 1;  ///< number of the first frame in the file's own counting
+  Trajectories markers;          ///< t0 is (first_frame - 1) / rate for C3D, the first time written for TRC
+  Array<float>
+      residual_m;  ///< F x M reconstruction residual, NaN where not measured; empty when the file has none
+  Array<std::uint8_t>
+      camera_mask;  ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
+  AnalogChannels analog;
+  std::vector<Event> events;
+  std::vector<ForcePlate> force_plates;
+  std::vector<std::string> warnings;  ///< what was odd about the file, one sentence each
+
+  [[nodiscard]] std::int64_t last_frame() const { return first_frame + markers.frames() - 1; }
+  /// Markers are valid and all other arrays have the shapes they promise.
+  [[nodiscard]] Status validate() const;
+};
+
+}  // namespace kinemark::data

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/file.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace kinemark::io {
+namespace {
+
+std::string reason() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+Result<InputFile> InputFile::open(const std::filesystem::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return fail(Code::io, fmt::format("{}: cannot be opened ({})", path.string(), reason()));
+  struct stat info{};
+  if (::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
+    ::close(fd);
+    return fail(Code::io, fmt::format("{}: is not a regular file", path.string()));
+  }
+  return InputFile(fd, static_cast<std::size_t>(info.st_size), path.string());
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), size_(other.size_), name_(std::move(other.name_)) {}
+
+InputFile& InputFile::operator=(InputFile&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(size_, other.size_);
+  std::swap(name_, other.name_);
+  return *this;
+}
+
+InputFile::~InputFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+Result<std::size_t> InputFile::read_at(std::size_t offset, std::span<std::byte> out) const {
+  std::size_t done = 0;
+  while (done < out.size()) {
+    const ssize_t n = ::pread(fd_, out.data() + done, out.size() - done, static_cast<off_t>(offset + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return fail(Code::io, fmt::format("{}: cannot be read ({})", name_, reason()));
+    if (n == 0) break;
+    done += static_cast<std::size_t>(n);
+  }
+  return done;
+}
+
+Result<std::string> read_text(const std::filesystem::path& path, std::size_t max_bytes) {
+  auto file = InputFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  if (file->size() > max_bytes)
+    return fail(Code::bad_input, fmt::format("{}: has {} bytes; at most {} are read as text", path.string(),
+                                             file->size(), max_bytes));
+  std::string text(file->size(), '\0');
+  const auto n = file->read_at(0, std::as_writable_bytes(std::span(text)));
+  if (!n) return std::unexpected(n.error());
+  text.resize(*n);
+  return text;
+}
+
+OutputFile::OutputFile(int fd, std::filesystem::path target, std::filesystem::path temporary)
+    : fd_(fd), target_(std::move(target)), temporary_(std::move(temporary)) {}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)),
+      target_(std::move(other.target_)),
+      temporary_(std::move(other.temporary_)) {}
+
+Result<OutputFile> OutputFile::create(const std::filesystem::path& path, bool force) {
+  std::error_code ignored;
+  if (!force && std::filesystem::exists(path, ignored))
+    return fail(Code::io, fmt::format("{}: exists already; use --force to replace it", path.string()));
+  if (std::filesystem::is_directory(path, ignored))
+    return fail(Code::io, fmt::format("{}: is a folder; need a file name", path.string()));
+  std::string pattern = path.string() + ".part-XXXXXX";
+  const int fd = ::mkostemp(pattern.data(), O_CLOEXEC);
+  if (fd < 0) return fail(Code::io, fmt::format("{}: cannot be written ({})", path.string(), reason()));
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::fchmod(fd, 0666 & ~mask);
+  return OutputFile(fd, path, pattern);
+}
+
+OutputFile::~OutputFile() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(temporary_.c_str());
+}
+
+Status OutputFile::write(std::span<const std::byte> bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::write(fd_, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return fail(Code::io, fmt::format("{}: cannot be written ({})", target_.string(), reason()));
+    done += static_cast<std::size_t>(n);
+  }
+  return {};
+}
+
+Status OutputFile::write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
+
+Status OutputFile::commit() {
+  if (::fsync(fd_) != 0)
+    return fail(Code::io, fmt::format("{}: cannot be written ({})", target_.string(), reason()));
+  const int closed = ::close(std::exchange(fd_, -1));
+  if (closed != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    const std::string why = reason();
+    ::unlink(temporary_.c_str());
+    return fail(Code::io, fmt::format("{}: cannot be written ({})", target_.string(), why));
+  }
+  return {};
+}
+
+Status write_text(const std::filesystem::path& path, std::string_view text, bool force) {
+  auto file = OutputFile::create(path, force);
+  if (!file) return std::unexpected(file.error());
+  if (auto status = file->write(text); !status) return status;
+  return file->commit();
+}
+
+}  // namespace kinemark::io

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::io {
+
+/// A file opened for reading at any offset. Missing, unreadable or not a regular file: Code::io and one
+/// sentence that names the file.
+class InputFile {
+ public:
+  static Result<InputFile> open(const std::filesystem::path& path);
+  InputFile(InputFile&& other) noexcept;
+  InputFile& operator=(InputFile&& other) noexcept;
+  ~InputFile();
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// Fill `out` from `offset`; returns the number of bytes there were (less than asked only at the end of the
+  /// file).
+  [[nodiscard]] Result<std::size_t> read_at(std::size_t offset, std::span<std::byte> out) const;
+
+ private:
+  InputFile(int fd, std::size_t size, std::string name) : fd_(fd), size_(size), name_(std::move(name)) {}
+  int fd_ = -1;
+  std::size_t size_ = 0;
+  std::string name_;
+};
+
+/// The whole file as text. Files over `max_bytes` are refused with Code::bad_input.
+[[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path,
+                                            std::size_t max_bytes = 4UL << 30);
+
+/// A file that appears whole or not at all: bytes go to a temporary file in the same folder; commit() syncs
+/// it and renames it over the target. Without commit() the temporary file is removed. A target that exists is
+/// refused (Code::io) unless `force` is set.
+class OutputFile {
+ public:
+  static Result<OutputFile> create(const std::filesystem::path& path, bool force);
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+  ~OutputFile();
+
+  /// Append bytes. A full disk is reported here or by commit().
+  [[nodiscard]] Status write(std::span<const std::byte> bytes);
+  [[nodiscard]] Status write(std::string_view text);
+  [[nodiscard]] Status commit();
+
+ private:
+  OutputFile(int fd, std::filesystem::path target, std::filesystem::path temporary);
+  int fd_ = -1;
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+};
+
+/// create(), write() and commit() in one call.
+[[nodiscard]] Status write_text(const std::filesystem::path& path, std::string_view text, bool force);
+
+}  // namespace kinemark::io

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/math/euler.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace kinemark::math {
+
+Matrix3d axis_angle(const Vector3d& axis, double angle_rad) {
+  return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+}
+
+Matrix3d from_body_xyz(const Vector3d& angles_rad) {
+  return axis_angle(Vector3d::UnitX(), angles_rad.x()) * axis_angle(Vector3d::UnitY(), angles_rad.y()) *
+         axis_angle(Vector3d::UnitZ(), angles_rad.z());
+}
+
+Vector3d to_body_xyz(const Matrix3d& R) {
+  // R = Rx(a) Ry(b) Rz(c): first row (cos b cos c, -cos b sin c, sin b), last column (sin b, -sin a cos b,
+  // cos a cos b).
+  const double cos_b = std::hypot(R(0, 0), R(0, 1));
+  if (cos_b < 1e-12) return {std::atan2(R(2, 1), R(1, 1)), std::atan2(R(0, 2), cos_b), 0.0};
+  return {std::atan2(-R(1, 2), R(2, 2)), std::atan2(R(0, 2), cos_b), std::atan2(-R(0, 1), R(0, 0))};
+}
+
+namespace {
+
+/// The angle congruent to `angle` that lies nearest to `near`.
+double unwrap(double angle, double near) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  return angle + turn * std::round((near - angle) / turn);
+}
+
+}  // namespace
+
+Vector3d to_angles_about(const Matrix3d& axes, const Matrix3d& rotation, const Vector3d& near_rad) {
+  // In the basis of the axes the product is body-fixed X-Y-Z; a left-handed basis turns every angle's sign.
+  const double handedness = axes.determinant() > 0.0 ? 1.0 : -1.0;
+  const Matrix3d R = axes.transpose() * rotation * axes;
+  const Vector3d near = handedness * near_rad;
+  const double cos_b = std::hypot(R(0, 0), R(0, 1));
+  Vector3d best;
+  if (cos_b < 1e-9) {
+    // sin b = +-1: R(2,1) and R(1,1) are the sine and cosine of a +- c; keep a.
+    const double sum = std::atan2(R(2, 1), R(1, 1));
+    const double sign = R(0, 2) > 0.0 ? 1.0 : -1.0;
+    best = {near.x(), std::copysign(std::numbers::pi / 2.0, R(0, 2)), sign * (sum - near.x())};
+    best.y() = unwrap(best.y(), near.y());
+    best.z() = unwrap(best.z(), near.z());
+  } else {
+    double best_distance = INFINITY;
+    for (const double sign : {1.0, -1.0}) {
+      Vector3d t(std::atan2(-sign * R(1, 2), sign * R(2, 2)), std::atan2(R(0, 2), sign * cos_b),
+                 std::atan2(-sign * R(0, 1), sign * R(0, 0)));
+      for (int i = 0; i < 3; ++i) t[i] = unwrap(t[i], near[i]);
+      const double distance = (t - near).squaredNorm();
+      if (distance < best_distance) {
+        best_distance = distance;
+        best = t;
+      }
+    }
+  }
+  return handedness * best;
+}
+
+Matrix3d exp_so3(const Vector3d& w) {
+  const double angle = w.norm();
+  if (angle < 1e-300) return Matrix3d::Identity();
+  return axis_angle(w / angle, angle);
+}
+
+Vector3d log_so3(const Matrix3d& rotation) {
+  const Eigen::AngleAxisd aa(rotation);
+  return aa.angle() * aa.axis();
+}
+
+}  // namespace kinemark::math

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace kinemark::math {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Rigid transform target_from_source: x_in_target = rotation * x_in_source + translation.
+struct SE3 {
+  Matrix3d rotation = Matrix3d::Identity();
+  Vector3d translation = Vector3d::Zero();
+
+  [[nodiscard]] Vector3d operator*(const Vector3d& x) const { return rotation * x + translation; }
+  [[nodiscard]] SE3 operator*(const SE3& other) const {
+    return {rotation * other.rotation, rotation * other.translation + translation};
+  }
+  [[nodiscard]] SE3 inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
+};
+
+}  // namespace kinemark::math
