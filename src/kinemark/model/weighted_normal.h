@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Least squares over markers without a Jacobian.
+//
+// J'WJ of all markers equals the mass matrix of a tree whose bodies are made of point masses w_i at the
+// markers, and J'Wr equals the generalised forces of forces w_i r_i applied there. Both follow in one sweep
+// over the tree, and so does the exact second-order term  sum_i w_i r_i . d2p_i/dv dv:  for motion fields
+// (w_c, v_c) above (w_d, v_d) it is w_c . (v_d x F + (A - tr(A) I) w_d)  with  F = sum w_i r_i,  A = sum w_i
+// p_i r_i'  over the markers moved by d.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinemark/model/model.h"
+#include "kinemark/model/workspace.h"
+
+namespace kinemark::model {
+
+/// H = J'WJ (nv x nv, lower triangle and diagonal filled, then mirrored). `weight` has M entries >= 0. After
+/// kinematics().
+void marker_normal_matrix(const Model& model, Workspace& w, const VectorXd& weight, Eigen::MatrixXd& H);
+
+/// g = J'Wr for residuals r (3 x M, m; entries of weight 0 are not read). After kinematics().
+void marker_gradient(const Model& model, Workspace& w, const VectorXd& weight,
+                     const Eigen::Matrix3Xd& residual, VectorXd& g);
+
+/// H -= sum_i w_i r_i . d2p_i/dv dv, turning a Gauss-Newton matrix into the exact Hessian of sum w |r|^2 / 2. Uses what
+/// marker_gradient() left in the workspace; call it right after.
+void subtract_marker_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H);
+
+}  // namespace kinemark::model
