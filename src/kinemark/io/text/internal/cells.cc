@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/text/internal/cells.h"
+
+#include <limits>
+
+#include "kinemark/io/number.h"
+
+namespace kinemark::io::internal {
+
+Lines::Lines(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  p_ = text.data();
+  end_ = text.data() + text.size();
+  if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
+    line_end_ = '\r';
+}
+
+std::int64_t Lines::count_until_blank() const {
+  Lines ahead = *this;
+  std::string_view line;
+  std::int64_t count = 0;
+  while (ahead.next(line) && !is_blank(line)) ++count;
+  return count;
+}
+
+bool parse_odd_number(std::string_view cell, double& value) {
+  if (const auto number = parse_number(cell)) {
+    value = *number;
+    return true;
+  }
+  std::string_view digits = cell;
+  const bool negative = digits.starts_with('-');
+  if (negative || digits.starts_with('+')) digits.remove_prefix(1);
+  if (!digits.starts_with("1.#")) return false;
+  digits.remove_prefix(3);
+  // The precision asked of the printer pads the word with zeros.
+  while (digits.ends_with('0')) digits.remove_suffix(1);
+  if (digits == "QNAN" || digits == "SNAN" || digits == "IND")
+    value = std::numeric_limits<double>::quiet_NaN();
+  else if (digits == "INF")
+    value = negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  else
+    return false;
+  return true;
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+std::string excerpt(std::string_view cell) {
+  constexpr std::size_t kMost = 40;
+  std::string out(cell.substr(0, kMost));
+  for (char& c : out)
+    if (c < ' ' || c > '~') c = '?';
+  return cell.size() > kMost ? out + "..." : out;
+}
+
+bool Cells::next_text(std::string_view& text) {
+  if (!begin_cell()) return false;
+  const char* first = p_;
+  while (p_ != end_ && *p_ != '\t' && (tabs_ || !is_space(*p_))) ++p_;
+  text_ = trim(std::string_view(first, static_cast<std::size_t>(p_ - first)));
+  finish_cell();
+  text = text_;
+  return true;
+}
+
+Cell Cells::next_odd(double& value) {
+  std::string_view cell;
+  next_text(cell);
+  return parse_odd_number(cell, value) ? Cell::number : Cell::text;
+}
+
+}  // namespace kinemark::io::internal

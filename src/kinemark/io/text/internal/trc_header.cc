@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/text/internal/trc_header.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+#include <utility>
+
+#include "kinemark/io/number.h"
+
+namespace kinemark::io::internal {
+namespace {
+
+/// Header lines are tab-separated like the rows, unless they hold no tab at all.
+std::vector<std::string_view> split(std::string_view line) {
+  Cells cells(line, line.find('\t') == std::string_view::npos ? Separator::blanks : Separator::tab);
+  std::vector<std::string_view> out;
+  for (std::string_view cell; cells.next_text(cell);) out.push_back(cell);
+  return out;
+}
+
+std::optional<double> units_per_metre(std::string_view unit) {
+  static constexpr std::array<std::pair<std::string_view, double>, 19> kUnits{{
+      {"mm", 1000.0},
+      {"millimeter", 1000.0},
+      {"millimeters", 1000.0},
+      {"millimetre", 1000.0},
+      {"millimetres", 1000.0},
+      {"cm", 100.0},
+      {"centimeter", 100.0},
+      {"centimeters", 100.0},
+      {"centimetre", 100.0},
+      {"centimetres", 100.0},
+      {"dm", 10.0},
+      {"m", 1.0},
+      {"meter", 1.0},
+      {"meters", 1.0},
+      {"metre", 1.0},
+      {"metres", 1.0},
+      {"in", 1.0 / 0.0254},
+      {"inches", 1.0 / 0.0254},
+      {"ft", 1.0 / 0.3048},
+  }};
+  const std::string word = lower(unit);
+  const auto* it = std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& u) { return u.first == word; });
+  return it == kUnits.end() ? std::nullopt : std::optional(it->second);
+}
+
+/// Lines 2 and 3: keys above their values.
+Status read_values(Lines& lines, TrcHeader& header) {
+  std::string_view line;
+  if (!lines.next(line))
+    return fail(Code::bad_input, fmt::format("line {}: the file ends where the header's keys (DataRate, "
+                                             "CameraRate, NumFrames, ...) were expected",
+                                             lines.number() + 1));
+  const auto keys = split(line);
+  if (std::none_of(keys.begin(), keys.end(), [](auto key) { return lower(key) == "datarate"; }))
+    return fail(Code::bad_input, fmt::format("line {}: found '{}'; expected the header's keys (DataRate, "
+                                             "CameraRate, NumFrames, ...)",
+                                             lines.number(), excerpt(trim(line))));
+  if (!lines.next(line) || is_blank(line))
+    return fail(Code::bad_input,
+                fmt::format("line {}: the file ends where the values of the header were expected",
+                            std::max<std::int64_t>(lines.number(), 3)));
+  const auto values = split(line);
+  std::array<std::optional<double>, 3> rates;
+  for (std::size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
+    const std::string key = lower(keys[i]);
+    if (key == "units") header.units = values[i];
+    const std::array<std::pair<std::string_view, std::optional<double>*>, 5> numbers{
+        {{"datarate", &rates[0]},
+         {"camerarate", &rates[1]},
+         {"origdatarate", &rates[2]},
+         {"numframes", &header.frames},
+         {"nummarkers", &header.markers}}};
+    for (const auto& [word, target] : numbers) {
+      if (key != word || values[i].empty()) continue;
+      *target = parse_number(values[i]);
+      if (!*target)
+        return fail(Code::bad_input, fmt::format("line {}, column {} ({}): '{}' is not a number",
+                                                 lines.number(), i + 1, keys[i], excerpt(values[i])));
+    }
+  }
+  for (const auto& rate : rates)
+    if (rate) header.rates_hz.push_back(*rate);
+  if (header.units.empty()) {
+    header.warnings.push_back("header names no unit; millimetres are assumed");
+    return {};
+  }
+  const auto per_metre = units_per_metre(header.units);
+  if (!per_metre)
+    return fail(Code::bad_input, fmt::format("line {}: unit '{}' is unknown; expected mm, cm or m",
+                                             lines.number(), excerpt(header.units)));
+  header.units_per_metre = *per_metre;
+  return {};
+}
+
+/// Line 4: Frame#, Time and the names, each above its three columns or packed without gaps.
+Status read_names(Lines& lines, TrcHeader& header) {
+  std::string_view line;
+  if (!lines.next(line))
+    return fail(Code::bad_input,
+                fmt::format("line {}: the file ends where the line with Frame#, Time and the "
+                            "marker names was expected",
+                            lines.number() + 1));
+  const auto cells = split(line);
+  if (cells.size() < 2 || !lower(cells[0]).starts_with("frame") || !lower(cells[1]).starts_with("time"))
+    return fail(Code::bad_input,
+                fmt::format("line {}: found '{}'; expected the line with Frame#, Time and the marker names",
+                            lines.number(), excerpt(trim(line))));
+  if (line.find('\t') == std::string_view::npos) header.separator = Separator::blanks;
+
+  // Cell numbers of the names. Each third cell: a name stands above its x column, and a gap is a marker that
+  // nobody named. Anything else (packed, or shifted by a tab) tells the order only.
+  std::vector<std::size_t> name_cells;
+  for (std::size_t c = 2; c < cells.size(); ++c)
+    if (!cells[c].empty()) name_cells.push_back(c);
+  if (name_cells.empty())
+    return fail(Code::bad_input, fmt::format("line {}: names no marker", lines.number()));
+  const bool above =
+      std::all_of(name_cells.begin(), name_cells.end(), [](std::size_t c) { return c % 3 == 2; });
+  std::unordered_map<std::string_view, std::size_t> seen;
+  for (std::size_t i = 0; i < name_cells.size(); ++i) {
+    const std::size_t slot = above ? (name_cells[i] - 2) / 3 : i;
+    const std::string_view name = cells[name_cells[i]];
+    if (const auto [it, is_new] = seen.emplace(name, slot); !is_new)
+      return fail(Code::bad_input,
+                  fmt::format("line {}: marker name '{}' occurs twice (columns {} and {}); names must differ",
+                              lines.number(), excerpt(name), 3 + 3 * it->second, 3 + 3 * slot));
+    header.marker.resize(slot + 1, -1);
+    header.marker[slot] = static_cast<std::int32_t>(i);
+    header.names.emplace_back(name);
+  }
+  if (header.marker.size() > header.names.size())
+    header.warnings.push_back(fmt::format("{} markers between the named ones have no name and are not read",
+                                          header.marker.size() - header.names.size()));
+  if (header.markers && *header.markers != static_cast<double>(header.names.size()))
+    header.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are believed",
+                                          *header.markers, header.names.size()));
+  return {};
+}
+
+/// True for the line of X1 Y1 Z1 labels (any line whose first filled cell is no number).
+bool is_axis_labels(std::string_view line) {
+  for (const std::string_view cell : split(line)) {
+    double ignored = 0.0;
+    if (!cell.empty()) return !parse_odd_number(cell, ignored);
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<TrcHeader> parse_trc_header(Lines& lines) {
+  TrcHeader header;
+  std::string_view line;
+  if (!lines.next(line)) return fail(Code::bad_input, "the file is empty; expected a TRC file");
+  const auto first = split(line);
+  if (first.empty() || lower(first[0]) != "pathfiletype")
+    return fail(Code::bad_input, fmt::format("line 1: begins with '{}'; a TRC file begins with PathFileType",
+                                             first.empty() ? "" : excerpt(first[0])));
+  if (auto status = read_values(lines, header); !status) return std::unexpected(status.error());
+  if (auto status = read_names(lines, header); !status) return std::unexpected(status.error());
+
+  // The axis labels and blank lines in any number; the first row stays for the caller.
+  bool labels_seen = false;
+  for (Lines ahead = lines; ahead.next(line); lines = ahead) {
+    if (is_blank(line)) continue;
+    if (labels_seen || !is_axis_labels(line)) break;
+    labels_seen = true;
+  }
+  return header;
+}
+
+}  // namespace kinemark::io::internal

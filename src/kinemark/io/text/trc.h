@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
+
+namespace kinemark::io {
+
+/// Read a TRC marker file ("track row column": tab-separated text, one row per frame).
+///
+/// Coordinates come out in metres whatever the file's unit (mm, cm, dm, m, in, ft; mm with a warning when it
+/// names none). t0 is the first time written, first_frame the first Frame# written. The rate is the header's
+/// when the time column agrees with it within rounding, else that of the time column (warning).
+///
+/// A sample is missing when one of its three cells is blank, NaN or infinite, or when its row ends before it.
+/// So is an exact (0, 0, 0), which programs write that know no blank, except where the marker passes through
+/// the origin: the frames just before and after the run of zeros (one of them suffices at an end of the
+/// trial) hold the marker within 5 mm of the origin. Markers without any sample stay, all missing. Zeros and
+/// such markers are told in the warnings, and so is a header whose NumFrames or NumMarkers contradict the
+/// rows and names, which are believed. A blank line ends the data.
+///
+/// Code::bad_input, with line and column, for text where a number belongs, a marker name that occurs twice,
+/// an unknown unit, a file that ends inside its header or holds no row. Code::io when it cannot be read.
+/// O(bytes); memory at most 12 times the text + 25 MB, also for hostile input.
+[[nodiscard]] Result<data::Trial> read_trc(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the file in messages and in Trial::source.
+[[nodiscard]] Result<data::Trial> parse_trc(std::string_view text, std::string_view name);
+
+enum class LengthUnit : std::uint8_t { millimetre, metre };
+
+struct TrcWriteOptions {
+  bool force = false;  ///< replace a file that exists
+  LengthUnit units = LengthUnit::millimetre;
+  int decimals =
+      -1;  ///< digits after the point of coordinates, 0 to 17; -1: the shortest that read back exactly
+};
+
+/// Write the markers of a trial as OpenSim reads them: missing and rejected samples are NaN, never 0 0 0, and
+/// every row has 3 M + 2 cells. Analog data, events and states other than "not there" have no place in a TRC.
+/// Code::bad_input when a marker name holds a tab or line end, or the trial is invalid; Code::io as
+/// OutputFile.
+[[nodiscard]] Status write_trc(const std::filesystem::path& path, const data::Trial& trial,
+                               const TrcWriteOptions& options = {});
+
+}  // namespace kinemark::io

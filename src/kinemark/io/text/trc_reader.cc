@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/time_column.h"
+#include "kinemark/io/text/internal/trc_header.h"
+#include "kinemark/io/text/trc.h"
+
+namespace kinemark::io {
+namespace {
+
+using internal::Cell;
+using internal::Cells;
+using internal::excerpt;
+using internal::Lines;
+using internal::Separator;
+using internal::TrcHeader;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNearOrigin_m = 0.005;
+constexpr std::size_t kNamesInWarning = 8;
+// A row may stop early and still stands for all markers; this keeps a short text from asking for much memory.
+constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
+constexpr std::size_t kSamplesAlways = 1'000'000;
+
+/// What the rows told beside their numbers.
+struct Tally {
+  std::vector<double> time_s;
+  double resolution_s = std::numeric_limits<double>::infinity();  ///< of the time column
+  std::int64_t part_blank = 0;  ///< samples with some cells blank or NaN, not all
+  std::int64_t infinite = 0;
+  std::int64_t short_rows = 0;
+  std::int64_t extra_rows = 0;        ///< rows with numbers beyond the last marker
+  std::int64_t frame_jumps = 0;       ///< rows whose frame number does not follow the one before
+  std::vector<std::int64_t> zeros;    ///< M, samples that are exactly (0, 0, 0)
+  std::vector<std::int64_t> present;  ///< M, samples with coordinates, zeros included
+};
+
+std::unexpected<Error> bad_cell(std::int64_t line, std::int64_t column, std::string_view what,
+                                std::string_view cell) {
+  return fail(Code::bad_input,
+              cell.empty()
+                  ? fmt::format("line {}, column {}: {} is blank; expected a number", line, column, what)
+                  : fmt::format("line {}, column {}: {} is '{}'; expected a number", line, column, what,
+                                excerpt(cell)));
+}
+
+/// Frame# and Time.
+Status read_row_start(Cells& cells, std::int64_t line, data::Trial& trial, Tally& tally,
+                      std::int64_t& frame_number) {
+  double number = 0.0;
+  const std::int64_t expected = frame_number + 1;
+  const Cell kind = cells.next(number);
+  if (kind == Cell::number && std::abs(number) < 9e15 && number == std::floor(number))
+    frame_number = static_cast<std::int64_t>(number);
+  else if (kind == Cell::blank)
+    frame_number = expected;
+  else
+    return bad_cell(line, 1, "the frame number", cells.text());
+  if (tally.time_s.empty())
+    trial.first_frame = frame_number;
+  else if (frame_number != expected)
+    ++tally.frame_jumps;
+
+  if (cells.next(number) != Cell::number || !std::isfinite(number))
+    return bad_cell(line, 2, "the time", cells.text());
+  tally.time_s.push_back(number);
+  // Zero is written in short by programs that write the other times in full.
+  if (number != 0.0) tally.resolution_s = std::min(tally.resolution_s, internal::resolution_of(cells.text()));
+  return {};
+}
+
+/// The coordinates of one row; `x` and `state` point at the row's first sample.
+Status read_row_samples(Cells& cells, std::int64_t line, const TrcHeader& header, double* x,
+                        data::SampleState* state, Tally& tally) {
+  bool ended = false;
+  for (std::size_t slot = 0; slot < header.marker.size(); ++slot) {
+    const std::int32_t marker = header.marker[slot];
+    std::array<double, 3> p{};
+    int numbers = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Cell kind = cells.next(p[axis]);
+      if (kind == Cell::text && marker >= 0)
+        return bad_cell(line, static_cast<std::int64_t>(3 + 3 * slot + axis),
+                        fmt::format("{} of marker '{}'", "xyz"[axis], excerpt(header.names[marker])),
+                        cells.text());
+      if (kind == Cell::number && !std::isnan(p[axis])) ++numbers;
+      ended |= kind == Cell::none;
+    }
+    if (marker < 0) continue;
+    bool seen = numbers == 3;
+    if (!seen && numbers > 0) ++tally.part_blank;
+    if (seen && !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))) {
+      ++tally.infinite;
+      seen = false;
+    }
+    double* out = x + 3 * marker;
+    if (seen) {
+      ++tally.present[static_cast<std::size_t>(marker)];
+      if (p[0] == 0.0 && p[1] == 0.0 && p[2] == 0.0) ++tally.zeros[static_cast<std::size_t>(marker)];
+      for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = p[axis] / header.units_per_metre;
+    } else {
+      out[0] = out[1] = out[2] = kNan;
+    }
+    state[marker] = seen ? data::SampleState::measured : data::SampleState::missing;
+  }
+  if (ended) {
+    ++tally.short_rows;
+    return {};
+  }
+  double ignored = 0.0;
+  for (Cell kind = cells.next(ignored); kind != Cell::none; kind = cells.next(ignored))
+    if (kind != Cell::blank) {
+      ++tally.extra_rows;
+      break;
+    }
+  return {};
+}
+
+/// Turn the zeros of one marker into missing samples, except where it passes through the origin. Returns how
+/// many were turned.
+std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m) {
+  const std::int64_t frames = markers.frames();
+  const auto is_zero = [&](std::int64_t f) { return markers.present(f, m) && markers.x(f, m).isZero(0.0); };
+  const auto beside_origin = [&](std::int64_t f) {
+    return markers.present(f, m) && markers.x(f, m).norm() <= kNearOrigin_m;
+  };
+  std::int64_t removed = 0;
+  for (std::int64_t begin = 0; begin < frames;) {
+    std::int64_t end = begin;
+    while (end < frames && is_zero(end)) ++end;
+    if (end == begin) {
+      ++begin;
+      continue;
+    }
+    const bool passes_origin = (begin > 0 || end < frames) && (begin == 0 || beside_origin(begin - 1)) &&
+                               (end == frames || beside_origin(end));
+    for (std::int64_t f = begin; f < end && !passes_origin; ++f) markers.set_missing(f, m);
+    removed += passes_origin ? 0 : end - begin;
+    begin = end;
+  }
+  return removed;
+}
+
+/// "'A', 'B' and 3 more"
+std::string list(const std::vector<std::string_view>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(names.size(), kNamesInWarning); ++i)
+    out += fmt::format("{}'{}'", i == 0 ? "" : ", ", excerpt(names[i]));
+  if (names.size() > kNamesInWarning) out += fmt::format(" and {} more", names.size() - kNamesInWarning);
+  return out;
+}
+
+/// Zeros out, and the warnings about markers.
+void judge_markers(data::Trial& trial, const Tally& tally) {
+  std::vector<std::string_view> blank;
+  std::vector<std::string_view> always_zero;
+  std::vector<std::string_view> sometimes_zero;
+  std::int64_t zeros = 0;
+  for (std::int64_t m = 0; m < trial.markers.markers(); ++m) {
+    const auto i = static_cast<std::size_t>(m);
+    if (tally.present[i] == 0) blank.push_back(trial.markers.names[i]);
+    if (tally.zeros[i] == 0) continue;
+    const std::int64_t removed = remove_zeros(trial.markers, m);
+    if (tally.zeros[i] == tally.present[i]) {
+      always_zero.push_back(trial.markers.names[i]);
+    } else if (removed > 0) {
+      sometimes_zero.push_back(trial.markers.names[i]);
+      zeros += removed;
+    }
+  }
+  if (!blank.empty())
+    trial.warnings.push_back(fmt::format("{} of {} markers have no sample in any frame: {}", blank.size(),
+                                         trial.markers.names.size(), list(blank)));
+  if (!always_zero.empty())
+    trial.warnings.push_back(
+        fmt::format("{} of {} markers are (0, 0, 0) in every frame, taken as not seen: {}",
+                    always_zero.size(), trial.markers.names.size(), list(always_zero)));
+  if (zeros > 0)
+    trial.warnings.push_back(
+        fmt::format("{} samples of {} markers are exactly (0, 0, 0), taken as not seen: {}", zeros,
+                    sometimes_zero.size(), list(sometimes_zero)));
+}
+
+/// The warnings about rows.
+void judge_rows(data::Trial& trial, const TrcHeader& header, const Tally& tally,
+                std::int64_t next_text_line) {
+  const std::int64_t rows = trial.markers.frames();
+  const auto warn = [&](std::string sentence) { trial.warnings.push_back(std::move(sentence)); };
+  if (header.frames && *header.frames != static_cast<double>(rows))
+    warn(
+        fmt::format("header says {} frames, {} rows are there; the rows are believed", *header.frames, rows));
+  if (next_text_line > 0)
+    warn(fmt::format("a blank line ends the data; line {} and what follows is not read", next_text_line));
+  if (tally.frame_jumps > 0)
+    warn(fmt::format("frame numbers jump {} times; frames are counted from {} on", tally.frame_jumps,
+                     trial.first_frame));
+  if (tally.short_rows > 0)
+    warn(fmt::format("{} of {} rows end before the last marker; the rest of them is taken as not seen",
+                     tally.short_rows, rows));
+  if (tally.extra_rows > 0)
+    warn(fmt::format("{} of {} rows hold cells beyond the {} named markers; these are not read",
+                     tally.extra_rows, rows, trial.markers.names.size()));
+  if (tally.part_blank > 0)
+    warn(fmt::format("{} samples have one or two blank coordinates, taken as not seen", tally.part_blank));
+  if (tally.infinite > 0) warn(fmt::format("{} samples are infinite, taken as not seen", tally.infinite));
+}
+
+Result<data::Trial> parse(std::string_view text) {
+  Lines lines(text);
+  auto header = internal::parse_trc_header(lines);
+  if (!header) return std::unexpected(header.error());
+  const auto rows = static_cast<std::size_t>(lines.count_until_blank());
+  const std::size_t markers = header->names.size();
+  if (rows == 0)
+    return fail(Code::bad_input,
+                fmt::format("line {}: the file ends before the first row of data", lines.number() + 1));
+  if (rows > (text.size() / kSamplesPerByte + kSamplesAlways) / markers)
+    return fail(Code::bad_input,
+                fmt::format("line {}: {} rows for {} markers do not fit into the {} bytes of this file",
+                            lines.number() + 1, rows, markers, text.size()));
+
+  data::Trial trial;
+  trial.format = "TRC";
+  trial.units_in_file = header->units;
+  trial.warnings = header->warnings;
+  trial.markers.x_in_world.resize(3 * rows * markers);
+  trial.markers.state.resize(rows * markers);
+  Tally tally;
+  tally.time_s.reserve(rows);
+  tally.zeros.assign(markers, 0);
+  tally.present.assign(markers, 0);
+
+  std::int64_t frame_number = 0;
+  std::string_view line;
+  for (std::size_t row = 0; row < rows; ++row) {
+    lines.next(line);
+    Cells cells(line, header->separator);
+    if (auto status = read_row_start(cells, lines.number(), trial, tally, frame_number); !status)
+      return std::unexpected(status.error());
+    if (auto status = read_row_samples(cells, lines.number(), *header,
+                                       trial.markers.x_in_world.data() + 3 * row * markers,
+                                       trial.markers.state.data() + row * markers, tally);
+        !status)
+      return std::unexpected(status.error());
+  }
+  std::int64_t next_text_line = 0;
+  while (next_text_line == 0 && lines.next(line))
+    if (!internal::is_blank(line)) next_text_line = lines.number();
+
+  trial.markers.names = std::move(header->names);
+  trial.markers.time.frames = static_cast<std::int64_t>(rows);
+  judge_rows(trial, *header, tally, next_text_line);
+  const double resolution_s = std::isfinite(tally.resolution_s) ? tally.resolution_s : 0.0;
+  auto time = internal::even_time(tally.time_s, resolution_s, header->rates_hz, trial.warnings);
+  if (!time) return std::unexpected(time.error());
+  trial.markers.time = *time;
+  judge_markers(trial, tally);
+  return trial;
+}
+
+}  // namespace
+
+Result<data::Trial> parse_trc(std::string_view text, std::string_view name) {
+  auto trial = parse(text);
+  if (!trial) return fail_at(name, trial.error());
+  trial->source = name;
+  return trial;
+}
+
+Result<data::Trial> read_trc(const std::filesystem::path& path) {
+  const auto text = read_text(path);
+  if (!text) return std::unexpected(text.error());
+  return parse_trc(*text, path.string());
+}
+
+}  // namespace kinemark::io
