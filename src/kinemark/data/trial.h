@@ -36,6 +36,7 @@ struct ForcePlate {
   std::array<Eigen::Vector3d, 4> corners_in_world{};          ///< m
   Eigen::Vector3d origin_in_plate = Eigen::Vector3d::Zero();  ///< m, as the file gives it
   std::vector<int> channel_idx;                               ///< zero-based
+  std::vector<double> calibration;  ///< CAL_MATRIX as the file gives it, column by column; may be empty
 };
 
 /// What one marker file holds, in SI units.

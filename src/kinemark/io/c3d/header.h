@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/io/c3d/number_format.h"
+
+namespace kinemark::io {
+
+inline constexpr std::size_t kC3dBlock = 512;  ///< bytes; a C3D file counts in blocks, from 1
+
+/// An event of the header: at most 18, four letters each, in seconds after the file's first frame.
+struct C3dHeaderEvent {
+  std::string label;
+  double time_s = 0.0;
+  bool shown = true;
+};
+
+/// The first block of a C3D file, as it is; what is true of the file is decided in layout.h.
+struct C3dHeader {
+  int parameter_block = 2;
+  int points = 0;
+  int analog_per_frame = 0;  ///< channels x samples
+  int first_frame = 1;       ///< 16 bit
+  int last_frame = 0;        ///< 16 bit
+  int max_gap_frames = 0;
+  float scale = 0.0F;  ///< < 0: numbers are float
+  int data_block = 0;
+  int samples_per_frame = 0;  ///< analog
+  float rate_hz = 0.0F;
+  std::vector<C3dHeaderEvent> events;
+};
+
+/// True when the first two bytes can be those of a C3D file.
+[[nodiscard]] bool looks_like_c3d(std::span<const std::byte, kC3dBlock> block);
+[[nodiscard]] C3dHeader parse_header(std::span<const std::byte, kC3dBlock> block, Processor processor);
+/// Events past the eighteenth are left out, labels cut to four letters.
+[[nodiscard]] std::array<std::byte, kC3dBlock> encode_header(const C3dHeader& header, Processor processor);
+
+}  // namespace kinemark::io

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/io/c3d/header.h"
+#include "kinemark/io/c3d/parameters.h"
+
+namespace kinemark::io {
+
+/// What a C3D file holds and where, once header, parameters and file size have been heard.
+struct C3dLayout {
+  Processor processor = Processor::intel;
+  bool is_float = true;          ///< 32-bit float samples; else 16-bit integers
+  std::int64_t points = 0;       ///< M
+  std::int64_t frames = 0;       ///< F, all of which lie in the file
+  std::int64_t first_frame = 1;  ///< the file's own number of its first frame
+  double rate_hz = 0.0;
+  double scale = 1.0;             ///< size of one integer or residual step, in units of the file, > 0
+  double metres_per_unit = 1e-3;  ///< of POINT:UNITS
+  std::string units;              ///< POINT:UNITS, or empty
+
+  std::int64_t analog_channels = 0;    ///< K
+  std::int64_t samples_per_frame = 0;  ///< S / F, 0 without channels
+  bool analog_unsigned = false;        ///< integer samples count from 0 to 65535
+  std::vector<double> analog_scale;    ///< K; value = (stored - offset) x scale
+  std::vector<double> analog_offset;   ///< K
+
+  std::size_t data_offset = 0;  ///< byte of the first frame
+  std::size_t frame_bytes = 0;  ///< 0 when there is neither point nor channel
+
+  [[nodiscard]] std::int64_t analog_per_frame() const { return analog_channels * samples_per_frame; }
+};
+
+/// Hear header, parameters and the file's size, and settle what is true. Parameters win over the header;
+/// where they cannot be true (the frames do not fit) the header is believed, and the file's size before
+/// both. Every contradiction is one sentence in `warnings`. Nothing that makes sense: Code::bad_input.
+[[nodiscard]] Result<C3dLayout> settle_layout(const C3dHeader& header, const C3dParameters& parameters,
+                                              Processor processor, std::size_t file_bytes,
+                                              std::vector<std::string>& warnings);
+
+/// Metres per unit of length ("mm", "m", "cm", "in", "feet", ... in any case); nothing when unknown.
+[[nodiscard]] std::optional<double> metres_per_unit(std::string_view unit);
+
+}  // namespace kinemark::io

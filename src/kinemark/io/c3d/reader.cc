@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/c3d/reader.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/io/c3d/describe.h"
+
+namespace kinemark::io {
+namespace {
+
+constexpr std::size_t kBufferBytes = 512UL << 10;
+// 255 blocks is what the section's head can say; the start of the data can leave it more room.
+constexpr std::size_t kMaxSectionBytes = 4096 * kC3dBlock;
+
+/// Read exactly out.size() bytes.
+Status read_exactly(const ByteSource& source, std::size_t offset, std::span<std::byte> out) {
+  const auto n = source.read_at(offset, out);
+  if (!n) return std::unexpected(n.error());
+  if (*n < out.size())
+    return fail(Code::io, fmt::format("{}: became shorter while it was read", source.name()));
+  return {};
+}
+
+/// The processor for which the header's numbers look like a recording's: for files that do not say.
+Processor guess_processor(std::span<const std::byte, kC3dBlock> block) {
+  for (const Processor processor : {Processor::intel, Processor::dec, Processor::mips}) {
+    const C3dHeader h = parse_header(block, processor);
+    if (h.rate_hz >= 0.1F && h.rate_hz <= 1e5F && std::isfinite(h.scale) && std::abs(h.scale) > 1e-9F &&
+        std::abs(h.scale) < 1e9F && h.data_block >= 2)
+      return processor;
+  }
+  return Processor::intel;
+}
+
+/// The parameter section up to the data, or to its own count of blocks when the data come first.
+Result<Array<std::byte>> read_section(const ByteSource& source, std::size_t begin, std::size_t blocks,
+                                      std::size_t data_begin) {
+  const std::size_t end = data_begin > begin ? data_begin : begin + blocks * kC3dBlock;
+  Array<std::byte> section(std::min({end, source.size(), begin + kMaxSectionBytes}) - begin);
+  if (auto status = read_exactly(source, begin, section); !status) return std::unexpected(status.error());
+  return section;
+}
+
+}  // namespace
+
+Result<C3dReader> C3dReader::open(const std::filesystem::path& path) {
+  auto file = InputFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  return open(std::make_unique<FileSource>(std::move(*file)));
+}
+
+Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
+  const std::string name = source->name();
+  const std::size_t size = source->size();
+  if (size < kC3dBlock)
+    return fail(
+        Code::bad_input,
+        fmt::format("{}: is not a C3D file: it has {} bytes, a header alone takes {}. Nothing was read.",
+                    name, size, kC3dBlock));
+  std::array<std::byte, kC3dBlock> block{};
+  if (auto status = read_exactly(*source, 0, block); !status) return std::unexpected(status.error());
+  if (!looks_like_c3d(block))
+    return fail(Code::bad_input,
+                fmt::format("{}: is not a C3D file: its second byte is {}, need 80. Nothing was read.", name,
+                            std::to_integer<int>(block[1])));
+
+  C3dReader reader;
+  data::Trial& trial = reader.description_;
+  Processor processor = guess_processor(block);
+  const std::size_t begin =
+      (std::max<std::size_t>(1, std::to_integer<std::size_t>(block[0])) - 1) * kC3dBlock;
+  std::array<std::byte, 4> head{};
+  bool has_section = begin > 0 && begin + head.size() <= size;
+  if (has_section) {
+    if (auto status = read_exactly(*source, begin, head); !status) return std::unexpected(status.error());
+    const int code = std::to_integer<int>(head[3]);
+    has_section = code >= 84 && code <= 86;
+    if (has_section) processor = static_cast<Processor>(code);
+  }
+  reader.header_ = parse_header(block, processor);
+  if (has_section) {
+    const std::size_t data_begin = (std::max(1, reader.header_.data_block) - 1UL) * kC3dBlock;
+    const auto section = read_section(*source, begin, std::to_integer<std::size_t>(head[2]), data_begin);
+    if (!section) return std::unexpected(section.error());
+    reader.parameters_ = parse_parameters(*section, processor, trial.warnings);
+  }
+  if (!reader.parameters_.has_group("POINT"))
+    trial.warnings.push_back(fmt::format(
+        "has no readable POINT parameters; the header alone is believed ({} numbers)", to_string(processor)));
+  auto layout = settle_layout(reader.header_, reader.parameters_, processor, size, trial.warnings);
+  if (!layout) return fail_at(name, layout.error());
+  reader.layout_ = std::move(*layout);
+  trial.source = name;
+  describe_trial(reader.header_, reader.parameters_, reader.layout_, trial);
+  reader.source_ = std::move(source);
+  return reader;
+}
+
+Result<C3dSeen> C3dReader::read(std::int64_t first, std::int64_t count, const C3dFrames& out,
+                                int threads) const {
+  check(first >= 0 && count >= 0 && first + count <= layout_.frames, "frames lie outside the file");
+  const auto frames = static_cast<std::size_t>(count);
+  const std::size_t points = static_cast<std::size_t>(layout_.points);
+  const auto analog = static_cast<std::size_t>(layout_.analog_per_frame());
+  const auto fits = [&](std::size_t size, std::size_t per_frame) {
+    return size == 0 || size == frames * per_frame;
+  };
+  check(fits(out.x_in_world.size(), 3 * points) && fits(out.state.size(), points) &&
+            fits(out.residual_m.size(), points) && fits(out.camera_mask.size(), points) &&
+            fits(out.analog.size(), analog),
+        "spans must be empty or hold exactly the frames asked for");
+  if (count == 0 || layout_.frame_bytes == 0) return C3dSeen{};
+
+  // One stripe of frames per thread, each with one buffer that stays in the cache.
+  const std::int64_t stripe = (count + thread_count(threads) - 1) / thread_count(threads);
+  const auto block = static_cast<std::int64_t>(std::max<std::size_t>(1, kBufferBytes / layout_.frame_bytes));
+  const std::int64_t stripes = (count + stripe - 1) / stripe;
+  std::vector<Result<C3dSeen>> seen(static_cast<std::size_t>(stripes), C3dSeen{});
+  parallel_for(count, stripe, threads, [&](std::int64_t begin, std::int64_t end) {
+    Result<C3dSeen>& mine = seen[static_cast<std::size_t>(begin / stripe)];
+    Array<std::byte> buffer(static_cast<std::size_t>(std::min(block, end - begin)) * layout_.frame_bytes);
+    for (std::int64_t f = begin; f < end; f += block) {
+      const std::int64_t n = std::min(block, end - f);
+      const auto bytes = std::span(buffer).first(static_cast<std::size_t>(n) * layout_.frame_bytes);
+      const std::size_t offset =
+          layout_.data_offset + static_cast<std::size_t>(first + f) * layout_.frame_bytes;
+      if (auto status = read_exactly(*source_, offset, bytes); !status) {
+        mine = std::unexpected(status.error());
+        return;
+      }
+      const auto part = [&](auto span, std::size_t per_frame) {
+        return span.empty() ? span
+                            : span.subspan(static_cast<std::size_t>(f) * per_frame,
+                                           static_cast<std::size_t>(n) * per_frame);
+      };
+      *mine += decode_frames(
+          layout_, bytes.data(), n,
+          {part(out.x_in_world, 3 * points), part(out.state, points), part(out.residual_m, points),
+           part(out.camera_mask, points), part(out.analog, analog)});
+    }
+  });
+  C3dSeen total;
+  for (const Result<C3dSeen>& s : seen) {
+    if (!s) return s;
+    total += *s;
+  }
+  return total;
+}
+
+Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options) {
+  data::Trial trial = reader.description();
+  const C3dLayout& layout = reader.layout();
+  C3dFrames out;
+  if (options.points) {
+    const auto samples = static_cast<std::size_t>(layout.frames * layout.points);
+    trial.markers.x_in_world.resize(3 * samples);
+    trial.markers.state.resize(samples);
+    out.x_in_world = trial.markers.x_in_world;
+    out.state = trial.markers.state;
+    if (options.residuals) {
+      trial.residual_m.resize(samples);
+      trial.camera_mask.resize(samples);
+      out.residual_m = trial.residual_m;
+      out.camera_mask = trial.camera_mask;
+    }
+  } else {
+    trial.markers.names.clear();
+  }
+  if (options.analog) {
+    trial.analog.samples = layout.frames * layout.samples_per_frame;
+    trial.analog.values.resize(static_cast<std::size_t>(trial.analog.samples * layout.analog_channels));
+    out.analog = trial.analog.values;
+  }
+  const auto seen = reader.read(0, layout.frames, out, options.threads);
+  if (!seen) return std::unexpected(seen.error());
+  if (seen->measured == 0) {
+    trial.residual_m = {};
+    if (seen->unmeasured > 0) {
+      // No sample has a residual: their absence says nothing about any one of them.
+      trial.warnings.push_back("carries no residuals; its samples are taken as measured");
+      for (data::SampleState& state : trial.markers.state)
+        if (state == data::SampleState::interpolated) state = data::SampleState::measured;
+    }
+  }
+  if (seen->with_cameras == 0) trial.camera_mask = {};
+  return trial;
+}
+
+Result<data::Trial> read_c3d(const std::filesystem::path& path, const C3dReadOptions& options) {
+  const auto reader = C3dReader::open(path);
+  if (!reader) return std::unexpected(reader.error());
+  return read_trial(*reader, options);
+}
+
+}  // namespace kinemark::io
