@@ -19,6 +19,7 @@ struct Table {
   std::vector<std::pair<std::string, std::string>>
       header;                         ///< key and value, in file order, of all other header lines
   bool in_degrees = false;            ///< what the file said of its rotational columns; values are as written
+  bool degrees_stated = true;         ///< false: the file said nothing, in_degrees is false and means nothing
   std::vector<std::string> columns;   ///< K names, time not among them
   Array<double> time_s;               ///< R, increasing
   Array<double> values;               ///< R x K, row first; NaN where the file has none

@@ -58,7 +58,7 @@ Status write_trc(const std::filesystem::path& path, const data::Trial& trial,
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
     fmt::format_to(end, "{}\t{}", trial.first_frame + f, markers.time.time_s(f));
     for (std::int64_t m = 0; m < markers.markers(); ++m) {
-      // NaN, not blanks: OpenSim before 4.1 loses count of blank cells.
+      // NaN, not blanks: readers that take runs of tabs for one separator lose count of blank cells.
       if (!markers.present(f, m)) {
         out.append(std::string_view("\tNaN\tNaN\tNaN"));
         continue;

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/table_header.h"
+#include "kinemark/io/text/table_file.h"
+
+namespace kinemark::io {
+namespace {
+
+using internal::Cell;
+using internal::Cells;
+using internal::excerpt;
+using internal::Lines;
+using internal::Separator;
+using internal::TableHeader;
+
+std::unexpected<Error> bad_cell(std::int64_t line, std::size_t column, std::string_view label,
+                                std::string_view cell, std::string_view expected) {
+  return fail(
+      Code::bad_input,
+      fmt::format("line {}, column {} ({}): {}; expected {}", line, column, excerpt(label),
+                  cell.empty() ? "the cell is blank" : fmt::format("found '{}'", excerpt(cell)), expected));
+}
+
+/// Split "1,2,3" into `width` numbers.
+bool read_tuple(std::string_view cell, std::size_t width, double* out) {
+  for (std::size_t k = 0; k < width; ++k) {
+    const std::size_t comma = k + 1 < width ? cell.find(',') : cell.size();
+    if (comma == std::string_view::npos || !internal::parse_odd_number(cell.substr(0, comma), out[k]))
+      return false;
+    cell.remove_prefix(std::min(comma + 1, cell.size()));
+  }
+  return true;
+}
+
+/// The cells after time; `out` has room for all of them.
+Status read_values(Cells& cells, std::int64_t line, const TableHeader& header, double* out) {
+  const std::size_t cells_expected = header.columns_named.size() / header.width;
+  std::size_t found = 0;
+  for (; found < cells_expected; ++found) {
+    double* value = out + found * header.width;
+    const std::string& label = header.columns_named[found * header.width];
+    if (header.width > 1) {
+      std::string_view cell;
+      if (!cells.next_text(cell)) break;
+      if (!read_tuple(cell, header.width, value))
+        return bad_cell(line, found + 2, label, cell,
+                        fmt::format("{} numbers with commas between", header.width));
+      continue;
+    }
+    const Cell kind = cells.next(*value);
+    if (kind == Cell::none) break;
+    if (kind == Cell::blank) *value = std::numeric_limits<double>::quiet_NaN();
+    if (kind == Cell::text) return bad_cell(line, found + 2, label, cells.text(), "a number");
+  }
+  std::size_t more = 0;
+  for (std::string_view cell; cells.next_text(cell);) more += cell.empty() ? 0 : 1;
+  if (found == cells_expected && more == 0) return {};
+  return fail(Code::bad_input, fmt::format("line {}: holds {} cells where {} columns are labelled", line,
+                                           1 + found + more, 1 + cells_expected));
+}
+
+Result<data::Table> parse(std::string_view text) {
+  Lines lines(text);
+  auto header = internal::parse_table_header(lines);
+  if (!header) return std::unexpected(header.error());
+  const auto rows = static_cast<std::size_t>(lines.count_until_blank());
+  const std::size_t columns = header->columns_named.size();
+  // Each number takes a byte at least, so a text cannot ask for more than this; checked before allocating.
+  if (columns > 0 && rows > text.size() / columns)
+    return fail(Code::bad_input,
+                fmt::format("line {}: {} rows of {} columns do not fit into the {} bytes of this file",
+                            lines.number() + 1, rows, columns, text.size()));
+  data::Table table;
+  table.name = header->name;
+  table.header = header->pairs;
+  table.degrees_stated = header->in_degrees.has_value();
+  table.in_degrees = header->in_degrees.value_or(false);
+  table.warnings = header->warnings;
+  table.time_s.reserve(rows);
+  table.values.resize(rows * columns);
+
+  std::size_t repeated = 0;
+  std::string_view line;
+  for (std::size_t row = 0; row < rows; ++row) {
+    lines.next(line);
+    // Files edited by hand hold rows in blanks under labels in tabs.
+    const bool no_tab =
+        header->separator == Separator::tab && columns > 0 && line.find('\t') == std::string_view::npos;
+    Cells cells(line, no_tab ? Separator::blanks : header->separator);
+    double time_s = 0.0;
+    if (cells.next(time_s) != Cell::number || !std::isfinite(time_s))
+      return bad_cell(lines.number(), 1, "time", cells.text(), "a number");
+    if (auto status =
+            read_values(cells, lines.number(), *header, table.values.data() + table.time_s.size() * columns);
+        !status)
+      return std::unexpected(status.error());
+    if (!table.time_s.empty() && time_s < table.time_s.back())
+      return fail(Code::bad_input, fmt::format("line {}: time runs backwards from {} to {} s", lines.number(),
+                                               table.time_s.back(), time_s));
+    if (!table.time_s.empty() && time_s == table.time_s.back())
+      ++repeated;
+    else
+      table.time_s.push_back(time_s);
+  }
+  table.values.resize(table.time_s.size() * columns);
+  table.columns = std::move(header->columns_named);
+
+  if (header->rows && *header->rows != static_cast<double>(rows))
+    table.warnings.push_back(
+        fmt::format("header says {} rows, {} are there; the rows are believed", *header->rows, rows));
+  if (repeated > 0)
+    table.warnings.push_back(
+        fmt::format("{} rows repeat the time of the row before and are left out", repeated));
+  while (lines.next(line)) {
+    if (internal::is_blank(line)) continue;
+    table.warnings.push_back(
+        fmt::format("a blank line ends the data; line {} and what follows is not read", lines.number()));
+    break;
+  }
+  return table;
+}
+
+}  // namespace
+
+Result<data::Table> parse_table(std::string_view text, std::string_view name) {
+  auto table = parse(text);
+  if (!table) return fail_at(name, table.error());
+  return table;
+}
+
+Result<data::Table> read_table(const std::filesystem::path& path) {
+  const auto text = read_text(path);
+  if (!text) return std::unexpected(text.error());
+  return parse_table(*text, path.string());
+}
+
+bool angles_are_degrees(const data::Table& table) {
+  if (table.degrees_stated) return table.in_degrees;
+  return std::any_of(table.header.begin(), table.header.end(), [](const auto& pair) {
+    const std::string key = internal::lower(pair.first);
+    return key == "datacolumns" || key == "datarows";
+  });
+}
+
+}  // namespace kinemark::io
