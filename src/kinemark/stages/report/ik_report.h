@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The report of a solved trial: one self-contained HTML page that opens without a network.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/report/ik_summary.h"
+
+namespace kinemark::report {
+
+/// What the page shows. The arrays are borrowed and must outlive the calls.
+struct IkReport {
+  IkSummary summary;                          ///< from summarize() of the same arrays
+  const data::JointMotion* motion = nullptr;  ///< must be set
+  const data::Trajectories* markers =
+      nullptr;  ///< states for the gap map; nullptr: seen or not, from the errors
+};
+
+struct ReportOptions {
+  std::int64_t max_points = 20'000;            ///< per plotted series, at least 2
+  std::int64_t max_series_bytes = 24'000'000;  ///< of all plotted series as they stand in the page
+
+  [[nodiscard]] Status check() const;
+};
+
+/// The data that the page draws: `{"summary": summary_json(), "series": {...}}`.
+///
+/// Series are little-endian float32 (deg or m, mm) or uint8 in base64. A recording with more frames than
+/// points is thinned so that the smallest and largest value and the largest standard deviation of each
+/// stretch are kept
+/// (`frame_step` > 1). Values of undetermined coordinates are left out, not interpolated.
+/// O(F (n + M)) time; the result is bounded by the options whatever the length of the recording.
+[[nodiscard]] nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& options = {});
+
+/// The whole page. Equal reports give equal bytes: it holds no time of day and no machine name.
+/// Names and sentences may hold any bytes: they cannot end the data block and are shown as text only.
+[[nodiscard]] std::string report_html(const IkReport& report, const ReportOptions& options = {});
+
+}  // namespace kinemark::report

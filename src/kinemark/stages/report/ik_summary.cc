@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/report/ik_summary.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/stages/report/internal/findings.h"
+
+namespace kinemark::report {
+
+namespace {
+
+using data::FrameStatus;
+using data::JointMotion;
+using data::Trajectories;
+
+/// Sum of squared distances and what goes with it.
+struct ErrorSum {
+  double squares = 0.0;
+  std::int64_t count = 0;
+  double largest = -1.0;
+  std::int64_t at = -1;  ///< frame or marker of the largest
+
+  void add(double distance, std::int64_t where) {
+    squares += distance * distance;
+    ++count;
+    if (distance > largest) {
+      largest = distance;
+      at = where;
+    }
+  }
+  [[nodiscard]] double rms() const {
+    return count == 0 ? kUnknown : std::sqrt(squares / static_cast<double>(count));
+  }
+  [[nodiscard]] double max() const { return count == 0 ? kUnknown : largest; }
+};
+
+/// All marker errors of a motion, gone through once in the order in which they lie in memory.
+struct Errors {
+  std::vector<ErrorSum> of_marker, of_frame;
+  ErrorSum all;
+
+  explicit Errors(const JointMotion& motion)
+      : of_marker(motion.markers.size()), of_frame(static_cast<std::size_t>(motion.frames())) {
+    if (motion.marker_error.empty()) return;
+    const double* e = motion.marker_error.data();
+    for (std::size_t f = 0; f < of_frame.size(); ++f)
+      for (std::size_t m = 0; m < of_marker.size(); ++m, e += 3) {
+        const double d = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+        if (!std::isfinite(d)) continue;  // not seen
+        of_marker[m].add(d, static_cast<std::int64_t>(f));
+        of_frame[f].add(d, static_cast<std::int64_t>(m));
+        all.add(d, 0);
+      }
+  }
+};
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return kUnknown;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& motion, std::int64_t coordinate) {
+  const auto j = static_cast<std::size_t>(coordinate);
+  CoordinateSummary s{.name = motion.coordinates[j], .is_rotation = motion.is_rotation[j]};
+  s.locked = std::ranges::find(run.locked_coordinates, s.name) != run.locked_coordinates.end();
+  std::vector<double> sds;
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const std::size_t i = motion.index(f, coordinate);
+    if (!motion.determined.empty() && motion.determined[i] == 0) continue;
+    ++s.determined_frames;
+    s.min = std::fmin(s.min, motion.q[i]);
+    s.max = std::fmax(s.max, motion.q[i]);
+    if (!motion.q_sd.empty() && std::isfinite(motion.q_sd[i])) sds.push_back(motion.q_sd[i]);
+  }
+  s.median_sd = median(sds);
+  return s;
+}
+
+MarkerSummary with_facts(std::string name, const IkRun& run) {
+  MarkerSummary s{.name = std::move(name)};
+  const auto facts = std::ranges::find(run.markers, s.name, &MarkerFacts::name);
+  if (facts == run.markers.end()) return s;
+  s.weight = facts->weight;
+  s.noise_sd_m = facts->noise_sd_m;
+  s.why_excluded = facts->why_excluded;
+  s.used = s.why_excluded.empty() && s.weight > 0.0;
+  return s;
+}
+
+void summarize_markers(IkSummary& s, const JointMotion& motion, const Trajectories* markers,
+                       const Errors& errors) {
+  for (std::size_t m = 0; m < motion.markers.size(); ++m) {
+    MarkerSummary marker = with_facts(motion.markers[m], s.run);
+    const ErrorSum& sum = errors.of_marker[m];
+    marker.seen_frames = sum.count;
+    marker.rms_error_m = sum.rms();
+    marker.max_error_m = sum.max();
+    marker.max_error_frame = sum.at;
+    s.markers.push_back(std::move(marker));
+  }
+  s.rms_error_m = errors.all.rms();
+  s.max_error_m = errors.all.max();
+  for (const MarkerFacts& facts : s.run.markers) {
+    if (std::ranges::find(motion.markers, facts.name) != motion.markers.end()) continue;
+    MarkerSummary marker = with_facts(facts.name, s.run);
+    marker.used = false;
+    const std::int64_t column = markers == nullptr ? -1 : markers->find(facts.name);
+    for (std::int64_t f = 0; column >= 0 && f < motion.frames(); ++f)
+      marker.seen_frames += markers->present(f, column) ? 1 : 0;
+    s.markers.push_back(std::move(marker));
+  }
+}
+
+/// The frames with the largest error; neighbours of one that is taken are the same event and are left out.
+void find_worst_frames(IkSummary& s, const JointMotion& motion, const std::vector<ErrorSum>& frames,
+                       const SummaryOptions& options) {
+  std::vector<std::int64_t> order;
+  for (std::int64_t f = 0; f < motion.frames(); ++f)
+    if (frames[static_cast<std::size_t>(f)].count > 0) order.push_back(f);
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::int64_t f) { return frames[static_cast<std::size_t>(f)].rms(); });
+
+  const auto apart = static_cast<std::int64_t>(std::ceil(options.worst_frame_distance_s * s.time.rate_hz));
+  std::vector<bool> near_taken(frames.size(), false);
+  for (const std::int64_t f : order) {
+    if (std::ssize(s.worst_frames) == options.worst_frames) break;
+    if (near_taken[static_cast<std::size_t>(f)]) continue;
+    const std::int64_t from = std::max<std::int64_t>(0, f - apart + 1);
+    const std::int64_t to = std::min(motion.frames(), std::max(f + 1, f + apart));
+    std::fill(near_taken.begin() + from, near_taken.begin() + to, true);
+    const ErrorSum& frame = frames[static_cast<std::size_t>(f)];
+    s.worst_frames.push_back({.frame = f,
+                              .time_s = s.time.time_s(f),
+                              .rms_error_m = frame.rms(),
+                              .markers_seen = static_cast<int>(frame.count),
+                              .marker = motion.markers[static_cast<std::size_t>(frame.at)],
+                              .marker_error_m = frame.largest,
+                              .status = motion.status.empty() ? FrameStatus::converged
+                                                              : motion.status[static_cast<std::size_t>(f)]});
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) { return verdict == Verdict::good ? "good" : "attention"; }
+
+Status SummaryOptions::check() const {
+  if (worst_frames < 0)
+    return fail(Code::usage, fmt::format("worst_frames is {}; need 0 or more", worst_frames));
+  if (!(worst_frame_distance_s >= 0.0) || worst_frame_distance_s > 1e6)
+    return fail(Code::usage,
+                fmt::format("worst_frame_distance_s is {}; need 0 to 1e6", worst_frame_distance_s));
+  return {};
+}
+
+Result<IkSummary> summarize(IkRun run, const JointMotion& motion, const Trajectories* markers,
+                            const SummaryOptions& options) {
+  if (const auto ok = options.check(); !ok) return std::unexpected(ok.error());
+  if (const auto ok = motion.validate(); !ok) return std::unexpected(ok.error());
+  if (markers != nullptr) {
+    if (markers->state.size() != markers->names.size() * static_cast<std::size_t>(markers->frames()))
+      return fail(Code::bad_input, "the report's markers have no state for each frame and marker");
+    if (!(markers->time == motion.time))
+      return fail(
+          Code::bad_input,
+          fmt::format("the joint motion has {} frames at {} Hz from {} s, its markers {} at {} Hz from {} s; "
+                      "a report needs the same frames",
+                      motion.frames(), motion.time.rate_hz, motion.time.t0_s, markers->frames(),
+                      markers->time.rate_hz, markers->time.t0_s));
+  }
+  IkSummary s{.run = std::move(run), .time = motion.time};
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const auto i = static_cast<std::size_t>(f);
+    ++s.status_frames[motion.status.empty() ? 0 : static_cast<std::size_t>(motion.status[i])];
+  }
+  std::int64_t determined = 0, asked = 0;
+  for (std::int64_t j = 0; j < motion.size(); ++j) {
+    s.coordinates.push_back(summarize_coordinate(s.run, motion, j));
+    if (s.coordinates.back().locked) continue;
+    determined += s.coordinates.back().determined_frames;
+    asked += motion.frames();
+  }
+  if (asked > 0) s.determined_fraction = static_cast<double>(determined) / static_cast<double>(asked);
+  const Errors errors(motion);
+  summarize_markers(s, motion, markers, errors);
+  find_worst_frames(s, motion, errors.of_frame, options);
+  s.findings = internal::find_findings(s, motion);
+  s.verdict = std::ranges::any_of(s.findings, [](const Finding& f) { return f.level == Verdict::attention; })
+                  ? Verdict::attention
+                  : Verdict::good;
+  return s;
+}
+
+}  // namespace kinemark::report

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// One solved trial in numbers: what Q_report.json holds and what the report page shows around its plots.
+// The JSON is described field by field in README.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/trajectories.h"
+
+namespace kinemark::report {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A file that the result depends on.
+struct InputFile {
+  std::string role;  ///< "model", "markers", "tasks", ...
+  std::string path;  ///< as the user gave it
+  std::int64_t bytes = 0;
+  std::string hash;       ///< hexadecimal digits, lower case
+  std::string hash_kind;  ///< "XXH3-64"
+};
+
+/// A quality bound that the run had to meet.
+struct Gate {
+  std::string name;      ///< "marker_rms"
+  bool passed = true;    ///< false: the run ends with exit status 1
+  double value = 0.0;    ///< what was reached, in `unit`
+  double bound = 0.0;    ///< what was asked, in `unit`
+  std::string unit;      ///< "mm", "%", ...
+  std::string sentence;  ///< for people: what was compared and what to do when it failed
+};
+
+/// What the solver knew of one marker of the file or the model.
+struct MarkerFacts {
+  std::string name;
+  double weight = 1.0;           ///< 0: not used
+  double noise_sd_m = kUnknown;  ///< given or estimated standard deviation along one axis
+  std::string why_excluded;      ///< empty: used
+};
+
+/// Everything about a run that is not in its arrays. The caller fills this in.
+struct IkRun {
+  std::string trial;         ///< name for the heading, usually the marker file's
+  std::string model;         ///< the model's own name
+  std::string method;        ///< "least squares" or "direct marker control"
+  std::string version;       ///< of the program
+  std::string command_line;  ///< as typed
+  std::uint64_t seed = 0;
+  int threads = 1;
+  int exit_status = 0;
+  double solve_s = kUnknown;  ///< wall-clock seconds of the solve alone
+  std::vector<std::pair<std::string, std::string>> options;
+  std::vector<InputFile> inputs;
+  std::vector<Gate> gates;
+  std::vector<MarkerFacts> markers;             ///< in any order; markers not listed have weight 1
+  std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
+  std::vector<std::string> warnings;            ///< one sentence each
+};
+
+enum class Verdict : std::uint8_t { good, attention };
+
+/// A line of the list "what needs your attention".
+struct Finding {
+  Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
+  std::string about;              ///< "gate", "frames", "coordinate", "marker" or "warning"
+  std::string text;               ///< one sentence
+  double time_s = kUnknown;       ///< where to look first
+};
+
+struct CoordinateSummary {
+  std::string name;
+  bool is_rotation = true;
+  bool locked = false;
+  std::int64_t determined_frames = 0;
+  double min = kUnknown;        ///< rad or m, over determined frames
+  double max = kUnknown;        ///< rad or m, over determined frames
+  double median_sd = kUnknown;  ///< rad or m, over determined frames
+};
+
+struct MarkerSummary {
+  std::string name;
+  bool used = true;
+  std::string why_excluded;
+  double weight = 1.0;
+  std::int64_t seen_frames = 0;   ///< frames with an error, or with coordinates for excluded markers
+  double rms_error_m = kUnknown;  ///< of the distance between measured and model marker
+  double max_error_m = kUnknown;
+  std::int64_t max_error_frame = -1;
+  double noise_sd_m = kUnknown;
+};
+
+struct WorstFrame {
+  std::int64_t frame = 0;
+  double time_s = 0.0;
+  double rms_error_m = 0.0;  ///< over the markers seen in this frame
+  int markers_seen = 0;
+  std::string marker;  ///< the one with the largest error
+  double marker_error_m = 0.0;
+  data::FrameStatus status = data::FrameStatus::converged;
+};
+
+struct IkSummary {
+  IkRun run;
+  TimeBase time;
+  Verdict verdict = Verdict::good;              ///< attention: at least one finding of that level
+  std::array<std::int64_t, 4> status_frames{};  ///< by FrameStatus
+  double determined_fraction = kUnknown;        ///< over frames and coordinates that are not locked
+  double rms_error_m = kUnknown;                ///< over all frames and seen markers
+  double max_error_m = kUnknown;
+  std::vector<CoordinateSummary> coordinates;
+  std::vector<MarkerSummary> markers;  ///< used ones in the motion's order, then the excluded ones
+  std::vector<WorstFrame> worst_frames;
+  std::vector<Finding> findings;  ///< the serious ones first
+};
+
+struct SummaryOptions {
+  int worst_frames = 20;
+  double worst_frame_distance_s = 0.25;  ///< two worst frames are at least this far apart
+
+  [[nodiscard]] Status check() const;
+};
+
+/// Counts, errors, worst frames and findings of a solved trial.
+///
+/// @param run      facts that are not in the arrays
+/// @param motion   F frames; must be valid
+/// @param markers  F frames on the same clock, or nullptr when only the errors are known; looked up by name,
+///                 may hold more markers than the motion
+/// @return         Fails when the two do not fit together. O(F (n + M)) time.
+[[nodiscard]] Result<IkSummary> summarize(IkRun run, const data::JointMotion& motion,
+                                          const data::Trajectories* markers,
+                                          const SummaryOptions& options = {});
+
+/// What Q_report.json holds. Angles in deg, errors in mm, times in s, unknown numbers null.
+[[nodiscard]] nlohmann::ordered_json summary_json(const IkSummary& summary);
+
+/// The run's facts (trial, model, options, inputs, gates, warnings, weights, ...) read back from
+/// Q_report.json, so that a page can be made from result files. Counts and errors are not read: summarize()
+/// finds them again.
+[[nodiscard]] Result<IkRun> run_from_json(const nlohmann::ordered_json& json);
+
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+
+}  // namespace kinemark::report

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "kinemark/core/units.h"
+#include "kinemark/stages/report/ik_summary.h"
+
+namespace kinemark::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+
+/// Rounded to so many decimals; null when unknown.
+Json number(double value, int decimals) {
+  if (!std::isfinite(value)) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  const double rounded = std::round(value * scale) / scale;
+  if (!std::isfinite(rounded)) return value;
+  return rounded == 0.0 ? 0.0 : rounded;  // no minus in front of zero
+}
+
+Json millimetres(double metres) { return number(1e3 * metres, 4); }
+
+/// deg to 1e-4, m to 1e-6.
+Json coordinate_value(const CoordinateSummary& c, double value) {
+  return c.is_rotation ? number(kDegPerRad * value, 4) : number(value, 6);
+}
+
+Json coordinates_json(const IkSummary& s) {
+  Json out = Json::array();
+  for (const CoordinateSummary& c : s.coordinates)
+    out.push_back({{"name", c.name},
+                   {"unit", c.is_rotation ? "deg" : "m"},
+                   {"locked", c.locked},
+                   {"determined_frames", c.determined_frames},
+                   {"min", coordinate_value(c, c.min)},
+                   {"max", coordinate_value(c, c.max)},
+                   {"median_sd", coordinate_value(c, c.median_sd)}});
+  return out;
+}
+
+Json markers_json(const IkSummary& s) {
+  Json out = Json::array();
+  for (const MarkerSummary& m : s.markers)
+    out.push_back(
+        {{"name", m.name},
+         {"used", m.used},
+         {"why_excluded", m.why_excluded},
+         {"weight", number(m.weight, 6)},
+         {"seen_frames", m.seen_frames},
+         {"rms_error_mm", millimetres(m.rms_error_m)},
+         {"max_error_mm", millimetres(m.max_error_m)},
+         {"max_error_time_s", number(m.max_error_frame < 0 ? kUnknown : s.time.time_s(m.max_error_frame), 6)},
+         {"noise_sd_mm", millimetres(m.noise_sd_m)}});
+  return out;
+}
+
+Json worst_frames_json(const IkSummary& s) {
+  Json out = Json::array();
+  for (const WorstFrame& w : s.worst_frames)
+    out.push_back({{"frame", w.frame},
+                   {"time_s", number(w.time_s, 6)},
+                   {"rms_error_mm", millimetres(w.rms_error_m)},
+                   {"markers_seen", w.markers_seen},
+                   {"worst_marker", w.marker},
+                   {"worst_marker_error_mm", millimetres(w.marker_error_m)},
+                   {"status", data::to_string(w.status)}});
+  return out;
+}
+
+Json gates_json(const IkRun& run) {
+  Json out = Json::array();
+  for (const Gate& g : run.gates)
+    out.push_back({{"name", g.name},
+                   {"passed", g.passed},
+                   {"value", number(g.value, 6)},
+                   {"bound", number(g.bound, 6)},
+                   {"unit", g.unit},
+                   {"sentence", g.sentence}});
+  return out;
+}
+
+Json findings_json(const IkSummary& s) {
+  Json out = Json::array();
+  for (const Finding& f : s.findings)
+    out.push_back({{"level", f.level == Verdict::attention ? "attention" : "note"},
+                   {"about", f.about},
+                   {"text", f.text},
+                   {"time_s", number(f.time_s, 6)}});
+  return out;
+}
+
+Json inputs_json(const IkRun& run) {
+  Json out = Json::array();
+  for (const InputFile& i : run.inputs)
+    out.push_back({{"role", i.role},
+                   {"path", i.path},
+                   {"bytes", i.bytes},
+                   {"hash", i.hash},
+                   {"hash_kind", i.hash_kind}});
+  return out;
+}
+
+Json status_json(const IkSummary& s) {
+  Json out = Json::object();
+  for (std::size_t i = 0; i < s.status_frames.size(); ++i)
+    out[std::string(data::to_string(static_cast<data::FrameStatus>(i)))] = s.status_frames[i];
+  return out;
+}
+
+double metres(const Json& object, const char* key) {
+  const Json& value = object.at(key);
+  return value.is_null() ? kUnknown : 1e-3 * value.get<double>();
+}
+
+IkRun read_run(const Json& json) {
+  IkRun run;
+  json.at("trial").get_to(run.trial);
+  json.at("model").get_to(run.model);
+  json.at("method").get_to(run.method);
+  json.at("version").get_to(run.version);
+  json.at("command_line").get_to(run.command_line);
+  json.at("seed").get_to(run.seed);
+  json.at("threads").get_to(run.threads);
+  json.at("exit_status").get_to(run.exit_status);
+  if (!json.at("solve_s").is_null()) json.at("solve_s").get_to(run.solve_s);
+  for (const auto& [key, value] : json.at("options").items())
+    run.options.emplace_back(key, value.get<std::string>());
+  for (const Json& i : json.at("inputs"))
+    run.inputs.push_back({i.at("role"), i.at("path"), i.at("bytes"), i.at("hash"), i.at("hash_kind")});
+  for (const Json& g : json.at("gates")) {
+    const auto value = [&](const char* key) {
+      return g.at(key).is_null() ? kUnknown : g.at(key).get<double>();
+    };
+    run.gates.push_back(
+        {g.at("name"), g.at("passed"), value("value"), value("bound"), g.at("unit"), g.at("sentence")});
+  }
+  for (const Json& m : json.at("markers"))
+    run.markers.push_back({m.at("name"), m.at("weight").is_null() ? 1.0 : m.at("weight").get<double>(),
+                           metres(m, "noise_sd_mm"), m.at("why_excluded")});
+  for (const Json& c : json.at("coordinates"))
+    if (c.at("locked").get<bool>()) run.locked_coordinates.push_back(c.at("name"));
+  json.at("warnings").get_to(run.warnings);
+  return run;
+}
+
+}  // namespace
+
+nlohmann::ordered_json summary_json(const IkSummary& s) {
+  const IkRun& run = s.run;
+  const auto frames = static_cast<double>(s.time.frames);
+  Json options = Json::object();
+  for (const auto& [key, value] : run.options) options[key] = value;
+  return {{"schema", "kinemark.ik_report"},
+          {"schema_version", kSchemaVersion},
+          {"trial", run.trial},
+          {"model", run.model},
+          {"method", run.method},
+          {"verdict", to_string(s.verdict)},
+          {"exit_status", run.exit_status},
+          {"frames", s.time.frames},
+          {"rate_hz", number(s.time.rate_hz, 6)},
+          {"first_time_s", number(s.time.t0_s, 6)},
+          {"solve_s", number(run.solve_s, 6)},
+          {"frames_per_s", number(run.solve_s > 0.0 ? frames / run.solve_s : kUnknown, 1)},
+          {"threads", run.threads},
+          {"seed", run.seed},
+          {"version", run.version},
+          {"command_line", run.command_line},
+          {"rms_error_mm", millimetres(s.rms_error_m)},
+          {"max_error_mm", millimetres(s.max_error_m)},
+          {"determined_fraction", number(s.determined_fraction, 6)},
+          {"status_frames", status_json(s)},
+          {"findings", findings_json(s)},
+          {"gates", gates_json(run)},
+          {"coordinates", coordinates_json(s)},
+          {"markers", markers_json(s)},
+          {"worst_frames", worst_frames_json(s)},
+          {"options", std::move(options)},
+          {"inputs", inputs_json(run)},
+          {"warnings", run.warnings}};
+}
+
+Result<IkRun> run_from_json(const nlohmann::ordered_json& json) {
+  if (!json.is_object() || json.value("schema", Json()) != "kinemark.ik_report")
+    return fail(Code::bad_input,
+                "this JSON is not a kinemark IK report; need \"schema\": \"kinemark.ik_report\"");
+  if (json.value("schema_version", Json()) != kSchemaVersion)
+    return fail(Code::not_supported,
+                fmt::format("the report's schema_version is {}; this program reads {}",
+                            json.value("schema_version", Json()).dump(), kSchemaVersion));
+  try {
+    return read_run(json);
+  } catch (const Json::exception& e) {
+    return fail(Code::bad_input, fmt::format("the report's JSON does not follow its schema: {}", e.what()));
+  }
+}
+
+}  // namespace kinemark::report

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { createHash } from "node:crypto";
+import type { Plugin } from "vite";
+
+const sha256 = (text: string): string => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+
+/**
+ * Put the script and the style into the page itself, so that it opens from a folder without a server, and forbid
+ * everything else: no connection to anywhere, no script but the one whose hash is written in the page.
+ */
+export function oneFile(): Plugin {
+  return {
+    name: "one-file",
+    enforce: "post",
+    generateBundle(_options, bundle) {
+      const files = Object.values(bundle);
+      const html = files.find((f) => f.type === "asset" && f.fileName.endsWith(".html"));
+      const chunks = files.filter((f) => f.type === "chunk");
+      const styles = files.filter((f) => f.type === "asset" && f.fileName.endsWith(".css"));
+      if (html?.type !== "asset" || chunks.length !== 1 || styles.length !== 1 || files.length !== 3) {
+        this.error(`expected one page, one script and one style; found ${files.map((f) => f.fileName).join(", ")}`);
+      }
+      const [chunk] = chunks;
+      const [style] = styles;
+      if (chunk?.type !== "chunk" || style?.type !== "asset") this.error("unreachable");
+      const script = chunk.code.trim().replaceAll("</script", "<\\/script");
+      const css = String(style.source).trim();
+      const policy = [
+        "default-src 'none'",
+        `script-src ${sha256(script)}`,
+        `style-src ${sha256(css)}`,
+        "base-uri 'none'",
+        "form-action 'none'",
+      ].join("; ");
+      const page = String(html.source)
+        .replace(/\s*<script type="module"[^>]*><\/script>/, "")
+        .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
+        .replace(
+          "<!-- style -->",
+          () => `<meta http-equiv="Content-Security-Policy" content="${policy}">\n<style>${css}</style>`,
+        )
+        .replace("<!-- script -->", () => `<script type="module">${script}</script>`);
+      html.source = page;
+      delete bundle[chunk.fileName];
+      delete bundle[style.fileName];
+    },
+  };
+}

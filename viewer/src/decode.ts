@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import type { PageData, Summary } from "./types.ts";
+
+/** One coordinate on the points of the plots, deg or m; NaN where it is not determined. */
+export interface CoordinateSeries {
+  value: Float32Array;
+  sd: Float32Array | null;
+  /** 1 where a frame of this point is not determined; null when all are. */
+  undetermined: Uint8Array | null;
+}
+
+/** A solved trial, ready to draw. */
+export interface Trial {
+  summary: Summary;
+  /** Frames per point; above 1 the points hold the extremes of each stretch. */
+  frameStep: number;
+  time: Float64Array;
+  coordinates: CoordinateSeries[];
+  rmsErrorMm: Float32Array;
+  /** One per used marker, in the order of summary.markers. */
+  markerErrorMm: Float32Array[];
+  /** One per marker of summary.markers: 0 measured, 1 filled, 2 missing, 3 rejected; null when not known. */
+  gaps: (Uint8Array | null)[];
+  /** 0 converged, 1 not all determined, 2 not converged, 3 no markers. */
+  status: Uint8Array;
+}
+
+export function decodeBytes(base64: string, points: number): Uint8Array {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  if (bytes.length !== points) throw new Error(`a series holds ${bytes.length} codes; ${points} points need as many`);
+  return bytes;
+}
+
+export function decodeFloats(base64: string, points: number): Float32Array {
+  const bytes = decodeBytes(base64, 4 * points);
+  const view = new DataView(bytes.buffer);
+  const values = new Float32Array(points);
+  for (let i = 0; i < points; ++i) values[i] = view.getFloat32(4 * i, true);
+  return values;
+}
+
+export function decode({ summary, series }: PageData): Trial {
+  if (summary.schema !== "kinemark.ik_report" || summary.schema_version !== 1) {
+    throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
+  }
+  const n = series.points;
+  const floats = (text: string) => decodeFloats(text, n);
+  const bytes = (text: string) => decodeBytes(text, n);
+  return {
+    summary,
+    frameStep: series.frame_step,
+    time: Float64Array.from({ length: n }, (_, i) => summary.first_time_s + (i * series.frame_step) / summary.rate_hz),
+    coordinates: series.coordinates.map((c) => ({
+      value: floats(c.value),
+      sd: c.sd === null ? null : floats(c.sd),
+      undetermined: c.undetermined === null ? null : bytes(c.undetermined),
+    })),
+    rmsErrorMm: floats(series.rms_error_mm),
+    markerErrorMm: series.marker_error_mm.map(floats),
+    gaps: series.gaps.map((g) => (g === null ? null : bytes(g))),
+    status: bytes(series.status),
+  };
+}

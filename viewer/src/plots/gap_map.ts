@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import type { Trial } from "../decode.ts";
+import { columnRange, firstAtOrAfter, nearest, worstCode } from "../downsample.ts";
+import { el, fitCanvas } from "../dom.ts";
+import { seconds } from "../format.ts";
+import { onThemeChange, palette } from "../theme.ts";
+import type { View } from "../view.ts";
+
+export const gapWords = ["measured", "filled in", "missing", "rejected"] as const;
+export const statusWords = ["converged", "not all coordinates determined", "not converged", "no markers"] as const;
+
+const rowHeight = 14;
+const top = 4;
+const statusGap = 8;
+
+/** Markers by time: where each came from. The first strip is how the solver fared. */
+export class GapMap {
+  readonly canvas = el("canvas", { role: "img", "aria-label": "Map of gaps: one row per marker, time to the right" });
+  readonly readout = el("p", { class: "readout" });
+  readonly #rows: { name: string; codes: Uint8Array | null; marker: number }[];
+  #gutter = 120;
+
+  constructor(
+    readonly box: HTMLElement,
+    readonly trial: Trial,
+    readonly view: View,
+  ) {
+    const used = trial.markerErrorMm.length;
+    this.#rows = trial.summary.markers.map((m, i) => ({
+      name: m.name,
+      codes: trial.gaps[i] ?? null,
+      marker: i < used ? i : -1,
+    }));
+    box.append(this.canvas);
+    this.canvas.addEventListener("mousemove", (e) => this.#point(e));
+    this.canvas.addEventListener("mouseleave", () => {
+      this.readout.textContent = "";
+      view.set({ pointer: null });
+    });
+    this.canvas.addEventListener("click", (e) => {
+      const marker = this.#rows[this.#rowAt(e.offsetY)]?.marker ?? -1;
+      view.set(marker < 0 ? { focus: this.#timeAt(e.offsetX) } : { focus: this.#timeAt(e.offsetX), marker });
+    });
+    new ResizeObserver(() => this.draw()).observe(box);
+    onThemeChange(() => this.draw());
+    view.onChange(() => this.draw());
+  }
+
+  #width = 600;
+
+  #rowAt(y: number): number {
+    return Math.floor((y - top - rowHeight - statusGap) / rowHeight);
+  }
+
+  #timeAt(x: number): number {
+    const [from, to] = this.view.range;
+    const share = (x - this.#gutter) / (this.#width - this.#gutter);
+    return from + Math.min(1, Math.max(0, share)) * (to - from);
+  }
+
+  #point(event: MouseEvent): void {
+    const time = this.#timeAt(event.offsetX);
+    const i = nearest(this.trial.time, time);
+    const row = this.#rows[this.#rowAt(event.offsetY)];
+    this.view.set({ pointer: time });
+    if (i < 0) return;
+    const when = seconds(this.trial.time[i]!);
+    if (event.offsetY < top + rowHeight) {
+      this.readout.textContent = `Fit at ${when}: ${statusWords[this.trial.status[i] as 0 | 1 | 2 | 3]}`;
+    } else if (row !== undefined) {
+      const word = row.codes === null ? "not known" : gapWords[row.codes[i] as 0 | 1 | 2 | 3];
+      const error = row.marker < 0 ? NaN : this.trial.markerErrorMm[row.marker]![i]!;
+      this.readout.textContent =
+        `${row.name} at ${when}: ${word}` + (Number.isFinite(error) ? `, error ${error.toFixed(1)} mm` : "");
+    }
+  }
+
+  draw(): void {
+    this.#width = Math.max(280, Math.floor(this.box.clientWidth));
+    const height = top + rowHeight + statusGap + this.#rows.length * rowHeight + 22;
+    const pen = fitCanvas(this.canvas, this.#width, height);
+    const colours = palette();
+    pen.font = "11px system-ui, sans-serif";
+    const longest = Math.max(...this.#rows.map((r) => pen.measureText(r.name).width), 40);
+    this.#gutter = Math.min(Math.ceil(longest) + 12, 0.35 * this.#width);
+
+    this.#strip(pen, top, this.trial.status, colours.status, "Fit", false);
+    this.#rows.forEach((row, r) => {
+      const y = top + rowHeight + statusGap + r * rowHeight;
+      this.#strip(pen, y, row.codes, colours.gaps, row.name, row.marker >= 0 && row.marker === this.view.marker);
+    });
+    this.#axis(pen, height);
+    this.#line(pen, this.view.pointer, height, colours.muted);
+    this.#line(pen, this.view.focus, height, colours.focus);
+  }
+
+  #strip(
+    pen: CanvasRenderingContext2D,
+    y: number,
+    codes: Uint8Array | null,
+    colours: readonly string[],
+    name: string,
+    selected: boolean,
+  ): void {
+    pen.textBaseline = "middle";
+    pen.textAlign = "right";
+    pen.fillStyle = selected ? palette().line : palette().ink;
+    pen.font = `${selected ? "600 " : ""}11px system-ui, sans-serif`;
+    pen.fillText(name, this.#gutter - 8, y + rowHeight / 2, this.#gutter - 10);
+    if (codes === null) return;
+    const { time } = this.trial;
+    const [from, to] = this.view.range;
+    const first = firstAtOrAfter(time, from - 1e-9);
+    const last = Math.max(first + 1, firstAtOrAfter(time, to + 1e-9));
+    const columns = Math.max(1, Math.min(Math.floor(this.#width - this.#gutter), last - first));
+    const columnWidth = (this.#width - this.#gutter) / columns;
+    for (let c = 0; c < columns; ) {
+      const code = this.#code(codes, first, last, columns, c);
+      const start = c;
+      while (c < columns && this.#code(codes, first, last, columns, c) === code) ++c;
+      pen.fillStyle = colours[code]!;
+      // The worse a state is, the higher it stands, so that the map is readable without colour.
+      const inset = code === 0 ? 3 : 1;
+      pen.fillRect(this.#gutter + start * columnWidth, y + inset, (c - start) * columnWidth, rowHeight - 2 * inset);
+    }
+  }
+
+  #code(codes: Uint8Array, first: number, last: number, columns: number, column: number): number {
+    return worstCode(codes, ...columnRange(first, last, columns, column));
+  }
+
+  #axis(pen: CanvasRenderingContext2D, height: number): void {
+    const [from, to] = this.view.range;
+    const rough = (to - from) / Math.max(2, (this.#width - this.#gutter) / 110);
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].map((k) => k * power).find((s) => s >= rough)!;
+    pen.fillStyle = palette().muted;
+    pen.font = "11px system-ui, sans-serif";
+    pen.textAlign = "center";
+    pen.textBaseline = "bottom";
+    const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+    for (let t = Math.ceil(from / step) * step; t <= to + 1e-9; t += step) {
+      const x = this.#gutter + ((t - from) / (to - from)) * (this.#width - this.#gutter);
+      pen.fillRect(x, height - 20, 1, 4);
+      pen.fillText(`${t.toFixed(decimals)} s`, Math.min(x, this.#width - 18), height - 1);
+    }
+  }
+
+  #line(pen: CanvasRenderingContext2D, time: number | null, height: number, colour: string): void {
+    const [from, to] = this.view.range;
+    if (time === null || time < from || time > to) return;
+    const x = this.#gutter + ((time - from) / (to - from)) * (this.#width - this.#gutter);
+    pen.fillStyle = colour;
+    pen.fillRect(Math.round(x), 0, 1, height - 20);
+  }
+}

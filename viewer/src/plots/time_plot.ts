@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import uPlot from "uplot";
+import { hatch, onThemeChange, palette } from "../theme.ts";
+import type { View } from "../view.ts";
+
+export interface TimePlotOptions {
+  label: string;
+  height: number;
+  /** Lines above the first, which is the time. The colours are asked for at every redraw. */
+  series: { stroke: () => string; width: number; hidden?: boolean }[];
+  bands?: { series: [upper: number, lower: number]; fill: () => string }[];
+  unit: () => string;
+  fromZero?: boolean;
+  /** Stretches to hatch, in s. */
+  hatched: () => [from: number, to: number][];
+}
+
+/** uPlot tied to the shared view: same time axis, same pointer, a line at the time that was asked for. */
+export class TimePlot {
+  readonly plot: uPlot;
+  readonly #view: View;
+  readonly #box: HTMLElement;
+  readonly #height: number;
+
+  constructor(box: HTMLElement, view: View, options: TimePlotOptions) {
+    this.#view = view;
+    this.#box = box;
+    this.#height = options.height;
+    box.setAttribute("role", "img");
+    box.setAttribute("aria-label", options.label);
+    const axis = (extra: uPlot.Axis): uPlot.Axis => ({
+      stroke: () => palette().muted,
+      grid: { stroke: () => palette().grid, width: 1 },
+      ticks: { stroke: () => palette().grid, width: 1, size: 4 },
+      font: "12px system-ui, sans-serif",
+      labelFont: "12px system-ui, sans-serif",
+      ...extra,
+    });
+    const config: uPlot.Options = {
+      width: this.#width(),
+      height: options.height,
+      legend: { show: false },
+      padding: [10, 10, 0, 0],
+      scales: {
+        x: { time: false },
+        y: { range: (_u, low, high) => yRange(low, high, options.fromZero ?? false) },
+      },
+      axes: [
+        axis({ label: "time (s)", labelSize: 20, size: 30 }),
+        axis({ size: 62, label: " ", labelSize: 18, values: (_u, ticks) => tickTexts(ticks) }),
+      ],
+      series: [
+        {},
+        ...options.series.map((s) => ({
+          stroke: s.stroke,
+          width: s.width,
+          points: { show: s.hidden ? false : undefined, size: 4 },
+          spanGaps: false,
+        })),
+      ],
+      bands: (options.bands ?? []).map((b) => ({ series: b.series, fill: b.fill })),
+      cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
+      hooks: {
+        drawClear: [(u) => this.#drawHatched(u, options.hatched())],
+        draw: [(u) => this.#drawFocus(u)],
+        setSelect: [
+          (u) => {
+            if (u.select.width < 3) return;
+            const range = [u.posToVal(u.select.left, "x"), u.posToVal(u.select.left + u.select.width, "x")] as const;
+            u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+            view.set({ range });
+          },
+        ],
+        setCursor: [
+          (u) => {
+            // Only the plot under the pointer tells; the others are told.
+            if (u.root.matches(":hover")) {
+              const left = u.cursor.left ?? -1;
+              view.set({ pointer: left < 0 ? null : u.posToVal(left, "x") });
+            }
+          },
+        ],
+      },
+    };
+    this.plot = new uPlot(config, undefined, box);
+    this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
+    this.plot.over.addEventListener("mouseleave", () => view.set({ pointer: null }));
+    new ResizeObserver(() => this.#fit()).observe(box);
+    onThemeChange(() => this.plot.redraw(false));
+    view.onChange(() => this.#follow());
+    this.#unit = options.unit;
+  }
+
+  readonly #unit: () => string;
+
+  setData(data: uPlot.AlignedData): void {
+    this.plot.axes[1]!.label = this.#unit();
+    this.plot.batch(() => {
+      this.plot.setData(data, false);
+      this.plot.setScale("x", { min: this.#view.range[0], max: this.#view.range[1] });
+    });
+    this.plot.redraw(true, true);
+  }
+
+  #width(): number {
+    return Math.max(260, Math.floor(this.#box.clientWidth));
+  }
+
+  #fit(): void {
+    if (this.#width() !== this.plot.width) this.plot.setSize({ width: this.#width(), height: this.#height });
+  }
+
+  #follow(): void {
+    const { range, pointer } = this.#view;
+    const { min, max } = this.plot.scales["x"]!;
+    if (min !== range[0] || max !== range[1]) this.plot.setScale("x", { min: range[0], max: range[1] });
+    else this.plot.redraw(false, false);
+    if (!this.plot.root.matches(":hover")) {
+      const left = pointer === null || pointer < range[0] || pointer > range[1] ? -10 : this.plot.valToPos(pointer, "x");
+      this.plot.setCursor({ left, top: left < 0 ? -10 : 0 }, false);
+    }
+  }
+
+  #drawHatched(u: uPlot, stretchesInS: [number, number][]): void {
+    if (stretchesInS.length === 0) return;
+    const { ctx, bbox } = u;
+    ctx.save();
+    ctx.fillStyle = hatch(ctx, window.devicePixelRatio);
+    for (const [from, to] of stretchesInS) {
+      const left = Math.max(bbox.left, u.valToPos(from, "x", true));
+      const right = Math.min(bbox.left + bbox.width, u.valToPos(to, "x", true));
+      if (right > left) ctx.fillRect(left, bbox.top, Math.max(1, right - left), bbox.height);
+    }
+    ctx.restore();
+  }
+
+  #drawFocus(u: uPlot): void {
+    const { focus } = this.#view;
+    if (focus === null) return;
+    const { ctx, bbox } = u;
+    const x = Math.round(u.valToPos(focus, "x", true));
+    if (x < bbox.left || x > bbox.left + bbox.width) return;
+    ctx.save();
+    ctx.strokeStyle = palette().focus;
+    ctx.lineWidth = window.devicePixelRatio;
+    ctx.setLineDash([5 * window.devicePixelRatio, 4 * window.devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    ctx.restore();
+  }
+}
+
+/** Room above and below; never so close that noise fills the plot of a coordinate that stands still. */
+export function yRange(low: number | null, high: number | null, fromZero: boolean): [number, number] {
+  if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
+  if (fromZero) return [0, high > 0 ? 1.08 * high : 1];
+  const margin = Math.max(0.06 * (high - low), 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-6);
+  return [low - margin, high + margin];
+}
+
+/** As many decimals as the ticks need to differ. */
+export function tickTexts(ticks: number[]): string[] {
+  const step = ticks.length > 1 ? Math.abs(ticks[1]! - ticks[0]!) : 1;
+  const decimals = Math.min(6, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+  return ticks.map((t) => t.toFixed(decimals).replace(/^-(?=.*[1-9])/, "−").replace(/^-/, ""));
+}

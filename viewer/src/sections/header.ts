@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { el } from "../dom.ts";
+import { duration, number, percent, plural } from "../format.ts";
+import type { Summary } from "../types.ts";
+
+const tile = (value: string, label: string, detail: string): HTMLElement =>
+  el("div", { class: "tile" }, el("dd", {}, value), el("dt", {}, label), el("dd", { class: "detail" }, detail));
+
+/** Trial, model, verdict, and the numbers that people look for first. */
+export function header(summary: Summary): HTMLElement {
+  const notes = summary.findings.filter((f) => f.level === "note").length;
+  const serious = summary.findings.length - notes;
+  const good = summary.verdict === "good";
+  const used = summary.markers.filter((m) => m.used).length;
+  const asked = summary.coordinates.filter((c) => !c.locked).length;
+  const locked = summary.coordinates.length - asked;
+  const realTime = summary.frames_per_s === null ? null : summary.frames_per_s / summary.rate_hz;
+  const solved = summary.status_frames.converged + summary.status_frames.underdetermined;
+  return el(
+    "header",
+    {},
+    el(
+      "div",
+      { class: "title" },
+      el(
+        "div",
+        {},
+        el("p", { class: "brand" }, el("b", {}, "kinemark"), ` joint angles by ${summary.method || "inverse kinematics"}`),
+        el("h1", {}, summary.trial),
+        el("p", { class: "model" }, "Model ", el("b", {}, summary.model)),
+      ),
+      el(
+        "p",
+        { class: `verdict ${summary.verdict}`, id: "verdict" },
+        el("b", {}, good ? "Good" : "Needs attention"),
+        el(
+          "span",
+          {},
+          [serious > 0 ? plural(serious, "problem") : "no problems", notes > 0 ? plural(notes, "note") : ""]
+            .filter((t) => t !== "")
+            .join(", "),
+        ),
+      ),
+    ),
+    el(
+      "dl",
+      { class: "tiles" },
+      tile(number(summary.frames), "frames", `${duration(summary.frames / summary.rate_hz)} at ${number(summary.rate_hz, Number.isInteger(summary.rate_hz) ? 0 : 2)} Hz`),
+      tile(
+        percent(summary.frames === 0 ? null : solved / summary.frames),
+        "of frames converged",
+        solved === summary.frames ? "every frame" : `all but ${number(summary.frames - solved)}`,
+      ),
+      tile(`${used} of ${summary.markers.length}`, "markers used", used === summary.markers.length ? "none left out" : `${summary.markers.length - used} left out`),
+      tile(
+        percent(summary.determined_fraction),
+        "of coordinates determined",
+        `${plural(asked, "coordinate")}${locked > 0 ? `, ${locked} more held fixed` : ""}`,
+      ),
+      tile(`${number(summary.rms_error_mm, 1)} mm`, "RMS marker error", `largest ${number(summary.max_error_mm, 1)} mm`),
+      tile(
+        summary.frames_per_s === null ? "–" : number(summary.frames_per_s),
+        "frames per second",
+        realTime === null ? "not timed" : `${number(realTime, realTime < 10 ? 1 : 0)} × real time, ${plural(summary.threads, "thread")}`,
+      ),
+    ),
+  );
+}

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { withBreaks } from "../band.ts";
+import type { Trial } from "../decode.ts";
+import { columnRange, extremes, nearest } from "../downsample.ts";
+import { el, section } from "../dom.ts";
+import { number, percent, seconds } from "../format.ts";
+import { TimePlot } from "../plots/time_plot.ts";
+import { palette } from "../theme.ts";
+import type { MarkerSummary } from "../types.ts";
+import type { View } from "../view.ts";
+import { sortableTable } from "./table.ts";
+
+/** How far each measured marker lies from the model's: over time, and in a table. */
+export function markers(trial: Trial, view: View): { node: HTMLElement; start: () => void } {
+  const { summary } = trial;
+  const used = trial.markerErrorMm.length;
+  const indexOf = new Map(summary.markers.map((m, i) => [m, i]));
+  const largest = Math.max(1e-9, ...summary.markers.map((m) => m.rms_error_mm ?? 0));
+  const highest = Math.max(1e-9, ...summary.markers.map((m) => m.max_error_mm ?? 0));
+  const box = el("div", { class: "plot", id: "error-plot" });
+  const readout = el("p", { class: "readout", id: "error-readout" });
+  const choose = (m: MarkerSummary): void => {
+    const i = indexOf.get(m)!;
+    if (i < used) view.set({ marker: i === view.marker ? -1 : i });
+  };
+  const table = sortableTable<MarkerSummary>(
+    "Errors per marker",
+    [
+      { title: "Marker", key: (m) => m.name, cell: (m) => nameCell(m, indexOf.get(m)! < used) },
+      { title: "Seen", unit: "%", numeric: true, key: (m) => m.seen_frames, cell: (m) => percent(summary.frames === 0 ? null : m.seen_frames / summary.frames).replace(" %", "") },
+      { title: "RMS error", unit: "mm", numeric: true, key: (m) => m.rms_error_mm, cell: (m) => barCell(m.rms_error_mm, largest) },
+      { title: "Largest", unit: "mm", numeric: true, key: (m) => m.max_error_mm, cell: (m) => largestCell(m, view) },
+      { title: "Noise SD", unit: "mm", numeric: true, key: (m) => m.noise_sd_mm, cell: (m) => number(m.noise_sd_mm, 2) },
+      { title: "Weight", numeric: true, key: (m) => m.weight, cell: (m) => weightText(m.weight) },
+      { title: "Error over time", sortable: false, key: () => null, cell: (m) => sparkline(trial.markerErrorMm[indexOf.get(m)!], highest, m) },
+    ],
+    summary.markers,
+    { column: 2, direction: "descending" },
+    choose,
+  );
+
+  function show(): void {
+    const t = view.pointer ?? view.focus;
+    const i = t === null ? -1 : nearest(trial.time, t);
+    const name = summary.markers[view.marker]?.name;
+    const rms = el("span", { class: "key rms" }, "All markers, RMS");
+    const one = name === undefined ? null : el("span", { class: "key one" }, name);
+    const value = (v: number | undefined): string => (v === undefined || Number.isNaN(v) ? " not seen" : ` ${number(v, 1)} mm`);
+    if (i < 0) {
+      readout.replaceChildren(rms, "  ", one ?? "Choose a marker in the table to see it beside the others.");
+      return;
+    }
+    readout.replaceChildren(`${seconds(trial.time[i]!)}: `, rms, value(trial.rmsErrorMm[i]), "  ");
+    if (one !== null) readout.append(one, value(trial.markerErrorMm[view.marker]?.[i]));
+  }
+
+  function start(): void {
+    const plot = new TimePlot(box, view, {
+      label: "Marker error over time: all markers together and the chosen one",
+      height: 220,
+      series: [
+        { stroke: () => palette().line, width: 1.6 },
+        { stroke: () => palette().second, width: 1.4 },
+      ],
+      unit: () => "error (mm)",
+      fromZero: true,
+      hatched: () => [],
+    });
+    let drawn = -2;
+    const rms = withBreaks(trial.rmsErrorMm);
+    const nothing = rms.map(() => null);
+    const update = (): void => {
+      if (view.marker !== drawn) {
+        drawn = view.marker;
+        const series = trial.markerErrorMm[drawn];
+        plot.setData([trial.time, rms, series === undefined ? nothing : withBreaks(series)]);
+        table.mark((m) => indexOf.get(m) === drawn);
+      }
+      show();
+    };
+    view.onChange(update);
+    update();
+  }
+
+  const node = section(
+    "markers",
+    "Marker errors",
+    "Distance between each measured marker and its place on the model. Noise SD is the estimated scatter of the marker along one axis, soft tissue included; the error bars above rest on it.",
+    readout,
+    box,
+    table.node,
+  );
+  return { node, start };
+}
+
+function nameCell(marker: MarkerSummary, selectable: boolean): Node {
+  const remark = marker.used ? null : el("small", { class: "remark low" }, "left out");
+  // A button, so that the row can be chosen from the keyboard; the click itself is the row's.
+  const name = selectable ? el("button", { type: "button", class: "name" }, marker.name) : el("span", { class: "name" }, marker.name);
+  return el("span", { title: marker.why_excluded }, name, " ", remark);
+}
+
+function barCell(value: number | null, largest: number): Node {
+  if (value === null) return document.createTextNode("–");
+  const bar = el("meter", { min: 0, max: largest, value, "aria-hidden": "true" });
+  return el("span", { class: "bar-cell" }, bar, el("span", {}, number(value, 1)));
+}
+
+function largestCell(marker: MarkerSummary, view: View): Node {
+  const time = marker.max_error_time_s;
+  const text = number(marker.max_error_mm, 1);
+  if (time === null) return document.createTextNode(text);
+  const jump = (event: Event): void => {
+    event.stopPropagation();
+    view.jumpTo(time);
+  };
+  return el("button", { type: "button", class: "jump plain", title: `Show ${seconds(time)}`, click: jump }, text);
+}
+
+const weightText = (weight: number | null): string =>
+  weight === null ? "–" : String(Number(weight.toPrecision(4))).replace("-", "−");
+
+const svg = "http://www.w3.org/2000/svg";
+
+/** The largest error of each hundredth of the trial, all markers on one scale. */
+function sparkline(series: Float32Array | undefined, highest: number, marker: MarkerSummary): Node {
+  const picture = document.createElementNS(svg, "svg");
+  picture.setAttribute("class", "spark");
+  picture.setAttribute("viewBox", "0 0 100 20");
+  picture.setAttribute("preserveAspectRatio", "none");
+  picture.setAttribute("role", "img");
+  picture.setAttribute("aria-label", `Error of ${marker.name} over time`);
+  if (series === undefined) return picture;
+  const columns = Math.min(100, series.length);
+  let path = "";
+  let pen = "M";
+  for (let c = 0; c < columns; ++c) {
+    const high = extremes(series, ...columnRange(0, series.length, columns, c))[1];
+    if (Number.isNaN(high)) {
+      pen = "M";
+      continue;
+    }
+    const x = (100 * (c + 0.5)) / columns;
+    path += `${pen}${x.toFixed(1)} ${(19 - (18 * high) / highest).toFixed(1)}`;
+    pen = "L";
+  }
+  const line = document.createElementNS(svg, "path");
+  line.setAttribute("d", path);
+  picture.append(line);
+  return picture;
+}

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+
+/** Colours of everything drawn on a canvas; style.css holds those of the text around it. */
+export interface Palette {
+  ink: string;
+  muted: string;
+  grid: string;
+  background: string;
+  line: string;
+  band: string;
+  second: string;
+  focus: string;
+  hatch: string;
+  hatchBackground: string;
+  /** measured, filled, missing, rejected */
+  gaps: [string, string, string, string];
+  /** converged, not all determined, not converged, no markers */
+  status: [string, string, string, string];
+}
+
+const light: Palette = {
+  ink: "#1b2730",
+  muted: "#5c6b76",
+  grid: "#e6ebee",
+  background: "#ffffff",
+  line: "#0b6583",
+  band: "rgba(11, 101, 131, 0.18)",
+  second: "#b4530a",
+  focus: "#b4530a",
+  hatch: "#b3bec6",
+  hatchBackground: "#f3f5f7",
+  gaps: ["#a9d3df", "#e3a62f", "#33414c", "#d2401c"],
+  status: ["#a9d3df", "#c3ccd2", "#d2401c", "#33414c"],
+};
+
+const dark: Palette = {
+  ink: "#e4eaee",
+  muted: "#9aa9b4",
+  grid: "#26323b",
+  background: "#141b21",
+  line: "#5cc3e2",
+  band: "rgba(92, 195, 226, 0.24)",
+  second: "#f2a65a",
+  focus: "#f2a65a",
+  hatch: "#465662",
+  hatchBackground: "#1b242b",
+  gaps: ["#2a6377", "#d9a036", "#dbe3e8", "#f0653f"],
+  status: ["#2a6377", "#56656f", "#f0653f", "#dbe3e8"],
+};
+
+const prefersDark = window.matchMedia("(prefers-color-scheme: dark)");
+let printing = false;
+
+export const palette = (): Palette => (prefersDark.matches && !printing ? dark : light);
+
+/** Paper is white whatever the screen is. */
+export function onThemeChange(redraw: () => void): void {
+  prefersDark.addEventListener("change", redraw);
+  for (const [event, value] of [["beforeprint", true], ["afterprint", false]] as const) {
+    window.addEventListener(event, () => {
+      printing = value;
+      redraw();
+    });
+  }
+}
+
+/** Diagonal stripes, for "not determined": readable without colour. */
+export function hatch(context: CanvasRenderingContext2D, ratio = 1): CanvasPattern {
+  const { hatch: stroke, hatchBackground } = palette();
+  const size = Math.round(8 * ratio);
+  const tile = document.createElement("canvas");
+  tile.width = tile.height = size;
+  const pen = tile.getContext("2d")!;
+  pen.fillStyle = hatchBackground;
+  pen.fillRect(0, 0, size, size);
+  pen.strokeStyle = stroke;
+  pen.lineWidth = Math.max(1, 1.2 * ratio);
+  pen.beginPath();
+  for (const shift of [-size, 0, size]) {
+    pen.moveTo(shift - 1, size + 1);
+    pen.lineTo(shift + size + 1, -1);
+  }
+  pen.stroke();
+  return context.createPattern(tile, "repeat")!;
+}

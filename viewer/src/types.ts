@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+
+/** What Q_report.json holds; src/kinemark/stages/report/README.md describes each field. Unknown numbers are null. */
+export interface Summary {
+  schema: string;
+  schema_version: number;
+  trial: string;
+  model: string;
+  method: string;
+  verdict: "good" | "attention";
+  exit_status: number;
+  frames: number;
+  rate_hz: number;
+  first_time_s: number;
+  solve_s: number | null;
+  frames_per_s: number | null;
+  threads: number;
+  seed: number;
+  version: string;
+  command_line: string;
+  rms_error_mm: number | null;
+  max_error_mm: number | null;
+  determined_fraction: number | null;
+  status_frames: Record<FrameStatus, number>;
+  findings: Finding[];
+  gates: Gate[];
+  coordinates: CoordinateSummary[];
+  markers: MarkerSummary[];
+  worst_frames: WorstFrame[];
+  options: Record<string, string>;
+  inputs: InputFile[];
+  warnings: string[];
+}
+
+export type FrameStatus = "converged" | "not_converged" | "underdetermined" | "no_markers";
+
+export interface Finding {
+  level: "attention" | "note";
+  about: string;
+  text: string;
+  time_s: number | null;
+}
+
+export interface Gate {
+  name: string;
+  passed: boolean;
+  value: number | null;
+  bound: number | null;
+  unit: string;
+  sentence: string;
+}
+
+export interface CoordinateSummary {
+  name: string;
+  unit: "deg" | "m";
+  locked: boolean;
+  determined_frames: number;
+  min: number | null;
+  max: number | null;
+  median_sd: number | null;
+}
+
+export interface MarkerSummary {
+  name: string;
+  used: boolean;
+  why_excluded: string;
+  weight: number | null;
+  seen_frames: number;
+  rms_error_mm: number | null;
+  max_error_mm: number | null;
+  max_error_time_s: number | null;
+  noise_sd_mm: number | null;
+}
+
+export interface WorstFrame {
+  frame: number;
+  time_s: number;
+  rms_error_mm: number;
+  markers_seen: number;
+  worst_marker: string;
+  worst_marker_error_mm: number;
+  status: FrameStatus;
+}
+
+export interface InputFile {
+  role: string;
+  path: string;
+  bytes: number;
+  hash: string;
+  hash_kind: string;
+}
+
+/** Plotted series: base64 of little-endian float32 or of uint8. */
+export interface EncodedSeries {
+  frame_step: number;
+  points: number;
+  coordinates: { value: string; sd: string | null; undetermined: string | null }[];
+  rms_error_mm: string;
+  marker_error_mm: string[];
+  gaps: (string | null)[];
+  status: string;
+}
+
+export interface PageData {
+  summary: Summary;
+  series: EncodedSeries;
+}
