@@ -8,8 +8,12 @@ target_include_directories(kinemark_flags INTERFACE ${CMAKE_CURRENT_LIST_DIR}/..
 # Same bits everywhere: no contraction to fused multiply-add, no fast-math, baseline instruction set.
 target_compile_options(kinemark_flags INTERFACE -ffp-contract=off)
 if(KINEMARK_DEVELOPER)
+  # Only GCC tells a hidden local from a hidden member, which our constructors have.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(kinemark_shadow -Wshadow=local)
+  endif()
   target_compile_options(kinemark_flags INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers -Werror)
+    -Wall -Wextra -Wpedantic ${kinemark_shadow} -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     target_compile_options(kinemark_flags INTERFACE -Wno-shadow)
   else()
