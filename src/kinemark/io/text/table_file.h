@@ -38,9 +38,9 @@ struct TableWriteOptions {
 };
 
 /// Write a table as OpenSim reads it. Header lines that the table carries are kept, except those that count
-/// or version; inDegrees is written unless the table says that nobody stated it. An empty name becomes the
-/// file's. Code::bad_input when the table is invalid or a name holds a tab or line end; Code::io as
-/// OutputFile.
+/// or version; inDegrees is written as angles_are_degrees(), and left out where it is no and nobody stated
+/// it. An empty name becomes the file's. Code::bad_input when the table is invalid or a name holds a tab or
+/// line end; Code::io as OutputFile.
 [[nodiscard]] Status write_table(const std::filesystem::path& path, const data::Table& table,
                                  const TableWriteOptions& options = {});
 

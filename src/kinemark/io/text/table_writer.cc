@@ -36,7 +36,9 @@ std::string header_text(const std::filesystem::path& path, const data::Table& ta
   std::string out = (table.name.empty() ? path.stem().string() : table.name) + "\n";
   if (version == 1)
     out += fmt::format("version=1\nnRows={}\nnColumns={}\n", table.rows(), table.columns.size() + 1);
-  if (table.degrees_stated) out += table.in_degrees ? "inDegrees=yes\n" : "inDegrees=no\n";
+  // A SIMM header that says nothing means degrees; without it the new file would mean radians.
+  if (table.degrees_stated || angles_are_degrees(table))
+    out += angles_are_degrees(table) ? "inDegrees=yes\n" : "inDegrees=no\n";
   for (const auto& [key, value] : table.header) {
     // A sentence about degrees may be older than the values; the inDegrees line is right.
     if (internal::is_written_by_us(key) || internal::lower(value).starts_with("angles are in ")) continue;
