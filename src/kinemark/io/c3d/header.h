@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/io/c3d/number_format.h"
@@ -14,6 +15,10 @@
 namespace kinemark::io {
 
 inline constexpr std::size_t kC3dBlock = 512;  ///< bytes; a C3D file counts in blocks, from 1
+
+/// POINT parameter of our own files: a fourth word of 0 means "not measured" even when no sample has a
+/// residual, as in a file that was computed throughout.
+inline constexpr std::string_view kC3dResidualsParameter = "RESIDUALS_GIVEN";
 
 /// An event of the header: at most 18, four letters each, in seconds after the file's first frame.
 struct C3dHeaderEvent {

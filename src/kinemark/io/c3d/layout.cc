@@ -149,7 +149,8 @@ Result<std::size_t> settle_data_block(const C3dHeader& h, const C3dParameters& p
   const auto in_file = [&](std::int64_t block) {
     return block >= 2 && static_cast<std::size_t>(block - 1) * kC3dBlock <= file_bytes;
   };
-  const std::int64_t said = count_of(p, "POINT", "DATA_START").value_or(0);
+  const auto start = count_of(p, "POINT", "DATA_START");
+  const std::int64_t said = start.value_or(0);
   const bool header_good = in_file(h.data_block);
   if (!in_file(said)) {
     if (!header_good)
@@ -157,8 +158,8 @@ Result<std::size_t> settle_data_block(const C3dHeader& h, const C3dParameters& p
                   fmt::format("points to its data at block {}; the file has {} blocks. Nothing was read.",
                               said > 0 ? said : h.data_block, (file_bytes + kC3dBlock - 1) / kC3dBlock));
     if (p.has_group("POINT"))
-      warnings.push_back(
-          fmt::format("POINT:DATA_START is {}; the header's block {} is used", said, h.data_block));
+      warnings.push_back(fmt::format("POINT:DATA_START is {}; the header's block {} is used",
+                                     start ? std::to_string(said) : "missing", h.data_block));
     return static_cast<std::size_t>(h.data_block);
   }
   if (!header_good || said == h.data_block) return static_cast<std::size_t>(said);

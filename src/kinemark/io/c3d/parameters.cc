@@ -112,14 +112,21 @@ class Parser {
     return clean_text(text(at + 1, n));
   }
 
+  /// "POINT:LABELS", as far as the group is known yet.
+  std::string full_name(int id, const std::string& name) const {
+    const auto group = groups_.find(id);
+    return group == groups_.end() ? name : group->second.name + ":" + name;
+  }
+
   void read_parameter(int id, const std::string& name, bool locked, std::size_t at, std::size_t end) {
     if (end < at + 2) return;
     Entry entry{.id = id, .parameter = {.name = name, .locked = locked}};
     C3dParameter& p = entry.parameter;
     const int type = static_cast<std::int8_t>(section_[at]);
     if (type != -1 && type != 1 && type != 2 && type != 4) {
-      warnings_.push_back(fmt::format(
-          "parameter {} has the unknown type {}; need -1, 1, 2 or 4; it is left out", name, type));
+      warnings_.push_back(
+          fmt::format("parameter {} has the unknown type {}; need -1, 1, 2 or 4; it is left out",
+                      full_name(id, name), type));
       return;
     }
     p.type = static_cast<C3dType>(type);
@@ -136,7 +143,8 @@ class Parser {
     const auto size = static_cast<std::size_t>(std::abs(type));
     const std::size_t there = std::min(values, (end - at) / size);
     if (there < values)
-      warnings_.push_back(fmt::format("parameter {} is cut short: {} of its values are there", name, there));
+      warnings_.push_back(
+          fmt::format("parameter {} is cut short: {} of its values are there", full_name(id, name), there));
     if (p.type == C3dType::text)
       read_texts(p, at, there);
     else

@@ -183,8 +183,8 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   if (!seen) return std::unexpected(seen.error());
   if (seen->measured == 0) {
     trial.residual_m = {};
-    if (seen->unmeasured > 0) {
-      // No sample has a residual: their absence says nothing about any one of them.
+    if (seen->unmeasured > 0 && !reader.parameters().number("POINT", kC3dResidualsParameter)) {
+      // No sample has a residual, and our own mark is not there: their absence says nothing about any one.
       trial.warnings.push_back("carries no residuals; its samples are taken as measured");
       for (data::SampleState& state : trial.markers.state)
         if (state == data::SampleState::interpolated) state = data::SampleState::measured;

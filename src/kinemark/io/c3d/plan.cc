@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/c3d/plan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/io/c3d/layout.h"
+
+namespace kinemark::io {
+namespace {
+
+constexpr std::size_t kMaxCount = 255;     // what one dimension can hold
+constexpr std::size_t kMaxBytes = 32000;   // what a pointer to the next entry can span
+constexpr double kIntegerSteps = 32000.0;  // c3d.org's full scale, a little below 32767
+constexpr std::int64_t kMaxWord = 65535;
+
+std::string numbered(std::string_view name, int part) {
+  return part == 1 ? std::string(name) : fmt::format("{}{}", name, part);
+}
+
+void add_number(C3dGroup& group, std::string name, C3dType type, double value) {
+  group.parameters.push_back({.name = std::move(name), .type = type, .numbers = {value}});
+}
+
+void add_text(C3dGroup& group, std::string name, std::string value) {
+  const int width = static_cast<int>(std::clamp<std::size_t>(value.size(), 1, kMaxCount));
+  group.parameters.push_back(
+      {.name = std::move(name), .type = C3dType::text, .dims = {width}, .texts = {std::move(value)}});
+}
+
+/// Texts in NAME, NAME2, ... of at most 255 each.
+void add_texts(C3dGroup& group, std::string_view name, const std::vector<std::string>& texts) {
+  std::size_t width = 1;
+  for (const std::string& text : texts) width = std::max(width, std::min(text.size(), kMaxCount));
+  const std::size_t part_size = std::min(kMaxCount, kMaxBytes / width);
+  int part = 1;
+  for (std::size_t at = 0; at < texts.size() || part == 1; at += part_size) {
+    const std::size_t n = std::min(part_size, texts.size() - at);
+    const auto begin = texts.begin() + static_cast<std::ptrdiff_t>(at);
+    group.parameters.push_back({.name = numbered(name, part++),
+                                .type = C3dType::text,
+                                .dims = {static_cast<int>(width), static_cast<int>(n)},
+                                .texts = {begin, begin + static_cast<std::ptrdiff_t>(n)}});
+  }
+}
+
+/// Numbers in NAME, NAME2, ...: items of shape `item`, at most 255 items each.
+void add_numbers(C3dGroup& group, std::string_view name, C3dType type, const std::vector<int>& item,
+                 const std::vector<double>& values) {
+  std::size_t size = 1;
+  for (const int d : item) size *= static_cast<std::size_t>(d);
+  const std::size_t bytes = std::max<std::size_t>(1, size * static_cast<std::size_t>(type));
+  const std::size_t part_size = std::clamp<std::size_t>(kMaxBytes / bytes, 1, kMaxCount) * size;
+  int part = 1;
+  for (std::size_t at = 0; at < values.size() || part == 1; at += part_size) {
+    const std::size_t n = std::min(part_size, values.size() - at);
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(at);
+    std::vector<int> dims = item;
+    dims.push_back(static_cast<int>(n / size));
+    group.parameters.push_back({.name = numbered(name, part++),
+                                .type = type,
+                                .dims = std::move(dims),
+                                .numbers = {begin, begin + static_cast<std::ptrdiff_t>(n)}});
+  }
+}
+
+double largest(const auto& values) {
+  double out = 0.0;
+  for (const auto v : values)
+    if (std::isfinite(v)) out = std::max(out, static_cast<double>(std::abs(v)));
+  return out;
+}
+
+/// Frame number of the first frame so that frame n is at (n - 1) / rate.
+std::int64_t first_frame(const data::Trial& trial) {
+  const TimeBase& time = trial.markers.time;
+  const auto said = static_cast<double>(std::max<std::int64_t>(0, trial.first_frame - 1));
+  const double meant = time.t0_s * time.rate_hz;
+  if (trial.first_frame >= 0 && std::abs(meant - said) < 0.01) return trial.first_frame;
+  return std::max<std::int64_t>(1, std::llround(meant) + 1);
+}
+
+void add_point_group(C3dPlan& plan, const data::Trial& trial, const std::string& units) {
+  C3dGroup& point = plan.parameters.group("POINT");
+  const std::int64_t frames = trial.markers.frames();
+  const bool is_long = frames > kMaxWord;
+  add_number(point, "USED", C3dType::int16, static_cast<double>(trial.markers.markers()));
+  add_number(point, "FRAMES", is_long ? C3dType::float32 : C3dType::int16, static_cast<double>(frames));
+  if (is_long) add_number(point, "LONG_FRAMES", C3dType::float32, static_cast<double>(frames));
+  add_number(point, "SCALE", C3dType::float32, plan.integers ? plan.scale : -plan.scale);
+  add_number(point, "RATE", C3dType::float32, trial.markers.time.rate_hz);
+  add_number(point, "DATA_START", C3dType::int16, 0.0);
+  add_number(point, std::string(kC3dResidualsParameter), C3dType::int16, 1.0);
+  add_text(point, "UNITS", units);
+  add_texts(point, "LABELS", trial.markers.names);
+  add_texts(point, "DESCRIPTIONS", std::vector<std::string>(trial.markers.names.size()));
+}
+
+void add_analog_group(C3dPlan& plan, const data::Trial& trial) {
+  C3dGroup& analog = plan.parameters.group("ANALOG");
+  const auto channels = trial.analog.names.size();
+  add_number(analog, "USED", C3dType::int16, static_cast<double>(channels));
+  add_number(
+      analog, "RATE", C3dType::float32,
+      trial.markers.time.rate_hz * static_cast<double>(std::max<std::int64_t>(1, plan.samples_per_frame)));
+  add_number(analog, "GEN_SCALE", C3dType::float32, 1.0);
+  add_numbers(analog, "SCALE", C3dType::float32, {}, plan.analog_scale);
+  add_numbers(analog, "OFFSET", C3dType::int16, {}, std::vector<double>(channels, 0.0));
+  add_texts(analog, "LABELS", trial.analog.names);
+  std::vector<std::string> units = trial.analog.units;
+  units.resize(channels);
+  add_texts(analog, "UNITS", units);
+  add_texts(analog, "DESCRIPTIONS", std::vector<std::string>(channels));
+  add_text(analog, "FORMAT", "SIGNED");
+  add_number(analog, "BITS", C3dType::int16, 16.0);
+}
+
+void add_force_plates(C3dPlan& plan, const data::Trial& trial) {
+  C3dGroup& group = plan.parameters.group("FORCE_PLATFORM");
+  std::vector<double> types;
+  std::vector<double> corners;
+  std::vector<double> origins;
+  std::vector<double> channels;
+  std::vector<double> calibrations;
+  std::size_t rows = 6;
+  std::size_t calibration = 0;
+  for (const data::ForcePlate& plate : trial.force_plates) {
+    rows = std::max(rows, plate.channel_idx.size());
+    calibration = std::max(calibration, plate.calibration.size());
+  }
+  for (const data::ForcePlate& plate : trial.force_plates) {
+    types.push_back(plate.type);
+    for (const Eigen::Vector3d& corner : plate.corners_in_world)
+      for (const double v : corner) corners.push_back(plan.units_per_metre * v);
+    for (const double v : plate.origin_in_plate) origins.push_back(plan.units_per_metre * v);
+    for (std::size_t r = 0; r < rows; ++r)
+      channels.push_back(r < plate.channel_idx.size() ? plate.channel_idx[r] + 1 : 0);
+    std::vector<double> matrix = plate.calibration;
+    matrix.resize(calibration, 0.0);
+    calibrations.insert(calibrations.end(), matrix.begin(), matrix.end());
+  }
+  add_number(group, "USED", C3dType::int16, static_cast<double>(types.size()));
+  add_numbers(group, "TYPE", C3dType::int16, {}, types);
+  group.parameters.push_back({.name = "ZERO", .type = C3dType::int16, .dims = {2}, .numbers = {0.0, 0.0}});
+  add_numbers(group, "CORNERS", C3dType::float32, {3, 4}, corners);
+  add_numbers(group, "ORIGIN", C3dType::float32, {3}, origins);
+  add_numbers(group, "CHANNEL", C3dType::int16, {static_cast<int>(rows)}, channels);
+  if (calibration > 0 && calibration % 6 == 0 && calibration <= 6 * kMaxCount)
+    add_numbers(group, "CAL_MATRIX", C3dType::float32, {6, static_cast<int>(calibration / 6)}, calibrations);
+}
+
+void add_events(C3dPlan& plan, const data::Trial& trial) {
+  C3dGroup& group = plan.parameters.group("EVENT");
+  std::vector<double> times;
+  std::vector<std::string> labels;
+  std::vector<std::string> contexts;
+  for (const data::Event& event : trial.events) {
+    const double minutes = std::floor(event.time_s / 60.0);
+    times.push_back(minutes);
+    times.push_back(event.time_s - 60.0 * minutes);
+    labels.push_back(event.label);
+    contexts.push_back(event.context);
+  }
+  add_number(group, "USED", C3dType::int16, static_cast<double>(labels.size()));
+  if (labels.empty()) return;
+  add_numbers(group, "TIMES", C3dType::float32, {2}, times);
+  add_texts(group, "LABELS", labels);
+  add_texts(group, "CONTEXTS", contexts);
+}
+
+void add_trial_group(C3dPlan& plan, std::int64_t first, std::int64_t last) {
+  C3dGroup& group = plan.parameters.group("TRIAL");
+  const auto field = [&](std::string name, std::int64_t frame) {
+    group.parameters.push_back(
+        {.name = std::move(name),
+         .type = C3dType::int16,
+         .dims = {2},
+         .numbers = {static_cast<double>(frame % 65536), static_cast<double>(frame / 65536)}});
+  };
+  field("ACTUAL_START_FIELD", first);
+  field("ACTUAL_END_FIELD", last);
+}
+
+Status plan_analog(C3dPlan& plan, const data::Trial& trial) {
+  const data::AnalogChannels& analog = trial.analog;
+  const auto channels = static_cast<std::int64_t>(analog.names.size());
+  const std::int64_t frames = trial.markers.frames();
+  plan.analog_scale.assign(analog.names.size(), 1.0);
+  if (channels == 0) return {};
+  if (analog.samples % frames != 0)
+    return fail(Code::bad_input,
+                fmt::format("has {} analog samples for {} frames; C3D needs the same number for "
+                            "every frame",
+                            analog.samples, frames));
+  plan.samples_per_frame = analog.samples / frames;
+  const double rate_hz = trial.markers.time.rate_hz * static_cast<double>(plan.samples_per_frame);
+  if (plan.samples_per_frame > 0 && std::abs(analog.rate_hz - rate_hz) > 1e-3 * rate_hz)
+    return fail(Code::bad_input, fmt::format("samples its analog channels at {} Hz; its frames hold {} Hz",
+                                             analog.rate_hz, rate_hz));
+  if (channels * plan.samples_per_frame > kMaxWord)
+    return fail(Code::not_supported, fmt::format("has {} analog values a frame; a C3D file can count {}",
+                                                 channels * plan.samples_per_frame, kMaxWord));
+  if (!plan.integers) return {};
+  std::fill(plan.analog_scale.begin(), plan.analog_scale.end(), 0.0);
+  for (std::size_t i = 0; i < analog.values.size(); ++i) {
+    double& scale = plan.analog_scale[i % analog.names.size()];
+    if (!std::isfinite(analog.values[i]))
+      return fail(Code::bad_input,
+                  fmt::format("channel '{}' holds {}, which integer samples cannot say; write float ones",
+                              analog.names[i % analog.names.size()], analog.values[i]));
+    scale = std::max(scale, std::abs(analog.values[i]));
+  }
+  for (double& scale : plan.analog_scale)
+    scale = scale > 0.0 ? static_cast<float>(scale / kIntegerSteps) : 1.0F;
+  return {};
+}
+
+}  // namespace
+
+Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options) {
+  if (auto status = trial.validate(); !status) return std::unexpected(status.error());
+  const std::int64_t frames = trial.markers.frames();
+  if (frames == 0) return fail(Code::bad_input, "the trial has no frames; there is nothing to write");
+  if (trial.markers.markers() > kMaxWord)
+    return fail(Code::not_supported,
+                fmt::format("has {} points; a C3D file can count {}", trial.markers.markers(), kMaxWord));
+  const auto metres = metres_per_unit(options.units);
+  if (!metres) return fail(Code::usage, fmt::format("'{}' is not a known length unit", options.units));
+
+  C3dPlan plan{
+      .processor = options.processor, .integers = options.integers, .units_per_metre = 1.0 / *metres};
+  double scale = largest(trial.markers.x_in_world) / kIntegerSteps;
+  // Float files keep residuals whole by making the step as large as the largest needs.
+  if (!plan.integers) scale = std::max(scale, largest(trial.residual_m) / 255.0);
+  plan.scale = scale > 0.0 ? static_cast<float>(scale * plan.units_per_metre) : 1.0F;
+  if (!(plan.scale > 0.0) || !std::isfinite(plan.scale))
+    return fail(Code::bad_input,
+                fmt::format("has coordinates up to {} m; C3D's single precision cannot hold them",
+                            scale * kIntegerSteps));
+  if (auto status = plan_analog(plan, trial); !status) return std::unexpected(status.error());
+
+  const std::int64_t first = first_frame(trial);
+  const std::int64_t last = first + frames - 1;
+  if (last > std::int64_t{65535} * 65536)
+    return fail(Code::not_supported, fmt::format("ends at frame {}; a C3D file can count 32 bits", last));
+  const bool fits = last <= kMaxWord;
+  plan.header = {.points = static_cast<int>(trial.markers.markers()),
+                 .analog_per_frame = static_cast<int>(static_cast<std::int64_t>(trial.analog.names.size()) *
+                                                      plan.samples_per_frame),
+                 .first_frame = static_cast<int>(fits ? first : 1),
+                 .last_frame = static_cast<int>(fits ? last : std::min(frames, kMaxWord)),
+                 .scale = static_cast<float>(plan.integers ? plan.scale : -plan.scale),
+                 .samples_per_frame = static_cast<int>(plan.samples_per_frame),
+                 .rate_hz = static_cast<float>(trial.markers.time.rate_hz)};
+  add_point_group(plan, trial, options.units);
+  add_analog_group(plan, trial);
+  add_force_plates(plan, trial);
+  add_events(plan, trial);
+  if (!fits) add_trial_group(plan, first, last);
+  add_text(plan.parameters.group("MANUFACTURER"), "SOFTWARE", options.software);
+  return plan;
+}
+
+}  // namespace kinemark::io

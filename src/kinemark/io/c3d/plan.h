@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kinemark/data/trial.h"
+#include "kinemark/io/c3d/header.h"
+#include "kinemark/io/c3d/parameters.h"
+#include "kinemark/io/c3d/writer.h"
+
+namespace kinemark::io {
+
+/// Everything of a C3D file but its samples, decided before the first byte is written.
+struct C3dPlan {
+  Processor processor = Processor::intel;
+  bool integers = false;
+  double units_per_metre = 1000.0;
+  double scale = 1.0;  ///< of POINT:SCALE, in units; a float's value
+  std::int64_t samples_per_frame = 0;
+  std::vector<double> analog_scale;  ///< K; stored = value / scale
+  C3dHeader header;
+  C3dParameters parameters;  ///< POINT:DATA_START is still 0
+};
+
+[[nodiscard]] Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options);
+
+}  // namespace kinemark::io
