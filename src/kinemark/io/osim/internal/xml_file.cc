@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/osim/internal/xml_file.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/number.h"
+
+namespace kinemark::io::osim {
+namespace {
+
+constexpr std::size_t kMaxBytes = 256UL << 20;  // the largest public model has 6 MB
+constexpr int kMaxDepth = 200;                  // real ones stay below 20
+constexpr int kMaxFiles = 64;
+
+/// Length of the UTF-8 sequence at `i`, or 0 if there is none.
+std::size_t utf8_length(std::string_view s, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(s[k]); };
+  const unsigned char lead = byte(i);
+  const std::size_t n = lead < 0x80   ? 1
+                        : lead < 0xC2 ? 0
+                        : lead < 0xE0 ? 2
+                        : lead < 0xF0 ? 3
+                        : lead < 0xF5 ? 4
+                                      : 0;
+  if (n == 0 || i + n > s.size()) return 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if ((byte(i + k) & 0xC0) != 0x80) return 0;
+  return n;
+}
+
+/// Bytes that are not UTF-8 become the Latin-1 characters that they are.
+std::string as_utf8(std::string_view s) {
+  std::string out;
+  out.reserve(s.size());
+  for (std::size_t i = 0; i < s.size();) {
+    if (const std::size_t n = utf8_length(s, i); n > 0) {
+      out.append(s.substr(i, n));
+      i += n;
+    } else {
+      const auto byte = static_cast<unsigned char>(s[i++]);
+      out += static_cast<char>(0xC0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return out;
+}
+
+bool is_utf16(std::string_view s) { return s.starts_with("\xFF\xFE") || s.starts_with("\xFE\xFF"); }
+
+class DepthMeter : public pugi::xml_tree_walker {
+ public:
+  bool for_each(pugi::xml_node&) override { return depth() < kMaxDepth; }
+};
+
+/// Where the closing tag begins that ends at or behind `offset`, if nothing but blanks follows it.
+std::optional<std::size_t> last_closing_tag(std::string_view xml, std::size_t offset) {
+  const std::size_t begin = xml.rfind("</", std::min(offset + 1, xml.size()));
+  if (begin == std::string_view::npos || begin == 0) return std::nullopt;
+  const std::size_t end = xml.find('>', begin);
+  if (end == std::string_view::npos || !trim(xml.substr(end + 1)).empty()) return std::nullopt;
+  return begin;
+}
+
+bool is_set(std::string_view tag) { return tag.ends_with("Set") || tag == "Model"; }
+
+}  // namespace
+
+Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
+  XmlFile file;
+  file.name_ = std::move(name);
+  if (xml.size() > kMaxBytes)
+    return fail(Code::bad_input, fmt::format("{}: has {} bytes; at most {} are read as OpenSim XML",
+                                             file.name_, xml.size(), kMaxBytes));
+  const bool utf16 = is_utf16(xml);
+  const std::string text = utf16 ? std::string(xml) : as_utf8(xml);
+  const auto encoding = utf16 ? pugi::encoding_auto : pugi::encoding_utf8;
+  const auto options = pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype;
+  auto outcome = file.tree_.load_buffer(text.data(), text.size(), options, encoding);
+  if (outcome.status == pugi::status_end_element_mismatch) {
+    // A closing tag that nobody opened, behind a document that is complete without it.
+    if (const auto begin = last_closing_tag(text, static_cast<std::size_t>(outcome.offset)))
+      outcome = file.tree_.load_buffer(text.data(), *begin, options, encoding);
+  }
+  if (!outcome || !file.document()) {
+    const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(outcome.offset, 0));
+    const auto line = 1 + std::count(text.begin(), text.begin() + std::min(offset, text.size()), '\n');
+    return fail(Code::bad_input,
+                fmt::format("{}: line {}: not an XML document that can be read ({})", file.name_, line,
+                            outcome ? "no element in it" : outcome.description()));
+  }
+  DepthMeter meter;
+  if (!file.tree_.traverse(meter))
+    return fail(Code::bad_input, fmt::format("{}: elements are nested deeper than {}; no OpenSim file is",
+                                             file.name_, kMaxDepth));
+  return file;
+}
+
+Result<XmlFile> XmlFile::read(const std::filesystem::path& path) {
+  const auto text = read_text(path, kMaxBytes);
+  if (!text) return std::unexpected(text.error());
+  return parse(*text, path.string());
+}
+
+void XmlFile::inline_files(const std::filesystem::path* folder) {
+  struct Finder : pugi::xml_tree_walker {
+    std::vector<pugi::xml_node> found;
+    bool for_each(pugi::xml_node& node) override {
+      if (is_set(node.name()) && *node.attribute("file").value() != '\0' && found.size() <= kMaxFiles)
+        found.push_back(node);
+      return true;
+    }
+  } finder;
+  tree_.traverse(finder);
+  if (finder.found.size() > kMaxFiles)
+    return note(document(), fmt::format("names more than {} other files", kMaxFiles));
+  for (const pugi::xml_node node : finder.found) {
+    const std::string wanted(trim(node.attribute("file").value()));
+    if (folder == nullptr)
+      return note(node, fmt::format("stands in another file, {}, which is not at hand", in_quotes(wanted)));
+    const auto other = read(*folder / wanted);
+    if (!other) return note(node, other.error().message, other.error().code);
+    const pugi::xml_node source = other->find_object({node.name()});
+    if (!source) return note(node, fmt::format("the file {} has no <{}>", in_quotes(wanted), node.name()));
+    pugi::xml_node target = node;
+    for (const pugi::xml_node child : source.children()) target.append_copy(child);
+  }
+}
+
+pugi::xml_node XmlFile::find_object(std::initializer_list<const char*> tags) const {
+  for (const char* tag : tags) {
+    if (std::string_view(document().name()) == tag) return document();
+    if (const auto child = document().child(tag)) return child;
+  }
+  return {};
+}
+
+int XmlFile::version() const { return document().attribute("Version").as_int(10500); }
+
+void XmlFile::note(pugi::xml_node node, std::string_view what, Code code) {
+  if (error_) return;
+  // The element itself and the named ones around it, outermost first, without the document and the model.
+  std::string place;
+  const pugi::xml_node first = node;
+  for (; node && node != document(); node = node.parent()) {
+    const std::string name = name_of(node);
+    if (std::string_view(node.name()) == "Model" || (name.empty() && node != first)) continue;
+    if (std::string_view(node.name()).ends_with("Set") && node != first) continue;
+    const std::string step =
+        name.empty() ? fmt::format("<{}>", node.name()) : fmt::format("{} {}", node.name(), in_quotes(name));
+    place = place.empty() ? step : step + ", " + place;
+  }
+  error_ = Error{code, fmt::format("{}: {}{}{}", name_, place, place.empty() ? "" : ": ", what)};
+}
+
+double XmlFile::number(pugi::xml_node node, const char* child, double fallback) {
+  const pugi::xml_node element = node.child(child);
+  const std::string text = text_of(element);
+  if (text.empty()) return fallback;
+  const auto value = parse_number(text);
+  if (!value) note(element, fmt::format("{} is not a number", in_quotes(text)));
+  return value.value_or(fallback);
+}
+
+bool XmlFile::flag(pugi::xml_node node, const char* child, bool fallback) {
+  const pugi::xml_node element = node.child(child);
+  std::string text = text_of(element);
+  if (text.empty()) return fallback;
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (text == "true" || text == "1") return true;
+  if (text != "false" && text != "0")
+    note(element, fmt::format("{} is neither true nor false", in_quotes(text)));
+  return false;
+}
+
+std::vector<double> XmlFile::numbers(pugi::xml_node node, const char* child) {
+  const pugi::xml_node element = node.child(child);
+  std::vector<double> values;
+  for (const std::string& word : words_of(text_of(element))) {
+    const auto value = parse_number(word);
+    if (!value || !std::isfinite(*value)) {
+      note(element, fmt::format("{} is not a finite number", in_quotes(word)));
+      return {};
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Eigen::Vector3d XmlFile::vector3(pugi::xml_node node, const char* child, const Eigen::Vector3d& fallback) {
+  const auto values = numbers(node, child);
+  if (values.empty()) return fallback;
+  if (values.size() != 3) {
+    note(node.child(child), fmt::format("has {} numbers; need three", values.size()));
+    return fallback;
+  }
+  return {values[0], values[1], values[2]};
+}
+
+std::string text_of(pugi::xml_node node) {
+  std::string text;
+  for (const pugi::xml_node child : node.children())
+    if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) text += child.value();
+  return std::string(trim(text));
+}
+
+std::string text_of(pugi::xml_node node, const char* child) { return text_of(node.child(child)); }
+
+std::vector<std::string> words_of(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  std::vector<std::string> words;
+  for (std::size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    words.emplace_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+std::string name_of(pugi::xml_node node) { return std::string(trim(node.attribute("name").value())); }
+
+pugi::xml_node first_element(pugi::xml_node node) {
+  for (const pugi::xml_node child : node.children())
+    if (child.type() == pugi::node_element) return child;
+  return {};
+}
+
+std::vector<pugi::xml_node> objects_of(pugi::xml_node node, const char* set) {
+  std::vector<pugi::xml_node> objects;
+  for (const pugi::xml_node child : node.child(set).child("objects").children())
+    if (child.type() == pugi::node_element) objects.push_back(child);
+  return objects;
+}
+
+std::string in_quotes(std::string_view value) {
+  if (value.size() <= 60) return fmt::format("'{}'", value);
+  std::size_t n = 57;
+  while (n > 0 && (static_cast<unsigned char>(value[n]) & 0xC0) == 0x80) --n;  // keep UTF-8 whole
+  return fmt::format("'{}...'", value.substr(0, n));
+}
+
+}  // namespace kinemark::io::osim
