@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/markers/marker_file.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "kinemark/io/c3d/reader.h"
+#include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/csv.h"
+#include "kinemark/io/text/trc.h"
+
+namespace kinemark::io {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string out = path.extension().string();
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return out;
+}
+
+/// How a message calls a file with this extension.
+std::string named(const std::string& extension) {
+  return extension.empty() ? "a file without an extension" : "a " + extension + " file";
+}
+
+/// The format of a file that begins like this, as an extension, or empty.
+std::string_view format_of(std::string_view begin) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
+  if (begin.starts_with("PathFileType")) return ".trc";
+  // The header block of a C3D is never without zero bytes; a text may well have a 'P' (0x50) in second place.
+  if (begin.size() > 1 && begin[1] == '\x50' && begin.find('\0') != std::string_view::npos) return ".c3d";
+  return "";
+}
+
+}  // namespace
+
+Result<data::Trial> read_markers(const std::filesystem::path& path) {
+  const auto file = InputFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  std::array<char, 512> begin{};
+  const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
+  if (!size) return std::unexpected(size.error());
+  std::string format(format_of({begin.data(), *size}));
+  const std::string extension = lower_extension(path);
+  if (format.empty()) format = extension;
+  if (format == ".c3d") return read_c3d(path);
+  if (format == ".trc") return read_trc(path);
+  return fail(Code::not_supported,
+              fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d) and TRC (.trc)",
+                          path.string(), named(extension)));
+}
+
+Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".c3d") return write_c3d(path, trial, {.force = force});
+  if (extension == ".trc") return write_trc(path, trial, {.force = force});
+  if (extension == ".csv") return write_csv(path, trial, force);
+  return fail(Code::usage,
+              fmt::format("{}: {} is not written as a marker file; supported are .c3d, .trc and .csv",
+                          path.string(), named(extension)));
+}
+
+}  // namespace kinemark::io
