@@ -40,6 +40,13 @@ export function extremes(values: ArrayLike<number>, from: number, to: number): [
   return [low, high];
 }
 
+/** Share of points [from, to) whose code is not 0. */
+export function shareAbove0(codes: Uint8Array, from: number, to: number): number {
+  let count = 0;
+  for (let i = from; i < to && i < codes.length; ++i) count += codes[i]! > 0 ? 1 : 0;
+  return to > from ? count / (to - from) : 0;
+}
+
 /** Largest code of points [from, to). */
 export function worstCode(codes: Uint8Array, from: number, to: number): number {
   let worst = 0;

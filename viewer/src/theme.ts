@@ -8,6 +8,8 @@ export interface Palette {
   grid: string;
   background: string;
   line: string;
+  /** Instead of a line whose swings are narrower than a pixel. */
+  dense: string;
   band: string;
   second: string;
   focus: string;
@@ -25,6 +27,7 @@ const light: Palette = {
   grid: "#e6ebee",
   background: "#ffffff",
   line: "#0b6583",
+  dense: "rgba(11, 101, 131, 0.45)",
   band: "rgba(11, 101, 131, 0.18)",
   second: "#b4530a",
   focus: "#b4530a",
@@ -40,6 +43,7 @@ const dark: Palette = {
   grid: "#26323b",
   background: "#141b21",
   line: "#5cc3e2",
+  dense: "rgba(92, 195, 226, 0.45)",
   band: "rgba(92, 195, 226, 0.24)",
   second: "#f2a65a",
   focus: "#f2a65a",

@@ -38,6 +38,7 @@ export type FrameStatus = "converged" | "not_converged" | "underdetermined" | "n
 export interface Finding {
   level: "attention" | "note";
   about: string;
+  subject: string;
   text: string;
   time_s: number | null;
 }

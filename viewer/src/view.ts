@@ -39,9 +39,10 @@ export class View {
     });
   }
 
-  /** Show one second before and after an instant. */
-  jumpTo(time: number): void {
+  /** Show one second before and after an instant, in the section named; the browser's Back returns. */
+  jumpTo(time: number, section: string): void {
     this.set({ range: [time - 1, time + 1], focus: time });
+    location.hash = section;
   }
 }
 

@@ -18,7 +18,7 @@ const statusGap = 8;
 export class GapMap {
   readonly canvas = el("canvas", { role: "img", "aria-label": "Map of gaps: one row per marker, time to the right" });
   readonly readout = el("p", { class: "readout" });
-  readonly #rows: { name: string; codes: Uint8Array | null; marker: number }[];
+  readonly #rows: { name: string; faint: boolean; codes: Uint8Array | null; marker: number }[];
   #gutter = 120;
 
   constructor(
@@ -28,7 +28,8 @@ export class GapMap {
   ) {
     const used = trial.markerErrorMm.length;
     this.#rows = trial.summary.markers.map((m, i) => ({
-      name: m.name,
+      name: m.used ? m.name : `${m.name} (left out)`,
+      faint: !m.used,
       codes: trial.gaps[i] ?? null,
       marker: i < used ? i : -1,
     }));
@@ -88,8 +89,10 @@ export class GapMap {
     this.#strip(pen, top, this.trial.status, colours.status, "Fit", false);
     this.#rows.forEach((row, r) => {
       const y = top + rowHeight + statusGap + r * rowHeight;
+      pen.globalAlpha = row.faint ? 0.5 : 1;
       this.#strip(pen, y, row.codes, colours.gaps, row.name, row.marker >= 0 && row.marker === this.view.marker);
     });
+    pen.globalAlpha = 1;
     this.#axis(pen, height);
     this.#line(pen, this.view.pointer, height, colours.muted);
     this.#line(pen, this.view.focus, height, colours.focus);
@@ -122,7 +125,8 @@ export class GapMap {
       pen.fillStyle = colours[code]!;
       // The worse a state is, the higher it stands, so that the map is readable without colour.
       const inset = code === 0 ? 3 : 1;
-      pen.fillRect(this.#gutter + start * columnWidth, y + inset, (c - start) * columnWidth, rowHeight - 2 * inset);
+      const width = Math.max(code === 0 ? 0 : 2, (c - start) * columnWidth);
+      pen.fillRect(this.#gutter + start * columnWidth, y + inset, width, rowHeight - 2 * inset);
     }
   }
 

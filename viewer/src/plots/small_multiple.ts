@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { CoordinateSeries } from "../decode.ts";
-import { columnRange, extremes, firstAtOrAfter, worstCode } from "../downsample.ts";
+import { columnRange, extremes, firstAtOrAfter, shareAbove0 } from "../downsample.ts";
 import { fitCanvas } from "../dom.ts";
 import { hatch, palette } from "../theme.ts";
 import { yRange } from "./time_plot.ts";
@@ -21,6 +21,7 @@ export function drawSmallMultiple(
   const last = Math.max(first + 1, firstAtOrAfter(time, range[1] + 1e-9));
   const columns = Math.max(1, Math.min(Math.floor(width), last - first));
   const columnWidth = width / columns;
+  const dense = last - first > 8 * columns;
 
   // Per column: middle of the line and the outer edges of line and band.
   const lows = new Float64Array(columns);
@@ -36,16 +37,15 @@ export function drawSmallMultiple(
     sds[c] = Number.isFinite(sd) ? 2 * sd : 0;
     lows[c] = low;
     highs[c] = high;
-    if (series.undetermined !== null && worstCode(series.undetermined, from, to) > 0) {
+    const share = series.undetermined === null ? 0 : shareAbove0(series.undetermined, from, to);
+    if (share > 0) {
+      pen.globalAlpha = 0.25 + 0.75 * share;
       pen.fillRect(c * columnWidth, 0, columnWidth + 0.5, height);
     }
   }
-  let bottom = NaN;
-  let top = NaN;
-  for (let c = 0; c < columns; ++c) {
-    bottom = Math.min(Number.isNaN(bottom) ? Infinity : bottom, lows[c]! - sds[c]! || Infinity);
-    top = Math.max(Number.isNaN(top) ? -Infinity : top, highs[c]! + sds[c]! || -Infinity);
-  }
+  pen.globalAlpha = 1;
+  const [bottom] = extremes(lows.map((low, c) => low - sds[c]!), 0, columns);
+  const [, top] = extremes(highs.map((high, c) => high + sds[c]!), 0, columns);
   const [yLow, yHigh] = yRange(bottom, top, false);
   const y = (value: number): number => height - 2 - ((value - yLow) / (yHigh - yLow)) * (height - 4);
   const x = (column: number): number => (column + 0.5) * columnWidth;
@@ -59,6 +59,14 @@ export function drawSmallMultiple(
     for (let k = from; k < c; ++k) pen.lineTo(x(k), y(highs[k]! + sds[k]!));
     for (let k = c - 1; k >= from; --k) pen.lineTo(x(k), y(lows[k]! - sds[k]!));
     pen.fill();
+    if (dense) {
+      pen.fillStyle = palette().dense;
+      pen.beginPath();
+      for (let k = from; k < c; ++k) pen.lineTo(x(k), y(highs[k]!));
+      for (let k = c - 1; k >= from; --k) pen.lineTo(x(k), y(lows[k]!));
+      pen.fill();
+      continue;
+    }
     pen.strokeStyle = palette().line;
     pen.lineWidth = 1.4;
     pen.lineJoin = "round";

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from "uplot";
+import { number } from "../format.ts";
 import { hatch, onThemeChange, palette } from "../theme.ts";
 import type { View } from "../view.ts";
 
@@ -8,7 +9,7 @@ export interface TimePlotOptions {
   label: string;
   height: number;
   /** Lines above the first, which is the time. The colours are asked for at every redraw. */
-  series: { stroke: () => string; width: number; hidden?: boolean }[];
+  series: { stroke: (dense: boolean) => string; width: number; hidden?: boolean }[];
   bands?: { series: [upper: number, lower: number]; fill: () => string }[];
   unit: () => string;
   fromZero?: boolean;
@@ -53,7 +54,7 @@ export class TimePlot {
       series: [
         {},
         ...options.series.map((s) => ({
-          stroke: s.stroke,
+          stroke: (u: uPlot) => s.stroke(isDense(u)),
           width: s.width,
           points: { show: s.hidden ? false : undefined, size: 4 },
           spanGaps: false,
@@ -130,6 +131,8 @@ export class TimePlot {
     for (const [from, to] of stretchesInS) {
       const left = Math.max(bbox.left, u.valToPos(from, "x", true));
       const right = Math.min(bbox.left + bbox.width, u.valToPos(to, "x", true));
+      // What is narrower than a pixel is drawn paler, so that many short stretches do not look like one long one.
+      ctx.globalAlpha = Math.min(1, Math.max(0.3, right - left));
       if (right > left) ctx.fillRect(left, bbox.top, Math.max(1, right - left), bbox.height);
     }
     ctx.restore();
@@ -153,6 +156,12 @@ export class TimePlot {
   }
 }
 
+/** More than four points to a pixel: a line would be a solid block and hide the band behind it. */
+function isDense(u: uPlot): boolean {
+  const [first, last] = u.series[0]!.idxs ?? [0, 0];
+  return last - first > 4 * u.width;
+}
+
 /** Room above and below; never so close that noise fills the plot of a coordinate that stands still. */
 export function yRange(low: number | null, high: number | null, fromZero: boolean): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
@@ -161,9 +170,10 @@ export function yRange(low: number | null, high: number | null, fromZero: boolea
   return [low - margin, high + margin];
 }
 
-/** As many decimals as the ticks need to differ. */
+/** As many decimals as the ticks need to be written in full, the same for all. */
 export function tickTexts(ticks: number[]): string[] {
   const step = ticks.length > 1 ? Math.abs(ticks[1]! - ticks[0]!) : 1;
-  const decimals = Math.min(6, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
-  return ticks.map((t) => t.toFixed(decimals).replace(/^-(?=.*[1-9])/, "−").replace(/^-/, ""));
+  let decimals = 0;
+  while (decimals < 6 && ticks.some((t) => Math.abs(t - Number(t.toFixed(decimals))) > 1e-3 * step)) ++decimals;
+  return ticks.map((t) => number(t, decimals));
 }

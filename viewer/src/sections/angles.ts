@@ -38,8 +38,12 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
         `${number(c.min, decimalsOf(c.unit) - 1)} to ${number(c.max, decimalsOf(c.unit) - 1)} ${c.unit}`,
       ),
       canvas,
-      el("span", { class: "sd" }, c.median_sd === null ? "" : `SD ${number(c.median_sd, decimalsOf(c.unit))} ${c.unit}`),
-      el("span", { class: share !== null && share < 1 ? "remark low" : "remark" }, remark),
+      el(
+        "span",
+        { class: "below" },
+        el("span", { class: "sd" }, c.median_sd === null ? "" : `SD ${number(c.median_sd, decimalsOf(c.unit))} ${c.unit}`),
+        el("span", { class: share !== null && share < 1 ? "remark low" : "remark" }, remark),
+      ),
     );
     return { node, canvas, name: c.name.toLowerCase() };
   });
@@ -91,7 +95,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
       series: [
         { stroke: () => "transparent", width: 0, hidden: true },
         { stroke: () => "transparent", width: 0, hidden: true },
-        { stroke: () => palette().line, width: 1.8 },
+        { stroke: (dense) => (dense ? palette().dense : palette().line), width: 1.8 },
       ],
       bands: [{ series: [1, 2], fill: () => palette().band }],
       unit: () => (coordinates[view.coordinate]?.unit === "m" ? "position (m)" : "angle (deg)"),

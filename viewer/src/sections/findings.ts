@@ -18,7 +18,7 @@ export function findings(summary: Summary, view: View): HTMLElement {
     "What needs your attention",
     "",
     nothing ? el("p", {}, "Nothing. Every frame converged, every coordinate is determined in every frame, and there are no warnings.") : null,
-    el("ul", { class: "findings" }, ...summary.findings.slice(0, mostShown).map((f) => line(f, view))),
+    el("ul", { class: "findings" }, ...summary.findings.slice(0, mostShown).map((f) => line(f, summary, view))),
     rest > 0 ? el("p", { class: "lead" }, `${rest} more are in the JSON file beside the results.`) : null,
     passed.length === 0
       ? null
@@ -31,9 +31,14 @@ export function findings(summary: Summary, view: View): HTMLElement {
   );
 }
 
-function line(finding: Finding, view: View): HTMLElement {
+function line(finding: Finding, summary: Summary, view: View): HTMLElement {
   const serious = finding.level === "attention";
   const time = finding.time_s;
+  const jump = (at: number): void => {
+    const coordinate = summary.coordinates.findIndex((c) => c.name === finding.subject);
+    if (finding.about === "coordinate" && coordinate >= 0) view.set({ coordinate });
+    view.jumpTo(at, "angles");
+  };
   return el(
     "li",
     { class: finding.level },
@@ -41,6 +46,6 @@ function line(finding: Finding, view: View): HTMLElement {
     el("span", { class: "text" }, finding.text),
     time === null
       ? null
-      : el("button", { type: "button", class: "jump", click: () => view.jumpTo(time) }, `Show ${seconds(time)}`),
+      : el("button", { type: "button", class: "jump", click: () => jump(time) }, `Show ${seconds(time)}`),
   );
 }

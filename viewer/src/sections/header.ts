@@ -49,20 +49,20 @@ export function header(summary: Summary): HTMLElement {
       tile(number(summary.frames), "frames", `${duration(summary.frames / summary.rate_hz)} at ${number(summary.rate_hz, Number.isInteger(summary.rate_hz) ? 0 : 2)} Hz`),
       tile(
         percent(summary.frames === 0 ? null : solved / summary.frames),
-        "of frames converged",
+        "frames converged",
         solved === summary.frames ? "every frame" : `all but ${number(summary.frames - solved)}`,
       ),
       tile(`${used} of ${summary.markers.length}`, "markers used", used === summary.markers.length ? "none left out" : `${summary.markers.length - used} left out`),
       tile(
         percent(summary.determined_fraction),
-        "of coordinates determined",
-        `${plural(asked, "coordinate")}${locked > 0 ? `, ${locked} more held fixed` : ""}`,
+        "determined",
+        `of ${plural(asked, "coordinate")}${locked > 0 ? `, ${locked} held fixed` : ""}`,
       ),
       tile(`${number(summary.rms_error_mm, 1)} mm`, "RMS marker error", `largest ${number(summary.max_error_mm, 1)} mm`),
       tile(
         summary.frames_per_s === null ? "–" : number(summary.frames_per_s),
         "frames per second",
-        realTime === null ? "not timed" : `${number(realTime, realTime < 10 ? 1 : 0)} × real time, ${plural(summary.threads, "thread")}`,
+        realTime === null ? "not timed" : `${number(realTime, realTime < 10 ? 1 : 0)} × real time`,
       ),
     ),
   );

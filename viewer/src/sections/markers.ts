@@ -17,7 +17,6 @@ export function markers(trial: Trial, view: View): { node: HTMLElement; start: (
   const used = trial.markerErrorMm.length;
   const indexOf = new Map(summary.markers.map((m, i) => [m, i]));
   const largest = Math.max(1e-9, ...summary.markers.map((m) => m.rms_error_mm ?? 0));
-  const highest = Math.max(1e-9, ...summary.markers.map((m) => m.max_error_mm ?? 0));
   const box = el("div", { class: "plot", id: "error-plot" });
   const readout = el("p", { class: "readout", id: "error-readout" });
   const choose = (m: MarkerSummary): void => {
@@ -30,10 +29,10 @@ export function markers(trial: Trial, view: View): { node: HTMLElement; start: (
       { title: "Marker", key: (m) => m.name, cell: (m) => nameCell(m, indexOf.get(m)! < used) },
       { title: "Seen", unit: "%", numeric: true, key: (m) => m.seen_frames, cell: (m) => percent(summary.frames === 0 ? null : m.seen_frames / summary.frames).replace(" %", "") },
       { title: "RMS error", unit: "mm", numeric: true, key: (m) => m.rms_error_mm, cell: (m) => barCell(m.rms_error_mm, largest) },
-      { title: "Largest", unit: "mm", numeric: true, key: (m) => m.max_error_mm, cell: (m) => largestCell(m, view) },
+      { title: "Largest", unit: "mm", numeric: true, key: (m) => m.max_error_mm, cell: (m) => largestCell(m, indexOf.get(m)!, view) },
       { title: "Noise SD", unit: "mm", numeric: true, key: (m) => m.noise_sd_mm, cell: (m) => number(m.noise_sd_mm, 2) },
       { title: "Weight", numeric: true, key: (m) => m.weight, cell: (m) => weightText(m.weight) },
-      { title: "Error over time", sortable: false, key: () => null, cell: (m) => sparkline(trial.markerErrorMm[indexOf.get(m)!], highest, m) },
+      { title: "Over time, from 0 to largest", sortable: false, key: () => null, cell: (m) => sparkline(trial.markerErrorMm[indexOf.get(m)!], m) },
     ],
     summary.markers,
     { column: 2, direction: "descending" },
@@ -60,7 +59,7 @@ export function markers(trial: Trial, view: View): { node: HTMLElement; start: (
       label: "Marker error over time: all markers together and the chosen one",
       height: 220,
       series: [
-        { stroke: () => palette().line, width: 1.6 },
+        { stroke: (dense) => (dense ? palette().dense : palette().line), width: 1.6 },
         { stroke: () => palette().second, width: 1.4 },
       ],
       unit: () => "error (mm)",
@@ -107,13 +106,14 @@ function barCell(value: number | null, largest: number): Node {
   return el("span", { class: "bar-cell" }, bar, el("span", {}, number(value, 1)));
 }
 
-function largestCell(marker: MarkerSummary, view: View): Node {
-  const time = marker.max_error_time_s;
-  const text = number(marker.max_error_mm, 1);
+function largestCell(m: MarkerSummary, marker: number, view: View): Node {
+  const time = m.max_error_time_s;
+  const text = number(m.max_error_mm, 1);
   if (time === null) return document.createTextNode(text);
   const jump = (event: Event): void => {
     event.stopPropagation();
-    view.jumpTo(time);
+    view.set({ marker });
+    view.jumpTo(time, "markers");
   };
   return el("button", { type: "button", class: "jump plain", title: `Show ${seconds(time)}`, click: jump }, text);
 }
@@ -123,8 +123,8 @@ const weightText = (weight: number | null): string =>
 
 const svg = "http://www.w3.org/2000/svg";
 
-/** The largest error of each hundredth of the trial, all markers on one scale. */
-function sparkline(series: Float32Array | undefined, highest: number, marker: MarkerSummary): Node {
+/** The largest error of each hundredth of the trial, on the marker's own scale. */
+function sparkline(series: Float32Array | undefined, marker: MarkerSummary): Node {
   const picture = document.createElementNS(svg, "svg");
   picture.setAttribute("class", "spark");
   picture.setAttribute("viewBox", "0 0 100 20");
@@ -142,7 +142,7 @@ function sparkline(series: Float32Array | undefined, highest: number, marker: Ma
       continue;
     }
     const x = (100 * (c + 0.5)) / columns;
-    path += `${pen}${x.toFixed(1)} ${(19 - (18 * high) / highest).toFixed(1)}`;
+    path += `${pen}${x.toFixed(1)} ${(19 - (18 * high) / Math.max(1e-9, marker.max_error_mm ?? 0)).toFixed(1)}`;
     pen = "L";
   }
   const line = document.createElementNS(svg, "path");

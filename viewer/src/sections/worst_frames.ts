@@ -18,7 +18,7 @@ export function worstFrames(summary: Summary, view: View): HTMLElement {
   const used = summary.markers.map((m) => m.name);
   const jump = (w: WorstFrame): void => {
     view.set({ marker: used.indexOf(w.worst_marker) });
-    view.jumpTo(w.time_s);
+    view.jumpTo(w.time_s, "markers");
     mark((row) => row === w);
   };
   const { node, mark } = sortableTable<WorstFrame>(

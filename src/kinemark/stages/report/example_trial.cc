@@ -152,7 +152,8 @@ ExampleTrial example_trial(std::int64_t frames, std::uint64_t seed) {
   fill_run(t);
   for (std::int64_t f = 0; f < frames; ++f) {
     for (std::int64_t k = 0; k < t.markers.markers(); ++k)
-      if (t.markers.present(f, k)) t.markers.x(f, k) = Eigen::Vector3d(0.01 * static_cast<double>(k), 1.0, 0.5);
+      if (t.markers.present(f, k))
+        t.markers.x(f, k) = Eigen::Vector3d(0.01 * static_cast<double>(k), 1.0, 0.5);
     t.markers.state[t.markers.index(f, t.markers.markers() - 1)] = SampleState::measured;
     t.markers.x(f, t.markers.markers() - 1).setZero();
     auto& status = t.motion.status[static_cast<std::size_t>(f)];

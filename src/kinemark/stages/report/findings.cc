@@ -34,21 +34,21 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
 std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& motion) {
   std::vector<Finding> out;
   for (const Gate& gate : s.run.gates)
-    if (!gate.passed) out.push_back({Verdict::attention, "gate", gate.sentence, kUnknown});
+    if (!gate.passed) out.push_back({Verdict::attention, "gate", gate.name, gate.sentence, kUnknown});
   if (s.run.exit_status != 0 && out.empty())
-    out.push_back({Verdict::attention, "gate",
+    out.push_back({Verdict::attention, "gate", "",
                    fmt::format("The run ended with exit status {}.", s.run.exit_status), kUnknown});
 
   const auto frames_with = [&](FrameStatus status) {
     return s.status_frames[static_cast<std::size_t>(status)];
   };
   if (const auto n = frames_with(FrameStatus::not_converged); n > 0)
-    out.push_back({Verdict::attention, "frames",
+    out.push_back({Verdict::attention, "frames", "",
                    fmt::format("{} did not converge: the best pose found is given.",
                                frames_in_words(n, motion.frames())),
                    first_time_s(motion, FrameStatus::not_converged)});
   if (const auto n = frames_with(FrameStatus::no_markers); n > 0)
-    out.push_back({Verdict::attention, "frames",
+    out.push_back({Verdict::attention, "frames", "",
                    fmt::format("{} had no marker: the pose is held from the frame before.",
                                frames_in_words(n, motion.frames())),
                    first_time_s(motion, FrameStatus::no_markers)});
@@ -58,24 +58,25 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
     if (c.locked || c.determined_frames == motion.frames()) continue;
     const double from_s = first_undetermined_s(motion, static_cast<std::int64_t>(j));
     if (c.determined_frames == 0)
-      out.push_back({Verdict::attention, "coordinate",
+      out.push_back({Verdict::attention, "coordinate", c.name,
                      fmt::format("{} is never determined: no visible marker fixes it.", c.name), from_s});
     else
       out.push_back(
-          {Verdict::good, "coordinate",
+          {Verdict::good, "coordinate", c.name,
            fmt::format("{} is not determined in {}: the visible markers do not fix it there.", c.name,
                        frames_in_words(motion.frames() - c.determined_frames, motion.frames())),
            from_s});
   }
   for (const MarkerSummary& m : s.markers) {
     if (!m.why_excluded.empty())
-      out.push_back({Verdict::good, "marker",
+      out.push_back({Verdict::good, "marker", m.name,
                      fmt::format("Marker {} was left out: {}", m.name, m.why_excluded), kUnknown});
     else if (m.used && m.seen_frames == 0 && !motion.marker_error.empty())
-      out.push_back({Verdict::good, "marker", fmt::format("Marker {} is never seen.", m.name), kUnknown});
+      out.push_back(
+          {Verdict::good, "marker", m.name, fmt::format("Marker {} is never seen.", m.name), kUnknown});
   }
   for (const std::string& warning : s.run.warnings)
-    out.push_back({Verdict::good, "warning", warning, kUnknown});
+    out.push_back({Verdict::good, "warning", "", warning, kUnknown});
 
   std::ranges::stable_sort(out, std::greater{}, &Finding::level);
   return out;

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/report/internal/findings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace kinemark::report::internal {
+namespace {
+
+using data::FrameStatus;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// Ten good frames of two coordinates and one marker.
+data::JointMotion good_motion() {
+  data::JointMotion m;
+  m.coordinates = {"hip", "knee"};
+  m.is_rotation = {true, true};
+  m.markers = {"A"};
+  m.time = {.rate_hz = 10.0, .t0_s = 1.0, .frames = 10};
+  m.q.assign(20, 0.0);
+  m.determined.assign(20, 1);
+  m.marker_error.assign(30, 0.0);
+  m.status.assign(10, FrameStatus::converged);
+  return m;
+}
+
+std::vector<Finding> findings_of(const data::JointMotion& motion, IkRun run = {}) {
+  const auto summary = summarize(std::move(run), motion, nullptr);
+  EXPECT_TRUE(summary);
+  return summary->findings;
+}
+
+TEST(Findings, AGoodTrialHasNone) { EXPECT_THAT(findings_of(good_motion()), IsEmpty()); }
+
+TEST(Findings, AFailedGateIsSeriousAndAPassedOneSilent) {
+  const auto found = findings_of(good_motion(), {.exit_status = 1,
+                                                 .gates = {{"a", true, 1, 2, "mm", "fine"},
+                                                           {"b", false, 3, 2, "mm", "3 mm is above 2 mm."}}});
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].level, Verdict::attention);
+  EXPECT_EQ(found[0].subject, "b");
+  EXPECT_EQ(found[0].text, "3 mm is above 2 mm.");
+}
+
+TEST(Findings, AnExitStatusWithoutAFailedGateIsNotSilent) {
+  const auto found = findings_of(good_motion(), {.exit_status = 1});
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].text, HasSubstr("exit status 1"));
+}
+
+TEST(Findings, FramesThatDidNotConvergeOrHadNoMarkerSayHowManyAndWhere) {
+  data::JointMotion m = good_motion();
+  m.status[4] = m.status[7] = FrameStatus::not_converged;
+  m.status[9] = FrameStatus::no_markers;
+  const auto found = findings_of(m);
+  ASSERT_THAT(found, SizeIs(2));
+  EXPECT_THAT(found[0].text, HasSubstr("2 of 10 frames (20 %) did not converge"));
+  EXPECT_DOUBLE_EQ(found[0].time_s, 1.4);
+  EXPECT_THAT(found[1].text, HasSubstr("1 of 10 frames (10 %) had no marker"));
+  EXPECT_DOUBLE_EQ(found[1].time_s, 1.9);
+}
+
+TEST(Findings, CoordinatesSometimesAndNeverDeterminedDiffer) {
+  data::JointMotion m = good_motion();
+  m.determined[m.index(3, 0)] = 0;
+  for (int f = 0; f < 10; ++f) m.determined[m.index(f, 1)] = 0;
+  auto found = findings_of(m);
+  ASSERT_THAT(found, SizeIs(2));
+  EXPECT_EQ(found[0].level, Verdict::attention) << "the serious ones first";
+  EXPECT_EQ(found[0].subject, "knee");
+  EXPECT_THAT(found[0].text, HasSubstr("never determined"));
+  EXPECT_EQ(found[1].level, Verdict::good);
+  EXPECT_THAT(found[1].text, HasSubstr("hip is not determined in 1 of 10 frames"));
+  EXPECT_DOUBLE_EQ(found[1].time_s, 1.3);
+
+  found = findings_of(m, {.locked_coordinates = {"knee"}});
+  ASSERT_THAT(found, SizeIs(1)) << "a locked coordinate needs no marker";
+  EXPECT_EQ(found[0].subject, "hip");
+}
+
+TEST(Findings, MarkersAndWarningsAreNotes) {
+  data::JointMotion m = good_motion();
+  m.marker_error.assign(30, kUnknown);
+  const auto found =
+      findings_of(m, {.markers = {{"L.Bicep", 0.0, kUnknown, "it is at the origin in every frame."}},
+                      .warnings = {"the header lies."}});
+  ASSERT_THAT(found, SizeIs(3));
+  EXPECT_EQ(found[0].text, "Marker A is never seen.");
+  EXPECT_EQ(found[1].text, "Marker L.Bicep was left out: it is at the origin in every frame.");
+  EXPECT_EQ(found[2].text, "the header lies.");
+  for (const Finding& f : found) EXPECT_EQ(f.level, Verdict::good);
+}
+
+}  // namespace
+}  // namespace kinemark::report::internal

@@ -72,6 +72,7 @@ enum class Verdict : std::uint8_t { good, attention };
 struct Finding {
   Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
   std::string about;              ///< "gate", "frames", "coordinate", "marker" or "warning"
+  std::string subject;            ///< name of the gate, coordinate or marker; may be empty
   std::string text;               ///< one sentence
   double time_s = kUnknown;       ///< where to look first
 };

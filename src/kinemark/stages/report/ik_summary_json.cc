@@ -90,6 +90,7 @@ Json findings_json(const IkSummary& s) {
   for (const Finding& f : s.findings)
     out.push_back({{"level", f.level == Verdict::attention ? "attention" : "note"},
                    {"about", f.about},
+                   {"subject", f.subject},
                    {"text", f.text},
                    {"time_s", number(f.time_s, 6)}});
   return out;

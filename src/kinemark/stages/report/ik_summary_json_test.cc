@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/core/units.h"
+#include "kinemark/stages/report/ik_summary.h"
+#include "kinemark/stages/report/internal/example_trial.h"
+
+namespace kinemark::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+
+IkSummary example_summary() {
+  const auto t = internal::example_trial(200);
+  return summarize(t.run, t.motion, &t.markers).value();
+}
+
+TEST(SummaryJson, HasTheUnitsThatItsNamesSay) {
+  IkSummary s = example_summary();
+  s.coordinates[0].max = 90.0 * kRadPerDeg;
+  s.coordinates[3].max = 1.25;
+  s.markers[0].rms_error_m = 0.0123456789;
+  s.rms_error_m = 0.005;
+  const Json json = summary_json(s);
+  EXPECT_EQ(json["schema"], "kinemark.ik_report");
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["verdict"], "attention");
+  EXPECT_EQ(json["coordinates"][0]["unit"], "deg");
+  EXPECT_EQ(json["coordinates"][0]["max"], 90.0);
+  EXPECT_EQ(json["coordinates"][3]["unit"], "m");
+  EXPECT_EQ(json["coordinates"][3]["max"], 1.25);
+  EXPECT_EQ(json["markers"][0]["rms_error_mm"], 12.3457) << "rounded to 0.1 micrometre";
+  EXPECT_EQ(json["rms_error_mm"], 5.0);
+  EXPECT_EQ(json["frames_per_s"], 14200.0);
+  EXPECT_EQ(json["status_frames"]["converged"], 200);
+  EXPECT_EQ(json["findings"][0]["level"], "attention");
+  EXPECT_EQ(json["options"]["accuracy"], "1e-9");
+  EXPECT_EQ(json["inputs"][1]["bytes"], 431207);
+}
+
+TEST(SummaryJson, UnknownNumbersAreNull) {
+  IkSummary s = example_summary();
+  s.run.solve_s = kUnknown;
+  s.rms_error_m = kUnknown;
+  const Json json = summary_json(s);
+  EXPECT_TRUE(json["solve_s"].is_null());
+  EXPECT_TRUE(json["frames_per_s"].is_null());
+  EXPECT_TRUE(json["rms_error_mm"].is_null());
+  EXPECT_TRUE(json["markers"].back()["noise_sd_mm"].is_null());
+  EXPECT_EQ(json.dump().find("nan"), std::string::npos);
+}
+
+TEST(SummaryJson, EveryKeyIsDescribedInOrderOfImportance) {
+  const Json json = summary_json(example_summary());
+  EXPECT_EQ(json.begin().key(), "schema");
+  EXPECT_EQ(json.size(), 28U) << "a new key belongs into README.md and viewer/src/types.ts too";
+}
+
+TEST(RunFromJson, ReadsBackWhatWasWritten) {
+  const IkSummary s = example_summary();
+  const auto back = run_from_json(Json::parse(summary_json(s).dump()));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->trial, s.run.trial);
+  EXPECT_EQ(back->model, s.run.model);
+  EXPECT_EQ(back->options, s.run.options);
+  EXPECT_EQ(back->warnings, s.run.warnings);
+  EXPECT_EQ(back->locked_coordinates, s.run.locked_coordinates);
+  EXPECT_EQ(back->seed, s.run.seed);
+  ASSERT_EQ(back->gates.size(), 2U);
+  EXPECT_FALSE(back->gates[1].passed);
+  EXPECT_EQ(back->inputs[0].hash, s.run.inputs[0].hash);
+  ASSERT_EQ(back->markers.size(), s.markers.size());
+  EXPECT_NEAR(back->markers[0].noise_sd_m, s.markers[0].noise_sd_m, 1e-7);
+  EXPECT_EQ(back->markers.back().why_excluded, "it is at the origin in every frame.");
+}
+
+TEST(RunFromJson, ASummaryMadeFromWhatWasReadWritesTheSameJson) {
+  const auto t = internal::example_trial(200);
+  const Json first = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  const auto run = run_from_json(first);
+  ASSERT_TRUE(run);
+  const Json second = summary_json(summarize(*run, t.motion, &t.markers).value());
+  EXPECT_EQ(first, second);
+}
+
+TEST(RunFromJson, SaysWhatIsWrong) {
+  const Json good = summary_json(example_summary());
+  EXPECT_THAT(run_from_json(Json::array()).error().message, HasSubstr("not a kinemark IK report"));
+  Json json = good;
+  json["schema"] = 3;
+  EXPECT_EQ(run_from_json(json).error().code, Code::bad_input);
+  json = good;
+  json["schema_version"] = 2;
+  EXPECT_EQ(run_from_json(json).error().code, Code::not_supported);
+  json = good;
+  json.erase("trial");
+  EXPECT_THAT(run_from_json(json).error().message, HasSubstr("trial"));
+  for (const char* key : {"markers", "gates", "options", "inputs", "warnings", "coordinates", "seed"}) {
+    json = good;
+    json[key] = "text";
+    EXPECT_FALSE(run_from_json(json)) << key;
+  }
+}
+
+}  // namespace
+}  // namespace kinemark::report

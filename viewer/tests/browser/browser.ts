@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium, type Page } from "playwright-core";
+
+export interface Opened {
+  page: Page;
+  /** Everything that the page asked for besides itself, and everything that it complained about. */
+  complaints: string[];
+  close: () => Promise<void>;
+}
+
+/** Open a file in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
+export async function open(file: string, colorScheme: "light" | "dark" = "light"): Promise<Opened> {
+  const profile = mkdtempSync(join(tmpdir(), "kinemark-viewer-"));
+  const context = await chromium.launchPersistentContext(profile, {
+    executablePath: process.env["KINEMARK_CHROMIUM"] ?? "/usr/bin/chromium",
+    headless: true,
+    colorScheme,
+    viewport: { width: 1280, height: 900 },
+    args: [
+      "--no-sandbox",
+      "--disable-gpu",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+    ],
+  });
+  const page = context.pages()[0] ?? (await context.newPage());
+  const url = pathToFileURL(file).href;
+  const complaints: string[] = [];
+  page.on("request", (r) => {
+    if (r.url().split("#")[0] !== url) complaints.push(`asked for ${r.url().slice(0, 200)}`);
+  });
+  page.on("console", (m) => {
+    if (m.type() === "error" || m.type() === "warning") complaints.push(`console: ${m.text()}`);
+  });
+  page.on("pageerror", (e) => complaints.push(`error: ${e.message}`));
+  page.on("dialog", (d) => {
+    complaints.push(`dialog: ${d.message()}`);
+    void d.dismiss();
+  });
+  await page.goto(url);
+  await settle(page);
+  return {
+    page,
+    complaints,
+    close: async () => {
+      await context.close();
+      rmSync(profile, { recursive: true, force: true });
+    },
+  };
+}
+
+/** Wait until the page has drawn what it was asked to draw. */
+export async function settle(page: Page): Promise<void> {
+  await page.evaluate(
+    () => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30)))),
+  );
+}
+
+export interface Ink {
+  /** Pixels of the canvas that are not transparent. */
+  drawn: number;
+  /** Of these, the translucent ones, as the band is. */
+  translucent: number;
+  /** Changes with any pixel. */
+  hash: number;
+}
+
+/** What a canvas shows. */
+export function ink(page: Page, selector: string): Promise<Ink> {
+  return page.locator(selector).first().evaluate((node) => {
+    // A copy is read, so that reading does not change how the page's own canvas is kept.
+    const { width, height } = node as HTMLCanvasElement;
+    const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
+    copy.drawImage(node as HTMLCanvasElement, 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
+    let drawn = 0;
+    let translucent = 0;
+    let hash = 17;
+    for (let i = 0; i < data.length; i += 4) {
+      const alpha = data[i + 3]!;
+      if (alpha > 0) ++drawn;
+      if (alpha >= 30 && alpha <= 80 && data[i + 2]! > data[i]! + 60) ++translucent;
+      hash = (Math.imul(hash, 31) + data[i]! + 7 * data[i + 1]! + 13 * data[i + 2]! + 29 * alpha) | 0;
+    }
+    return { drawn, translucent, hash };
+  });
+}
+
+/** Number of opaque pixels in one column of a canvas. */
+export function opaqueInColumn(page: Page, selector: string, x: number): Promise<number> {
+  return page.locator(selector).first().evaluate((node, left) => {
+    const canvas = node as HTMLCanvasElement;
+    const copy = new OffscreenCanvas(1, canvas.height).getContext("2d", { willReadFrequently: true })!;
+    copy.drawImage(canvas, -Math.round(left * window.devicePixelRatio), 0);
+    const { data } = copy.getImageData(0, 0, 1, canvas.height);
+    return data.filter((value, i) => i % 4 === 3 && value === 255).length;
+  }, x);
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import type { PageData } from "../src/types.ts";
+
+const base64 = (values: ArrayBufferView): string =>
+  Buffer.from(values.buffer, values.byteOffset, values.byteLength).toString("base64");
+
+/** A text that would do harm if any part of the page took it for markup. */
+export const hostile = "</script><img src=x onerror=alert(1)>&lt;b&gt;";
+
+/**
+ * A small made-up trial: three coordinates (one with a hidden stretch, frames 200 to 259), three used markers (B
+ * missing there, C off by 40 mm in frame 100) and one left out.
+ */
+export function simulated(frames = 400): PageData {
+  const rate = 100;
+  const hidden = (f: number): boolean => f >= 200 && f < 260;
+  const series = (value: (f: number) => number): string => base64(Float32Array.from({ length: frames }, (_, f) => value(f)));
+  const codes = (value: (f: number) => number): string => base64(Uint8Array.from({ length: frames }, (_, f) => value(f)));
+  const errorC = (f: number): number => (f === 100 ? 40 : 3);
+  const marker = (name: string, rms: number | null, max: number | null, at: number | null) => ({
+    name,
+    used: name !== "Left.Out",
+    why_excluded: name === "Left.Out" ? "it is at the origin in every frame." : "",
+    weight: name === "Left.Out" ? 0 : 1,
+    seen_frames: name === "B" ? frames - 60 : name === "Left.Out" ? 0 : frames,
+    rms_error_mm: rms,
+    max_error_mm: max,
+    max_error_time_s: at,
+    noise_sd_mm: rms === null ? null : rms / 2,
+  });
+  const coordinate = (name: string, unit: "deg" | "m", determined: number) => ({
+    name,
+    unit,
+    locked: false,
+    determined_frames: determined,
+    min: -10,
+    max: 10,
+    median_sd: 1.5,
+  });
+  return {
+    summary: {
+      schema: "kinemark.ik_report",
+      schema_version: 1,
+      trial: `walk ${hostile}`,
+      model: "arm",
+      method: "least squares",
+      verdict: "attention",
+      exit_status: 1,
+      frames,
+      rate_hz: rate,
+      first_time_s: 0,
+      solve_s: 0.02,
+      frames_per_s: frames / 0.02,
+      threads: 1,
+      seed: 7,
+      version: "0.1.0",
+      command_line: "kinemark ik --model arm.osim --markers walk.trc --output walk.mot",
+      rms_error_mm: 4.2,
+      max_error_mm: 40,
+      determined_fraction: 1 - 60 / (3 * frames),
+      status_frames: { converged: frames - 60, not_converged: 0, underdetermined: 60, no_markers: 0 },
+      findings: [
+        { level: "attention", about: "gate", subject: "marker_max", text: "A marker is 40 mm off.", time_s: 1 },
+        { level: "note", about: "coordinate", subject: "wrist", text: "wrist is not determined in 60 frames.", time_s: 2 },
+        { level: "note", about: "warning", subject: "", text: hostile, time_s: null },
+      ],
+      gates: [
+        { name: "marker_max", passed: false, value: 40, bound: 30, unit: "mm", sentence: "A marker is 40 mm off." },
+        { name: "marker_rms", passed: true, value: 4.2, bound: 20, unit: "mm", sentence: "RMS 4.2 mm, bound 20 mm." },
+      ],
+      coordinates: [coordinate("shoulder", "deg", frames), coordinate("wrist", "deg", frames - 60), coordinate("root_tx", "m", frames)],
+      markers: [marker("A", 2, 2, 0), marker("B", 5, 5, 0), marker("C", 3.6, 40, 1), marker("Left.Out", null, null, null)],
+      worst_frames: [
+        { frame: 100, time_s: 1, rms_error_mm: 23.3, markers_seen: 3, worst_marker: "C", worst_marker_error_mm: 40, status: "converged" },
+        { frame: 10, time_s: 0.1, rms_error_mm: 3.6, markers_seen: 3, worst_marker: "B", worst_marker_error_mm: 5, status: "converged" },
+      ],
+      options: { robust: "none" },
+      inputs: [{ role: "markers", path: "walk.trc", bytes: 123456, hash: "00ff00ff00ff00ff", hash_kind: "XXH3-64" }],
+      warnings: [hostile],
+    },
+    series: {
+      frame_step: 1,
+      points: frames,
+      coordinates: [
+        { value: series((f) => 10 * Math.sin(f / 30)), sd: series(() => 1.5), undetermined: null },
+        { value: series((f) => (hidden(f) ? NaN : 10 * Math.cos(f / 30))), sd: series((f) => (hidden(f) ? NaN : 3)), undetermined: codes((f) => (hidden(f) ? 1 : 0)) },
+        { value: series(() => 0.5), sd: null, undetermined: null },
+      ],
+      rms_error_mm: series((f) => (f === 100 ? 23.3 : 3.6)),
+      marker_error_mm: [series(() => 2), series((f) => (hidden(f) ? NaN : 5)), series(errorC)],
+      gaps: [codes(() => 0), codes((f) => (hidden(f) ? 2 : 0)), codes((f) => (f === 101 ? 3 : 0)), null],
+      status: codes((f) => (hidden(f) ? 1 : 0)),
+    },
+  };
+}

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { decode, decodeBytes, decodeFloats } from "../../src/decode.ts";
+import { simulated } from "../simulated.ts";
+
+describe("decodeFloats", () => {
+  it("reads little-endian float32, NaN included", () => {
+    // 1.0 = 00 00 80 3f, -2.5 = 00 00 20 c0, NaN = 00 00 c0 7f
+    expect([...decodeFloats("AACAPwAAIMAAAMB/", 3)]).toEqual([1, -2.5, NaN]);
+  });
+  it("refuses a series of another length and says both", () => {
+    expect(() => decodeFloats("AACAPw==", 2)).toThrow("a series holds 4 codes; 8 points need as many");
+    expect(() => decodeBytes("AAEC", 2)).toThrow("3 codes");
+  });
+});
+
+describe("decode", () => {
+  it("gives every series the length of the time axis", () => {
+    const trial = decode(simulated(400));
+    expect(trial.time.length).toBe(400);
+    expect(trial.time[250]).toBeCloseTo(2.5, 12);
+    for (const c of trial.coordinates) expect(c.value.length).toBe(400);
+    expect(trial.coordinates[1]!.value[230]).toBeNaN();
+    expect(trial.coordinates[1]!.undetermined![230]).toBe(1);
+    expect(trial.coordinates[2]!.sd).toBeNull();
+    expect(trial.gaps[1]![199]).toBe(0);
+    expect(trial.gaps[1]![200]).toBe(2);
+    expect(trial.gaps[3]).toBeNull();
+  });
+  it("spaces thinned points by their step", () => {
+    const data = simulated(400);
+    data.series.frame_step = 5;
+    data.summary.first_time_s = 2;
+    expect(decode(data).time[3]).toBeCloseTo(2.15, 12);
+  });
+  it("refuses another schema", () => {
+    const data = simulated();
+    data.summary.schema_version = 2;
+    expect(() => decode(data)).toThrow("version 2");
+  });
+});
