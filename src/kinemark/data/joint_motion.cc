@@ -24,7 +24,7 @@ std::string_view to_string(FrameStatus status) {
 }
 
 std::int64_t JointMotion::find(std::string_view coordinate) const {
-  const auto it = std::find(coordinates.begin(), coordinates.end(), coordinate);
+  const auto it = std::ranges::find(coordinates, coordinate);
   return it == coordinates.end() ? -1 : it - coordinates.begin();
 }
 
@@ -44,7 +44,7 @@ Status JointMotion::validate() const {
   if (!marker_error.empty() && marker_error.size() != 3 * F * M)
     return wrong("marker_error", marker_error.size(), 3 * F * M);
   if (!status.empty() && status.size() != F) return wrong("status", status.size(), F);
-  const auto bad = std::find_if(q.begin(), q.end(), [](double v) { return !std::isfinite(v); });
+  const auto bad = std::ranges::find_if(q, [](double v) { return !std::isfinite(v); });
   if (bad != q.end()) {
     const auto i = static_cast<std::size_t>(bad - q.begin());
     return fail(Code::bad_input,

@@ -10,7 +10,7 @@
 namespace kinemark::data {
 
 std::int64_t Table::find(std::string_view column) const {
-  const auto it = std::find(columns.begin(), columns.end(), column);
+  const auto it = std::ranges::find(columns, column);
   return it == columns.end() ? -1 : it - columns.begin();
 }
 

@@ -35,7 +35,7 @@ void Trajectories::set_missing(std::int64_t frame, std::int64_t marker, SampleSt
 }
 
 std::int64_t Trajectories::find(std::string_view name) const {
-  const auto it = std::find(names.begin(), names.end(), name);
+  const auto it = std::ranges::find(names, name);
   return it == names.end() ? -1 : it - names.begin();
 }
 

@@ -8,7 +8,6 @@ namespace kinemark::model {
 namespace {
 
 using internal::apply;
-using internal::dot;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
