@@ -20,8 +20,8 @@ namespace kinemark::io {
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a row with too few or too many
 /// cells, time that runs backwards, a label that occurs twice, no 'endheader'; Code::not_supported for
-/// DataType Quaternion, SpatialVec and others. Code::io when it cannot be read. O(bytes); memory at most 9
-/// times the text + 1 MB.
+/// DataType Quaternion, SpatialVec and others. Code::io when it cannot be read. O(bytes); memory at most 10
+/// times the text + 250 MB, also for hostile input; files full of numbers about twice.
 [[nodiscard]] Result<data::Table> read_table(const std::filesystem::path& path);
 
 /// The same from memory; `name` stands for the file in messages.

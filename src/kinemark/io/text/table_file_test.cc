@@ -201,6 +201,10 @@ TEST(ParseTable, ShortRowsCannotAskForMuchMemory) {
   std::string rows;
   for (int i = 0; i < 20'000; ++i) rows += "0\n";
   EXPECT_THAT(bad(kVersion3 + labels + "\n" + rows), HasSubstr("20000 rows of 20000 columns do not fit"));
+  EXPECT_THAT(bad(kVersion3 + "time" + std::string(1 << 20, '\t') + "a\n0\n"),
+              HasSubstr("line 6: has 1048581 bytes"));
+  EXPECT_THAT(bad("x\n" + std::string(1 << 21, 'y') + "\nendheader\n"),
+              HasSubstr("line 2: has 2097152 bytes"));
   EXPECT_THAT(bad("x\n" + std::string(100'000, '\n')), HasSubstr("no line 'endheader' in 10000 lines"));
 }
 

@@ -250,6 +250,8 @@ TEST(ParseTrc, ShortRowsCannotAskForMuchMemory) {
   std::string rows;
   for (int i = 1; i < 20'000; ++i) rows += std::to_string(i) + "\t0\n";  // 9.6 GB of samples if believed
   EXPECT_THAT(bad(text_with(rows, names)), HasSubstr("19999 rows for 20000 markers do not fit"));
+  EXPECT_THAT(bad(text_with(kRows, std::string(1 << 20, '\t') + "A")),
+              HasSubstr("line 4: has 1048589 bytes"));
 }
 
 TEST(WriteTrc, WritesWhatOpenSimReads) {

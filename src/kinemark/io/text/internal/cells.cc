@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/io/text/internal/cells.h"
 
+#include <fmt/core.h>
+
 #include <limits>
 
 #include "kinemark/io/number.h"
@@ -22,6 +24,13 @@ std::int64_t Lines::count_until_blank() const {
   std::int64_t count = 0;
   while (ahead.next(line) && !is_blank(line)) ++count;
   return count;
+}
+
+Status check_header_line(std::string_view line, std::int64_t number) {
+  constexpr std::size_t kMost = 1 << 20;
+  if (line.size() <= kMost) return {};
+  return fail(Code::bad_input, fmt::format("line {}: has {} bytes; expected a header line of at most {}",
+                                           number, line.size(), kMost));
 }
 
 bool parse_odd_number(std::string_view cell, double& value) {

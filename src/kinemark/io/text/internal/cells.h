@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "kinemark/core/result.h"
+
 namespace kinemark::io::internal {
 
 inline bool is_space(char c) { return c == ' ' || c == '\r' || c == '\v' || c == '\f'; }
@@ -50,6 +52,10 @@ class Lines {
   char line_end_ = '\n';
   std::int64_t number_ = 0;
 };
+
+/// Refuses lines over 1 MiB (about 100,000 names): cells of a header are kept one by one, which takes many
+/// times the memory of their text.
+[[nodiscard]] Status check_header_line(std::string_view line, std::int64_t number);
 
 /// How cells are told apart: by single tabs (cells may be blank), or by runs of blanks.
 enum class Separator : std::uint8_t { tab, blanks };

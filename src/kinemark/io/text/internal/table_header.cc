@@ -97,6 +97,7 @@ Status read_pairs(Lines& lines, TableHeader& header, std::string_view& labels) {
   std::string_view line;
   bool first = true;
   while (lines.number() < kMaxHeaderLines && lines.next(line)) {
+    if (auto status = check_header_line(line, lines.number()); !status) return status;
     const std::string_view text = trim(line);
     if (text.empty()) continue;
     if (lower(text) == "endheader") {
@@ -131,6 +132,7 @@ Status read_pairs(Lines& lines, TableHeader& header, std::string_view& labels) {
 }
 
 Status read_labels(std::string_view line, std::int64_t number, TableHeader& header) {
+  if (auto status = check_header_line(line, number); !status) return status;
   if (line.find('\t') == std::string_view::npos) header.separator = Separator::blanks;
   Cells cells(line, header.separator);
   std::vector<std::string_view> labels;

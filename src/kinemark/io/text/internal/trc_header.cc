@@ -144,12 +144,12 @@ Status read_names(Lines& lines, TrcHeader& header) {
 }
 
 /// True for the line of X1 Y1 Z1 labels (any line whose first filled cell is no number).
-bool is_axis_labels(std::string_view line) {
-  for (const std::string_view cell : split(line)) {
-    double ignored = 0.0;
-    if (!cell.empty()) return !parse_odd_number(cell, ignored);
-  }
-  return false;
+bool is_axis_labels(std::string_view line, Separator separator) {
+  Cells cells(line, separator);
+  double ignored = 0.0;
+  Cell kind = cells.next(ignored);
+  while (kind == Cell::blank) kind = cells.next(ignored);
+  return kind == Cell::text;
 }
 
 }  // namespace
@@ -157,6 +157,9 @@ bool is_axis_labels(std::string_view line) {
 Result<TrcHeader> parse_trc_header(Lines& lines) {
   TrcHeader header;
   std::string_view line;
+  for (Lines ahead = lines; ahead.number() < 4 && ahead.next(line);)
+    if (auto status = check_header_line(line, ahead.number()); !status)
+      return std::unexpected(status.error());
   if (!lines.next(line)) return fail(Code::bad_input, "the file is empty; expected a TRC file");
   const auto first = split(line);
   if (first.empty() || lower(first[0]) != "pathfiletype")
@@ -169,7 +172,7 @@ Result<TrcHeader> parse_trc_header(Lines& lines) {
   bool labels_seen = false;
   for (Lines ahead = lines; ahead.next(line); lines = ahead) {
     if (is_blank(line)) continue;
-    if (labels_seen || !is_axis_labels(line)) break;
+    if (labels_seen || !is_axis_labels(line, header.separator)) break;
     labels_seen = true;
   }
   return header;
