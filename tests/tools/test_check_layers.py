@@ -25,7 +25,7 @@ RIGHT = {
     "src/kinemark/pipeline/run.h": (
         '#include "kinemark/stages/motion/ik.h"\n#include "kinemark/stages/report/page.h"\n'
     ),
-    "cli/main.cc": '#include "args.h"\n#include "kinemark/pipeline/run.h"\n',
+    "cli/main.cc": '#include "cli/args.h"\n#include "kinemark/pipeline/run.h"\n',
     "cli/args.h": "",
 }
 
@@ -145,6 +145,16 @@ class CheckLayers(unittest.TestCase):
             'write "kinemark/core/result.h"', self.only_problem("src/kinemark/core/a.cc", '#include "result.h"\n')
         )
         self.assertIn("is not found", self.only_problem("src/kinemark/core/a.cc", '#include "nowhere.h"\n'))
+
+        self.assertIn('write "cli/args.h"', self.only_problem("cli/ik.cc", '#include "args.h"\n'))
+        self.assertIn("does not exist", self.only_problem("cli/ik.cc", '#include "cli/gone.h"\n'))
+
+    def test_a_header_that_cmake_makes_counts_as_its_template(self):
+        template = {"src/kinemark/pipeline/version.h.in": ""}
+        with Tree({**RIGHT, **template, "cli/main.cc": '#include "kinemark/pipeline/version.h"\n'}) as root:
+            self.assertEqual(layers.check(root)[0], [])
+        with Tree({**RIGHT, **template, "src/kinemark/core/a.h": '#include "kinemark/pipeline/version.h"\n'}) as root:
+            self.assertIn("core may not include pipeline", layers.check(root)[0][0])
 
     def test_catches_a_folder_without_a_layer(self):
         self.assertIn("has no layer", self.only_problem("src/kinemark/misc/a.cc", ""))

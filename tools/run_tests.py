@@ -1,0 +1,327 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""Everything that must hold before a change lands, stage by stage. `make test` runs it; so does CI.
+
+    tools/run_tests.py [--only STAGE[,STAGE...]] [--from STAGE] [--keep-going] [--list]
+
+Each stage writes build/logs/STAGE.log and tells how long it took; the end of the log is shown when it fails. The first
+failing stage ends the run. The last line counts tests: "N passed, N failed".
+"""
+
+import argparse
+import dataclasses
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LOGS = ROOT / "build" / "logs"
+JOBS = str(os.cpu_count() or 2)
+FUZZ_SECONDS = "60"
+SHOWN_LINES = 120
+
+ENVIRONMENT = {
+    **os.environ,
+    # The viewer's Node may live in .venv (tools/setup); a Node of the machine goes first.
+    "PATH": f"{os.environ.get('PATH', '/usr/bin:/bin')}{os.pathsep}{ROOT / '.venv' / 'bin'}",
+    "ASAN_SYMBOLIZER_PATH": "/usr/bin/llvm-symbolizer-19",
+    "UBSAN_OPTIONS": "print_stacktrace=1",
+    "CTEST_OUTPUT_ON_FAILURE": "1",
+    "PYTHONDONTWRITEBYTECODE": "1",
+}
+
+
+@dataclasses.dataclass
+class Counts:
+    passed: int = 0
+    failed: int = 0
+    skipped: int = 0
+
+    def add(self, other):
+        self.passed += other.passed
+        self.failed += other.failed
+        self.skipped += other.skipped
+
+    def __str__(self):
+        return f"{self.passed} passed, {self.failed} failed" + (f", {self.skipped} skipped" if self.skipped else "")
+
+
+class Failed(Exception):
+    """A stage failed; `counts` are the tests that it ran, where known."""
+
+    def __init__(self, why, counts=None):
+        super().__init__(why)
+        self.counts = counts or Counts(failed=1)
+
+
+class Log:
+    """Runs commands with their output in a file."""
+
+    def __init__(self, path):
+        self.path = path
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        self.path.write_text("")
+
+    def run(self, *command, cwd=ROOT, **environment):
+        """Exit status of a command."""
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(f"$ {' '.join(map(str, command))}\n")
+            file.flush()
+            return subprocess.run(
+                [str(part) for part in command],
+                cwd=cwd,
+                env={**ENVIRONMENT, **environment},
+                stdin=subprocess.DEVNULL,
+                stdout=file,
+                stderr=subprocess.STDOUT,
+                check=False,
+            ).returncode
+
+    def must(self, *command, **options):
+        if self.run(*command, **options) != 0:
+            raise Failed(f"'{' '.join(map(str, command))}' failed")
+
+    def text(self):
+        return self.path.read_text(encoding="utf-8", errors="replace")
+
+
+def script(*command):
+    """A stage that is one command and counts as one test."""
+
+    def stage(log):
+        log.must(*command)
+        return Counts(passed=1)
+
+    return stage
+
+
+def count_unittest(text):
+    """Counts of Python's unittest from its last lines."""
+    ran = re.findall(r"^Ran (\d+) tests? in", text, re.MULTILINE)
+    if not ran:
+        return Counts(failed=1)
+    total = int(ran[-1])
+    numbers = dict(re.findall(r"(failures|errors|skipped)=(\d+)", text.rsplit("\nRan ", 1)[-1]))
+    failed = int(numbers.get("failures", 0)) + int(numbers.get("errors", 0))
+    skipped = int(numbers.get("skipped", 0))
+    return Counts(total - failed - skipped, failed, skipped)
+
+
+def tools(log):
+    status = log.run(sys.executable, "-m", "unittest", "discover", "-s", ROOT / "tests" / "tools")
+    counts = count_unittest(log.text())
+    if status != 0 or counts.passed == 0:
+        raise Failed("a test of the scripts failed", counts)
+    return counts
+
+
+def build(preset):
+    def stage(log):
+        log.must("cmake", "--preset", preset)
+        log.must("cmake", "--build", "--preset", preset, "--parallel", JOBS)
+        return Counts(passed=1)
+
+    return stage
+
+
+def count_ctest(junit, cases):
+    """Counts of a CTest run: the cases that GoogleTest programs wrote, one for each other CTest entry."""
+    counts = Counts()
+    for entry in ElementTree.parse(junit).getroot().iter("testcase"):
+        details = cases / f"test_{entry.get('name')}.xml"
+        passed = entry.get("status") == "run"
+        if not details.is_file():
+            counts.add(Counts(passed=1) if passed else Counts(failed=1))
+            continue
+        in_program = Counts()
+        for case in ElementTree.parse(details).getroot().iter("testcase"):
+            if case.find("failure") is not None:
+                in_program.failed += 1
+            elif case.get("result") == "skipped":
+                in_program.skipped += 1
+            else:
+                in_program.passed += 1
+        if not passed and in_program.failed == 0:
+            in_program.failed = 1
+        counts.add(in_program)
+    return counts
+
+
+def unit_tests(preset):
+    def stage(log):
+        cases = ROOT / "build" / preset / "cases"
+        junit = ROOT / "build" / preset / "ctest.xml"
+        shutil.rmtree(cases, ignore_errors=True)
+        junit.unlink(missing_ok=True)
+        # A program that dies leaves no file of cases; CTest knows that it failed.
+        status = log.run(
+            *("ctest", "--preset", preset, "--parallel", JOBS, "--output-junit", junit, "--no-tests=error"),
+            GTEST_OUTPUT=f"xml:{cases}/",
+        )
+        if not junit.is_file():
+            raise Failed("ctest did not run")
+        counts = count_ctest(junit, cases)
+        if status != 0 or counts.failed or not counts.passed:
+            raise Failed("a test failed", counts)
+        return counts
+
+    return stage
+
+
+def acceptance(log):
+    status = log.run(sys.executable, ROOT / "tests" / "acceptance" / "run.py", "--quick", "--build", ROOT / "build" / "ci")
+    found = re.findall(r"^acceptance: (\d+) passed, (\d+) failed, (\d+) skipped$", log.text(), re.MULTILINE)
+    counts = Counts(*map(int, found[-1])) if found else Counts(failed=1)
+    if status != 0:
+        raise Failed("a row of the acceptance table failed", counts)
+    return counts
+
+
+def fuzz(log):
+    log.must(sys.executable, ROOT / "tools" / "fuzz", "--seconds", FUZZ_SECONDS, "--jobs", JOBS)
+    found = re.findall(r"^fuzz: (\d+) targets, 0 failed$", log.text(), re.MULTILINE)
+    return Counts(passed=int(found[-1]))
+
+
+def tidy(log):
+    log.must(sys.executable, ROOT / "tools" / "check_tidy", "--build", ROOT / "build" / "asan", "--jobs", JOBS)
+    return Counts(passed=1)
+
+
+def files_below(folder):
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def install_viewer(log):
+    """npm ci, unless what is there was installed from the same lock file."""
+    viewer = ROOT / "viewer"
+    wanted = hashlib.sha256((viewer / "package-lock.json").read_bytes()).hexdigest()
+    stamp = viewer / "node_modules" / ".installed-from"
+    if not stamp.is_file() or stamp.read_text() != wanted:
+        log.must("npm", "ci", "--no-audit", "--no-fund", cwd=viewer)
+        stamp.write_text(wanted)
+
+
+def viewer_page(log):
+    """The committed page is what its sources build."""
+    install_viewer(log)
+    dist = ROOT / "viewer" / "dist"
+    before = files_below(dist)
+    log.must("npm", "run", "build", cwd=ROOT / "viewer")
+    if files_below(dist) != before:
+        raise Failed("viewer/dist is not what viewer/ builds; commit what 'npm run build' wrote there")
+    return Counts(passed=1)
+
+
+def viewer_tests(log):
+    status = log.run("npm", "test", "--", "--reporter=verbose", "--no-color", cwd=ROOT / "viewer", NO_COLOR="1")
+    found = re.findall(r"^\s*Tests\s+(?:(\d+) failed \| )?(?:(\d+) passed)?", log.text(), re.MULTILINE)
+    counts = Counts(int(found[-1][1] or 0), int(found[-1][0] or 0)) if found else Counts(failed=1)
+    if status != 0 or not counts.passed:
+        raise Failed("a test of the viewer failed", counts)
+    return counts
+
+
+def viewer_browser(log):
+    status = log.run("npm", "run", "test:browser", cwd=ROOT / "viewer")
+    text = log.text()
+    counts = Counts(len(re.findall(r"^ok ", text, re.MULTILINE)), len(re.findall(r"^FAILED ", text, re.MULTILINE)))
+    if status != 0 or not counts.passed:
+        raise Failed("the page fails in the browser", counts)
+    return counts
+
+
+def demo(log):
+    """The newcomer's command, on the program built before; its page is looked at in a browser."""
+    out = ROOT / "build" / "ci" / "demo"
+    shutil.rmtree(out, ignore_errors=True)
+    log.must(sys.executable, ROOT / "tools" / "demo", "--program", ROOT / "build" / "ci" / "bin" / "kinemark", "--out", out)
+    log.must("npm", "run", "test:browser", "--", out / "report.html", cwd=ROOT / "viewer")
+    return Counts(passed=2)
+
+
+# Fast ones first; what each needs is built by an earlier one.
+STAGES = {
+    "format": script("tools/check_format"),
+    "layers": script(sys.executable, "tools/check_layers.py"),
+    "licences": script(sys.executable, "tools/check_spdx.py"),
+    "tools": tools,
+    "build": build("ci"),
+    "tests": unit_tests("ci"),
+    "acceptance": acceptance,
+    "viewer-page": viewer_page,
+    "viewer-tests": viewer_tests,
+    "viewer-browser": viewer_browser,
+    "demo": demo,
+    "asan-build": build("asan"),
+    "asan-tests": unit_tests("asan"),
+    "fuzz": fuzz,
+    "tidy": tidy,
+}
+
+
+def choose(stages, only, first):
+    """Names of the stages to run; ValueError on a name that does not exist."""
+    names = list(stages)
+    for name in [*(only.split(",") if only else []), *([first] if first else [])]:
+        if name not in stages:
+            raise ValueError(f"no stage '{name}'; there are: {', '.join(names)}")
+    if only:
+        return [name for name in names if name in only.split(",")]
+    return names[names.index(first):] if first else names
+
+
+def run_stages(stages, names, logs, keep_going=False):
+    """Exit status of running the named stages; prints a line for each and the closing line."""
+    total, failed, began = Counts(), [], time.monotonic()
+    for number, name in enumerate(names, 1):
+        print(f"[{number:2}/{len(names)}] {name} ...", flush=True)
+        log, started = Log(logs / f"{name}.log"), time.monotonic()
+        try:
+            counts, why = stages[name](log), None
+        except Failed as failure:
+            counts, why = failure.counts, str(failure)
+        except OSError as error:
+            counts, why = Counts(failed=1), str(error)
+        total.add(counts)
+        took = time.monotonic() - started
+        if why is None:
+            print(f"[{number:2}/{len(names)}] {name}: good, {took:.1f} s ({counts})", flush=True)
+            continue
+        failed.append(name)
+        print("\n".join(log.text().splitlines()[-SHOWN_LINES:]))
+        print(f"[{number:2}/{len(names)}] {name}: FAILED after {took:.1f} s: {why} ({counts}); all of it: {log.path}", flush=True)
+        if not keep_going:
+            break
+    print(f"{time.monotonic() - began:.0f} s in all" + (f"; failed: {', '.join(failed)}" if failed else ""))
+    print(total, flush=True)
+    return 1 if failed else 0
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", metavar="STAGE[,STAGE...]")
+    parser.add_argument("--from", dest="first", metavar="STAGE")
+    parser.add_argument("--keep-going", action="store_true")
+    parser.add_argument("--list", action="store_true")
+    options = parser.parse_args(arguments)
+    if options.list:
+        print("\n".join(STAGES))
+        return 0
+    try:
+        names = choose(STAGES, options.only, options.first)
+    except ValueError as error:
+        print(f"run_tests: {error}", file=sys.stderr)
+        return 2
+    return run_stages(STAGES, names, LOGS, options.keep_going)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
