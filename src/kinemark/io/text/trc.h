@@ -26,8 +26,8 @@ namespace kinemark::io {
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a marker name that occurs twice,
 /// an unknown unit, a file that ends inside its header or holds no row. Code::io when it cannot be read.
-/// O(bytes); memory at most 16 times the text + 125 MB, also for hostile input; real files need about 5
-/// times.
+/// O(bytes); memory at most 16 times the text + 125 MB, also for hostile input; files full of numbers about
+/// twice.
 [[nodiscard]] Result<data::Trial> read_trc(const std::filesystem::path& path);
 
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
