@@ -35,7 +35,7 @@ constexpr std::array<Wave, 20> kWaves{
      {"knee_angle_l", true, -28, 27, 4.0, 0.7},      {"ankle_angle_l", true, 2, 14, 5.5, 0.9},
      {"arm_flex_r", true, 5, 18, 3.0, 1.1},          {"elbow_flex_r", true, 35, 16, 3.4, 1.2},
      {"pro_sup_r", true, 60, 9, 1.0, 2.8},           {"wrist_flex_r", true, 4, 7, 2.1, 2.1}}};
-constexpr std::size_t kLocked = 11, kForearm = 18, kWrist = 19;
+constexpr std::size_t kLocked = 11, kForearm = 18;  // the wrist follows the forearm
 
 constexpr std::array<std::string_view, 30> kMarkers{
     "R.ASIS",      "L.ASIS",     "V.Sacral",      "R.Thigh.Upper", "R.Thigh.Front", "R.Thigh.Rear",

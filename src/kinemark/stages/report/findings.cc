@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "kinemark/stages/report/internal/findings.h"
 
@@ -78,8 +79,11 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
   for (const std::string& warning : s.run.warnings)
     out.push_back({Verdict::good, "warning", "", warning, kUnknown});
 
-  std::ranges::stable_sort(out, std::greater{}, &Finding::level);
-  return out;
+  // In order, but what is serious before what is not.
+  std::vector<Finding> sorted;
+  for (const Verdict level : {Verdict::attention, Verdict::good})
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+  return sorted;
 }
 
 }  // namespace kinemark::report::internal

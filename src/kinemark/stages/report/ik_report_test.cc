@@ -151,7 +151,7 @@ TEST(ReportJson, ThinningKeepsPeaksGapsAndTheWidestBand) {
 }
 
 TEST(ReportHtml, SizeIsBoundedWhateverTheLength) {
-  const ExampleTrial t = example_trial(60000);
+  const ExampleTrial t = example_trial(30000);
   const IkReport report = report_of(t);
   EXPECT_LT(report_html(report).size(), 9'000'000U);
   const std::size_t template_and_tables = report_html(report, {.max_points = 2}).size();

@@ -123,8 +123,10 @@ void find_worst_frames(IkSummary& s, const JointMotion& motion, const std::vecto
   std::vector<std::int64_t> order;
   for (std::int64_t f = 0; f < motion.frames(); ++f)
     if (frames[static_cast<std::size_t>(f)].count > 0) order.push_back(f);
-  std::ranges::stable_sort(order, std::greater{},
-                           [&](std::int64_t f) { return frames[static_cast<std::size_t>(f)].rms(); });
+  std::ranges::sort(order, [&](std::int64_t a, std::int64_t b) {
+    const double x = frames[static_cast<std::size_t>(a)].rms(), y = frames[static_cast<std::size_t>(b)].rms();
+    return x != y ? x > y : a < b;
+  });
 
   const auto apart = static_cast<std::int64_t>(std::ceil(options.worst_frame_distance_s * s.time.rate_hz));
   std::vector<bool> near_taken(frames.size(), false);

@@ -130,7 +130,7 @@ IkRun read_run(const Json& json) {
   json.at("threads").get_to(run.threads);
   json.at("exit_status").get_to(run.exit_status);
   if (!json.at("solve_s").is_null()) json.at("solve_s").get_to(run.solve_s);
-  for (const auto& [key, value] : json.at("options").items())
+  for (const auto& [key, value] : json.at("options").get_ref<const Json::object_t&>())
     run.options.emplace_back(key, value.get<std::string>());
   for (const Json& i : json.at("inputs"))
     run.inputs.push_back({i.at("role"), i.at("path"), i.at("bytes"), i.at("hash"), i.at("hash_kind")});
@@ -167,7 +167,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"frames", s.time.frames},
           {"rate_hz", number(s.time.rate_hz, 6)},
           {"first_time_s", number(s.time.t0_s, 6)},
-          {"solve_s", number(run.solve_s, 6)},
+          {"solve_s", number(run.solve_s, 9)},
           {"frames_per_s", number(run.solve_s > 0.0 ? frames / run.solve_s : kUnknown, 1)},
           {"threads", run.threads},
           {"seed", run.seed},
