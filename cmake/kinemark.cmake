@@ -18,7 +18,7 @@ if(KINEMARK_DEVELOPER)
     target_compile_options(kinemark_flags INTERFACE -Wno-shadow)
   else()
     # GCC 12 reports uninitialised and out-of-range reads inside Eigen's own expression templates.
-    target_compile_options(kinemark_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
+    target_compile_options(kinemark_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
   endif()
 endif()
 if(KINEMARK_SANITIZE_ADDRESS)

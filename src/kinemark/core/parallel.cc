@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/core/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -29,7 +30,7 @@ void parallel_for(std::int64_t count, std::int64_t grain, int threads,
     for (std::int64_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  tbb::task_arena arena(n);
+  tbb::task_arena arena(std::min(n, tbb::info::default_concurrency()));  // more threads than cores only cost
   arena.execute([&] { tbb::parallel_for(std::int64_t{0}, chunks, run_chunk, tbb::simple_partitioner()); });
 }
 

@@ -30,24 +30,30 @@ void marker_normal_matrix(const Model& model, Workspace& w, const VectorXd& weig
   internal::project_composites(model, w, H);
 }
 
-void marker_gradient(const Model& model, Workspace& w, const VectorXd& weight,
-                     const Eigen::Matrix3Xd& residual, VectorXd& g) {
+void clear_forces(Workspace& w) {
   for (std::size_t b = 0; b < w.force.size(); ++b) {
     w.force[b] = {Vector3d::Zero(), Vector3d::Zero()};
     w.moment[b].setZero();
   }
-  for (int m = 0; m < model.marker_count(); ++m) {
-    const int body = model.markers()[at(m)].body;
-    if (body < 0 || weight[m] == 0.0) continue;
-    const Vector3d f = weight[m] * residual.col(m), p = w.marker.col(m);
-    w.force[at(body)].w += p.cross(f);
-    w.force[at(body)].v += f;
-    w.moment[at(body)].noalias() += p * f.transpose();
-  }
-  internal::project_forces(model, w, g);
 }
 
-void subtract_marker_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H) {
+void add_force(Workspace& w, int body, const Vector3d& x_in_world, const Vector3d& force) {
+  if (body < 0) return;
+  w.force[at(body)].w += x_in_world.cross(force);
+  w.force[at(body)].v += force;
+  w.moment[at(body)].noalias() += x_in_world * force.transpose();
+}
+
+void add_marker_forces(const Model& model, Workspace& w, const VectorXd& weight,
+                       const Eigen::Matrix3Xd& residual) {
+  for (int m = 0; m < model.marker_count(); ++m)
+    if (weight[m] != 0.0)
+      add_force(w, model.markers()[at(m)].body, w.marker.col(m), weight[m] * residual.col(m));
+}
+
+void project_forces(const Model& model, Workspace& w, VectorXd& g) { internal::project_forces(model, w, g); }
+
+void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H) {
   const auto bodies = model.bodies();
   const auto columns = model.columns();
   for (int b = static_cast<int>(bodies.size()) - 1; b >= 0; --b) {

@@ -20,12 +20,22 @@ namespace kinemark::model {
 /// kinematics().
 void marker_normal_matrix(const Model& model, Workspace& w, const VectorXd& weight, Eigen::MatrixXd& H);
 
-/// g = J'Wr for residuals r (3 x M, m; entries of weight 0 are not read). After kinematics().
-void marker_gradient(const Model& model, Workspace& w, const VectorXd& weight,
-                     const Eigen::Matrix3Xd& residual, VectorXd& g);
+/// Forces at points of bodies: start with none, add, then project.
+void clear_forces(Workspace& w);
+/// A force (world axes) at a world point of a body (tree index; the ground takes it without effect).
+void add_force(Workspace& w, int body, const Vector3d& x_in_world, const Vector3d& force);
 
-/// H -= sum_i w_i r_i . d2p_i/dv dv, turning a Gauss-Newton matrix into the exact Hessian of sum w |r|^2 / 2. Uses what
-/// marker_gradient() left in the workspace; call it right after.
-void subtract_marker_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H);
+/// Forces w_i r_i at all markers, for residuals r (3 x M, m; entries of weight 0 are not read). After
+/// kinematics().
+void add_marker_forces(const Model& model, Workspace& w, const VectorXd& weight,
+                       const Eigen::Matrix3Xd& residual);
+
+/// g = sum over the added forces of (d point / dv)' force; for marker forces that is J'Wr. Call once per
+/// clear_forces().
+void project_forces(const Model& model, Workspace& w, VectorXd& g);
+
+/// H -= sum over the added forces of force . d2 point / dv dv. With marker forces this turns a Gauss-Newton
+/// matrix into the exact Hessian of sum w |r|^2 / 2. After project_forces().
+void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H);
 
 }  // namespace kinemark::model

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace kinemark::cli {
+
+/// Options that every command takes.
+struct Globals {
+  int threads = 0;
+  std::uint64_t seed = 1;
+  bool force = false;
+  bool quiet = false;
+  bool json = false;
+  std::string command_line;  ///< as typed
+};
+
+/// A command adds itself to the program and leaves in `run` what to do; the number returned is the exit
+/// status.
+using Run = std::function<int()>;
+
+void add_info(CLI::App& app, const Globals& globals, Run& run);
+void add_convert(CLI::App& app, const Globals& globals, Run& run);
+void add_validate(CLI::App& app, const Globals& globals, Run& run);
+void add_simulate(CLI::App& app, const Globals& globals, Run& run);
+void add_ik(CLI::App& app, const Globals& globals, Run& run);
+void add_report(CLI::App& app, const Globals& globals, Run& run);
+
+}  // namespace kinemark::cli

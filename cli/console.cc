@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/console.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+namespace kinemark::cli {
+namespace {
+
+volatile std::sig_atomic_t signal_seen = 0;
+
+extern "C" void note_signal(int number) {
+  signal_seen = number;
+  std::signal(number, SIG_DFL);  // a second one kills
+}
+
+}  // namespace
+
+void say(const Globals& globals, std::string_view line) {
+  if (!globals.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+}
+
+int report_error(const Error& error) {
+  std::fprintf(stderr, "kinemark: %s\n", error.message.c_str());
+  if (error.code == Code::cancelled && caught_signal() != 0) return 128 + caught_signal();
+  return exit_status(error.code);
+}
+
+Progress show_progress(const Globals& globals, std::string what) {
+  using Clock = std::chrono::steady_clock;
+  struct State {
+    Clock::time_point start = Clock::now(), next = start + std::chrono::seconds(1);
+  };
+  const auto state = std::make_shared<State>();
+  const bool quiet = globals.quiet, terminal = isatty(STDERR_FILENO) != 0;
+  return [=](std::int64_t done, std::int64_t total) {
+    if (caught_signal() != 0) return false;
+    const auto now = Clock::now();
+    if (quiet || now < state->next) return true;
+    state->next = now + (terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(1000));
+    const double elapsed = std::chrono::duration<double>(now - state->start).count();
+    const double rate = static_cast<double>(done) / elapsed;
+    std::fprintf(stderr, "%s%s: %lld of %lld, %.0f per second, %.0f s left%s", terminal ? "\r" : "",
+                 what.c_str(), static_cast<long long>(done), static_cast<long long>(total), rate,
+                 static_cast<double>(total - done) / rate, terminal ? "\033[K" : "\n");
+    return true;
+  };
+}
+
+void install_signal_handlers() {
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+}
+
+int caught_signal() { return signal_seen; }
+
+}  // namespace kinemark::cli

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/core.h>
+
+#include <string>
+#include <string_view>
+
+#include "cli/command.h"
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+
+namespace kinemark::cli {
+
+/// One line for people, on stderr; nothing with --quiet.
+void say(const Globals& globals, std::string_view line);
+
+/// The sentence of a failure on stderr, and its exit status.
+[[nodiscard]] int report_error(const Error& error);
+
+/// Progress of long work on stderr: a line that is rewritten on a terminal, a line a second elsewhere, with
+/// rate and time left; silent for the first second and with --quiet. Stops the work after SIGINT or SIGTERM.
+[[nodiscard]] Progress show_progress(const Globals& globals, std::string what);
+
+/// Signal that asked to stop (SIGINT or SIGTERM), or 0. install_signal_handlers() makes them be noted instead
+/// of killing.
+void install_signal_handlers();
+[[nodiscard]] int caught_signal();
+
+}  // namespace kinemark::cli

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/convert_job.h"
+
+namespace kinemark::cli {
+
+void add_convert(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command = app.add_subcommand("convert", "A file in another format of its kind");
+  command->footer(
+      "Markers: .c3d, .trc in; .c3d, .trc, .csv out. Tables: .mot, .sto. Models: .osim of any version in, "
+      "4.0 out.");
+  struct Arguments {
+    std::string in, out;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("IN", arguments->in, "File to read")->required();
+  command->add_option("OUT", arguments->out, "File to write; its ending names the format")->required();
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] {
+      const auto warnings = pipeline::convert_file(arguments->in, arguments->out, globals.force);
+      if (!warnings) return report_error(warnings.error());
+      for (const auto& warning : *warnings) say(globals, fmt::format("note: {}", warning));
+      say(globals, fmt::format("wrote {}", arguments->out));
+      return 0;
+    };
+  });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/io/number.h"
+#include "kinemark/pipeline/ik_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+/// "NAME=NUMBER".
+Result<std::pair<std::string, double>> parse_weight(const std::string& text) {
+  const auto equals = text.rfind('=');
+  const auto number = equals == std::string::npos ? std::nullopt : io::parse_number(text.substr(equals + 1));
+  if (!number || equals == 0) return fail(Code::usage, fmt::format("'{}' is not NAME=WEIGHT", text));
+  return std::pair{text.substr(0, equals), *number};
+}
+
+void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
+  const auto& result = outcome.result;
+  const auto& motion = result.motion;
+  const auto& summary = outcome.summary;
+  say(globals,
+      fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; solved in {:.3f} s ({:.0f} frames/s).",
+                  motion.frames(), motion.time.rate_hz, result.markers.size(), motion.size(),
+                  result.solve_seconds, static_cast<double>(motion.frames()) / result.solve_seconds));
+  say(globals,
+      fmt::format("Marker error {:.2f} mm RMS, {:.1f} mm at most; {:.1f} % of the coordinates determined.",
+                  1e3 * result.rms_marker_error_m, 1e3 * result.max_marker_error_m,
+                  100.0 * summary.determined_fraction));
+  for (const auto& finding : summary.findings)
+    say(globals, fmt::format("{}: {}", finding.level == report::Verdict::attention ? "attention" : "note",
+                             finding.text));
+  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  if (globals.json) fmt::print("{}\n", report::summary_json(summary).dump(2));
+}
+
+struct IkArguments {
+  pipeline::IkJob job;
+  std::vector<std::string> weights, coordinate_weights;
+  double max_rms_mm = 50.0, max_offset_mm = 50.0, noise_mm = 0.0, loss_scale_mm = 20.0;
+  bool no_limits = false, no_error_bars = false;
+};
+
+int run_command(const Globals& globals, IkArguments& arguments) {
+  auto& job = arguments.job;
+  auto& options = job.options;
+  for (const auto& text : arguments.weights) {
+    const auto weight = parse_weight(text);
+    if (!weight) return report_error(weight.error());
+    options.marker_weights.push_back({weight->first, weight->second});
+  }
+  for (const auto& text : arguments.coordinate_weights) {
+    const auto weight = parse_weight(text);
+    if (!weight) return report_error(weight.error());
+    options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
+  }
+  options.limits = !arguments.no_limits;
+  options.error_bars = !arguments.no_error_bars;
+  options.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
+  options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
+  options.threads = globals.threads;
+  options.seed = globals.seed;
+  job.max_rms_m = 1e-3 * arguments.max_rms_mm;
+  job.max_offset_m = 1e-3 * arguments.max_offset_mm;
+  job.force = globals.force;
+  job.command_line = globals.command_line;
+  const auto outcome = pipeline::run_ik(job, show_progress(globals, "frames"));
+  if (!outcome) return report_error(outcome.error());
+  print_outcome(globals, *outcome);
+  return outcome->exit_status;
+}
+
+}  // namespace
+
+void add_ik(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command = app.add_subcommand(
+      "ik", "Joint angles from markers by least squares, each with its standard deviation");
+  command->footer(
+      "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_marker_errors.sto "
+      "(metres, NaN where\n"
+      "not seen) and Q_report.json. Exit status 1: the files are there, but a quality gate was missed.");
+  const auto arguments = std::make_shared<IkArguments>();
+  auto& job = arguments->job;
+  auto& options = job.options;
+  command->add_option("-m,--model", job.model, "Body model, .osim")->group("Input");
+  command->add_option("-t,--markers", job.markers, "Marker file, .c3d or .trc")->group("Input");
+  command->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options win over it")
+      ->group("Input");
+  command->add_option("--tasks", job.tasks, "OpenSim IKTaskSet: marker and coordinate weights")
+      ->group("Input");
+  command->add_option("--start", options.first_time_s, "First time to solve, s")->group("Input");
+  command->add_option("--end", options.last_time_s, "Last time to solve, s")->group("Input");
+  command->add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
+  command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
+      ->group("Output");
+  command
+      ->add_option("--weight", arguments->weights,
+                   "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
+      ->group("Estimate");
+  command
+      ->add_option("--coordinate-weight", arguments->coordinate_weights,
+                   "Pull a coordinate to 0 with NAME=W (OpenSim's convention). Repeatable.")
+      ->group("Estimate");
+  command->add_option("--loss", options.loss, "How large residuals count: square, huber or cauchy")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, motion::Loss>{{"square", motion::Loss::square},
+                                                                      {"huber", motion::Loss::huber},
+                                                                      {"cauchy", motion::Loss::cauchy}}))
+      ->default_str("square")
+      ->group("Estimate");
+  command->add_option("--loss-scale", arguments->loss_scale_mm, "Where huber and cauchy begin to bend, mm")
+      ->capture_default_str()
+      ->group("Estimate");
+  command
+      ->add_option("--noise", arguments->noise_mm,
+                   "Marker noise per axis, mm; 0 estimates it from the residuals")
+      ->capture_default_str()
+      ->group("Estimate");
+  command->add_flag("--no-limits", arguments->no_limits, "Let clamped coordinates leave their range")
+      ->group("Estimate");
+  command->add_flag("--no-error-bars", arguments->no_error_bars, "Skip standard deviations")
+      ->group("Estimate");
+  command->add_option("--max-rms", arguments->max_rms_mm, "Gate: RMS marker error, mm")
+      ->capture_default_str()
+      ->group("Quality gates");
+  command->add_option("--max-offset", arguments->max_offset_mm, "Gate: mean marker offset, mm")
+      ->capture_default_str()
+      ->group("Quality gates");
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_command(globals, *arguments); };
+  });
+}
+
+}  // namespace kinemark::cli

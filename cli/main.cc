@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <exception>
+#include <new>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/version.h"
+
+namespace {
+
+using kinemark::cli::Globals;
+using kinemark::cli::Run;
+
+constexpr const char* kFooter =
+    "Exit status: 0 good, 1 ran but missed a quality gate, 2 usage, 3 bad input, 4 I/O, 5 device,\n"
+    "130 and 143 stopped by a signal. 'kinemark COMMAND --help' lists a command's options.";
+
+void add_globals(CLI::App& app, Globals& globals) {
+  app.add_option("--threads", globals.threads, "Threads; 0 uses all cores. Any number gives the same bits.")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group("Everywhere");
+  app.add_option("--seed", globals.seed, "Seed of everything random")
+      ->capture_default_str()
+      ->group("Everywhere");
+  app.add_flag("--force", globals.force, "Replace files that exist")->group("Everywhere");
+  app.add_flag("--quiet", globals.quiet, "Say nothing but errors")->group("Everywhere");
+  app.add_flag("--json", globals.json, "Print the result as JSON on stdout")->group("Everywhere");
+}
+
+int run_program(int argc, char** argv) {
+  Globals globals;
+  for (int i = 0; i < argc; ++i)
+    globals.command_line += (i ? std::string(" ") : std::string()) + (i ? argv[i] : "kinemark");
+  CLI::App app("From detector counts to joint angles, with an error bar on every number.", "kinemark");
+  app.set_version_flag("--version", std::string("kinemark ") + kinemark::pipeline::kVersion);
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.get_formatter()->column_width(36);
+  add_globals(app, globals);
+  Run run;
+  kinemark::cli::add_simulate(app, globals, run);
+  kinemark::cli::add_ik(app, globals, run);
+  kinemark::cli::add_report(app, globals, run);
+  kinemark::cli::add_info(app, globals, run);
+  kinemark::cli::add_convert(app, globals, run);
+  kinemark::cli::add_validate(app, globals, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
+  }
+  kinemark::cli::install_signal_handlers();
+  return run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return kinemark::cli::report_error({kinemark::Code::io, "out of memory"});
+  } catch (const std::exception& error) {
+    return kinemark::cli::report_error({kinemark::Code::bad_input, error.what()});
+  }
+}

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/simulate_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct SubjectArguments {
+  pipeline::SubjectJob job;
+  double noise_mm = 1.0;
+};
+
+int run_subject(const Globals& globals, SubjectArguments& arguments) {
+  auto& job = arguments.job;
+  job.options.seed = globals.seed;
+  job.options.noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.force = globals.force;
+  const auto written = pipeline::simulate_subject(job);
+  if (!written) return report_error(written.error());
+  for (const auto& path : *written) say(globals, fmt::format("wrote {}", path.string()));
+  return 0;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command = app.add_subcommand("simulate", "Recordings with known truth");
+  command->require_subcommand(1);
+  auto* subject = command->add_subcommand(
+      "subject", "A moving person with markers: noise, soft tissue, gaps, and the truth");
+  subject->footer(
+      "Writes markers.c3d, markers.trc, model.osim, truth.mot (degrees, metres) and truth.trc into the "
+      "folder.");
+  const auto arguments = std::make_shared<SubjectArguments>();
+  auto& options = arguments->job.options;
+  subject->add_option("-o,--out", arguments->job.folder, "Folder to write into; made when absent")
+      ->required();
+  subject->add_option("-m,--model", arguments->job.model,
+                      "Body model, .osim; kinemark's own human when absent");
+  subject->add_option("--duration", options.duration_s, "Length, s")->capture_default_str();
+  subject->add_option("--rate", options.rate_hz, "Frames per second")->capture_default_str();
+  subject->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm")->capture_default_str();
+  subject
+      ->add_option("--soft-tissue", options.soft_tissue,
+                   "Skin motion: 1 is 2 mm (head, hand) to 15 mm (thigh) RMS")
+      ->capture_default_str();
+  subject
+      ->add_option("--soft-tissue-common", options.soft_tissue_common,
+                   "Share of it that a segment's markers have in common")
+      ->capture_default_str();
+  subject->add_option("--dropout-random", options.dropout_random, "Share of samples lost at random, in gaps")
+      ->capture_default_str();
+  subject
+      ->add_option("--dropout-sight", options.dropout_sight,
+                   "Share of samples lost because the body hides the marker")
+      ->capture_default_str();
+  subject->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_subject(globals, *arguments); };
+  });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/file_facts.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/text/table_file.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<Json> describe_markers(const std::filesystem::path& path) {
+  const auto trial = io::read_markers(path);
+  if (!trial) return std::unexpected(trial.error());
+  const auto& markers = trial->markers;
+  return Json{{"file", path.string()},
+              {"kind", "markers"},
+              {"format", trial->format},
+              {"points", markers.markers()},
+              {"frames", markers.frames()},
+              {"rate_hz", markers.time.rate_hz},
+              {"first_frame", trial->first_frame},
+              {"last_frame", trial->last_frame()},
+              {"units", trial->units_in_file},
+              {"missing", markers.count_missing()},
+              {"analog_channels", trial->analog.names.size()},
+              {"analog_rate_hz", trial->analog.rate_hz},
+              {"force_plates", trial->force_plates.size()},
+              {"events", trial->events.size()},
+              {"software", trial->software},
+              {"labels", markers.names},
+              {"warnings", trial->warnings}};
+}
+
+Result<Json> describe_table(const std::filesystem::path& path) {
+  const auto table = io::read_table(path);
+  if (!table) return std::unexpected(table.error());
+  return Json{{"file", path.string()},
+              {"kind", "table"},
+              {"rows", table->rows()},
+              {"columns", table->columns.size()},
+              {"first_time_s", table->rows() > 0 ? Json(table->time_s.front()) : Json()},
+              {"last_time_s", table->rows() > 0 ? Json(table->time_s.back()) : Json()},
+              {"in_degrees", io::angles_are_degrees(*table)},
+              {"labels", table->columns},
+              {"warnings", table->warnings}};
+}
+
+Result<Json> describe_model(const std::filesystem::path& path) {
+  const auto model = io::read_osim(path);
+  if (!model) return std::unexpected(model.error());
+  double mass = 0.0;
+  for (const auto& body : model->bodies) mass += body.mass;
+  std::vector<std::string> coordinates;
+  for (const auto& coordinate : model->coordinates) coordinates.push_back(coordinate.name);
+  return Json{{"file", path.string()},
+              {"kind", "model"},
+              {"name", model->name},
+              {"bodies", model->bodies.size()},
+              {"joints", model->joints.size()},
+              {"coordinates", model->coordinates.size()},
+              {"markers", model->markers.size()},
+              {"couplings", model->couplings.size()},
+              {"point_constraints", model->point_constraints.size()},
+              {"mass_kg", mass},
+              {"labels", coordinates},
+              {"warnings", model->warnings}};
+}
+
+}  // namespace
+
+Result<Json> describe_file(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".osim") return describe_model(path);
+  if (ending == ".mot" || ending == ".sto") return describe_table(path);
+  return describe_markers(path);
+}
+
+std::string facts_text(const Json& facts) {
+  std::string text;
+  for (const auto& [key, value] : facts.items()) {
+    if (value.is_array()) {
+      if (key == "warnings") {
+        for (const auto& warning : value)
+          text += fmt::format("warning           {}\n", warning.get<std::string>());
+        continue;
+      }
+      std::string list;
+      for (const auto& item : value) list += (list.empty() ? "" : " ") + item.get<std::string>();
+      text += fmt::format("{:<17} {}\n", key, list);
+    } else {
+      text += fmt::format("{:<17} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+  return text;
+}
+
+}  // namespace kinemark::pipeline

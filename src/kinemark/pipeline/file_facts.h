@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::pipeline {
+
+/// What a file holds, by its ending.
+///
+/// Markers (.c3d, .trc): points, frames, rate_hz, first_frame, last_frame, units, missing (marker frames),
+/// analog_channels, analog_rate_hz, force_plates, labels, warnings. Tables (.mot, .sto): rows, columns,
+/// first_time_s, last_time_s, in_degrees, labels, warnings. Models (.osim): name, bodies, joints,
+/// coordinates, markers, couplings, point_constraints, mass_kg, warnings. Every answer has "file" and "kind".
+[[nodiscard]] Result<nlohmann::ordered_json> describe_file(const std::filesystem::path& path);
+
+/// The same for people, one fact a line.
+[[nodiscard]] std::string facts_text(const nlohmann::ordered_json& facts);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::pipeline {
+
+struct FileHash {
+  std::int64_t bytes = 0;
+  std::string hex;  ///< XXH3, 64 bits, 16 lower-case digits
+};
+
+/// Size and checksum of a file, read once in blocks.
+[[nodiscard]] Result<FileHash> hash_file(const std::filesystem::path& path);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Joint motion as the tables that MOT and STO files hold (degrees and metres), and back.
+#pragma once
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/table.h"
+
+namespace kinemark::pipeline {
+
+/// Coordinates, one column each; rotations in degrees.
+[[nodiscard]] data::Table coordinates_table(const data::JointMotion& motion);
+
+/// One standard deviation of each coordinate, degrees or metres; NaN where the markers do not determine it.
+[[nodiscard]] data::Table deviations_table(const data::JointMotion& motion);
+
+/// Distance between measured and model marker in metres: columns rms, max, then one per marker; NaN where not
+/// seen.
+[[nodiscard]] data::Table marker_errors_table(const data::JointMotion& motion);
+
+/// A motion from a table of coordinates and, when given, of deviations and marker errors. `rotations` holds
+/// the names of the coordinates that turn; radians and metres come out. The marker error gets its length in x
+/// and 0 in y and z; with both tables each frame has a status (frames that did not converge cannot be told
+/// from the tables).
+[[nodiscard]] Result<data::JointMotion> motion_from_tables(const data::Table& coordinates,
+                                                           const data::Table* deviations,
+                                                           const data::Table* marker_errors,
+                                                           const std::vector<std::string>& rotations);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Inverse kinematics by least squares: joint coordinates whose model markers lie nearest to the measured
+// ones, frame by frame, each coordinate with its standard deviation and a flag that says whether the visible
+// markers fix it. Theory: docs/theory/inverse-kinematics.md and docs/theory/error-bars.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/ik_options.h"
+
+namespace kinemark::motion {
+
+/// What one used marker contributed.
+struct MarkerSummary {
+  std::string name;          ///< in the model
+  std::string name_in_data;  ///< in the recording (may carry a subject prefix)
+  std::string body;
+  double weight = 1.0;
+  double seen = 0.0;   ///< share of the solved frames, 0 to 1
+  double rms_m = 0.0;  ///< distance measured to model, NaN when never seen
+  double max_m = 0.0;
+  double noise_sd_m = 0.0;  ///< per axis: part of its own, as used for the error bars; NaN when not estimated
+  double common_sd_m = 0.0;  ///< per axis: part shared by the markers of its segment
+};
+
+struct IkResult {
+  data::JointMotion motion;      ///< solved frames only
+  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
+  std::vector<MarkerSummary> markers;
+  std::vector<std::string> model_markers_without_data, data_markers_without_model, excluded_markers;
+  std::vector<std::string> warnings;
+  double cost = 0.0;                ///< sum over frames of the cost in IkOptions (square loss), m^2
+  double rms_marker_error_m = 0.0;  ///< over all marker frames used, unweighted
+  double max_marker_error_m = 0.0;
+  Eigen::Vector3d mean_marker_error_m =
+      Eigen::Vector3d::Zero();  ///< measured minus model: large when frames disagree
+  double max_loop_gap_m = 0.0;  ///< largest point-constraint gap
+  std::int64_t iterations = 0;
+  double solve_seconds = 0.0;  ///< wall time of the frame loop alone, without error bars
+};
+
+/// Solve every frame of the time range.
+///
+/// Markers are matched by name, exactly or behind a subject prefix ("Ann:LASI"). Markers that the model lacks
+/// are left out; a weight for a marker or coordinate that does not exist, no marker in common, or an empty
+/// time range are errors. Frames follow each other from the first frame in which nearly all markers are seen,
+/// forwards and then backwards, each starting from its neighbour; the first is found from several starts.
+/// Missing markers are simply left out of the sum. About 30 us per frame for a whole body; nothing is
+/// allocated per frame. Source: Levenberg-Marquardt and exact Newton on the tree, model/weighted_normal.h;
+/// cost convention of OpenSim (Delp et al. 2007).
+[[nodiscard]] Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& markers,
+                                        const IkOptions& options = {}, const Progress& progress = {});
+
+/// The shift (m) that must be added to all measured markers so that the model fits them best, found on up to
+/// 10 frames; and the RMS marker error that would remain. Tells a recording in another place from a bad fit.
+struct CommonOffset {
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+  double rms_before_m = 0.0, rms_after_m = 0.0;
+};
+[[nodiscard]] Result<CommonOffset> find_common_offset(const model::Model& model,
+                                                      const data::Trajectories& markers,
+                                                      const IkOptions& options = {});
+
+/// The cost of given coordinates (F x n, rows are the frames of `markers` in the time range), for comparing
+/// solvers.
+[[nodiscard]] Result<double> calc_ik_cost(const model::Model& model, const data::Trajectories& markers,
+                                          const IkOptions& options, const Eigen::MatrixXd& q);
+
+}  // namespace kinemark::motion

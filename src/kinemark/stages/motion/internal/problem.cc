@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/problem.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/workspace.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i == 12) return text + fmt::format(", and {} more", names.size() - i);
+    text += (i ? ", " : "") + names[i];
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// Recording's marker for each name: exact, or the only one whose name ends in ":name".
+std::map<std::string, int, std::less<>> index_names(const data::Trajectories& markers) {
+  std::map<std::string, int, std::less<>> index, suffixes;
+  for (int m = 0; m < static_cast<int>(markers.markers()); ++m) {
+    const std::string& name = markers.names[static_cast<std::size_t>(m)];
+    index[name] = m;
+    if (const auto colon = name.rfind(':'); colon != std::string::npos) {
+      const auto [it, fresh] = suffixes.try_emplace(name.substr(colon + 1), m);
+      if (!fresh) it->second = -1;  // two subjects carry it: ambiguous
+    }
+  }
+  for (const auto& [name, m] : suffixes)
+    if (m >= 0) index.try_emplace(name, m);
+  return index;
+}
+
+bool ever_seen(const data::Trajectories& markers, int m) {
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    if (markers.present(f, m)) return true;
+  return false;
+}
+
+Status match_markers(const model::Model& model, const data::Trajectories& markers, const IkOptions& options,
+                     Problem& problem, data::ModelDescription& reduced) {
+  const auto& described = model.description().markers;
+  const auto index = index_names(markers);
+  std::map<std::string, double, std::less<>> weights;
+  for (const auto& [name, weight] : options.marker_weights) {
+    if (model.description().find_marker(name) < 0 && !index.contains(name))
+      return fail(
+          Code::bad_input,
+          fmt::format("a weight names marker '{}', which neither the model nor the recording has", name));
+    weights[name] = weight;
+  }
+  std::vector<bool> used(markers.names.size(), false);
+  reduced.markers.clear();
+  std::vector<double> used_weights;
+  for (const auto& marker : described) {
+    const auto it = index.find(marker.name);
+    if (it == index.end()) {
+      problem.model_only.push_back(marker.name);
+      continue;
+    }
+    used[static_cast<std::size_t>(it->second)] = true;
+    const auto w = weights.find(marker.name);
+    const double weight = w == weights.end() ? options.default_marker_weight : w->second;
+    if (weight == 0.0) {
+      problem.excluded.push_back(marker.name);
+      continue;
+    }
+    if (!ever_seen(markers, it->second)) {
+      problem.excluded.push_back(marker.name);
+      problem.warnings.push_back(
+          fmt::format("marker '{}' is never seen in the recording and was left out", marker.name));
+      continue;
+    }
+    reduced.markers.push_back(marker);
+    problem.data_marker.push_back(it->second);
+    used_weights.push_back(weight);
+  }
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (!used[m]) problem.data_only.push_back(markers.names[m]);
+  if (described.empty())
+    return fail(Code::bad_input,
+                fmt::format("model '{}' has no markers; need at least one", model.description().name));
+  if (reduced.markers.empty()) {
+    std::vector<std::string> names;
+    for (const auto& marker : described) names.push_back(marker.name);
+    return fail(Code::bad_input, fmt::format("no marker in common: the model has {}; the recording has {}",
+                                             list(names), list(markers.names)));
+  }
+  problem.weight =
+      Eigen::Map<const Eigen::VectorXd>(used_weights.data(), static_cast<Eigen::Index>(used_weights.size()));
+  return {};
+}
+
+Status place_pulls(const model::Model& model, const IkOptions& options, Problem& problem) {
+  for (const auto& task : options.coordinate_tasks) {
+    const int c = model.description().find_coordinate(task.coordinate);
+    if (c < 0)
+      return fail(Code::bad_input, fmt::format("a task names coordinate '{}', which the model does not have",
+                                               task.coordinate));
+    if (!task.values.empty() && static_cast<std::int64_t>(task.values.size()) != problem.frames)
+      return fail(Code::bad_input, fmt::format("the task of coordinate '{}' has {} values for {} frames",
+                                               task.coordinate, task.values.size(), problem.frames));
+    if (std::any_of(task.values.begin(), task.values.end(), [](double v) { return !std::isfinite(v); }))
+      return fail(Code::bad_input, fmt::format("the task of coordinate '{}' has a value that is not a number",
+                                               task.coordinate));
+    if (task.weight > 0.0) problem.pulls.push_back({c, task.weight, task.value, task.values});
+  }
+  return {};
+}
+
+void find_limits(const model::Model& model, const IkOptions& options, Problem& problem) {
+  const int n = model.speed_count();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  problem.fixed_speed.assign(static_cast<std::size_t>(n), 0);
+  problem.lower.setConstant(n, -infinity);
+  problem.upper.setConstant(n, infinity);
+  for (int c = 0; c < model.coordinate_count(); ++c) {
+    const auto& described = model.description().coordinates[static_cast<std::size_t>(c)];
+    const int speed = model.coordinates()[static_cast<std::size_t>(c)].speed_idx;
+    if (speed < 0) continue;
+    if (described.locked) problem.fixed_speed[static_cast<std::size_t>(speed)] = 1;
+    if (options.limits && described.clamped && !described.locked) {
+      problem.lower[speed] = described.range_min;
+      problem.upper[speed] = described.range_max;
+    }
+  }
+}
+
+/// RMS distance of points from their centre.
+double spread(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  double squares = 0.0;
+  for (const auto& p : points) squares += (p - centre).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+// A body changes the spread of its markers by moving, but never a hundredfold: that is a unit.
+Status check_units(const Problem& problem, const data::Trajectories& markers) {
+  model::Workspace w(problem.model);
+  model::kinematics(problem.model, w, problem.model.default_state());
+  for (std::int64_t f = 0; f < problem.frames; ++f) {
+    std::vector<Eigen::Vector3d> recorded, modelled;
+    for (std::size_t m = 0; m < problem.data_marker.size(); ++m) {
+      if (!markers.present(problem.first_frame + f, problem.data_marker[m])) continue;
+      recorded.emplace_back(markers.x(problem.first_frame + f, problem.data_marker[m]));
+      modelled.emplace_back(w.marker.col(static_cast<Eigen::Index>(m)));
+    }
+    if (2 * recorded.size() <= problem.data_marker.size() || recorded.size() < 3) continue;
+    const double ratio = spread(recorded) / spread(modelled);
+    if (ratio < 100.0 && ratio > 0.01) return {};
+    return fail(
+        Code::bad_input,
+        fmt::format(
+            "the recorded markers spread over {:.3g} m, the model's over {:.3g} m; a factor of {:.3g} looks "
+            "like a wrong unit",
+            spread(recorded), spread(modelled), ratio > 1.0 ? ratio : 1.0 / ratio));
+  }
+  return {};
+}
+
+}  // namespace
+
+int Problem::speed_of(int coordinate) const {
+  const auto coordinates = model.coordinates();
+  while (coordinates[static_cast<std::size_t>(coordinate)].source >= 0)
+    coordinate = coordinates[static_cast<std::size_t>(coordinate)].source;
+  return coordinates[static_cast<std::size_t>(coordinate)].speed_idx;
+}
+
+void Problem::observe(const data::Trajectories& markers, std::int64_t f, Eigen::Matrix3Xd& y,
+                      Eigen::VectorXd& w) const {
+  for (std::size_t m = 0; m < data_marker.size(); ++m) {
+    const auto i = static_cast<Eigen::Index>(m);
+    const bool seen = markers.present(first_frame + f, data_marker[m]);
+    w[i] = seen ? weight[i] : 0.0;
+    if (seen)
+      y.col(i) = markers.x(first_frame + f, data_marker[m]);
+    else
+      y.col(i).setZero();
+  }
+}
+
+Result<Problem> make_problem(const model::Model& model, const data::Trajectories& markers,
+                             const IkOptions& options) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  if (auto status = markers.validate(); !status) return std::unexpected(status.error());
+  Problem problem;
+  const double slack = kTimeSlack / markers.time.rate_hz;
+  std::int64_t last = -1;
+  for (std::int64_t f = 0; f < markers.frames(); ++f) {
+    const double t = markers.time.time_s(f);
+    if (t < options.first_time_s - slack || t > options.last_time_s + slack) continue;
+    if (last < 0) problem.first_frame = f;
+    last = f;
+  }
+  if (last < 0)
+    return fail(
+        Code::bad_input,
+        fmt::format("no frame in the time range {} to {} s; the recording has {} frames from {} to {} s",
+                    options.first_time_s, options.last_time_s, markers.frames(), markers.time.t0_s,
+                    markers.time.time_s(std::max<std::int64_t>(0, markers.frames() - 1))));
+  problem.frames = last - problem.first_frame + 1;
+  data::ModelDescription reduced = model.description();
+  if (auto status = match_markers(model, markers, options, problem, reduced); !status)
+    return std::unexpected(status.error());
+  if (auto status = place_pulls(model, options, problem); !status) return std::unexpected(status.error());
+  auto compiled = model::Model::compile(std::move(reduced), {.free_roots = !model.free_joints().empty()});
+  if (!compiled) return std::unexpected(compiled.error());
+  problem.model = std::move(*compiled);
+  find_limits(problem.model, options, problem);
+  if (auto status = check_units(problem, markers); !status) return std::unexpected(status.error());
+  return problem;
+}
+
+}  // namespace kinemark::motion::internal

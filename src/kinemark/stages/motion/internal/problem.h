@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// A recording and a model brought together: which marker is which, what is fixed, what is pulled where.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/ik_options.h"
+
+namespace kinemark::motion::internal {
+
+struct Problem {
+  model::Model model;            ///< the given model with the used markers only
+  std::vector<int> data_marker;  ///< per model marker: its index in the recording
+  Eigen::VectorXd weight;        ///< per model marker, > 0
+  std::vector<std::string> model_only, data_only, excluded;
+  std::vector<std::string> warnings;
+
+  struct Pull {
+    int coordinate = 0;
+    double weight = 0.0;
+    double value = 0.0;
+    std::vector<double> values;
+    [[nodiscard]] double target(std::int64_t frame) const {
+      return values.empty() ? value : values[static_cast<std::size_t>(frame)];
+    }
+  };
+  std::vector<Pull> pulls;
+  /// Speed behind a plain or coupled coordinate, or -1 (free joints, coordinates that drive nothing).
+  [[nodiscard]] int speed_of(int coordinate) const;
+  std::vector<std::uint8_t> fixed_speed;  ///< 1: locked
+  Eigen::VectorXd lower, upper;           ///< per speed; +-infinity where unlimited
+  std::int64_t first_frame = 0, frames = 0;
+
+  /// Markers of frame f (0: first solved) and their weights, 0 where not seen. Sizes are those of the model.
+  void observe(const data::Trajectories& markers, std::int64_t f, Eigen::Matrix3Xd& y,
+               Eigen::VectorXd& w) const;
+};
+
+[[nodiscard]] Result<Problem> make_problem(const model::Model& model, const data::Trajectories& markers,
+                                           const IkOptions& options);
+
+}  // namespace kinemark::motion::internal

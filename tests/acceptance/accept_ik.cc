@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Inverse kinematics on real recordings against the answers that other programs stored beside them.
+#include <fmt/core.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "kinemark/core/units.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/model.h"
+#include "kinemark/model/state.h"
+#include "kinemark/pipeline/ik_setup_options.h"
+#include "kinemark/stages/motion/ik.h"
+#include "support/acceptance.h"
+#include "support/test_data.h"
+
+namespace {
+
+using namespace kinemark;
+using testing_support::print_row;
+namespace fs = std::filesystem;
+
+/// A recording solved with the options of its OpenSim setup file, and the stored answer.
+struct Case {
+  model::Model model;
+  data::Trajectories markers;
+  motion::IkOptions options;
+  motion::IkResult result;
+  data::Table answer;  // degrees and metres, or radians
+};
+
+model::Model load_model(const fs::path& path) {
+  return model::Model::compile(io::read_osim(path).value()).value();
+}
+
+Case solve(const fs::path& model, const fs::path& markers, const fs::path& setup, const fs::path& answer) {
+  Case c{.model = load_model(model), .markers = io::read_markers(markers).value().markers};
+  pipeline::IkJob job;
+  job.setup = setup;
+  job.model = model;
+  job.markers = markers;
+  pipeline::apply_setup(job).value();
+  pipeline::apply_tasks(job, c.model, c.markers).value();
+  c.options = job.options;
+  c.answer = io::read_table(answer).value();
+  c.options.last_time_s = std::min(c.options.last_time_s, c.answer.time_s.back());
+  c.result = motion::solve_ik(c.model, c.markers, c.options).value();
+  return c;
+}
+
+/// Answer of one coordinate at one solved frame, in radians or metres.
+double stored(const Case& c, std::int64_t frame, int coordinate) {
+  const auto& motion = c.result.motion;
+  // A coupled coordinate that the answer leaves out follows from the one it is coupled to.
+  if (c.answer.find(motion.coordinates[static_cast<std::size_t>(coordinate)]) < 0) {
+    const auto& coupled = c.model.coordinates()[static_cast<std::size_t>(coordinate)];
+    return coupled.coupling(stored(c, frame, coupled.source)).f;
+  }
+  const auto column = c.answer.find(motion.coordinates[static_cast<std::size_t>(coordinate)]);
+  const auto row = std::lower_bound(c.answer.time_s.begin(), c.answer.time_s.end(),
+                                    motion.time.time_s(frame) - 0.3 / motion.time.rate_hz) -
+                   c.answer.time_s.begin();
+  const double unit =
+      motion.is_rotation[static_cast<std::size_t>(coordinate)] && io::angles_are_degrees(c.answer)
+          ? kRadPerDeg
+          : 1.0;
+  return unit * c.answer(row, column);
+}
+
+Eigen::MatrixXd stored_coordinates(const Case& c) {
+  Eigen::MatrixXd q(c.result.motion.frames(), c.model.coordinate_count());
+  for (Eigen::Index f = 0; f < q.rows(); ++f)
+    for (int k = 0; k < q.cols(); ++k) q(f, k) = stored(c, f, k);
+  return q;
+}
+
+/// Cost of the stored answer over ours (1.0 when equal; above 1 when ours is lower).
+void print_cost(const std::string& what, const Case& c) {
+  const double theirs = motion::calc_ik_cost(c.model, c.markers, c.options, stored_coordinates(c)).value();
+  print_row(
+      c.result.cost <= theirs, what, "weighted cost <= OpenSim's",
+      fmt::format("{:.8g} against {:.8g} m^2, {:.4f} times", c.result.cost, theirs, c.result.cost / theirs));
+}
+
+struct Difference {
+  double value = 0.0;
+  std::string where;
+};
+
+/// Largest difference over frames and coordinates, degrees (or metres times 180 / pi for translations).
+Difference largest_difference(const Case& c, const std::function<bool(std::int64_t, int)>& counts) {
+  Difference worst;
+  for (std::int64_t f = 0; f < c.result.motion.frames(); ++f)
+    for (int k = 0; k < c.model.coordinate_count(); ++k) {
+      if (!counts(f, k)) continue;
+      const double d =
+          std::abs(c.result.motion.q[c.result.motion.index(f, k)] - stored(c, f, k)) * kDegPerRad;
+      if (d > worst.value)
+        worst = {d, fmt::format("{} frame {}", c.result.motion.coordinates[static_cast<std::size_t>(k)], f)};
+    }
+  return worst;
+}
+
+void nimble(const fs::path& data) {
+  const fs::path folder = data / "nimble-arnold-synthetic" / "subject01";
+  Case c{.model = load_model(folder / "subject01.osim"),
+         .markers = io::read_markers(folder / "trials/walk2/markers.trc").value().markers};
+  c.answer = io::read_table(folder / "coordinates.sto").value();
+  c.result = motion::solve_ik(c.model, c.markers).value();
+  std::int64_t determined = 0;
+  for (const auto d : c.result.motion.determined) determined += d;
+  const auto worst = largest_difference(
+      c, [&](std::int64_t f, int k) { return c.result.motion.determined[c.result.motion.index(f, k)] != 0; });
+  print_row(
+      worst.value * kRadPerDeg < 1e-5, "nimble subject01, every determined coordinate",
+      "within 1e-5 rad / 1e-5 m",
+      fmt::format("{:.2g} ({}); {} of {} determined; {} couplers read", worst.value * kRadPerDeg, worst.where,
+                  determined, c.result.motion.determined.size(), c.model.description().couplings.size()));
+}
+
+void gait(const fs::path& data) {
+  const auto one = solve(data / "opensim-core-ik/subject01_simbody.osim",
+                         data / "opensim-core-ik/subject01_synthetic_marker_data.trc",
+                         data / "opensim-core-ik/subject01_Setup_InverseKinematics.xml",
+                         data / "opensim-core-ik/std_subject01_walk1_ik.mot");
+  const auto all = [](std::int64_t, int) { return true; };
+  auto worst = largest_difference(one, all);
+  print_row(worst.value <= 0.1, "opensim-core-ik case 1, angles", "within 0.1 deg of the stored answer",
+            fmt::format("{:.3f} deg ({})", worst.value, worst.where));
+  print_cost("opensim-core-ik case 1, cost", one);
+  const fs::path folder = data / "opensim-gait2354";
+  const auto two = solve(folder / "subject01_simbody.osim", folder / "subject01_walk1.trc",
+                         folder / "subject01_Setup_IK.xml", folder / "subject01_walk1_ik.mot");
+  worst = largest_difference(two, all);
+  print_row(worst.value <= 0.06, "opensim-gait2354, angles", "within 0.06 deg of the stored answer",
+            fmt::format("{:.3f} deg ({})", worst.value, worst.where));
+  print_cost("opensim-gait2354, cost", two);
+}
+
+void shoulder(const fs::path& data) {
+  const fs::path folder = data / "opensim-core-ik";
+  const auto c = solve(folder / "subject1_abdbonepin.osim", folder / "abdbonepin.trc",
+                       folder / "setup_ik_abdbonepin.xml", folder / "std_subject1_abdbonepin_IK.mot");
+  double worst = 0.0;
+  std::string where;
+  for (int k = 0; k < c.model.coordinate_count(); ++k) {
+    double squares = 0.0;
+    const bool rotation = c.result.motion.is_rotation[static_cast<std::size_t>(k)];
+    for (std::int64_t f = 0; f < c.result.motion.frames(); ++f)
+      squares += std::pow(
+          (c.result.motion.q[c.result.motion.index(f, k)] - stored(c, f, k)) * (rotation ? kDegPerRad : 1.0),
+          2);
+    const double rms = std::sqrt(squares / static_cast<double>(c.result.motion.frames()));
+    if (rms > worst) worst = rms, where = c.result.motion.coordinates[static_cast<std::size_t>(k)];
+  }
+  print_row(worst <= 0.2, "opensim-core-ik case 2, columns",
+            "within 0.2 RMS per column, as OpenSim's test asks", fmt::format("{:.3f} ({})", worst, where));
+  print_row(c.result.max_loop_gap_m <= 1e-6, "opensim-core-ik case 2, loop", "closed to 1e-6 m",
+            fmt::format("{:.2g} m", c.result.max_loop_gap_m));
+}
+
+void hamner(const fs::path& data) {
+  const fs::path folder = data / "opensim-hamner-fullbody";
+  const auto c = solve(folder / "subject02_registered.osim", folder / "subject02_running.trc",
+                       folder / "Setup_IK.xml", folder / "subject02_running_ik.mot");
+  const auto places = io::read_table(folder / "ik_model_marker_locations.sto").value();
+  model::Workspace w(c.model);
+  double worst = 0.0;
+  for (std::int64_t row = 0; row < places.rows(); ++row) {
+    Eigen::VectorXd q(c.model.coordinate_count());
+    for (int k = 0; k < q.size(); ++k) {
+      const auto& coordinate = c.model.description().coordinates[static_cast<std::size_t>(k)];
+      q[k] = c.answer(row, c.answer.find(coordinate.name)) * (coordinate.is_rotation ? kRadPerDeg : 1.0);
+    }
+    model::kinematics(c.model, w, model::state_from_coordinates(c.model, q));
+    for (int m = 0; m < c.model.marker_count(); ++m) {
+      const auto& name = c.model.description().markers[static_cast<std::size_t>(m)].name;
+      const auto column = places.find(name + "_tx");
+      if (column < 0) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        worst = std::max(worst, std::abs(w.marker(axis, m) - places(row, column + axis)));
+    }
+  }
+  print_row(worst <= 1e-6, "opensim-hamner, forward kinematics of OpenSim's angles",
+            "within 1e-6 m of OpenSim's markers", fmt::format("{:.2g} m", worst));
+  print_cost("opensim-hamner, cost", c);
+  const auto& excluded = c.result.excluded_markers;
+  print_row(std::find(excluded.begin(), excluded.end(), "L.Bicep") != excluded.end(),
+            "opensim-hamner, all-zero L.Bicep", "found, excluded and said",
+            c.result.warnings.empty() ? "no word" : c.result.warnings.front());
+}
+
+void running(const fs::path& data) {
+  const fs::path folder = data / "bmc-rajagopal-run";
+  const auto c = solve(folder / "Scale/Rajagopal2015_scaled.osim", folder / "ExpData/motion_capture_run.trc",
+                       folder / "IK/IK_setup.xml", folder / "IK/results/ik_output_run.mot");
+  print_cost("bmc-rajagopal-run, cost", c);
+  int blank = 0;
+  for (std::int64_t m = 0; m < c.markers.markers(); ++m) {
+    bool seen = false;
+    for (std::int64_t f = 0; f < c.markers.frames(); ++f) seen = seen || c.markers.present(f, m);
+    blank += !seen;
+  }
+  print_row(blank == 20, "bmc-rajagopal-run, blank markers", "20 found and left out",
+            fmt::format("{} found", blank));
+}
+
+void arm(const fs::path& data) {
+  const fs::path folder = data / "opensim-arm26";
+  const auto model = load_model(folder / "arm26.osim");
+  const auto good =
+      motion::solve_ik(model, io::read_markers(folder / "arm26_elbow_flex.trc").value().markers).value();
+  print_row(good.rms_marker_error_m <= 0.7e-3, "opensim-arm26", "0.7 mm RMS",
+            fmt::format("{:.3f} mm", 1e3 * good.rms_marker_error_m));
+  testing_support::ScratchSpace scratch("accept_ik");
+  pipeline::IkJob job;
+  job.model = folder / "arm26.osim";
+  job.markers = folder / "arm26_elbow_flex_old_800mm_low.trc";
+  job.output = scratch.path() / "Q.mot";
+  const auto twin = pipeline::run_ik(job).value();
+  std::string sentence;
+  for (const auto& gate : twin.summary.run.gates)
+    if (!gate.passed && gate.name == "mean_marker_offset") sentence = gate.sentence;
+  print_row(twin.exit_status == 1 && sentence.find("0.800 m") != std::string::npos,
+            "opensim-arm26, the twin 800 mm too low", "exit status 1 and a sentence naming 0.8 m",
+            fmt::format("status {}: {}", twin.exit_status, sentence));
+}
+
+}  // namespace
+
+int main() {
+  const auto data = testing_support::test_data_folder();
+  if (!data) return testing_support::skip_all("inverse kinematics on real recordings");
+  nimble(*data);
+  gait(*data);
+  shoulder(*data);
+  hamner(*data);
+  running(*data);
+  arm(*data);
+  return testing_support::exit_status();
+}

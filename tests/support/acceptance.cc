@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "support/acceptance.h"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace kinemark::testing_support {
+namespace {
+
+bool failed = false;
+
+}  // namespace
+
+void print_row(bool passed, const std::string& check, const std::string& asked, const std::string& measured) {
+  fmt::print("{} | {} | {} | {}\n", passed ? "PASS" : "FAIL", check, asked, measured);
+  std::fflush(stdout);
+  failed = failed || !passed;
+}
+
+int skip_all(const std::string& what) {
+  fmt::print("SKIP | {} | - | NOT TESTED: the real recordings are absent; set KINEMARK_TEST_DATA\n", what);
+  return 0;
+}
+
+int exit_status() { return failed ? 1 : 0; }
+
+ScratchSpace::ScratchSpace(const std::string& name) {
+  const char* base = std::getenv("KINEMARK_SCRATCH");
+  path_ = (base != nullptr ? std::filesystem::path(base) : std::filesystem::temp_directory_path()) /
+          ("kinemark-" + name);
+  std::filesystem::remove_all(path_);
+  std::filesystem::create_directories(path_);
+}
+
+ScratchSpace::~ScratchSpace() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace kinemark::testing_support
