@@ -21,8 +21,13 @@ Vector3d to_body_xyz(const Matrix3d& R) {
   // R = Rx(a) Ry(b) Rz(c): first row (cos b cos c, -cos b sin c, sin b), last column (sin b, -sin a cos b,
   // cos a cos b).
   const double cos_b = std::hypot(R(0, 0), R(0, 1));
-  if (cos_b < 1e-12) return {std::atan2(R(2, 1), R(1, 1)), std::atan2(R(0, 2), cos_b), 0.0};
-  return {std::atan2(-R(1, 2), R(2, 2)), std::atan2(R(0, 2), cos_b), std::atan2(-R(0, 1), R(0, 0))};
+  const double b = std::atan2(R(0, 2), cos_b);
+  if (cos_b < 1e-15) return {std::atan2(R(2, 1), R(1, 1)), b, 0.0};
+  // Near b = +-90 deg only the sum or the difference of a and c is well determined, so c must follow from the
+  // a chosen: the second row of Rx(-a) R is (sin c, cos c, 0).
+  const double a = std::atan2(-R(1, 2), R(2, 2));
+  const double sin_a = std::sin(a), cos_a = std::cos(a);
+  return {a, b, std::atan2(cos_a * R(1, 0) + sin_a * R(2, 0), cos_a * R(1, 1) + sin_a * R(2, 1))};
 }
 
 namespace {

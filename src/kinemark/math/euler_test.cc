@@ -31,6 +31,14 @@ TEST(BodyXyz, AtTheSingularityTheRotationStillRoundTrips) {
   }
 }
 
+TEST(BodyXyz, CloseToTheSingularityNothingIsLost) {
+  for (const double distance : {1e-3, 1e-6, 1e-9, 1e-12, 1e-14})
+    for (const double sign : {1.0, -1.0}) {
+      const Matrix3d R = from_body_xyz({0.3, sign * (std::numbers::pi / 2 - distance), -0.8});
+      EXPECT_LT((from_body_xyz(to_body_xyz(R)) - R).norm(), 2e-15) << distance;
+    }
+}
+
 TEST(AnglesAbout, RecoversAnglesForEveryOrderAndHandedness) {
   Random random(2, 0);
   const Vector3d e[3] = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};

@@ -3,7 +3,6 @@
 #include "kinemark/math/scalar_function.h"
 
 #include <fmt/core.h>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -73,38 +72,40 @@ namespace {
 //   the pieces.
 // SIMM's end condition fixes the third derivative of the end pieces, (m1 - m0) / h0, to that of the cubic
 // through the four points next to the end; with fewer than four points it is zero.
+// The matrix is tridiagonal and stays dominant under elimination without pivoting.
 std::vector<double> second_derivatives(const std::vector<double>& x, const std::vector<double>& y,
                                        bool natural) {
-  const auto n = static_cast<Eigen::Index>(x.size());
-  if (n < 3) return std::vector<double>(x.size(), 0.0);
-  const auto at = [](const std::vector<double>& v, Eigen::Index i) { return v[static_cast<std::size_t>(i)]; };
-  const auto h = [&](Eigen::Index i) { return at(x, i + 1) - at(x, i); };
-  const auto d = [&](Eigen::Index i) { return (at(y, i + 1) - at(y, i)) / h(i); };
-  const auto third = [&](Eigen::Index i) {  // divided difference of order 3 on points i .. i+3
-    const double left = (d(i + 1) - d(i)) / (at(x, i + 2) - at(x, i));
-    const double right = (d(i + 2) - d(i + 1)) / (at(x, i + 3) - at(x, i + 1));
-    return (right - left) / (at(x, i + 3) - at(x, i));
+  const std::size_t n = x.size();
+  if (n < 3) return std::vector<double>(n, 0.0);
+  const auto h = [&](std::size_t i) { return x[i + 1] - x[i]; };
+  const auto d = [&](std::size_t i) { return (y[i + 1] - y[i]) / h(i); };
+  const auto third = [&](std::size_t i) {  // divided difference of order 3 on points i .. i+3
+    const double left = (d(i + 1) - d(i)) / (x[i + 2] - x[i]);
+    const double right = (d(i + 2) - d(i + 1)) / (x[i + 3] - x[i + 1]);
+    return (right - left) / (x[i + 3] - x[i]);
   };
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-  if (natural) {
-    A(0, 0) = A(n - 1, n - 1) = 1.0;
-  } else {
-    A(0, 0) = A(n - 1, n - 2) = -1.0;
-    A(0, 1) = A(n - 1, n - 1) = 1.0;
+  std::vector<double> lower(n, 0.0), diagonal(n, 1.0), upper(n, 0.0), m(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    lower[i] = h(i - 1);
+    diagonal[i] = 2.0 * (h(i - 1) + h(i));
+    upper[i] = h(i);
+    m[i] = 6.0 * (d(i) - d(i - 1));
+  }
+  if (!natural) {
+    upper[0] = lower[n - 1] = -1.0;
     if (n > 3) {
-      b[0] = 6.0 * h(0) * third(0);
-      b[n - 1] = 6.0 * h(n - 2) * third(n - 4);
+      m[0] = -6.0 * h(0) * third(0);
+      m[n - 1] = 6.0 * h(n - 2) * third(n - 4);
     }
   }
-  for (Eigen::Index i = 1; i + 1 < n; ++i) {
-    A(i, i - 1) = h(i - 1);
-    A(i, i) = 2.0 * (h(i - 1) + h(i));
-    A(i, i + 1) = h(i);
-    b[i] = 6.0 * (d(i) - d(i - 1));
+  for (std::size_t i = 1; i < n; ++i) {
+    const double w = lower[i] / diagonal[i - 1];
+    diagonal[i] -= w * upper[i - 1];
+    m[i] -= w * m[i - 1];
   }
-  const Eigen::VectorXd m = A.partialPivLu().solve(b);
-  return {m.data(), m.data() + n};
+  m[n - 1] /= diagonal[n - 1];
+  for (std::size_t i = n - 1; i-- > 0;) m[i] = (m[i] - upper[i] * m[i + 1]) / diagonal[i];
+  return m;
 }
 
 }  // namespace

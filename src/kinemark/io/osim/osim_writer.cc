@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/osim/osim_writer.h"
+
+#include <fmt/core.h>
+
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/osim/internal/format_xml.h"
+#include "kinemark/io/osim/internal/function_xml.h"
+#include "kinemark/io/osim/internal/joint_writer.h"
+
+namespace kinemark::io {
+namespace {
+
+using data::ModelDescription;
+
+pugi::xml_node append_set(pugi::xml_node model, const char* tag, const char* name) {
+  return osim::append_named(model, tag, name).append_child("objects");
+}
+
+void write_body(pugi::xml_node objects, const data::BodyDescription& body) {
+  const pugi::xml_node node = osim::append_named(objects, "Body", body.name);
+  const Eigen::Matrix3d& inertia = body.inertia_about_com;
+  osim::append_number(node, "mass", body.mass);
+  osim::append_vector3(node, "mass_center", body.com_in_body);
+  osim::append_numbers(
+      node, "inertia",
+      {inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2), inertia(1, 2)});
+}
+
+Status write_coupling(pugi::xml_node objects, const ModelDescription& description,
+                      const data::CouplingDescription& coupling) {
+  const auto name_of = [&](int idx) { return description.coordinates[static_cast<std::size_t>(idx)].name; };
+  if (coupling.function.kind() == math::ScalarFunction::Kind::natural_spline)
+    return fail(
+        Code::not_supported,
+        fmt::format("coupling '{}' is a natural spline, which OpenSim has no form for", coupling.name));
+  const pugi::xml_node node = osim::append_named(objects, "CoordinateCouplerConstraint", coupling.name);
+  osim::append_flag(node, "isEnforced", true);
+  osim::write_function(node, "coupled_coordinates_function", coupling.function);
+  osim::append_text(node, "independent_coordinate_names", name_of(coupling.independent_idx));
+  osim::append_text(node, "dependent_coordinate_name", name_of(coupling.dependent_idx));
+  return {};
+}
+
+void write_point_constraint(pugi::xml_node objects, const ModelDescription& description,
+                            const data::PointConstraintDescription& constraint) {
+  const pugi::xml_node node = osim::append_named(objects, "PointConstraint", constraint.name);
+  osim::append_flag(node, "isEnforced", true);
+  osim::append_text(node, "socket_body_1", osim::body_path(description, constraint.body_a_idx));
+  osim::append_text(node, "socket_body_2", osim::body_path(description, constraint.body_b_idx));
+  osim::append_vector3(node, "location_body_1", constraint.point_in_a);
+  osim::append_vector3(node, "location_body_2", constraint.point_in_b);
+}
+
+/// OpenSim's coordinates belong to exactly one joint, and names are parts of paths and of lists.
+Status check_coordinates(const ModelDescription& description) {
+  std::vector<int> owner(description.coordinates.size(), -1);
+  for (std::size_t j = 0; j < description.joints.size(); ++j)
+    for (const auto& axis : description.joints[j].axes)
+      for (const int idx : {axis.coordinate_idx, axis.second_coordinate_idx}) {
+        if (idx < 0) continue;
+        int& first = owner[static_cast<std::size_t>(idx)];
+        if (first >= 0 && first != static_cast<int>(j))
+          return fail(Code::not_supported,
+                      fmt::format("coordinate '{}' drives the joints '{}' and '{}'; OpenSim allows one",
+                                  description.coordinates[static_cast<std::size_t>(idx)].name,
+                                  description.joints[static_cast<std::size_t>(first)].name,
+                                  description.joints[j].name));
+        first = static_cast<int>(j);
+      }
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    if (owner[i] < 0)
+      return fail(Code::not_supported, fmt::format("coordinate '{}' drives no joint; OpenSim needs one",
+                                                   description.coordinates[i].name));
+  return {};
+}
+
+/// OpenSim 4 refuses names with these characters; it turned them into '_' itself when it read older files.
+void make_legal(std::string& name) {
+  for (char& c : name)
+    if (std::string_view(" \\*+/\t\r\n").find(c) != std::string_view::npos) c = '_';
+}
+
+ModelDescription with_legal_names(ModelDescription description) {
+  const auto rename = [](auto& items) {
+    for (auto& item : items) make_legal(item.name);
+  };
+  if (description.name.empty()) description.name = "model";
+  make_legal(description.name);
+  rename(description.bodies);
+  rename(description.joints);
+  rename(description.coordinates);
+  rename(description.couplings);
+  rename(description.point_constraints);
+  rename(description.markers);
+  return description;
+}
+
+}  // namespace
+
+Result<std::string> format_osim(const ModelDescription& original) {
+  const ModelDescription description = with_legal_names(original);
+  if (const Status valid = description.validate(); !valid) return std::unexpected(valid.error());
+  if (const Status alone = check_coordinates(description); !alone) return std::unexpected(alone.error());
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  pugi::xml_node root = document.append_child("OpenSimDocument");
+  root.append_attribute("Version") = "40000";
+  pugi::xml_node model = osim::append_named(root, "Model", description.name);
+  osim::append_vector3(model, "gravity", description.gravity);
+  osim::append_text(model, "credits", description.credits);
+  osim::append_text(model, "length_units", "meters");
+  osim::append_text(model, "force_units", "N");
+
+  // Halves of scapulothoracic joints and the bodies between them are written as one joint.
+  std::set<int> hidden_bodies, hidden_joints;
+  for (const auto& joint : description.joints)
+    if (const int sliding = osim::find_sliding_half(description, joint); sliding >= 0) {
+      hidden_joints.insert(sliding);
+      hidden_bodies.insert(joint.parent_body_idx);
+    }
+  const pugi::xml_node bodies = append_set(model, "BodySet", "bodyset");
+  for (std::size_t b = 0; b < description.bodies.size(); ++b)
+    if (!hidden_bodies.contains(static_cast<int>(b))) write_body(bodies, description.bodies[b]);
+  const pugi::xml_node joints = append_set(model, "JointSet", "jointset");
+  for (std::size_t j = 0; j < description.joints.size(); ++j)
+    if (!hidden_joints.contains(static_cast<int>(j)))
+      if (const Status s = osim::write_joint(joints, description, description.joints[j]); !s)
+        return std::unexpected(s.error());
+  const pugi::xml_node constraints = append_set(model, "ConstraintSet", "constraintset");
+  for (const auto& coupling : description.couplings)
+    if (const Status s = write_coupling(constraints, description, coupling); !s)
+      return std::unexpected(s.error());
+  for (const auto& constraint : description.point_constraints)
+    write_point_constraint(constraints, description, constraint);
+  const pugi::xml_node markers = append_set(model, "MarkerSet", "markerset");
+  for (const auto& marker : description.markers) {
+    const pugi::xml_node node = osim::append_named(markers, "Marker", marker.name);
+    osim::append_text(node, "socket_parent_frame", osim::body_path(description, marker.body_idx));
+    osim::append_vector3(node, "location", marker.x_in_body);
+  }
+  std::ostringstream text;
+  document.save(text, "\t", pugi::format_default, pugi::encoding_utf8);
+  return std::move(text).str();
+}
+
+Status write_osim(const std::filesystem::path& path, const ModelDescription& description,
+                  const WriteOsimOptions& options) {
+  const auto text = format_osim(description);
+  if (!text) return fail_at(path.string(), text.error());
+  return write_text(path, *text, options.force);
+}
+
+}  // namespace kinemark::io
