@@ -9,7 +9,8 @@ A folder may include itself and the folders that ALLOWED lists for it, nothing e
 another stage, folders of layer 3 do not know each other, and only pipeline/ joins stages. Besides:
 
 - a header in `internal/` is included only from the folder that owns it, or from below it;
-- a header in `testing/`, and anything of tests/support, is included only by tests, benchmarks and fuzzers;
+- test helpers (tests/support, headers in `testing/`, `test_*.h`, `*_for_test.h`) are included only by tests, benchmarks
+  and fuzzers;
 - a file of the project is included by its full path ("kinemark/core/result.h", "cli/console.h"), and it exists;
 - headers do not include each other in a circle.
 
@@ -54,9 +55,13 @@ def folder_of(path):
 
 
 def is_test(path):
-    """Tests, benchmarks and fuzzers, and the helpers in testing/ that only they use."""
+    """Tests, benchmarks and fuzzers, and the helpers that only they use."""
     path = PurePosixPath(path)
-    return path.stem.endswith(("_test", "_benchmark", "_fuzz")) or "testing" in path.parts
+    return (
+        path.stem.endswith(("_test", "_benchmark", "_fuzz"))
+        or path.stem.startswith("test_")
+        or "testing" in path.parts
+    )
 
 
 def may_include(source, target):
@@ -132,7 +137,7 @@ def check_file(root, path):
         owner = owner_of_internal(target)
         if owner is not None and owner not in PurePosixPath(path).parents:
             problems.append(f"{where}: {included} is internal to {owner}")
-        if "testing" in PurePosixPath(target).parts and not is_test(path):
+        if is_test(target) and not is_test(path):
             problems.append(f"{where}: {included} is for tests only")
     return problems, edges
 

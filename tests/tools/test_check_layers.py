@@ -132,10 +132,14 @@ class CheckLayers(unittest.TestCase):
             "only tests may include",
             self.only_problem("src/kinemark/core/a.cc", '#include "support/scratch.h"\n'),
         )
-        self.assertIn(
-            "is for tests only",
-            self.only_problem("src/kinemark/model/a.cc", '#include "kinemark/model/testing/tree.h"\n'),
-        )
+        for helper in ("testing/tree.h", "test_trees.h", "trees_for_test.h"):
+            with self.subTest(helper=helper):
+                line = f'#include "kinemark/model/{helper}"\n'
+                helper = {f"src/kinemark/model/{helper}": '#include "support/scratch.h"\n'}
+                self.assertEqual(self.problems(**helper, **{"src/kinemark/model/a_test.cc": line}), [])
+                found = self.problems(**helper, **{"src/kinemark/model/a.cc": line})
+                self.assertEqual(len(found), 1, found)
+                self.assertIn("is for tests only", found[0])
 
     def test_catches_missing_files_and_short_paths(self):
         self.assertIn(
