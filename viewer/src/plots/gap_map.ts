@@ -136,7 +136,7 @@ export class GapMap {
 
   #axis(pen: CanvasRenderingContext2D, height: number): void {
     const [from, to] = this.view.range;
-    const rough = (to - from) / Math.max(2, (this.#width - this.#gutter) / 110);
+    const rough = (to - from) / Math.max(2, (this.#width - this.#gutter) / 80);
     const power = 10 ** Math.floor(Math.log10(rough));
     const step = [1, 2, 5, 10].map((k) => k * power).find((s) => s >= rough)!;
     pen.fillStyle = palette().muted;

@@ -65,6 +65,10 @@ export function drawSmallMultiple(
       for (let k = from; k < c; ++k) pen.lineTo(x(k), y(highs[k]!));
       for (let k = c - 1; k >= from; --k) pen.lineTo(x(k), y(lows[k]!));
       pen.fill();
+      // The edge shows where the values hardly differ.
+      pen.strokeStyle = palette().dense;
+      pen.lineWidth = 1;
+      pen.stroke();
       continue;
     }
     pen.strokeStyle = palette().line;
