@@ -25,7 +25,7 @@ release:  ## build the program, tests and benchmarks, optimised
 
 test:  ## everything that CI runs
 	tools/setup
-	python3 tools/run_tests.py
+	python3 tools/run_tests.py --jobs $(JOBS)
 
 accept: release  ## the acceptance table, slow rows included
 	python3 tests/acceptance/run.py

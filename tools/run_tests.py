@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Everything that must hold before a change lands, stage by stage. `make test` runs it; so does CI.
 
-    tools/run_tests.py [--only STAGE[,STAGE...]] [--from STAGE] [--keep-going] [--list]
+    tools/run_tests.py [--only STAGE[,STAGE...]] [--from STAGE] [--jobs N] [--keep-going] [--list]
 
 Each stage writes build/logs/STAGE.log and tells how long it took; the end of the log is shown when it fails. The first
 failing stage ends the run. The last line counts tests: "N passed, N failed".
@@ -23,7 +23,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LOGS = ROOT / "build" / "logs"
-JOBS = str(os.cpu_count() or 2)
 FUZZ_SECONDS = "60"
 SHOWN_LINES = 120
 
@@ -62,10 +61,11 @@ class Failed(Exception):
 
 
 class Log:
-    """Runs commands with their output in a file."""
+    """Runs commands with their output in a file; `jobs` is how many things they may do at a time."""
 
-    def __init__(self, path):
+    def __init__(self, path, jobs=2):
         self.path = path
+        self.jobs = jobs
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.path.write_text("")
 
@@ -125,7 +125,7 @@ def tools(log):
 def build(preset):
     def stage(log):
         log.must("cmake", "--preset", preset)
-        log.must("cmake", "--build", "--preset", preset, "--parallel", JOBS)
+        log.must("cmake", "--build", "--preset", preset, "--parallel", log.jobs)
         return Counts(passed=1)
 
     return stage
@@ -162,7 +162,7 @@ def unit_tests(preset):
         junit.unlink(missing_ok=True)
         # A program that dies leaves no file of cases; CTest knows that it failed.
         status = log.run(
-            *("ctest", "--preset", preset, "--parallel", JOBS, "--output-junit", junit, "--no-tests=error"),
+            *("ctest", "--preset", preset, "--parallel", log.jobs, "--output-junit", junit, "--no-tests=error"),
             GTEST_OUTPUT=f"xml:{cases}/",
         )
         if not junit.is_file():
@@ -185,13 +185,13 @@ def acceptance(log):
 
 
 def fuzz(log):
-    log.must(sys.executable, ROOT / "tools" / "fuzz", "--seconds", FUZZ_SECONDS, "--jobs", JOBS)
+    log.must(sys.executable, ROOT / "tools" / "fuzz", "--seconds", FUZZ_SECONDS, "--jobs", log.jobs)
     found = re.findall(r"^fuzz: (\d+) targets, 0 failed$", log.text(), re.MULTILINE)
     return Counts(passed=int(found[-1]))
 
 
 def tidy(log):
-    log.must(sys.executable, ROOT / "tools" / "check_tidy", "--build", ROOT / "build" / "asan", "--jobs", JOBS)
+    log.must(sys.executable, ROOT / "tools" / "check_tidy", "--build", ROOT / "build" / "asan", "--jobs", log.jobs)
     return Counts(passed=1)
 
 
@@ -278,12 +278,12 @@ def choose(stages, only, first):
     return names[names.index(first):] if first else names
 
 
-def run_stages(stages, names, logs, keep_going=False):
+def run_stages(stages, names, logs, jobs=2, keep_going=False):
     """Exit status of running the named stages; prints a line for each and the closing line."""
     total, failed, began = Counts(), [], time.monotonic()
     for number, name in enumerate(names, 1):
         print(f"[{number:2}/{len(names)}] {name} ...", flush=True)
-        log, started = Log(logs / f"{name}.log"), time.monotonic()
+        log, started = Log(logs / f"{name}.log", jobs), time.monotonic()
         try:
             counts, why = stages[name](log), None
         except Failed as failure:
@@ -309,6 +309,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", metavar="STAGE[,STAGE...]")
     parser.add_argument("--from", dest="first", metavar="STAGE")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
     parser.add_argument("--keep-going", action="store_true")
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args(arguments)
@@ -320,7 +321,7 @@ def main(arguments):
     except ValueError as error:
         print(f"run_tests: {error}", file=sys.stderr)
         return 2
-    return run_stages(STAGES, names, LOGS, options.keep_going)
+    return run_stages(STAGES, names, LOGS, options.jobs, options.keep_going)
 
 
 if __name__ == "__main__":
