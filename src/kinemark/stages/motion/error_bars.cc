@@ -63,7 +63,8 @@ struct Frame {
     }
     llt.compute(H);
     while (llt.info() != Eigen::Success) {  // rounding left a blind direction below zero
-      floor *= 10.0;
+      floor = std::max(10.0 * floor, 1e-16);
+      if (floor > 1e6) break;
       H.diagonal().array() += floor;
       llt.compute(H);
     }
@@ -196,6 +197,7 @@ MarkerVariances estimate_variances(const internal::Problem& problem, const data:
     Frame frame(problem);
     for (std::int64_t i = begin; i < end; ++i) {
       frame.visit(markers, states, i * stride);
+      if (frame.weight.sum() == 0.0) continue;
       if (!problem.pulls.empty()) {
         frame.q.setZero();
         model::coordinates_from_state(model, frame.x, frame.q, frame.q);

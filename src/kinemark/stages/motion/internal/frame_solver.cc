@@ -111,8 +111,11 @@ void FrameSolver::add_pulls(std::int64_t frame) {
       g_[speed] += weight * miss * slope;
       gauss_newton_(speed, speed) += weight * slope * slope;
     } else if (model_.coordinates()[at(pull.coordinate)].free_joint >= 0) {
-      g_ += weight * miss * E_.row(pull.coordinate).transpose();
-      gauss_newton_ += weight * E_.row(pull.coordinate).transpose() * E_.row(pull.coordinate);
+      const auto row = E_.row(pull.coordinate);
+      for (Eigen::Index i = 0; i < row.size(); ++i) {
+        g_[i] += weight * miss * row[i];
+        for (Eigen::Index j = 0; j < row.size(); ++j) gauss_newton_(i, j) += weight * row[i] * row[j];
+      }
     }
   }
 }
@@ -139,8 +142,9 @@ bool FrameSolver::step(double damping, bool exact) {
     // Stiffness across the loops changes nothing of a step that closes them, but keeps the matrix positive
     // definite.
     const double stiffness = 10.0 * total_weight_;
-    H_.noalias() += stiffness * C_.transpose() * C_;
-    dx_.noalias() -= stiffness * C_.transpose() * gap_;
+    HinvC_ = stiffness * C_.transpose();
+    H_.noalias() += HinvC_ * C_;
+    dx_.noalias() -= HinvC_ * gap_;
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!held_[at(i)]) continue;
@@ -224,7 +228,8 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
     const bool quadratic = options_.loss == Loss::square && damping == 0.0;
     bool exact = quadratic && step(0.0, true);
     if (!exact) {
-      while (!step(damping, false)) damping = std::max(1e-6, 10.0 * damping);
+      while (!step(damping, false) && damping < 1e12) damping = std::max(1e-6, 10.0 * damping);
+      if (!dx_.allFinite()) break;
     }
     if (looped)
       loop_penalty_ = std::max(loop_penalty_, 4.0 * multiplier_.cwiseAbs().maxCoeff() + total_weight_ * 1e-3);
