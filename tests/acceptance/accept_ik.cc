@@ -125,23 +125,27 @@ void nimble(const fs::path& data) {
                   determined, c.result.motion.determined.size(), c.model.description().couplings.size()));
 }
 
-void gait(const fs::path& data) {
-  const auto one = solve(data / "opensim-core-ik/subject01_simbody.osim",
-                         data / "opensim-core-ik/subject01_synthetic_marker_data.trc",
-                         data / "opensim-core-ik/subject01_Setup_InverseKinematics.xml",
-                         data / "opensim-core-ik/std_subject01_walk1_ik.mot");
-  const auto all = [](std::int64_t, int) { return true; };
-  auto worst = largest_difference(one, all);
+bool everything(std::int64_t, int) { return true; }
+
+void core_ik(const fs::path& data) {
+  const fs::path folder = data / "opensim-core-ik";
+  const auto c =
+      solve(folder / "subject01_simbody.osim", folder / "subject01_synthetic_marker_data.trc",
+            folder / "subject01_Setup_InverseKinematics.xml", folder / "std_subject01_walk1_ik.mot");
+  const auto worst = largest_difference(c, everything);
   print_row(worst.value <= 0.1, "opensim-core-ik case 1, angles", "within 0.1 deg of the stored answer",
             fmt::format("{:.3f} deg ({})", worst.value, worst.where));
-  print_cost("opensim-core-ik case 1, cost", one);
+  print_cost("opensim-core-ik case 1, cost", c);
+}
+
+void gait2354(const fs::path& data) {
   const fs::path folder = data / "opensim-gait2354";
-  const auto two = solve(folder / "subject01_simbody.osim", folder / "subject01_walk1.trc",
-                         folder / "subject01_Setup_IK.xml", folder / "subject01_walk1_ik.mot");
-  worst = largest_difference(two, all);
+  const auto c = solve(folder / "subject01_simbody.osim", folder / "subject01_walk1.trc",
+                       folder / "subject01_Setup_IK.xml", folder / "subject01_walk1_ik.mot");
+  const auto worst = largest_difference(c, everything);
   print_row(worst.value <= 0.06, "opensim-gait2354, angles", "within 0.06 deg of the stored answer",
             fmt::format("{:.3f} deg ({})", worst.value, worst.where));
-  print_cost("opensim-gait2354, cost", two);
+  print_cost("opensim-gait2354, cost", c);
 }
 
 void shoulder(const fs::path& data) {
@@ -235,14 +239,19 @@ void arm(const fs::path& data) {
 
 }  // namespace
 
-int main() {
+/// accept_ik [CASE...]: all cases, or those named.
+int main(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("inverse kinematics on real recordings");
-  nimble(*data);
-  gait(*data);
-  shoulder(*data);
-  hamner(*data);
-  running(*data);
-  arm(*data);
+  const std::vector<std::pair<std::string, void (*)(const fs::path&)>> cases = {{"nimble", nimble},
+                                                                                {"core_ik", core_ik},
+                                                                                {"gait2354", gait2354},
+                                                                                {"shoulder", shoulder},
+                                                                                {"hamner", hamner},
+                                                                                {"running", running},
+                                                                                {"arm", arm}};
+  const std::vector<std::string> named(argv + 1, argv + argc);
+  for (const auto& [name, run] : cases)
+    if (named.empty() || std::find(named.begin(), named.end(), name) != named.end()) run(*data);
   return testing_support::exit_status();
 }

@@ -58,7 +58,8 @@ Result<Json> describe_model(const std::filesystem::path& path) {
   if (!model) return std::unexpected(model.error());
   double mass = 0.0;
   for (const auto& body : model->bodies) mass += body.mass;
-  std::vector<std::string> coordinates;
+  std::vector<std::string> coordinates, bodies;
+  for (const auto& body : model->bodies) bodies.push_back(body.name);
   for (const auto& coordinate : model->coordinates) coordinates.push_back(coordinate.name);
   return Json{{"file", path.string()},
               {"kind", "model"},
@@ -71,6 +72,7 @@ Result<Json> describe_model(const std::filesystem::path& path) {
               {"point_constraints", model->point_constraints.size()},
               {"mass_kg", mass},
               {"labels", coordinates},
+              {"body_names", bodies},
               {"warnings", model->warnings}};
 }
 

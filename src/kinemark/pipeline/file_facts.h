@@ -15,7 +15,8 @@ namespace kinemark::pipeline {
 /// Markers (.c3d, .trc): points, frames, rate_hz, first_frame, last_frame, units, missing (marker frames),
 /// analog_channels, analog_rate_hz, force_plates, labels, warnings. Tables (.mot, .sto): rows, columns,
 /// first_time_s, last_time_s, in_degrees, labels, warnings. Models (.osim): name, bodies, joints,
-/// coordinates, markers, couplings, point_constraints, mass_kg, warnings. Every answer has "file" and "kind".
+/// coordinates, markers, couplings, point_constraints, mass_kg, labels (of coordinates), body_names,
+/// warnings. Every answer has "file" and "kind".
 [[nodiscard]] Result<nlohmann::ordered_json> describe_file(const std::filesystem::path& path);
 
 /// The same for people, one fact a line.
