@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/io/c3d/decode.h"
 
-#include <cmath>
+#include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace kinemark::io {
@@ -10,23 +11,53 @@ namespace {
 
 using data::SampleState;
 
-/// One point as stored, before units.
-struct Raw {
-  double x, y, z;
-  float steps;  ///< residual in steps of the scale, below 0 where the fourth word calls it missing
-  std::uint8_t mask;
+constexpr std::int64_t kBatch = 128;
+
+/// Points of one frame, one array for each part so that the compiler can work on several at once. Truth is
+/// ~0, falsehood 0.
+struct Batch {
+  float x[kBatch], y[kBatch], z[kBatch];
+  float steps[kBatch];           ///< residual in steps of the scale; anything where missing
+  std::int32_t cameras[kBatch];  ///< 0 where missing
+  std::int32_t there[kBatch];
 };
+
+std::int32_t truth(bool condition) { return condition ? -1 : 0; }
+
+/// a < b for numbers that are not negative, by the sign of their difference: a comparison would become a
+/// jump.
+std::int32_t less(std::int32_t a, std::int32_t b) { return (a - b) >> 31; }
 
 template <class Numbers>
 struct FloatSamples {
   static constexpr std::size_t kBytes = 4;
-  static Raw point(const std::byte* p) {
-    const float w = Numbers::f32(p + 12);
-    // A word that is NaN fails the comparison, too. Positive words above 32767 have an eighth camera.
-    const bool there = w >= 0.0F && w < 65535.0F;
-    const int word = static_cast<int>(there ? w : 0.0F);
-    return {Numbers::f32(p), Numbers::f32(p + 4), Numbers::f32(p + 8),
-            there ? w - static_cast<float>(word & 0xFF00) : -1.0F, static_cast<std::uint8_t>(word >> 8)};
+
+  static void load(const std::byte* p, std::int64_t n, Batch& out) {
+    float w[kBatch];
+    for (std::int64_t i = 0; i < n; ++i, p += 16) {
+      out.x[i] = Numbers::f32(p);
+      out.y[i] = Numbers::f32(p + 4);
+      out.z[i] = Numbers::f32(p + 8);
+      // Adding 0 turns -0 into 0: then the bits of positive numbers are positive and in their order.
+      w[i] = Numbers::f32(p + 12) + 0.0F;
+    }
+    constexpr std::int32_t kMagnitude = 0x7FFFFFFF;
+    constexpr std::int32_t kInfinity = 0x7F800000;
+    constexpr auto kNoResidual = std::bit_cast<std::int32_t>(65535.0F);
+    for (std::int64_t i = 0; i < n; ++i) {
+      const std::int32_t ax = std::bit_cast<std::int32_t>(out.x[i]) & kMagnitude;
+      const std::int32_t ay = std::bit_cast<std::int32_t>(out.y[i]) & kMagnitude;
+      const std::int32_t az = std::bit_cast<std::int32_t>(out.z[i]) & kMagnitude;
+      const auto bits = std::bit_cast<std::int32_t>(w[i]);
+      const std::int32_t good = ~(bits >> 31) & less(bits & kMagnitude, kNoResidual);
+      const float good_w = std::bit_cast<float>(bits & good);
+      // Words from 32768 on have an eighth camera; a fraction belongs to the residual.
+      const auto word = static_cast<std::int32_t>(good_w);
+      out.there[i] =
+          good & less(ax, kInfinity) & less(ay, kInfinity) & less(az, kInfinity) & less(0, ax | ay | az);
+      out.steps[i] = good_w - static_cast<float>(word & 0xFF00);
+      out.cameras[i] = (word >> 8) & out.there[i];
+    }
   }
   static double analog(const std::byte* p, bool) { return Numbers::f32(p); }
 };
@@ -34,19 +65,28 @@ struct FloatSamples {
 template <class Numbers>
 struct IntegerSamples {
   static constexpr std::size_t kBytes = 2;
-  static double i16(const std::byte* p) { return static_cast<std::int16_t>(Numbers::u16(p)); }
-  static Raw point(const std::byte* p) {
-    const std::uint16_t w = Numbers::u16(p + 6);
-    const bool there = w < 0x8000U;
-    return {i16(p), i16(p + 2), i16(p + 4), there ? static_cast<float>(w & 0xFFU) : -1.0F,
-            static_cast<std::uint8_t>(there ? w >> 8 : 0)};
+
+  static void load(const std::byte* p, std::int64_t n, Batch& out) {
+    for (std::int64_t i = 0; i < n; ++i, p += 8) {
+      const auto x = static_cast<std::int16_t>(Numbers::u16(p));
+      const auto y = static_cast<std::int16_t>(Numbers::u16(p + 2));
+      const auto z = static_cast<std::int16_t>(Numbers::u16(p + 4));
+      const std::int32_t w = Numbers::u16(p + 6);
+      out.x[i] = x;
+      out.y[i] = y;
+      out.z[i] = z;
+      out.there[i] = truth(w < 0x8000) & truth((x | y | z) != 0);
+      out.steps[i] = static_cast<float>(w & 0xFF);
+      out.cameras[i] = (w >> 8) & out.there[i];
+    }
   }
   static double analog(const std::byte* p, bool is_unsigned) {
-    return is_unsigned ? static_cast<double>(Numbers::u16(p)) : i16(p);
+    const std::uint16_t v = Numbers::u16(p);
+    return is_unsigned ? v : static_cast<std::int16_t>(v);
   }
 };
 
-/// Cursor into the outputs; null where a span is empty.
+/// Where the points of a batch go; null where a span is empty.
 struct Cursor {
   double* x;
   SampleState* state;
@@ -54,33 +94,62 @@ struct Cursor {
   std::uint8_t* mask;
 };
 
-template <class Samples>
-C3dSeen decode_points(const std::byte* in, std::int64_t points, double metres_per_step, float residual_step_m,
-                      const Cursor& out) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  C3dSeen seen;
-  for (std::int64_t m = 0; m < points; ++m) {
-    const Raw raw = Samples::point(in + static_cast<std::size_t>(m) * 4 * Samples::kBytes);
-    // x - x is 0 for finite numbers only.
-    const bool finite = (raw.x - raw.x) + (raw.y - raw.y) + (raw.z - raw.z) == 0.0;
-    const bool origin = raw.x == 0.0 && raw.y == 0.0 && raw.z == 0.0;
-    const bool there = raw.steps >= 0.0F && finite && !origin;
-    const bool measured = there && (raw.steps > 0.0F || raw.mask != 0);
-    seen.measured += measured;
-    seen.unmeasured += there && !measured;
-    seen.with_cameras += there && raw.mask != 0;
-    if (out.x != nullptr) {
-      out.x[3 * m] = there ? raw.x * metres_per_step : kNaN;
-      out.x[3 * m + 1] = there ? raw.y * metres_per_step : kNaN;
-      out.x[3 * m + 2] = there ? raw.z * metres_per_step : kNaN;
+struct Steps {
+  double coordinate_m;
+  float residual_m;
+};
+
+// Free of branches that depend on the data, because gaps cannot be predicted: a missing sample is multiplied
+// by NaN instead.
+C3dSeen finish(const Batch& in, std::int64_t n, const Steps& steps, const Cursor& out) {
+  static_assert(static_cast<int>(SampleState::missing) == 0 && static_cast<int>(SampleState::measured) == 1 &&
+                static_cast<int>(SampleState::interpolated) == 2);
+  float residual[kBatch];
+  std::int32_t state[kBatch];
+  std::int32_t measured_count = 0;
+  std::int32_t there_count = 0;
+  std::int32_t camera_count = 0;
+  constexpr auto kNaN = std::bit_cast<std::int32_t>(std::numeric_limits<float>::quiet_NaN());
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::int32_t there = in.there[i];
+    const std::int32_t seen = truth(in.cameras[i] != 0);
+    const std::int32_t measured = there & (truth(in.steps[i] > 0.0F) | seen);
+    const auto r = std::bit_cast<std::int32_t>(in.steps[i] * steps.residual_m);
+    residual[i] = std::bit_cast<float>((r & measured) | (kNaN & ~measured));
+    state[i] = (2 & there) + measured;
+    measured_count -= measured;
+    there_count -= there;
+    camera_count -= seen;
+  }
+  if (out.x != nullptr) {
+    const double factor[2] = {std::numeric_limits<double>::quiet_NaN(), steps.coordinate_m};
+    double* x = out.x;
+    for (std::int64_t i = 0; i < n; ++i, x += 3) {
+      const double f = factor[in.there[i] & 1];
+      x[0] = in.x[i] * f;
+      x[1] = in.y[i] * f;
+      x[2] = in.z[i] * f;
     }
-    if (out.state != nullptr)
-      out.state[m] = measured ? SampleState::measured
-                     : there  ? SampleState::interpolated
-                              : SampleState::missing;
-    if (out.residual != nullptr)
-      out.residual[m] = measured ? raw.steps * residual_step_m : std::numeric_limits<float>::quiet_NaN();
-    if (out.mask != nullptr) out.mask[m] = there ? raw.mask : std::uint8_t{0};
+  }
+  if (out.state != nullptr)
+    for (std::int64_t i = 0; i < n; ++i) out.state[i] = static_cast<SampleState>(state[i]);
+  if (out.residual != nullptr) std::copy_n(residual, n, out.residual);
+  if (out.mask != nullptr)
+    for (std::int64_t i = 0; i < n; ++i) out.mask[i] = static_cast<std::uint8_t>(in.cameras[i]);
+  return {
+      .measured = measured_count, .unmeasured = there_count - measured_count, .with_cameras = camera_count};
+}
+
+template <class Samples>
+C3dSeen decode_points(const std::byte* in, std::int64_t points, const Steps& steps, const Cursor& out) {
+  Batch batch;
+  C3dSeen seen;
+  const auto at = [](auto* p, std::int64_t i) { return p == nullptr ? nullptr : p + i; };
+  for (std::int64_t m = 0; m < points; m += kBatch) {
+    const std::int64_t n = std::min(kBatch, points - m);
+    Samples::load(in + static_cast<std::size_t>(m) * 4 * Samples::kBytes, n, batch);
+    seen +=
+        finish(batch, n, steps, {at(out.x, 3 * m), at(out.state, m), at(out.residual, m), at(out.mask, m)});
   }
   return seen;
 }
@@ -101,8 +170,8 @@ void decode_analog(const C3dLayout& layout, const std::byte* in, double* out) {
 template <class Samples>
 C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames, const C3dFrames& out) {
   const auto points = static_cast<std::size_t>(layout.points);
-  const double metres_per_step = layout.metres_per_unit * (layout.is_float ? 1.0 : layout.scale);
-  const auto residual_step_m = static_cast<float>(layout.metres_per_unit * layout.scale);
+  const Steps steps{.coordinate_m = layout.metres_per_unit * (layout.is_float ? 1.0 : layout.scale),
+                    .residual_m = static_cast<float>(layout.metres_per_unit * layout.scale)};
   C3dSeen seen;
   for (std::int64_t f = 0; f < frames; ++f, in += layout.frame_bytes) {
     const auto frame = static_cast<std::size_t>(f);
@@ -111,7 +180,7 @@ C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames
     };
     const Cursor cursor{at(out.x_in_world, 3 * points), at(out.state, points), at(out.residual_m, points),
                         at(out.camera_mask, points)};
-    seen += decode_points<Samples>(in, layout.points, metres_per_step, residual_step_m, cursor);
+    seen += decode_points<Samples>(in, layout.points, steps, cursor);
     if (!out.analog.empty())
       decode_analog<Samples>(layout, in + points * 4 * Samples::kBytes,
                              at(out.analog, static_cast<std::size_t>(layout.analog_per_frame())));

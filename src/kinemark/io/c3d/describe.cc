@@ -54,12 +54,17 @@ std::string maker(const C3dParameters& p) {
   return software.empty() ? company : company + " " + software;
 }
 
+/// A count that a file gives as any number, NaN included.
+std::size_t bounded(double value, std::size_t most) {
+  return value >= 0.0 ? static_cast<std::size_t>(std::min(value, static_cast<double>(most))) : 0;
+}
+
 /// Vicon's group holds times on the recording's clock as (minutes, seconds); BKIN's looks the same.
 bool events_from_group(const C3dParameters& p, std::string_view group, data::Trial& trial) {
   const std::vector<double> times = p.numbers(group, "TIMES");
   const auto used = p.number(group, "USED");
   const std::size_t there = times.size() / 2;
-  const std::size_t n = used ? std::min(there, static_cast<std::size_t>(std::clamp(*used, 0.0, 1e9))) : there;
+  const std::size_t n = used ? bounded(*used, there) : there;
   if (used && *used > static_cast<double>(there))
     trial.warnings.push_back(
         fmt::format("{}:USED promises {} events, {}:TIMES holds {}", group, *used, group, there));
@@ -107,8 +112,7 @@ Eigen::Vector3d metres3(const std::vector<double>& values, std::size_t at, doubl
 
 void read_force_plates(const C3dParameters& p, const C3dLayout& layout, data::Trial& trial) {
   constexpr double kFar = 1000.0;  // m; a corner further away is a number gone wrong
-  const auto used =
-      static_cast<std::size_t>(std::clamp(p.number("FORCE_PLATFORM", "USED").value_or(0.0), 0.0, 255.0));
+  const std::size_t used = bounded(p.number("FORCE_PLATFORM", "USED").value_or(0.0), 255);
   const C3dParameter* channels = p.find("FORCE_PLATFORM", "CHANNEL");
   const C3dParameter* calibrations = p.find("FORCE_PLATFORM", "CAL_MATRIX");
   const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
@@ -118,7 +122,7 @@ void read_force_plates(const C3dParameters& p, const C3dLayout& layout, data::Tr
       channels != nullptr && !channels->dims.empty() ? static_cast<std::size_t>(channels->dims[0]) : 0;
   for (std::size_t i = 0; i < used; ++i) {
     data::ForcePlate plate;
-    plate.type = i < types.size() ? static_cast<int>(types[i]) : 0;
+    plate.type = i < types.size() ? static_cast<int>(bounded(types[i], 1000)) : 0;
     bool good = plate.type > 0 && rows > 0;
     for (std::size_t r = 0; good && r < channels_of_type(plate.type, rows); ++r) {
       const std::size_t at = i * rows + r;

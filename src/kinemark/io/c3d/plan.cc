@@ -88,7 +88,8 @@ void add_point_group(C3dPlan& plan, const data::Trial& trial, const std::string&
   const std::int64_t frames = trial.markers.frames();
   const bool is_long = frames > kMaxWord;
   add_number(point, "USED", C3dType::int16, static_cast<double>(trial.markers.markers()));
-  add_number(point, "FRAMES", is_long ? C3dType::float32 : C3dType::int16, static_cast<double>(frames));
+  // A float here would be legal, too, but several readers accept an integer only.
+  add_number(point, "FRAMES", C3dType::int16, static_cast<double>(std::min(frames, kMaxWord)));
   if (is_long) add_number(point, "LONG_FRAMES", C3dType::float32, static_cast<double>(frames));
   add_number(point, "SCALE", C3dType::float32, plan.integers ? plan.scale : -plan.scale);
   add_number(point, "RATE", C3dType::float32, trial.markers.time.rate_hz);

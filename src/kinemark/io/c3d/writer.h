@@ -26,9 +26,9 @@ struct C3dWriteOptions {
 /// POINT:SCALE from 1 (also the placeholder where residual_m has none) to 255, with the first seven cameras
 /// of the mask. A point that would be stored as exactly (0, 0, 0) is moved by 1e-6 units (integers: one
 /// step), because readers take the origin for missing. Frames are numbered so that time keeps its zero: frame
-/// n is at (n - 1) / rate, rounded to a frame. More than 65535 frames: POINT:FRAMES and LONG_FRAMES as float,
-/// TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD as 32 bits. Lists longer than 255 go on in LABELS2 and so
-/// on.
+/// n is at (n - 1) / rate, rounded to a frame. More than 65535 frames: POINT:FRAMES says 65535, LONG_FRAMES
+/// (float), TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD (32 bits) say all. Lists longer than 255 go on in
+/// LABELS2 and so on.
 ///
 /// Code::bad_input: the trial is not valid, has no frames, or analog samples that do not fill its frames
 /// evenly; Code::not_supported: more points, channels or text than the format can count; Code::io: the disk.

@@ -133,8 +133,7 @@ TEST(C3dWriter, MoreThan65535FramesInEveryWayOfCounting) {
   const auto reader = C3dReader::open(scratch / "long.c3d").value();
   EXPECT_EQ(reader.header().first_frame, 1);
   EXPECT_EQ(reader.header().last_frame, 65535);
-  EXPECT_EQ(reader.parameters().find("POINT", "FRAMES")->type, C3dType::float32);
-  EXPECT_EQ(reader.parameters().number("POINT", "FRAMES"), 70000.0);
+  EXPECT_EQ(reader.parameters().number("POINT", "FRAMES"), -1.0) << "65535 in 16 bits";
   EXPECT_EQ(reader.parameters().number("POINT", "LONG_FRAMES"), 70000.0);
   const Trial back = read_trial(reader).value();
   EXPECT_THAT(back.warnings, ElementsAre());
