@@ -83,6 +83,13 @@ class CheckLayers(unittest.TestCase):
                 self.assertEqual(len(found), 1, found)
                 self.assertIn(f"{source} may not include {target}", found[0])
 
+    def test_tests_of_layer_3_may_read_files_but_nothing_else_of_their_layer(self):
+        io_line, model_line = '#include "kinemark/io/file.h"\n', '#include "kinemark/model/model.h"\n'
+        self.assertEqual(self.problems(**{"src/kinemark/model/a_test.cc": io_line}), [])
+        self.assertIn("model may not include io", self.only_problem("src/kinemark/model/a.cc", io_line))
+        self.assertIn("io may not include model", self.only_problem("src/kinemark/io/a_test.cc", model_line))
+        self.assertIn("data may not include io", self.only_problem("src/kinemark/data/a_test.cc", io_line))
+
     def test_catches_a_stage_that_includes_another(self):
         found = self.only_problem(
             "src/kinemark/stages/report/page.cc", '#include "kinemark/stages/motion/ik.h"\n'

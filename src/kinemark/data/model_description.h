@@ -61,7 +61,8 @@ struct JointDescription {
   math::SE3 child_from_joint;
   std::vector<AxisDescription> axes;
   /// Numbers that a file needs besides the axes to name the type again. EllipsoidJoint: radii x y z;
-  /// ScapulothoracicJoint: radii x y z, origin x y and direction of the winging axis. Metres, rad; the axes rule.
+  /// ScapulothoracicJoint: radii x y z, origin x y and direction of the winging axis. Metres, rad; the axes
+  /// rule.
   std::vector<double> parameters;
 };
 
