@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/simulation/subject.h"
