@@ -81,7 +81,7 @@ TEST(OsimJoint, TypesWithAFixedMotion) {
                 turn(X, 0.4) * turn(Y, 0.5) * turn(Z, 0.6), {1, 2, 3});
 }
 
-TEST(OsimJoint, CoordinatesThatTheFileOmitsGetOpenSimsNames) {
+TEST(OsimJoint, CoordinatesThatTheFileOmitsAreNamedAfterTheirJoint) {
   const auto model = parse(model_4(joint_ab("PlanarJoint", "")));
   EXPECT_EQ(model.coordinates[2].name, "j_coord_2");
   EXPECT_TRUE(model.coordinates[0].is_rotation);

@@ -84,7 +84,7 @@ class JointCoordinates {
     return add(node ? read_coordinate(file_, node, description_) : CoordinateDescription{.name = name}, node);
   }
 
-  /// Exactly n coordinates, the missing ones with OpenSim's default names.
+  /// Exactly n coordinates, the missing ones named after the joint.
   void complete(std::size_t n) {
     const std::string joint = name_of(joint_);
     while (indices_.size() < n) add({.name = fmt::format("{}_coord_{}", joint, indices_.size())}, {});
