@@ -30,6 +30,9 @@ ENVIRONMENT = {
     **os.environ,
     # The viewer's Node may live in .venv (tools/setup); a Node of the machine goes first.
     "PATH": f"{os.environ.get('PATH', '/usr/bin:/bin')}{os.pathsep}{ROOT / '.venv' / 'bin'}",
+    # Checkouts in different folders share what ccache has built.
+    "CCACHE_BASEDIR": str(ROOT),
+    "CCACHE_NOHASHDIR": "true",
     "ASAN_SYMBOLIZER_PATH": "/usr/bin/llvm-symbolizer-19",
     "UBSAN_OPTIONS": "print_stacktrace=1",
     "CTEST_OUTPUT_ON_FAILURE": "1",

@@ -28,6 +28,7 @@ constexpr std::int64_t kSampledFrames = 300;
 constexpr double kBlindRotation =
     1.0 / 0.003;  // rad of error per m of marker error beyond which nothing is determined
 constexpr double kBlindTranslation = 20.0;  // m per m
+constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar says nothing
 constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
 constexpr double kBlindFloor = 1e-13;       // lower: even a small share of a blind direction must show
 
@@ -278,10 +279,14 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
         B.noalias() += variances.common[b] * segment.transpose() * segment;
       }
       rows.noalias() = frame.E * frame.K;
-      for (int c = 0; c < n; ++c)
-        if (determined[c])
-          motion.q_sd[motion.index(f, c)] =
-              std::sqrt(std::max(0.0, rows.row(c).dot(B * rows.row(c).transpose())));
+      for (int c = 0; c < n; ++c) {
+        if (!determined[c]) continue;
+        const double sd = std::sqrt(std::max(0.0, rows.row(c).dot(B * rows.row(c).transpose())));
+        if (sd <= kLargestSd)
+          motion.q_sd[motion.index(f, c)] = sd;
+        else
+          determined[c] = 0;
+      }
     }
   });
 }

@@ -41,9 +41,10 @@ struct MarkerVariances {
 
 /// Fill q_sd and determined of `motion` (whose q is there already).
 ///
-/// determined: with the markers of the frame alone, coordinate error per metre of marker error is below 1/3
-/// mm^-1 rad, or 20 for translations; tasks and limits do not count. q_sd is NaN where not determined and 0
-/// where locked.
+/// determined: with the markers of the frame alone, coordinate error per metre of marker error is below 333
+/// rad (a marker lever of 3 mm), or 20 m for translations, and the standard deviation below 0.5 rad or 0.5 m,
+/// where a linear error bar still means something; tasks and limits do not count. q_sd is NaN where not
+/// determined and 0 where locked.
 void compute_error_bars(const internal::Problem& problem, const data::Trajectories& markers,
                         const Eigen::MatrixXd& states, const MarkerVariances& variances, int threads,
                         data::JointMotion& motion);

@@ -99,6 +99,15 @@ TEST(ErrorBars, SeeMotionThatASegmentsMarkersShare) {
   EXPECT_NEAR(coverage.at_one(), 68.3, 5.0);
 }
 
+TEST(ErrorBars, AreNotGivenWhereTheyWouldSayNothing) {
+  const auto model = model::Model::compile(description()).value();
+  IkOptions options;
+  options.marker_noise_sd_m = 0.2;  // as large as the segments: no angle of the forearm survives that
+  const auto result = solve_ik(model, record(model, 20, 0.001, 5), options).value();
+  EXPECT_EQ(result.motion.determined[result.motion.index(10, 9)], 0);
+  EXPECT_TRUE(std::isnan(result.motion.q_sd[result.motion.index(10, 9)]));
+}
+
 TEST(ErrorBars, ShrinkWithTheNoise) {
   const auto model = model::Model::compile(description()).value();
   const auto sd = [&](double noise) {

@@ -203,6 +203,25 @@ void summarise(const Problem& problem, const data::Trajectories& markers, const 
   }
 }
 
+/// A coordinate that leans on its limit most of the time says that model and subject disagree.
+void warn_of_limits(const Problem& problem, IkResult& result) {
+  const auto coordinates = problem.model.coordinates();
+  for (std::size_t c = 0; c < coordinates.size(); ++c) {
+    const int speed = coordinates[c].speed_idx;
+    if (speed < 0 || problem.fixed_speed[at(speed)]) continue;
+    std::int64_t leaning = 0;
+    for (std::int64_t f = 0; f < problem.frames; ++f) {
+      const double q = result.motion.q[result.motion.index(f, static_cast<std::int64_t>(c))];
+      leaning += q <= problem.lower[speed] + 1e-9 || q >= problem.upper[speed] - 1e-9;
+    }
+    if (10 * leaning > problem.frames)
+      result.warnings.push_back(
+          fmt::format("coordinate '{}' rests at a limit of its range in {:.0f} % of the frames",
+                      result.motion.coordinates[c],
+                      100.0 * static_cast<double>(leaning) / static_cast<double>(problem.frames)));
+  }
+}
+
 void flag_underdetermined(data::JointMotion& motion) {
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
     const auto* row = motion.determined.data() + motion.index(f, 0);
@@ -240,6 +259,7 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fill_coordinates(*problem, tracker.states(), motion);
   add_pull_costs(*problem, result);
+  warn_of_limits(*problem, result);
 
   if (options.error_bars) {
     MarkerVariances variances;

@@ -171,6 +171,7 @@ TEST(SolveIk, LimitsHoldAndLockedCoordinatesStay) {
     EXPECT_EQ(result.motion.q_sd[result.motion.index(f, 10)], 0.0);
   }
   EXPECT_NEAR(highest, 0.4, 1e-12);
+  EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("'elbow' rests at a limit")));
   IkOptions free;
   free.limits = false;
   const auto beyond = solve_ik(model, markers, free).value();
