@@ -110,7 +110,7 @@ TEST(HostileC3d, RealFilesCutAtEveryBlockAndDamaged) {
 }
 
 TEST(HostileC3d, HugeCountsCostNothing) {
-  for (auto file : simulated_files()) {
+  for (const auto& file : simulated_files()) {
     for (const std::size_t at : {2U, 4U, 8U, 16U, 18U}) {
       auto bytes = file;
       bytes[at] = bytes[at + 1] = std::byte{0xFF};

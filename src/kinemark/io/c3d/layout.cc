@@ -5,14 +5,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 namespace kinemark::io {
 namespace {
 
 using Warnings = std::vector<std::string>;
+
+constexpr std::string_view kHeader = "the header";
+constexpr std::int64_t kMaxWord = 65535;  // where 16 bits end
 
 /// 16-bit counts are written signed or unsigned alike; -1 is 65535.
 std::int64_t as_count(double value) {
@@ -89,7 +92,7 @@ std::vector<Claim> frame_claims(const C3dHeader& h, const C3dParameters& p) {
   if (first && last) claims.push_back({"TRIAL:ACTUAL_END_FIELD", *last - *first + 1});
   if (const auto n = count_of(p, "POINT", "LONG_FRAMES")) claims.push_back({"POINT:LONG_FRAMES", *n});
   if (const auto n = count_of(p, "POINT", "FRAMES")) claims.push_back({"POINT:FRAMES", *n});
-  claims.push_back({"the header", h.last_frame - h.first_frame + 1});
+  claims.push_back({kHeader, h.last_frame - h.first_frame + 1});
   std::erase_if(claims, [](const Claim& c) { return c.frames <= 0; });
   return claims;
 }
@@ -117,6 +120,10 @@ Result<std::int64_t> settle_frames(const std::vector<Claim>& claims, std::size_t
       warnings.push_back(fmt::format("{} promises {} frames, {} {}, and so many the file holds",
                                      claims.front().source, claims.front().frames, claim.source,
                                      claim.frames));
+    const Claim& header = claims.back();
+    if (header.source == kHeader && header.frames != claim.frames && claim.frames < kMaxWord)
+      warnings.push_back(fmt::format("{} promises {} frames, {} {}; the parameter is used", claim.source,
+                                     claim.frames, header.source, header.frames));
     return claim.frames;
   }
   if (claims.empty()) {
@@ -131,7 +138,7 @@ Result<std::int64_t> settle_frames(const std::vector<Claim>& claims, std::size_t
     return there;
   }
   // Sixteen bits end at 65535: a longer file that says so nowhere else is believed by its size.
-  if (there >= 65535 && best.frames <= 65535) {
+  if (there >= kMaxWord && best.frames <= kMaxWord) {
     warnings.push_back(fmt::format("{} promises {} frames, the file holds {}, which are read", best.source,
                                    best.frames, there));
     return there;
@@ -250,38 +257,17 @@ void settle_analog(C3dLayout& out, const C3dParameters& p, Warnings& warnings) {
 }  // namespace
 
 std::optional<double> metres_per_unit(std::string_view unit) {
-  std::string lower(unit);
-  std::ranges::transform(lower, lower.begin(),
+  std::string name(unit);
+  std::ranges::transform(name, name.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  struct Unit {
-    std::string_view name;
-    double metres;
-  };
-  static constexpr std::array<Unit, 22> kUnits{{{"mm", 1e-3},
-                                                {"millimeter", 1e-3},
-                                                {"millimeters", 1e-3},
-                                                {"millimetre", 1e-3},
-                                                {"millimetres", 1e-3},
-                                                {"cm", 1e-2},
-                                                {"centimeter", 1e-2},
-                                                {"centimeters", 1e-2},
-                                                {"centimetres", 1e-2},
-                                                {"dm", 1e-1},
-                                                {"m", 1.0},
-                                                {"meter", 1.0},
-                                                {"meters", 1.0},
-                                                {"metre", 1.0},
-                                                {"metres", 1.0},
-                                                {"in", 0.0254},
-                                                {"inch", 0.0254},
-                                                {"inches", 0.0254},
-                                                {"ft", 0.3048},
-                                                {"foot", 0.3048},
-                                                {"feet", 0.3048},
-                                                {"um", 1e-6}}};
-  for (const Unit& u : kUnits)
-    if (u.name == lower) return u.metres;
-  return std::nullopt;
+  if (name.size() > 2 && name.ends_with('s')) name.pop_back();
+  if (name.ends_with("metre")) name.replace(name.size() - 2, 2, "er");
+  static const std::map<std::string_view, double> kUnits{
+      {"um", 1e-6},         {"micrometer", 1e-6}, {"mm", 1e-3},   {"millimeter", 1e-3}, {"cm", 1e-2},
+      {"centimeter", 1e-2}, {"dm", 1e-1},         {"m", 1.0},     {"meter", 1.0},       {"in", 0.0254},
+      {"inch", 0.0254},     {"inche", 0.0254},    {"ft", 0.3048}, {"foot", 0.3048},     {"feet", 0.3048}};
+  const auto found = kUnits.find(name);
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
 }
 
 Result<C3dLayout> settle_layout(const C3dHeader& header, const C3dParameters& parameters, Processor processor,

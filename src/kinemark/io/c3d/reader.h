@@ -52,7 +52,7 @@ class C3dReader {
   data::Trial description_;
 };
 
-/// The whole file, in metres. See docs/formats and decode.h for what is missing, measured or interpolated.
+/// The whole file, in metres. See decode_frames() for what is missing, measured or interpolated.
 /// Memory: the trial's arrays and half a megabyte per thread.
 [[nodiscard]] Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options = {});
 

@@ -163,8 +163,9 @@ TEST(C3dReader, BelievesParametersAndSaysSoWhenTheHeaderDiffers) {
   EXPECT_EQ(t.markers.markers(), 5);
   EXPECT_EQ(t.markers.frames(), 100);
   EXPECT_EQ(t.markers.time.rate_hz, 240.0);
-  EXPECT_THAT(t.warnings, AllOf(Contains(HasSubstr("the header 9 points")),
-                                Contains(HasSubstr("the header says 60 Hz"))));
+  EXPECT_THAT(t.warnings,
+              AllOf(Contains(HasSubstr("the header 9 points")), Contains(HasSubstr("the header says 60 Hz")),
+                    Contains(HasSubstr("the header 50; the parameter is used"))));
 }
 
 TEST(C3dReader, BelievesTheHeaderWhereOnlyItsNumbersFitTheFile) {
@@ -272,7 +273,10 @@ TEST(C3dReader, WhatIsNoC3dFileIsOneSentence) {
 TEST(C3dReader, OtherUnitsBecomeMetres) {
   EXPECT_EQ(metres_per_unit("MM"), 1e-3);
   EXPECT_EQ(metres_per_unit("inches"), 0.0254);
+  EXPECT_EQ(metres_per_unit("Millimetres"), 1e-3);
+  EXPECT_EQ(metres_per_unit("meters"), 1.0);
   EXPECT_FALSE(metres_per_unit("deg"));
+  EXPECT_FALSE(metres_per_unit("ms"));
   const Trial trial = simulate_trial({.gaps = false});
   for (const char* unit : {"m", "cm", "in"}) {
     const Trial back = Bytes(trial, {.units = unit}).read().value();
