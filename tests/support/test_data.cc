@@ -6,9 +6,7 @@
 
 namespace kinemark::testing_support {
 
-std::filesystem::path project_folder() {
-  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-}
+std::filesystem::path project_folder() { return KINEMARK_PROJECT_FOLDER; }
 
 std::optional<std::filesystem::path> test_data_folder() {
   const char* named = std::getenv("KINEMARK_TEST_DATA");
