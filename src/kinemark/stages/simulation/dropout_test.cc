@@ -54,10 +54,10 @@ double repeat_rate(const SubjectOptions& options) {
 
 TEST(Dropout, SharesAreExact) {
   for (const double share : {0.0, 0.05, 0.3, 0.9}) {
-    EXPECT_NEAR(missing_share(simulate_subject(human(), {.dropout_random = share}).value().markers), share,
-                1e-4);
-    EXPECT_NEAR(missing_share(simulate_subject(human(), {.dropout_sight = share}).value().markers), share,
-                1e-4);
+    const SubjectOptions chance{.rate_hz = 10.0, .dropout_random = share};
+    const SubjectOptions sight{.duration_s = 5.0, .rate_hz = 10.0, .dropout_sight = share};
+    EXPECT_NEAR(missing_share(simulate_subject(human(), chance).value().markers), share, 5e-4);
+    EXPECT_NEAR(missing_share(simulate_subject(human(), sight).value().markers), share, 5e-4);
   }
   const double both =
       missing_share(simulate_subject(human(), {.rate_hz = 10.0, .dropout_random = 0.1, .dropout_sight = 0.2})
