@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 namespace kinemark::cli {
 namespace {
@@ -24,6 +25,18 @@ extern "C" void note_signal(int number) {
 
 void say(const Globals& globals, std::string_view line) {
   if (!globals.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+}
+
+void print_written(const Globals& globals, const std::vector<std::filesystem::path>& paths,
+                   const std::vector<std::string>& warnings) {
+  for (const auto& warning : warnings) say(globals, fmt::format("note: {}", warning));
+  nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  for (const auto& path : paths) {
+    say(globals, fmt::format("wrote {}", path.string()));
+    written.push_back(path.string());
+  }
+  if (globals.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"written", written}, {"warnings", warnings}}.dump(2));
 }
 
 int report_error(const Error& error) {
@@ -56,6 +69,7 @@ Progress show_progress(const Globals& globals, std::string what) {
 void install_signal_handlers() {
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int caught_signal() { return signal_seen; }

@@ -4,8 +4,10 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/command.h"
 #include "kinemark/core/progress.h"
@@ -16,6 +18,10 @@ namespace kinemark::cli {
 /// One line for people, on stderr; nothing with --quiet.
 void say(const Globals& globals, std::string_view line);
 
+/// What was written, after notes on it: lines for people, or {"written": [...], "warnings": [...]} on stdout.
+void print_written(const Globals& globals, const std::vector<std::filesystem::path>& paths,
+                   const std::vector<std::string>& warnings = {});
+
 /// The sentence of a failure on stderr, and its exit status.
 [[nodiscard]] int report_error(const Error& error);
 
@@ -24,7 +30,7 @@ void say(const Globals& globals, std::string_view line);
 [[nodiscard]] Progress show_progress(const Globals& globals, std::string what);
 
 /// Signal that asked to stop (SIGINT or SIGTERM), or 0. install_signal_handlers() makes them be noted instead
-/// of killing.
+/// of killing, and a file that grows beyond the limit (ulimit -f) be a failure to write it.
 void install_signal_handlers();
 [[nodiscard]] int caught_signal();
 

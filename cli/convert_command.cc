@@ -23,8 +23,7 @@ void add_convert(CLI::App& app, const Globals& globals, Run& run) {
     run = [&globals, arguments] {
       const auto warnings = pipeline::convert_file(arguments->in, arguments->out, globals.force);
       if (!warnings) return report_error(warnings.error());
-      for (const auto& warning : *warnings) say(globals, fmt::format("note: {}", warning));
-      say(globals, fmt::format("wrote {}", arguments->out));
+      print_written(globals, {arguments->out}, *warnings);
       return 0;
     };
   });

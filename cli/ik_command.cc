@@ -19,6 +19,17 @@ Result<std::pair<std::string, double>> parse_weight(const std::string& text) {
   return std::pair{text.substr(0, equals), *number};
 }
 
+/// One line for all coordinates that some frames do not determine, or nothing.
+std::string coordinates_partly_determined(const report::IkSummary& summary, std::int64_t frames) {
+  std::string list;
+  for (const auto& c : summary.coordinates) {
+    if (c.locked || c.determined_frames == 0 || c.determined_frames == frames) continue;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", c.name, frames - c.determined_frames);
+  }
+  if (list.empty()) return {};
+  return fmt::format("note: Not determined by the visible markers in so many of {} frames: {}", frames, list);
+}
+
 void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
   const auto& result = outcome.result;
   const auto& motion = result.motion;
@@ -31,9 +42,13 @@ void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
       fmt::format("Marker error {:.2f} mm RMS, {:.1f} mm at most; {:.1f} % of the coordinates determined.",
                   1e3 * result.rms_marker_error_m, 1e3 * result.max_marker_error_m,
                   100.0 * summary.determined_fraction));
-  for (const auto& finding : summary.findings)
-    say(globals, fmt::format("{}: {}", finding.level == report::Verdict::attention ? "attention" : "note",
-                             finding.text));
+  const auto partly = coordinates_partly_determined(summary, motion.frames());
+  if (!partly.empty()) say(globals, partly);
+  for (const auto& finding : summary.findings) {
+    const bool note = finding.level == report::Verdict::good;
+    if (note && finding.about == "coordinate") continue;
+    say(globals, fmt::format("{}: {}", note ? "note" : "attention", finding.text));
+  }
   for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
   if (globals.json) fmt::print("{}\n", report::summary_json(summary).dump(2));
 }
@@ -105,11 +120,19 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("--coordinate-weight", arguments->coordinate_weights,
                    "Pull a coordinate to 0 with NAME=W (OpenSim's convention). Repeatable.")
       ->group("Estimate");
-  command->add_option("--loss", options.loss, "How large residuals count: square, huber or cauchy")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, motion::Loss>{{"square", motion::Loss::square},
-                                                                      {"huber", motion::Loss::huber},
-                                                                      {"cauchy", motion::Loss::cauchy}}))
+  command
+      ->add_option_function<std::string>(
+          "--loss",
+          [&options](const std::string& name) {
+            const std::map<std::string, motion::Loss> losses{{"square", motion::Loss::square},
+                                                             {"huber", motion::Loss::huber},
+                                                             {"cauchy", motion::Loss::cauchy}};
+            const auto loss = losses.find(name);
+            if (loss == losses.end())
+              throw CLI::ValidationError("--loss", fmt::format("'{}' is not square, huber or cauchy", name));
+            options.loss = loss->second;
+          },
+          "How large residuals count: square, huber or cauchy")
       ->default_str("square")
       ->group("Estimate");
   command->add_option("--loss-scale", arguments->loss_scale_mm, "Where huber and cauchy begin to bend, mm")

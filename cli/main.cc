@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
 #include <exception>
 #include <new>
 
@@ -14,11 +15,13 @@ using kinemark::cli::Run;
 
 constexpr const char* kFooter =
     "Exit status: 0 good, 1 ran but missed a quality gate, 2 usage, 3 bad input, 4 I/O, 5 device,\n"
-    "130 and 143 stopped by a signal. 'kinemark COMMAND --help' lists a command's options.";
+    "130 and 143 stopped by a signal. 'kinemark COMMAND --help' lists a command's options, 'kinemark "
+    "--help'\n"
+    "those that every command takes.";
 
 void add_globals(CLI::App& app, Globals& globals) {
   app.add_option("--threads", globals.threads, "Threads; 0 uses all cores. Any number gives the same bits.")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1024))
       ->capture_default_str()
       ->group("Everywhere");
   app.add_option("--seed", globals.seed, "Seed of everything random")
@@ -27,6 +30,17 @@ void add_globals(CLI::App& app, Globals& globals) {
   app.add_flag("--force", globals.force, "Replace files that exist")->group("Everywhere");
   app.add_flag("--quiet", globals.quiet, "Say nothing but errors")->group("Everywhere");
   app.add_flag("--json", globals.json, "Print the result as JSON on stdout")->group("Everywhere");
+}
+
+/// One sentence on what was typed wrong, and where the options are explained.
+int report_usage(const CLI::App& app, const std::string& what) {
+  std::string command = "kinemark";
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    command += " " + at->get_name();
+  }
+  return kinemark::cli::report_error(
+      {kinemark::Code::usage, fmt::format("{}; see '{} --help'", what, command)});
 }
 
 int run_program(int argc, char** argv) {
@@ -50,10 +64,14 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
+    return report_usage(app, error.what());
   }
   kinemark::cli::install_signal_handlers();
-  return run();
+  const int status = run();
+  if (std::fflush(stdout) != 0)
+    return kinemark::cli::report_error({kinemark::Code::io, "standard output: cannot be written"});
+  return status;
 }
 
 }  // namespace

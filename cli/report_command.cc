@@ -23,7 +23,7 @@ void add_report(CLI::App& app, const Globals& globals, Run& run) {
     run = [&globals, arguments] {
       const auto status = pipeline::write_report(arguments->solved, arguments->page, globals.force);
       if (!status) return report_error(status.error());
-      say(globals, fmt::format("wrote {}", arguments->page));
+      print_written(globals, {arguments->page});
       return 0;
     };
   });

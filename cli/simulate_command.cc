@@ -19,9 +19,9 @@ int run_subject(const Globals& globals, SubjectArguments& arguments) {
   job.options.seed = globals.seed;
   job.options.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.force = globals.force;
-  const auto written = pipeline::simulate_subject(job);
+  const auto written = pipeline::simulate_subject(job, show_progress(globals, "files"));
   if (!written) return report_error(written.error());
-  for (const auto& path : *written) say(globals, fmt::format("wrote {}", path.string()));
+  print_written(globals, *written);
   return 0;
 }
 

@@ -10,11 +10,17 @@
 namespace kinemark::cli {
 namespace {
 
-/// Exit status of one file: 0 nothing to say, 1 readable with warnings, 3 or 4 not readable.
-int validate(const Globals& globals, const std::string& path) {
+/// Exit status of one file: 0 nothing to say, 1 readable with warnings, 3 or 4 not readable. Its entry for
+/// --json goes to `answer`.
+int validate(const Globals& globals, const std::string& path, nlohmann::ordered_json& answer) {
   const auto facts = pipeline::describe_file(path);
-  if (!facts) return report_error(facts.error());
+  if (!facts) {
+    const int status = report_error(facts.error());
+    answer.push_back({{"file", path}, {"exit_status", status}, {"error", facts.error().message}});
+    return status;
+  }
   const auto warnings = facts->at("warnings");
+  answer.push_back({{"file", path}, {"exit_status", warnings.empty() ? 0 : 1}, {"warnings", warnings}});
   for (const auto& warning : warnings) say(globals, fmt::format("{}: {}", path, warning.get<std::string>()));
   if (warnings.empty()) say(globals, fmt::format("{}: good", path));
   return warnings.empty() ? 0 : 1;
@@ -30,7 +36,9 @@ void add_validate(CLI::App& app, const Globals& globals, Run& run) {
   command->callback([&globals, paths, &run] {
     run = [&globals, paths] {
       int worst = 0;
-      for (const auto& path : *paths) worst = std::max(worst, validate(globals, path));
+      auto answer = nlohmann::ordered_json::array();
+      for (const auto& path : *paths) worst = std::max(worst, validate(globals, path, answer));
+      if (globals.json) fmt::print("{}\n", answer.dump(2));
       return worst;
     };
   });

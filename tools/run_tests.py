@@ -125,6 +125,17 @@ def tools(log):
     return counts
 
 
+def cli(log):
+    """The program from outside, as built before."""
+    program = ROOT / "build" / "ci" / "bin" / "kinemark"
+    tests = ROOT / "tests" / "cli"
+    status = log.run(sys.executable, "-m", "unittest", "discover", "-s", tests, KINEMARK_PROGRAM=str(program))
+    counts = count_unittest(log.text())
+    if status != 0 or counts.passed == 0:
+        raise Failed("a test of the program failed", counts)
+    return counts
+
+
 def build(preset):
     def stage(log):
         log.must("cmake", "--preset", preset)
@@ -258,6 +269,7 @@ STAGES = {
     "tools": tools,
     "build": build("ci"),
     "tests": unit_tests("ci"),
+    "cli": cli,
     "acceptance": acceptance,
     "viewer-page": viewer_page,
     "viewer-tests": viewer_tests,

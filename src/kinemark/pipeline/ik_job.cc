@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <vector>
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
@@ -93,8 +94,9 @@ report::IkRun describe_run(const IkJob& job, const motion::IkResult& result, con
   run.threads = job.options.threads;
   run.solve_s = result.solve_seconds;
   run.warnings = trial.warnings;
-  for (const auto& list : {model.description().warnings, result.warnings})
-    run.warnings.insert(run.warnings.end(), list.begin(), list.end());
+  const auto& of_model = model.description().warnings;
+  run.warnings.insert(run.warnings.end(), of_model.begin(), of_model.end());
+  run.warnings.insert(run.warnings.end(), result.warnings.begin(), result.warnings.end());
   const auto& o = job.options;
   const char* losses[] = {"square", "huber", "cauchy"};
   run.options = {
@@ -109,8 +111,14 @@ report::IkRun describe_run(const IkJob& job, const motion::IkResult& result, con
     run.markers.push_back({.name = marker.name,
                            .weight = marker.weight,
                            .noise_sd_m = std::hypot(marker.noise_sd_m, marker.common_sd_m)});
-  for (const auto& name : result.excluded_markers)
-    run.markers.push_back({.name = name, .weight = 0.0, .why_excluded = "never seen, or given the weight 0"});
+  for (const auto& name : result.excluded_markers) {
+    // The solver warns of each that is never seen; that is told with those that were left out.
+    const bool unseen = std::erase_if(run.warnings, [&](const std::string& warning) {
+                          return warning.starts_with(fmt::format("marker '{}' is never seen", name));
+                        }) > 0;
+    run.markers.push_back(
+        {.name = name, .weight = 0.0, .why_excluded = unseen ? "never seen" : "given the weight 0"});
+  }
   for (const auto& name : result.model_markers_without_data)
     run.markers.push_back(
         {.name = name, .weight = 0.0, .why_excluded = "in the model, not in the recording"});
@@ -142,7 +150,7 @@ data::Trajectories solved_markers(const data::Trajectories& recorded, const moti
 }
 
 Status write_results(const IkJob& job, const IkOutcome& outcome, const data::Trajectories& markers,
-                     Staging& staging) {
+                     const Staging& staging) {
   const auto& motion = outcome.result.motion;
   const io::TableWriteOptions table_options;
   if (auto s = io::write_table(staging.path(0), coordinates_table(motion), table_options); !s) return s;
@@ -157,7 +165,7 @@ Status write_results(const IkJob& job, const IkOutcome& outcome, const data::Tra
         report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &markers});
     if (auto s = io::write_text(staging.path(4), page, false); !s) return s;
   }
-  return staging.commit();
+  return {};
 }
 
 }  // namespace
@@ -175,6 +183,9 @@ Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
 
   auto description = io::read_osim(job.model);
   if (!description) return std::unexpected(description.error());
+  if (description->markers.empty())
+    return fail(Code::bad_input, fmt::format("{}: model '{}' has no markers; need at least one",
+                                             job.model.string(), description->name));
   const auto trial = io::read_markers(job.markers);
   if (!trial) return std::unexpected(trial.error());
   const auto model = model::Model::compile(std::move(*description));
@@ -201,7 +212,10 @@ Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
   auto summary = report::summarize(std::move(run), outcome.result.motion, &solved);
   if (!summary) return std::unexpected(summary.error());
   outcome.summary = std::move(*summary);
-  if (auto s = write_results(job, outcome, solved, *staging); !s) return std::unexpected(s.error());
+  if (auto s = write_results(job, outcome, solved, *staging); !s) return staging->failure(s.error());
+  const auto frames = outcome.result.motion.frames();
+  if (progress && !progress(frames, frames)) return fail(Code::cancelled, "inverse kinematics was stopped");
+  if (auto s = staging->commit(); !s) return std::unexpected(s.error());
   for (const auto& target : targets)
     if (fs::exists(target)) outcome.written.push_back(target);
   return outcome;

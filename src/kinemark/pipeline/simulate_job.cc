@@ -15,35 +15,67 @@
 
 namespace kinemark::pipeline {
 
+namespace {
+
 namespace fs = std::filesystem;
 
-Result<std::vector<fs::path>> simulate_subject(const SubjectJob& job) {
+/// Makes a folder with its parents; those that it made go again when they stay empty.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path folder) {
+    std::error_code ignored;
+    for (folder = fs::absolute(folder, ignored).lexically_normal();
+         folder.has_relative_path() && !fs::exists(folder, ignored); folder = folder.parent_path())
+      made_.push_back(folder);
+    if (!made_.empty()) fs::create_directories(made_.front(), error_);
+  }
+  ~NewFolder() {
+    std::error_code ignored;
+    for (const auto& folder : made_) fs::remove(folder, ignored);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  [[nodiscard]] const std::error_code& error() const { return error_; }
+
+ private:
+  std::vector<fs::path> made_;  ///< innermost first
+  std::error_code error_;
+};
+
+}  // namespace
+
+Result<std::vector<fs::path>> simulate_subject(const SubjectJob& job, const Progress& progress) {
   auto description = job.model.empty() ? human_model() : io::read_osim(job.model);
   if (!description) return std::unexpected(description.error());
   const auto model = model::Model::compile(*description);
-  if (!model) return std::unexpected(model.error());
+  if (!model) return fail_at(job.model.string(), model.error());
   const auto subject = simulation::simulate_subject(*model, job.options);
   if (!subject) return std::unexpected(subject.error());
 
-  std::error_code error;
-  fs::create_directories(job.folder, error);
-  if (error)
-    return fail(Code::io, fmt::format("{}: cannot be made ({})", job.folder.string(), error.message()));
+  const NewFolder folder(job.folder);
+  if (folder.error())
+    return fail(Code::io,
+                fmt::format("{}: cannot be made ({})", job.folder.string(), folder.error().message()));
   auto staging =
       Staging::create({job.folder / "markers.c3d", job.folder / "markers.trc", job.folder / "model.osim",
                        job.folder / "truth.mot", job.folder / "truth.trc"},
                       job.force);
   if (!staging) return std::unexpected(staging.error());
-  data::Trial trial;
-  trial.source = "simulated";
-  trial.markers = subject->markers;
-  for (const std::size_t i : {0, 1})
-    if (auto s = io::write_markers(staging->path(i), trial, false); !s) return std::unexpected(s.error());
-  if (auto s = io::write_osim(staging->path(2), *description, {}); !s) return std::unexpected(s.error());
-  if (auto s = io::write_table(staging->path(3), coordinates_table(subject->truth), {}); !s)
-    return std::unexpected(s.error());
-  trial.markers = subject->true_markers;
-  if (auto s = io::write_markers(staging->path(4), trial, false); !s) return std::unexpected(s.error());
+  data::Trial recorded, truth;
+  recorded.source = truth.source = "simulated";
+  recorded.markers = subject->markers;
+  truth.markers = subject->true_markers;
+  const auto write = [&](std::size_t i) -> Status {
+    const auto path = staging->path(i);
+    if (i == 2) return io::write_osim(path, *description, {});
+    if (i == 3) return io::write_table(path, coordinates_table(subject->truth), {});
+    return io::write_markers(path, i < 2 ? recorded : truth, false);
+  };
+  const auto files = static_cast<std::int64_t>(staging->targets().size());
+  for (std::int64_t i = 0; i < files; ++i) {
+    if (auto s = write(static_cast<std::size_t>(i)); !s) return staging->failure(s.error());
+    if (progress && !progress(i + 1, files)) return fail(Code::cancelled, "the simulation was stopped");
+  }
   if (auto s = staging->commit(); !s) return std::unexpected(s.error());
   return staging->targets();
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
 #include "kinemark/stages/simulation/subject.h"
 
@@ -19,7 +20,9 @@ struct SubjectJob {
 };
 
 /// Write markers.c3d, markers.trc (what a laboratory records), model.osim, truth.mot (degrees, metres) and
-/// truth.trc (markers without noise or gaps). Either all files appear or none. Returns their paths.
-[[nodiscard]] Result<std::vector<std::filesystem::path>> simulate_subject(const SubjectJob& job);
+/// truth.trc (markers without noise or gaps). Either all files appear or none, nor the folder.
+/// `progress` counts files. Returns their paths.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> simulate_subject(const SubjectJob& job,
+                                                                          const Progress& progress = {});
 
 }  // namespace kinemark::pipeline

@@ -3,17 +3,18 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "kinemark/core/result.h"
 
 namespace kinemark::pipeline {
 
-/// Several files that appear together or not at all: they are written into a hidden folder beside the first
-/// target and moved into place by commit(). Without commit() nothing stays.
+/// Several files that appear together or not at all: they are written into a hidden folder beside each target
+/// (one per folder) and moved into place by commit(). Without commit() nothing stays.
 class Staging {
  public:
-  /// Fails when a target exists (unless `force`) or its folder cannot be written.
+  /// Fails when a target exists (unless `force`), is given twice, or its folder cannot be written.
   static Result<Staging> create(std::vector<std::filesystem::path> targets, bool force);
   Staging(Staging&& other) noexcept;
   Staging& operator=(Staging&&) = delete;
@@ -22,12 +23,14 @@ class Staging {
   /// Where to write what will become targets[i].
   [[nodiscard]] std::filesystem::path path(std::size_t i) const;
   [[nodiscard]] const std::vector<std::filesystem::path>& targets() const { return targets_; }
+  /// A failure of writing path(i), told of targets[i].
+  [[nodiscard]] std::unexpected<Error> failure(Error error) const;
   /// Move every file that was written into place.
   [[nodiscard]] Status commit();
 
  private:
   Staging() = default;
-  std::filesystem::path folder_;
+  std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< hidden one in each parent folder
   std::vector<std::filesystem::path> targets_;
 };
 

@@ -48,6 +48,35 @@ TEST(Staging, RefusesWhatExistsAndWhatCannotBe) {
               HasSubstr("b: exists already"));
   EXPECT_THAT(Staging::create({scratch.path()}, true).error().message, HasSubstr("is a folder"));
   EXPECT_EQ(Staging::create({scratch / "no" / "a"}, true).error().code, Code::io);
+  EXPECT_THAT(Staging::create({scratch / "a", scratch / "x" / ".." / "a"}, true).error().message,
+              HasSubstr("would be written twice"));
+}
+
+TEST(Staging, AFolderThatCannotBeWrittenIsFoundBeforeTheWork) {
+  const testing_support::ScratchFolder scratch;
+  const auto staging = Staging::create({scratch / "a", scratch / "no" / "b"}, false);
+  ASSERT_FALSE(staging);
+  EXPECT_THAT(staging.error().message, HasSubstr("no/b: cannot be written"));
+  EXPECT_TRUE(fs::is_empty(scratch.path())) << "the hidden folder beside a is gone again";
+}
+
+TEST(Staging, AFailureNamesTheTargetNotTheHiddenFile) {
+  const testing_support::ScratchFolder scratch;
+  const auto staging = Staging::create({scratch / "a", scratch / "b"}, false).value();
+  const auto told = staging.failure({Code::io, staging.path(1).string() + ": cannot be written"});
+  EXPECT_EQ(told.error().message, (scratch / "b").string() + ": cannot be written");
+  EXPECT_EQ(told.error().code, Code::io);
+}
+
+TEST(Staging, TargetsInSeveralFoldersAreStagedBesideEach) {
+  const testing_support::ScratchFolder scratch;
+  fs::create_directory(scratch / "sub");
+  auto staging = Staging::create({scratch / "a", scratch / "sub" / "b"}, false).value();
+  EXPECT_EQ(staging.path(0).parent_path().parent_path(), scratch.path());
+  EXPECT_EQ(staging.path(1).parent_path().parent_path(), scratch / "sub");
+  ASSERT_TRUE(io::write_text(staging.path(1), "B", false));
+  ASSERT_TRUE(staging.commit());
+  EXPECT_EQ(io::read_text(scratch / "sub" / "b").value(), "B");
 }
 
 }  // namespace

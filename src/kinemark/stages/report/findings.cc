@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kinemark/stages/report/internal/findings.h"
 
@@ -28,6 +31,27 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
   for (std::int64_t f = 0; f < motion.frames() && !motion.determined.empty(); ++f)
     if (motion.determined[motion.index(f, coordinate)] == 0) return motion.time.time_s(f);
   return kUnknown;
+}
+
+/// One line for each reason, with all markers that have it, in the order in which they come.
+void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+  for (const MarkerSummary& m : s.markers) {
+    if (m.why_excluded.empty()) continue;
+    auto at = std::ranges::find(reasons, m.why_excluded, [](const auto& reason) { return reason.first; });
+    if (at == reasons.end()) at = reasons.insert(at, {m.why_excluded, {}});
+    at->second.push_back(m.name);
+  }
+  for (const auto& [why, names] : reasons) {
+    if (names.size() == 1)
+      out.push_back({Verdict::good, "marker", names.front(),
+                     fmt::format("Marker {} was left out: {}", names.front(), why), kUnknown});
+    else
+      out.push_back(
+          {Verdict::good, "marker", "",
+           fmt::format("{} markers were left out: {}: {}", names.size(), why, fmt::join(names, ", ")),
+           kUnknown});
+  }
 }
 
 }  // namespace
@@ -68,11 +92,9 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
                        frames_in_words(motion.frames() - c.determined_frames, motion.frames())),
            from_s});
   }
+  add_left_out(s, out);
   for (const MarkerSummary& m : s.markers) {
-    if (!m.why_excluded.empty())
-      out.push_back({Verdict::good, "marker", m.name,
-                     fmt::format("Marker {} was left out: {}", m.name, m.why_excluded), kUnknown});
-    else if (m.used && m.seen_frames == 0 && !motion.marker_error.empty())
+    if (m.why_excluded.empty() && m.used && m.seen_frames == 0 && !motion.marker_error.empty())
       out.push_back(
           {Verdict::good, "marker", m.name, fmt::format("Marker {} is never seen.", m.name), kUnknown});
   }

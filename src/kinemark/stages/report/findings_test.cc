@@ -88,10 +88,21 @@ TEST(Findings, MarkersAndWarningsAreNotes) {
       findings_of(m, {.markers = {{"L.Bicep", 0.0, kUnknown, "it is at the origin in every frame."}},
                       .warnings = {"the header lies."}});
   ASSERT_THAT(found, SizeIs(3));
-  EXPECT_EQ(found[0].text, "Marker A is never seen.");
-  EXPECT_EQ(found[1].text, "Marker L.Bicep was left out: it is at the origin in every frame.");
+  EXPECT_EQ(found[0].text, "Marker L.Bicep was left out: it is at the origin in every frame.");
+  EXPECT_EQ(found[1].text, "Marker A is never seen.");
   EXPECT_EQ(found[2].text, "the header lies.");
   for (const Finding& f : found) EXPECT_EQ(f.level, Verdict::good);
+}
+
+TEST(Findings, MarkersLeftOutForOneReasonShareALine) {
+  const auto found = findings_of(good_motion(), {.markers = {{"B", 0.0, kUnknown, "never seen"},
+                                                             {"C", 0.0, kUnknown, "given the weight 0"},
+                                                             {"D", 0.0, kUnknown, "never seen"}}});
+  ASSERT_THAT(found, SizeIs(2));
+  EXPECT_EQ(found[0].text, "2 markers were left out: never seen: B, D");
+  EXPECT_EQ(found[0].subject, "");
+  EXPECT_EQ(found[1].text, "Marker C was left out: given the weight 0");
+  EXPECT_EQ(found[1].subject, "C");
 }
 
 }  // namespace
