@@ -72,7 +72,7 @@ TEST(HostileC3d, BytesTurnedIntoAnything) {
   Random random(3, 0);
   int read = 0;
   for (const auto& file : simulated_files()) {
-    for (int round = 0; round < 3000; ++round) {
+    for (int round = 0; round < 800; ++round) {
       auto bytes = file;
       const int changes = 1 + static_cast<int>(random.uniform(0.0, 12.0));
       for (int c = 0; c < changes; ++c) {
@@ -84,7 +84,7 @@ TEST(HostileC3d, BytesTurnedIntoAnything) {
       read += survives(bytes);
     }
   }
-  EXPECT_GT(read, 6000) << "most damage is small, so most files must still be read";
+  EXPECT_GT(read, 1600) << "most damage is small, so most files must still be read";
 }
 
 TEST(HostileC3d, RealFilesCutAtEveryBlockAndDamaged) {
