@@ -61,8 +61,8 @@ endfunction()
 
 # kinemark_benchmark(name SOURCES a_benchmark.cc ... LINK links...)  -> program bench_name
 function(kinemark_benchmark name)
-  if(NOT KINEMARK_DEVELOPER)
-    return()
+  if(NOT KINEMARK_DEVELOPER OR KINEMARK_SANITIZE_ADDRESS OR KINEMARK_SANITIZE_THREAD)
+    return()  # timings under sanitizers mean nothing
   endif()
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(bench_${name} ${ARG_SOURCES})
