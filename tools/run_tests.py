@@ -26,10 +26,16 @@ LOGS = ROOT / "build" / "logs"
 FUZZ_SECONDS = "60"
 SHOWN_LINES = 120
 
+
+def search_path(root, path):
+    """Where programs are looked for: in .venv first if tools/setup put a Node there, as the machine's is too old."""
+    tools = root / ".venv" / "bin"
+    return f"{tools}{os.pathsep}{path}" if (tools / "node").exists() else path
+
+
 ENVIRONMENT = {
     **os.environ,
-    # The viewer's Node may live in .venv (tools/setup); a Node of the machine goes first.
-    "PATH": f"{os.environ.get('PATH', '/usr/bin:/bin')}{os.pathsep}{ROOT / '.venv' / 'bin'}",
+    "PATH": search_path(ROOT, os.environ.get("PATH", "/usr/bin:/bin")),
     # Checkouts in different folders share what ccache has built.
     "CCACHE_BASEDIR": str(ROOT),
     "CCACHE_NOHASHDIR": "true",

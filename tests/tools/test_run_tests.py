@@ -49,6 +49,14 @@ class RunStages(unittest.TestCase):
         self.assertTrue(said.endswith("\n0 passed, 1 failed\n"), said)
 
 
+class SearchPath(unittest.TestCase):
+    def test_a_node_in_the_venv_wins_and_only_then_the_venv_is_searched(self):
+        with Tree({".venv/bin/python": ""}) as root:
+            self.assertEqual(tests.search_path(root, "/bin"), "/bin")
+        with Tree({".venv/bin/node": ""}) as root:
+            self.assertEqual(tests.search_path(root, "/bin"), f"{root}/.venv/bin:/bin")
+
+
 class Choose(unittest.TestCase):
     def test_chooses_in_the_order_of_the_stages(self):
         stages = dict.fromkeys("abcd")
