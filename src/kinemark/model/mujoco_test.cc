@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
@@ -128,6 +129,7 @@ class Judge : public ::testing::Test {
 
 TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
   const int n = model.speed_count();
+  double worst_places = 0.0, worst_dynamics = 0.0;
   for (int trial = 0; trial < 8; ++trial) {
     Random random(static_cast<std::uint64_t>(trial), 77);
     VectorXd x = testing::random_state(model, random), v = random_vector(n, 2.0, random);
@@ -144,8 +146,7 @@ TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
       for (int i = 0; i < n; ++i)
         J_judge.block<3, 1>(3 * m, i) = site.col(dof_of_speed[static_cast<std::size_t>(i)]);
     }
-    EXPECT_LT(relative_error(w.marker, markers), 1e-9);
-    EXPECT_LT(relative_error(J, J_judge), 1e-9);
+    worst_places = std::max({worst_places, relative_error(w.marker, markers), relative_error(J, J_judge)});
 
     MatrixXd M, M_judge(n, n);
     RowMajor full(n, n);
@@ -161,10 +162,12 @@ TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
             full(dof_of_speed[static_cast<std::size_t>(i)], dof_of_speed[static_cast<std::size_t>(j)]);
     }
     // MuJoCo turns every inertia to its principal axes on loading, which costs digits.
-    EXPECT_LT(relative_error(M, M_judge), 1e-5);
-    EXPECT_LT(relative_error(b + g, force), 1e-5);
+    worst_dynamics = std::max({worst_dynamics, relative_error(M, M_judge), relative_error(b + g, force)});
     EXPECT_GT(force.norm(), 100.0);
   }
+  EXPECT_LT(worst_places, 1e-9);
+  EXPECT_LT(worst_dynamics, 1e-5);
+  RecordProperty("measured", fmt::format("{:.2e}", std::max(worst_places, worst_dynamics)));
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ using data::FrameStatus;
 using internal::FrameSolver;
 using internal::Problem;
 
+constexpr int kRetryStarts = 6;  // poses tried on a frame whose cost jumps
+
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Walks over the frames from the anchor, forwards and then backwards, and fills states and errors.
@@ -51,7 +53,7 @@ class Tracker {
     const std::int64_t anchor = find_anchor();
     problem_.observe(markers_, anchor, y_, weight_);
     // The recording may begin anywhere relative to the default pose: several starts, the cheapest wins.
-    find_start(problem_, options_, solver_, y_, weight_, anchor, x_);
+    find_start(problem_, options_, solver_, y_, weight_, anchor, options_.starts, x_);
     const Eigen::VectorXd start = x_;
     if (!walk(anchor, problem_.frames, 1)) return false;
     x_ = start;
@@ -99,7 +101,8 @@ class Tracker {
       // better.
       if (!outcome.converged || (usual_cost >= 0.0 && outcome.cost > 9.0 * usual_cost + 1e-4)) {
         retry_ = before_;
-        const auto second = find_start(problem_, options_, solver_, y_, weight_, f, retry_);
+        const auto second = find_start(problem_, options_, solver_, y_, weight_, f,
+                                       std::min(options_.starts, kRetryStarts), retry_);
         if (second.cost < 0.98 * outcome.cost) {
           x_ = retry_;
           outcome = second;
@@ -300,7 +303,7 @@ Result<CommonOffset> find_common_offset(const model::Model& model, const data::T
       if (weight.sum() == 0.0) continue;
       y.colwise() += offset.shift_m;
       if (f == 0)
-        find_start(*problem, options, solver, y, weight, f, x);
+        find_start(*problem, options, solver, y, weight, f, options.starts, x);
       else
         solver.solve(y, weight, f, x);
       for (Eigen::Index m = 0; m < weight.size(); ++m) {

@@ -19,6 +19,8 @@ constexpr double kLever_m = 0.1;      // turns radians into metres where both mu
 constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearisation says nothing
 constexpr double kFloor = 1e-10;      // relative damping that is always there: keeps blind directions at rest
 constexpr double kNewtonDone = 1e-6;  // an exact Newton step below this leaves an error of its square
+constexpr int kPatience = 12;         // iterations after which a flat valley is left alone:
+constexpr double kFlat = 1e-10;       // what a step may still win, as a share of the cost
 constexpr double kLinearDone = 1e-9;  // a Gauss-Newton step below this leaves an error of its own size
 
 }  // namespace
@@ -224,9 +226,9 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
     add_pulls(frame);
     fix_speeds(x);
 
-    // Exact Newton where the Hessian is positive definite, else Gauss-Newton; damped after a refused step.
-    const bool quadratic = options_.loss == Loss::square && damping == 0.0;
-    bool exact = quadratic && step(0.0, true);
+    // The exact Hessian where it is positive definite, else Gauss-Newton; more damping after a refused step.
+    // Damped steps along closed loops stay with Gauss-Newton: the loop forces are not settled there.
+    const bool exact = options_.loss == Loss::square && (damping == 0.0 || !looped) && step(damping, true);
     if (!exact) {
       while (!step(damping, false) && damping < 1e12) damping = std::max(1e-6, 10.0 * damping);
       if (!dx_.allFinite()) break;
@@ -239,7 +241,8 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
     x_try_ = x;
     model::integrate(model_, x_try_, dx_);
     const double merit_try = visit(y, weight, frame, x_try_);
-    const bool tiny = length < (exact ? kNewtonDone : kLinearDone);
+    const bool tiny = length < (exact && damping == 0.0 ? kNewtonDone : kLinearDone) ||
+                      (i >= kPatience && !looped && damping < 1.0 && g_.dot(dx_) < kFlat * merit_now);
     if (merit_try <= merit_before * (1.0 + 1e-13) + 1e-18 * total_weight_ || (tiny && !looped)) {
       if (merit_try <= merit_before || tiny)
         x = x_try_;

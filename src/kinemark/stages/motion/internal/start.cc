@@ -72,12 +72,12 @@ void lay_over(const Problem& problem, model::Workspace& w, const Eigen::Matrix3X
 
 FrameSolver::Outcome find_start(const Problem& problem, const IkOptions& options, FrameSolver& solver,
                                 const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, std::int64_t frame,
-                                Eigen::VectorXd& x) {
+                                int starts, Eigen::VectorXd& x) {
   const auto& model = problem.model;
   const Eigen::VectorXd given = x;
   FrameSolver::Outcome best;
   int found = 0;  // how often the cheapest pose has come out: three independent times are enough
-  for (int start = 0; start < options.starts && found < 3; ++start) {
+  for (int start = 0; start < starts && found < 3; ++start) {
     Eigen::VectorXd candidate = given;
     if (start > 0) {
       // Even starts scatter around the given pose, odd ones lie anywhere within the limits or a quarter turn.

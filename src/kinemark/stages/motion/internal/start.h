@@ -9,9 +9,10 @@
 namespace kinemark::motion::internal {
 
 /// Pose of a frame from nothing: the given state and random ones around it, each first laid over the markers
-/// as a rigid body (free roots only), then solved; the cheapest wins. Deterministic in options.seed.
+/// as a rigid body (free roots only), then solved; the cheapest of at most `starts` wins. Deterministic in
+/// options.seed.
 FrameSolver::Outcome find_start(const Problem& problem, const IkOptions& options, FrameSolver& solver,
                                 const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, std::int64_t frame,
-                                Eigen::VectorXd& x);
+                                int starts, Eigen::VectorXd& x);
 
 }  // namespace kinemark::motion::internal
