@@ -300,6 +300,8 @@ TEST(SolveIk, BadInputIsOneClearSentence) {
   EXPECT_THAT(sentence(good, {.coordinate_tasks = {{.coordinate = "hip", .values = {1.0}}}}),
               HasSubstr("1 values for 5 frames"));
   EXPECT_THAT(sentence(good, {.first_time_s = 10.0}), HasSubstr("no frame in the time range"));
+  EXPECT_THAT(sentence(good, {.first_time_s = 10.0}), HasSubstr("from 10 s to the end"));
+  EXPECT_THAT(sentence(good, {.default_marker_weight = 0.0}), HasSubstr("has the weight 0"));
   EXPECT_THAT(sentence(good, {.first_time_s = 2.0, .last_time_s = 1.0}), HasSubstr("empty"));
   auto blank = description();
   blank.markers.clear();

@@ -89,6 +89,11 @@ Status match_markers(const model::Model& model, const data::Trajectories& marker
   if (described.empty())
     return fail(Code::bad_input,
                 fmt::format("model '{}' has no markers; need at least one", model.description().name));
+  if (reduced.markers.empty() && !problem.excluded.empty())
+    return fail(
+        Code::bad_input,
+        fmt::format("every marker that model and recording share has the weight 0 or is never seen: {}",
+                    list(problem.excluded)));
   if (reduced.markers.empty()) {
     std::vector<std::string> names;
     for (const auto& marker : described) names.push_back(marker.name);
@@ -203,12 +208,17 @@ Result<Problem> make_problem(const model::Model& model, const data::Trajectories
     if (last < 0) problem.first_frame = f;
     last = f;
   }
-  if (last < 0)
+  if (last < 0) {
+    const auto bound = [](double t) {
+      return std::abs(t) < 1e299 ? fmt::format("{} s", t) : std::string("the end");
+    };
     return fail(
         Code::bad_input,
-        fmt::format("no frame in the time range {} to {} s; the recording has {} frames from {} to {} s",
-                    options.first_time_s, options.last_time_s, markers.frames(), markers.time.t0_s,
+        fmt::format("no frame in the time range from {} to {}; the recording has {} frames from {} to {} s",
+                    options.first_time_s > -1e299 ? bound(options.first_time_s) : "the beginning",
+                    bound(options.last_time_s), markers.frames(), markers.time.t0_s,
                     markers.time.time_s(std::max<std::int64_t>(0, markers.frames() - 1))));
+  }
   problem.frames = last - problem.first_frame + 1;
   data::ModelDescription reduced = model.description();
   if (auto status = match_markers(model, markers, options, problem, reduced); !status)
