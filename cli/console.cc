@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace kinemark::cli {
 namespace {
@@ -52,7 +53,7 @@ Progress show_progress(const Globals& globals, std::string what) {
   };
   const auto state = std::make_shared<State>();
   const bool quiet = globals.quiet, terminal = isatty(STDERR_FILENO) != 0;
-  return [=](std::int64_t done, std::int64_t total) {
+  return [quiet, terminal, state, what = std::move(what)](std::int64_t done, std::int64_t total) {
     if (caught_signal() != 0) return false;
     const auto now = Clock::now();
     if (quiet || now < state->next) return true;

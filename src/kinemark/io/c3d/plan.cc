@@ -179,7 +179,7 @@ void add_trial_group(C3dPlan& plan, std::int64_t first, std::int64_t last) {
         {.name = std::move(name),
          .type = C3dType::int16,
          .dims = {2},
-         .numbers = {static_cast<double>(frame % 65536), static_cast<double>(frame / 65536)}});
+         .numbers = {static_cast<double>(frame & 0xffff), static_cast<double>(frame >> 16)}});
   };
   field("ACTUAL_START_FIELD", first);
   field("ACTUAL_END_FIELD", last);
@@ -205,7 +205,7 @@ Status plan_analog(C3dPlan& plan, const data::Trial& trial) {
     return fail(Code::not_supported, fmt::format("has {} analog values a frame; a C3D file can count {}",
                                                  channels * plan.samples_per_frame, kMaxWord));
   if (!plan.integers) return {};
-  std::fill(plan.analog_scale.begin(), plan.analog_scale.end(), 0.0);
+  std::ranges::fill(plan.analog_scale, 0.0);
   for (std::size_t i = 0; i < analog.values.size(); ++i) {
     double& scale = plan.analog_scale[i % analog.names.size()];
     if (!std::isfinite(analog.values[i]))

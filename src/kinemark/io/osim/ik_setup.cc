@@ -66,7 +66,7 @@ IkTasks read_tasks(XmlFile& file, pugi::xml_node owner, const char* set) {
 std::filesystem::path path_of(pugi::xml_node node, const char* child, const std::filesystem::path& folder) {
   std::string text = text_of(node, child);
   if (text.empty() || text == "Unassigned") return {};
-  std::replace(text.begin(), text.end(), '\\', '/');
+  std::ranges::replace(text, '\\', '/');
   return (folder / text).lexically_normal();
 }
 

@@ -16,7 +16,6 @@
 namespace kinemark::io {
 namespace {
 
-using data::BodyDescription;
 using data::ModelDescription;
 using osim::XmlFile;
 

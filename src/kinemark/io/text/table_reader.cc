@@ -144,7 +144,7 @@ Result<data::Table> read_table(const std::filesystem::path& path) {
 
 bool angles_are_degrees(const data::Table& table) {
   if (table.degrees_stated) return table.in_degrees;
-  return std::any_of(table.header.begin(), table.header.end(), [](const auto& pair) {
+  return std::ranges::any_of(table.header, [](const auto& pair) {
     const std::string key = internal::lower(pair.first);
     return key == "datacolumns" || key == "datarows";
   });

@@ -20,7 +20,6 @@ using internal::Cell;
 using internal::Cells;
 using internal::excerpt;
 using internal::Lines;
-using internal::Separator;
 using internal::TrcHeader;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -29,7 +29,7 @@ ScalarFunction read_polynomial(XmlFile& file, pugi::xml_node element) {
     file.note(element, fmt::format("has {} coefficients; at most 100 are read", coefficients.size()));
     return ScalarFunction::constant(0.0);
   }
-  std::reverse(coefficients.begin(), coefficients.end());  // the file has the highest power first
+  std::ranges::reverse(coefficients);  // the file has the highest power first
   return ScalarFunction::polynomial(std::move(coefficients));
 }
 

@@ -25,7 +25,7 @@ std::vector<AxisDescription> inverse_axes(const std::vector<AxisDescription>& ax
   std::vector<AxisDescription> inverse;
   for (const AxisDescription& axis : axes)
     if (axis.is_rotation == rotations) inverse.push_back(axis);
-  std::reverse(inverse.begin(), inverse.end());
+  std::ranges::reverse(inverse);
   for (AxisDescription& axis : inverse) axis.function = axis.function.scaled(-1.0);
   return inverse;
 }

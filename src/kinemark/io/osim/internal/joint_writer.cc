@@ -34,7 +34,7 @@ bool same_axis(const AxisDescription& a, const AxisDescription& b) {
 }
 
 bool same_axes(const std::vector<AxisDescription>& a, const std::vector<AxisDescription>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_axis);
+  return std::ranges::equal(a, b, same_axis);
 }
 
 /// Coordinates in the order of the axes, each once.
@@ -42,8 +42,7 @@ std::vector<int> coordinates_of(const JointDescription& joint) {
   std::vector<int> coordinates;
   for (const AxisDescription& axis : joint.axes)
     for (const int idx : {axis.coordinate_idx, axis.second_coordinate_idx})
-      if (idx >= 0 && std::find(coordinates.begin(), coordinates.end(), idx) == coordinates.end())
-        coordinates.push_back(idx);
+      if (idx >= 0 && std::ranges::find(coordinates, idx) == coordinates.end()) coordinates.push_back(idx);
   return coordinates;
 }
 
@@ -51,8 +50,7 @@ std::vector<int> coordinates_of(const JointDescription& joint) {
 bool keeps_its_type(const JointDescription& joint) {
   const auto freedoms = freedoms_of(joint.type);
   const auto coordinates = coordinates_of(joint);
-  if (!freedoms || coordinates.size() != freedoms->size() ||
-      !std::is_sorted(coordinates.begin(), coordinates.end()))
+  if (!freedoms || coordinates.size() != freedoms->size() || !std::ranges::is_sorted(coordinates))
     return false;
   auto axes = axes_of(*freedoms, coordinates);
   if (joint.type == "EllipsoidJoint") {
@@ -87,7 +85,7 @@ Result<std::array<AxisDescription, 3>> three_axes(const JointDescription& joint,
   }
   for (int i = 0; i < 3 && axes.size() < 3; ++i) {
     const Vector3d unit = Vector3d::Unit(i);
-    if (std::none_of(axes.begin(), axes.end(), [&](const auto& axis) { return parallel(axis.axis, unit); }))
+    if (std::ranges::none_of(axes, [&](const auto& axis) { return parallel(axis.axis, unit); }))
       axes.push_back(
           {.is_rotation = rotations, .axis = unit, .function = math::ScalarFunction::constant(0.0)});
   }
@@ -122,8 +120,8 @@ Status write_spatial_transform(pugi::xml_node node, const ModelDescription& desc
 
 /// What OpenSim takes a coordinate for when nothing is said.
 bool looks_like_rotation(const JointDescription& joint, int idx) {
-  return std::any_of(joint.axes.begin(), joint.axes.end(),
-                     [&](const auto& axis) { return axis.coordinate_idx == idx && axis.is_rotation; });
+  return std::ranges::any_of(
+      joint.axes, [&](const auto& axis) { return axis.coordinate_idx == idx && axis.is_rotation; });
 }
 
 void write_coordinate(pugi::xml_node coordinates, const data::CoordinateDescription& c,
@@ -146,7 +144,7 @@ bool is_identity(const math::SE3& frame) {
 /// What the joint's socket names: the body itself, or an offset frame of the joint that is added to `frames`.
 std::string attach(pugi::xml_node frames, const ModelDescription& description, int body_idx,
                    const math::SE3& frame, std::string_view name) {
-  const std::string path = body_path(description, body_idx);
+  std::string path = body_path(description, body_idx);
   if (is_identity(frame)) return path;
   pugi::xml_node node = append_named(frames, "PhysicalOffsetFrame", name);
   append_text(node, "socket_parent", path);
@@ -179,7 +177,7 @@ Status write_whole_joint(pugi::xml_node objects, const ModelDescription& descrip
                  child = node.append_child("socket_child_frame");
   pugi::xml_node coordinates = node.append_child("coordinates");
   auto indices = coordinates_of(joint);
-  std::sort(indices.begin(), indices.end());
+  std::ranges::sort(indices);
   for (const int idx : indices)
     write_coordinate(coordinates, description.coordinates[static_cast<std::size_t>(idx)],
                      looks_like_rotation(joint, idx));
@@ -223,7 +221,7 @@ int find_sliding_half(const ModelDescription& description, const JointDescriptio
   const JointDescription& first = description.joints[static_cast<std::size_t>(sliding)];
   const JointDescription whole = join(first, winging);
   const auto coordinates = coordinates_of(whole);
-  if (coordinates.size() != 4 || !std::is_sorted(coordinates.begin(), coordinates.end())) return -1;
+  if (coordinates.size() != 4 || !std::ranges::is_sorted(coordinates)) return -1;
   const auto& p = winging.parameters;
   const auto pair = split(whole, {{p[0], p[1], p[2]}, {p[3], p[4]}, p[5]}, coordinates, between);
   const bool unchanged = same_axes(pair.sliding.axes, first.axes) &&

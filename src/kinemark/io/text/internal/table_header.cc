@@ -24,7 +24,7 @@ std::pair<std::string_view, std::string_view> split_pair(std::string_view line) 
   if (equals != std::string_view::npos) return {trim(line.substr(0, equals)), trim(line.substr(equals + 1))};
   const std::size_t blank = std::min(line.find_first_of(" \t"), line.size());
   const std::string_view word = line.substr(0, blank);
-  if (std::find(kSimmKeys.begin(), kSimmKeys.end(), lower(word)) == kSimmKeys.end()) return {"", line};
+  if (std::ranges::find(kSimmKeys, lower(word)) == kSimmKeys.end()) return {"", line};
   return {word, trim(line.substr(blank))};
 }
 
@@ -164,7 +164,7 @@ bool is_written_by_us(std::string_view key) {
   static constexpr std::array<std::string_view, 12> kKeys{
       "name",  "version",     "nrows",    "ncolumns",  "indegrees",      "datatype",
       "range", "datacolumns", "datarows", "otherdata", "opensimversion", "datarate"};
-  return std::find(kKeys.begin(), kKeys.end(), lower(key)) != kKeys.end();
+  return std::ranges::find(kKeys, lower(key)) != kKeys.end();
 }
 
 Result<TableHeader> parse_table_header(Lines& lines) {

@@ -91,7 +91,7 @@ Result<TimeBase> even_time(std::span<const double> time_s, double resolution_s,
                            std::span<const double> stated, std::vector<std::string>& warnings) {
   check(!time_s.empty(), "even_time() needs one row or more");
   TimeBase time{.t0_s = time_s[0], .frames = static_cast<std::int64_t>(time_s.size())};
-  const auto first_stated = std::find_if(stated.begin(), stated.end(), usable);
+  const auto first_stated = std::ranges::find_if(stated, usable);
   const double header_hz = first_stated == stated.end() ? 0.0 : *first_stated;
   if (time_s.size() == 1) {
     if (header_hz == 0.0)

@@ -45,7 +45,7 @@ std::optional<double> units_per_metre(std::string_view unit) {
       {"ft", 1.0 / 0.3048},
   }};
   const std::string word = lower(unit);
-  const auto* it = std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& u) { return u.first == word; });
+  const auto* it = std::ranges::find_if(kUnits, [&](const auto& u) { return u.first == word; });
   return it == kUnits.end() ? std::nullopt : std::optional(it->second);
 }
 
@@ -57,7 +57,7 @@ Status read_values(Lines& lines, TrcHeader& header) {
                                              "CameraRate, NumFrames, ...) were expected",
                                              lines.number() + 1));
   const auto keys = split(line);
-  if (std::none_of(keys.begin(), keys.end(), [](auto key) { return lower(key) == "datarate"; }))
+  if (std::ranges::none_of(keys, [](auto key) { return lower(key) == "datarate"; }))
     return fail(Code::bad_input, fmt::format("line {}: found '{}'; expected the header's keys (DataRate, "
                                              "CameraRate, NumFrames, ...)",
                                              lines.number(), excerpt(trim(line))));
@@ -71,7 +71,7 @@ Status read_values(Lines& lines, TrcHeader& header) {
     const std::string key = lower(keys[i]);
     if (key == "units") header.units = values[i];
     const std::array<std::pair<std::string_view, std::optional<double>*>, 5> numbers{
-        {{"datarate", &rates[0]},
+        {{"datarate", rates.data()},
          {"camerarate", &rates[1]},
          {"origdatarate", &rates[2]},
          {"numframes", &header.frames},
@@ -120,8 +120,7 @@ Status read_names(Lines& lines, TrcHeader& header) {
     if (!cells[c].empty()) name_cells.push_back(c);
   if (name_cells.empty())
     return fail(Code::bad_input, fmt::format("line {}: names no marker", lines.number()));
-  const bool above =
-      std::all_of(name_cells.begin(), name_cells.end(), [](std::size_t c) { return c % 3 == 2; });
+  const bool above = std::ranges::all_of(name_cells, [](std::size_t c) { return c % 3 == 2; });
   std::unordered_map<std::string_view, std::size_t> seen;
   for (std::size_t i = 0; i < name_cells.size(); ++i) {
     const std::size_t slot = above ? (name_cells[i] - 2) / 3 : i;
