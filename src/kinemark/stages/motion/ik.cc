@@ -78,7 +78,8 @@ class Tracker {
     int steady = 0;  // frames in a row with all markers: then the pose is extrapolated
     double usual_cost = -1.0;
     for (std::int64_t f = first; f != end; f += direction) {
-      if (progress_ && ++done_ % 1000 == 0 && !progress_(done_, problem_.frames)) return false;
+      ++done_;
+      if (progress_ && done_ % 1000 == 0 && !progress_(done_, problem_.frames)) return false;
       problem_.observe(markers_, f, y_, weight_);
       const auto visible = (weight_.array() > 0.0).count();
       if (visible == 0) {
