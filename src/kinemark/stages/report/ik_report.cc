@@ -20,7 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using data::JointMotion;
 using data::SampleState;
-using data::Trajectories;
 using internal::base64;
 using internal::PlotPoints;
 

@@ -9,8 +9,7 @@
 
 namespace kinemark::report::internal {
 
-PlotPoints::PlotPoints(std::int64_t frames, std::int64_t max_points)
-    : frames_(frames), step_(1), size_(frames) {
+PlotPoints::PlotPoints(std::int64_t frames, std::int64_t max_points) : frames_(frames), size_(frames) {
   check(frames >= 0, "a plot needs a frame count of 0 or more");
   check(max_points >= 2, "a plot needs room for 2 points or more");
   if (frames <= max_points) return;

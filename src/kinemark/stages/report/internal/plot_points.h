@@ -29,7 +29,7 @@ class PlotPoints {
 
  private:
   std::int64_t frames_;
-  std::int64_t step_;
+  std::int64_t step_ = 1;
   std::int64_t size_;
 };
 
