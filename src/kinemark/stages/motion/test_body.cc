@@ -112,7 +112,7 @@ data::Trajectories record(const model::Model& model, std::int64_t frames, double
   for (std::int64_t f = 0; f < frames; ++f) {
     model::kinematics(model, w, model::state_from_coordinates(model, coordinates(model, f)));
     for (std::int64_t m = 0; m < markers.markers(); ++m) {
-      const Vector3d noise(random.gaussian(), random.gaussian(), random.gaussian());
+      const Vector3d noise{random.gaussian(), random.gaussian(), random.gaussian()};  // braces fix the order
       markers.x(f, m) = w.marker.col(m) + noise_sd_m * noise;
       markers.state[markers.index(f, m)] = data::SampleState::measured;
     }
