@@ -9,6 +9,8 @@
 #include <limits>
 #include <set>
 
+#include "kinemark/core/check.h"
+
 namespace kinemark::data {
 
 std::string_view to_string(SampleState state) {
@@ -32,6 +34,28 @@ std::string_view to_string(SampleState state) {
 void Trajectories::set_missing(std::int64_t frame, std::int64_t marker, SampleState why) {
   x(frame, marker).setConstant(std::numeric_limits<double>::quiet_NaN());
   state[index(frame, marker)] = why;
+}
+
+std::string_view Trajectories::made_by(std::int64_t frame, std::int64_t marker) const {
+  const std::uint8_t k = method.empty() ? 0 : method[index(frame, marker)];
+  return k == 0 ? std::string_view() : methods[static_cast<std::size_t>(k - 1)];
+}
+
+void Trajectories::set_method(std::int64_t frame, std::int64_t marker, std::string_view name) {
+  if (method.empty()) method.assign(static_cast<std::size_t>(frames() * markers()), 0);
+  auto at = std::ranges::find(methods, name);
+  if (at == methods.end()) {
+    check(methods.size() < 255, "trajectories hold 255 methods at most");
+    at = methods.emplace(methods.end(), name);
+  }
+  method[index(frame, marker)] = static_cast<std::uint8_t>(at - methods.begin() + 1);
+}
+
+double Trajectories::time_s(std::int64_t frame, std::int64_t marker) const {
+  const double t = time.time_s(frame);
+  if (sample_offset_s.empty()) return t;
+  const bool per_marker = sample_offset_s.size() == names.size();
+  return t + sample_offset_s[per_marker ? static_cast<std::size_t>(marker) : index(frame, marker)];
 }
 
 std::int64_t Trajectories::find(std::string_view name) const {
@@ -72,6 +96,15 @@ Status Trajectories::validate() const {
   if (!covariance.empty() && covariance.size() != 6 * samples)
     return fail(Code::bad_input, fmt::format("trajectories hold {} covariance numbers; need {} or none",
                                              covariance.size(), 6 * samples));
+  if (!method.empty() && method.size() != samples)
+    return fail(Code::bad_input,
+                fmt::format("trajectories hold {} method numbers; need {} or none", method.size(), samples));
+  if (!method.empty() && *std::ranges::max_element(method) > methods.size())
+    return fail(Code::bad_input, fmt::format("a sample was made by method {}; there are {}",
+                                             *std::ranges::max_element(method), methods.size()));
+  if (!sample_offset_s.empty() && sample_offset_s.size() != names.size() && sample_offset_s.size() != samples)
+    return fail(Code::bad_input, fmt::format("trajectories hold {} sample times; need {}, {} or none",
+                                             sample_offset_s.size(), names.size(), samples));
   std::set<std::string_view> seen;
   for (const std::string& name : names) {
     if (name.empty()) return fail(Code::bad_input, "a marker has no name");

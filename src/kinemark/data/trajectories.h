@@ -30,6 +30,13 @@ struct Trajectories {
   Array<double> x_in_world;        ///< F x M x 3, m
   Array<SampleState> state;        ///< F x M
   Array<double> covariance;        ///< F x M x 6 (xx xy xz yy yz zz), m^2; empty when unknown
+  /// How samples were made ("cubic", "rigid body", ...) and, F x M, by which: 0 as recorded, k by methods[k -
+  /// 1]. `method` is empty where nothing was made.
+  std::vector<std::string> methods;
+  Array<std::uint8_t> method;
+  /// When a marker was really seen, s after its frame's time: M (the same in every frame), F x M, or empty
+  /// (0).
+  Array<double> sample_offset_s;
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }
   [[nodiscard]] std::int64_t markers() const { return static_cast<std::int64_t>(names.size()); }
@@ -47,6 +54,12 @@ struct Trajectories {
     const SampleState s = state[index(frame, marker)];
     return s != SampleState::missing && s != SampleState::rejected;
   }
+  /// Where the sample comes from in words: "" as recorded, else the name of the method.
+  [[nodiscard]] std::string_view made_by(std::int64_t frame, std::int64_t marker) const;
+  /// Note that a sample was made by `name` (at most 255 names). The first call allocates F x M.
+  void set_method(std::int64_t frame, std::int64_t marker, std::string_view name);
+  /// Time of a sample, s.
+  [[nodiscard]] double time_s(std::int64_t frame, std::int64_t marker) const;
   void set_missing(std::int64_t frame, std::int64_t marker, SampleState why = SampleState::missing);
   /// Index of a marker, or -1.
   [[nodiscard]] std::int64_t find(std::string_view name) const;

@@ -62,6 +62,34 @@ TEST(Trajectories, ValidateNamesWhatIsWrong) {
   EXPECT_THAT(t.validate().error().message, HasSubstr("marked missing"));
 }
 
+TEST(Trajectories, RememberHowASampleWasMade) {
+  Trajectories t = two_by_two();
+  EXPECT_EQ(t.made_by(1, 1), "");
+  t.set_method(1, 1, "cubic");
+  t.set_method(0, 0, "rigid body");
+  t.set_method(0, 1, "cubic");
+  EXPECT_EQ(t.made_by(1, 1), "cubic");
+  EXPECT_EQ(t.made_by(0, 0), "rigid body");
+  EXPECT_EQ(t.made_by(1, 0), "");
+  EXPECT_THAT(t.methods, testing::ElementsAre("cubic", "rigid body"));
+  EXPECT_TRUE(t.validate());
+  t.methods.pop_back();
+  EXPECT_THAT(t.validate().error().message, HasSubstr("made by method 2; there are 1"));
+}
+
+TEST(Trajectories, SampleTimesMayDifferByMarkerOrBySample) {
+  Trajectories t = two_by_two();
+  const double second = t.time.time_s(1);
+  EXPECT_EQ(t.time_s(1, 1), second);
+  t.sample_offset_s = {0.0, 0.001};
+  EXPECT_EQ(t.time_s(1, 1), second + 0.001);
+  t.sample_offset_s = {0.0, 0.001, 0.002, 0.003};
+  EXPECT_EQ(t.time_s(1, 0), second + 0.002);
+  EXPECT_TRUE(t.validate());
+  t.sample_offset_s.resize(3);
+  EXPECT_THAT(t.validate().error().message, HasSubstr("3 sample times; need 2, 4 or none"));
+}
+
 TEST(SampleState, EveryStateHasItsOwnName) {
   std::set<std::string_view> names;
   for (int s = 0; s < 6; ++s) names.insert(to_string(static_cast<SampleState>(s)));

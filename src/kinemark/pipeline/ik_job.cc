@@ -111,14 +111,10 @@ report::IkRun describe_run(const IkJob& job, const motion::IkResult& result, con
     run.markers.push_back({.name = marker.name,
                            .weight = marker.weight,
                            .noise_sd_m = std::hypot(marker.noise_sd_m, marker.common_sd_m)});
-  for (const auto& name : result.excluded_markers) {
-    // The solver warns of each that is never seen; that is told with those that were left out.
-    const bool unseen = std::erase_if(run.warnings, [&](const std::string& warning) {
-                          return warning.starts_with(fmt::format("marker '{}' is never seen", name));
-                        }) > 0;
-    run.markers.push_back(
-        {.name = name, .weight = 0.0, .why_excluded = unseen ? "never seen" : "given the weight 0"});
-  }
+  for (const auto& marker : result.excluded_markers)
+    run.markers.push_back({.name = marker.name,
+                           .weight = 0.0,
+                           .why_excluded = marker.seen ? "given the weight 0" : "never seen"});
   for (const auto& name : result.model_markers_without_data)
     run.markers.push_back(
         {.name = name, .weight = 0.0, .why_excluded = "in the model, not in the recording"});

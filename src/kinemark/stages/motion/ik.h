@@ -29,11 +29,18 @@ struct MarkerSummary {
   double common_sd_m = 0.0;  ///< per axis: part shared by the markers of its segment
 };
 
+/// A marker that model and recording share and that took no part.
+struct ExcludedMarker {
+  std::string name;  ///< in the model
+  bool seen = true;  ///< false: never seen in the recording; true: its weight is 0
+};
+
 struct IkResult {
   data::JointMotion motion;      ///< solved frames only
   std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
   std::vector<MarkerSummary> markers;
-  std::vector<std::string> model_markers_without_data, data_markers_without_model, excluded_markers;
+  std::vector<std::string> model_markers_without_data, data_markers_without_model;
+  std::vector<ExcludedMarker> excluded_markers;
   std::vector<std::string> warnings;
   double cost = 0.0;                ///< sum over frames of the cost in IkOptions (square loss), m^2
   double rms_marker_error_m = 0.0;  ///< over all marker frames used, unweighted

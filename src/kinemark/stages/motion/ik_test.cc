@@ -267,13 +267,26 @@ TEST(SolveIk, MatchesNamesBehindASubjectPrefixAndListsWhatIsLeftOver) {
   EXPECT_LT(largest_error(model, result), 1e-9);
 }
 
-TEST(SolveIk, AMarkerThatIsNeverSeenIsLeftOutWithAWord) {
+TEST(SolveIk, AMarkerThatIsNeverSeenIsLeftOutAndSaid) {
   const auto model = body();
   auto markers = record(model, 5);
   for (std::int64_t f = 0; f < 5; ++f) markers.set_missing(f, 2);
   const auto result = solve_ik(model, markers).value();
-  EXPECT_THAT(result.excluded_markers, ElementsAre("T3"));
-  EXPECT_THAT(result.warnings.front(), HasSubstr("'T3' is never seen"));
+  ASSERT_EQ(result.excluded_markers.size(), 1u);
+  EXPECT_EQ(result.excluded_markers.front().name, "T3");
+  EXPECT_FALSE(result.excluded_markers.front().seen);
+}
+
+TEST(SolveIk, AnUnseenMarkerOfWeightZeroIsCalledUnseenAndASeenOneIsNot) {
+  const auto model = body();
+  auto markers = record(model, 5);
+  for (std::int64_t f = 0; f < 5; ++f) markers.set_missing(f, 2);
+  IkOptions options;
+  options.marker_weights = {{"T2", 0.0}, {"T3", 0.0}};
+  const auto result = solve_ik(model, markers, options).value();
+  ASSERT_EQ(result.excluded_markers.size(), 2u);
+  EXPECT_TRUE(result.excluded_markers[0].seen) << result.excluded_markers[0].name;
+  EXPECT_FALSE(result.excluded_markers[1].seen) << result.excluded_markers[1].name;
 }
 
 std::string sentence(const data::Trajectories& markers, const IkOptions& options = {}) {

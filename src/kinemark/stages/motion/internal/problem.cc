@@ -70,14 +70,9 @@ Status match_markers(const model::Model& model, const data::Trajectories& marker
     used[static_cast<std::size_t>(it->second)] = true;
     const auto w = weights.find(marker.name);
     const double weight = w == weights.end() ? options.default_marker_weight : w->second;
-    if (weight == 0.0) {
-      problem.excluded.push_back(marker.name);
-      continue;
-    }
-    if (!ever_seen(markers, it->second)) {
-      problem.excluded.push_back(marker.name);
-      problem.warnings.push_back(
-          fmt::format("marker '{}' is never seen in the recording and was left out", marker.name));
+    const bool seen = ever_seen(markers, it->second);
+    if (weight == 0.0 || !seen) {
+      problem.excluded.push_back({marker.name, seen});
       continue;
     }
     reduced.markers.push_back(marker);
@@ -89,11 +84,14 @@ Status match_markers(const model::Model& model, const data::Trajectories& marker
   if (described.empty())
     return fail(Code::bad_input,
                 fmt::format("model '{}' has no markers; need at least one", model.description().name));
-  if (reduced.markers.empty() && !problem.excluded.empty())
+  if (reduced.markers.empty() && !problem.excluded.empty()) {
+    std::vector<std::string> names;
+    for (const auto& marker : problem.excluded) names.push_back(marker.name);
     return fail(
         Code::bad_input,
         fmt::format("every marker that model and recording share has the weight 0 or is never seen: {}",
-                    list(problem.excluded)));
+                    list(names)));
+  }
   if (reduced.markers.empty()) {
     std::vector<std::string> names;
     for (const auto& marker : described) names.push_back(marker.name);

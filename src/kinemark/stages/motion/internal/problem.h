@@ -10,6 +10,7 @@
 
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
+#include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/ik_options.h"
 
 namespace kinemark::motion::internal {
@@ -18,7 +19,8 @@ struct Problem {
   model::Model model;            ///< the given model with the used markers only
   std::vector<int> data_marker;  ///< per model marker: its index in the recording
   Eigen::VectorXd weight;        ///< per model marker, > 0
-  std::vector<std::string> model_only, data_only, excluded;
+  std::vector<std::string> model_only, data_only;
+  std::vector<ExcludedMarker> excluded;
   std::vector<std::string> warnings;
 
   struct Pull {
