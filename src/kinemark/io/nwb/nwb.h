@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/derivatives.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/io/nwb/metadata.h"
+
+// Neurodata Without Borders 2 (HDF5): one file holds positions, states, methods, covariances, true sample
+// times, derivatives with standard deviations, filters and provenance. docs/formats/nwb.md says where each
+// one is. A build without HDF5 (KINEMARK_NWB=OFF) answers every call with Code::not_supported.
+namespace kinemark::io {
+
+/// What one NWB file holds.
+struct NwbFile {
+  data::Trajectories trajectories;
+  std::optional<data::Derivatives> derivatives;
+  NwbMetadata metadata;
+  std::vector<std::string> warnings;  ///< what was odd about the file or could not be used, one sentence each
+};
+
+/// Read marker positions and what belongs to them. Files of write_nwb() come back bit by bit. Of other files
+/// every SpatialSeries and PoseEstimationSeries (ndx-pose) with two or three coordinates in a length unit is
+/// a marker; those that do not share the clock of the largest group are left out with a warning. Uneven
+/// timestamps become sample_offset_s; NaN, infinite and zero-confidence samples are missing. Time and memory
+/// are bounded by the size of the file. Not an NWB file, or no positions: Code::bad_input; units that are no
+/// lengths: Code::not_supported; cannot be opened: Code::io.
+[[nodiscard]] Result<NwbFile> read_nwb(const std::filesystem::path& path);
+
+struct NwbWriteOptions {
+  bool force = false;   ///< replace a file that exists
+  int compression = 4;  ///< deflate level, 0 (none) to 9; bytes are shuffled and checksummed in any case
+};
+
+/// Write a whole recording; the file appears complete or not at all. `derivatives` may be null.
+/// Code::bad_input: invalid trajectories, no frames, no markers, metadata that NWB does not allow; Code::io:
+/// the disk.
+[[nodiscard]] Status write_nwb(const std::filesystem::path& path, const data::Trajectories& trajectories,
+                               const data::Derivatives* derivatives = nullptr,
+                               const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
+
+/// What a file will hold, told before its samples are there.
+struct NwbOutline {
+  std::vector<std::string> names;  ///< M, unique
+  TimeBase time;
+  bool method = false;  ///< which method made a sample
+  bool covariance = false;
+  bool velocity = false, velocity_sd = false;
+  bool acceleration = false, acceleration_sd = false;
+  bool jerk = false, jerk_sd = false;
+  bool filters = false;  ///< the filter of each marker
+  enum class Offsets : std::uint8_t { none, per_marker, per_sample } offsets = Offsets::none;
+
+  /// The outline of a recording that is there.
+  static NwbOutline of(const data::Trajectories& trajectories, const data::Derivatives* derivatives);
+};
+
+/// Writes a recording piece by piece, any frames of any markers in any order, so that memory is bounded by
+/// the caller's piece. Samples that are never written read as missing. Without commit() no file appears.
+class NwbWriter {
+ public:
+  /// Errors as write_nwb().
+  static Result<NwbWriter> create(const std::filesystem::path& path, const NwbOutline& outline,
+                                  const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
+  NwbWriter(NwbWriter&& other) noexcept;
+  NwbWriter& operator=(NwbWriter&& other) noexcept;
+  ~NwbWriter();
+
+  /// Write frames [first_frame, first_frame + piece.frames()) of the markers that `piece` names. Its arrays
+  /// and `derivatives` must hold what the outline promised and fit the outline's names and frames (else
+  /// ContractError); its clock is not looked at. Pieces of whole multiples of 4096 frames are fastest.
+  [[nodiscard]] Status write(const data::Trajectories& piece, const data::Derivatives* derivatives = nullptr,
+                             std::int64_t first_frame = 0);
+  /// Write names of methods and filters, close, sync, and put the file into its place.
+  [[nodiscard]] Status commit();
+
+ private:
+  struct Open;
+  explicit NwbWriter(std::unique_ptr<Open> open);
+  std::unique_ptr<Open> open_;
+};
+
+}  // namespace kinemark::io
