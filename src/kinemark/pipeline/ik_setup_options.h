@@ -13,8 +13,8 @@ namespace kinemark::pipeline {
 [[nodiscard]] Status apply_setup(IkJob& job);
 
 /// Add the marker weights and coordinate tasks of the setup and task files. Weights that the job already
-/// names win. Task values in files are degrees for rotations, as OpenSim has it; from_file values are read
-/// from the coordinate file and interpolated linearly at the recording's times.
+/// names win. A manual value is in radians or metres, as OpenSim takes it; from_file values are read from the
+/// coordinate file, in degrees where that says so, and interpolated linearly at the recording's times.
 [[nodiscard]] Status apply_tasks(IkJob& job, const model::Model& model, const data::Trajectories& markers);
 
 }  // namespace kinemark::pipeline

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/ik_job.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/report_job.h"
+#include "kinemark/pipeline/testing/test_files.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class RunIk : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new testing_support::ScratchFolder;
+    testing::simulate_into(*scratch_ / "in");
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static fs::path at(const std::string& name) { return *scratch_ / name; }
+  static IkJob job(const std::string& output) {
+    IkJob j;
+    j.model = at("in/model.osim");
+    j.markers = at("in/markers.c3d");
+    j.output = at(output);
+    return j;
+  }
+  static testing_support::ScratchFolder* scratch_;
+};
+testing_support::ScratchFolder* RunIk::scratch_ = nullptr;
+
+TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
+  const auto outcome = run_ik(job("Q.mot"));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->written.size(), 4U);
+  const auto q = io::read_table(at("Q.mot")).value();
+  const auto sd = io::read_table(at("Q_sd.sto")).value();
+  const auto truth = io::read_table(at("in/truth.mot")).value();
+  ASSERT_EQ(q.columns, sd.columns);
+  std::int64_t inside = 0, all = 0;
+  for (std::int64_t r = 0; r < q.rows(); ++r)
+    for (std::size_t k = 0; k < q.columns.size(); ++k) {
+      const auto column = static_cast<std::int64_t>(k);
+      if (std::isnan(sd(r, column))) continue;
+      const double error = q(r, column) - truth(r, truth.find(q.columns[k]));
+      inside += std::abs(error) < 3.0 * sd(r, column);
+      ++all;
+    }
+  ASSERT_GT(all, 1000);
+  EXPECT_GT(static_cast<double>(inside) / static_cast<double>(all), 0.97);
+}
+
+TEST_F(RunIk, AReportMadeLaterIsTheReportMadeAtOnce) {
+  auto with_page = job("R.mot");
+  with_page.report = at("at_once.html");
+  ASSERT_TRUE(run_ik(with_page));
+  ASSERT_TRUE(write_report(at("R.mot"), at("later.html"), false));
+  ASSERT_TRUE(write_report(at("R_report.json"), at("from_json.html"), false));
+  EXPECT_EQ(io::read_text(at("later.html")).value(), io::read_text(at("from_json.html")).value());
+  const auto once = io::read_text(at("at_once.html")).value(),
+             later = io::read_text(at("later.html")).value();
+  EXPECT_NEAR(static_cast<double>(once.size()), static_cast<double>(later.size()),
+              0.05 * static_cast<double>(once.size()));
+  EXPECT_EQ(once.find("http://"), later.find("http://"));
+  EXPECT_EQ(write_report(at("R.mot"), at("later.html"), false).error().code, Code::io) << "exists already";
+}
+
+TEST_F(RunIk, AReportOfMissingOrForeignFilesIsOneSentence) {
+  EXPECT_EQ(write_report(at("nothing.mot"), at("n.html"), false).error().code, Code::io);
+  ASSERT_TRUE(io::write_text(at("X_report.json"), "{ not json", false));
+  EXPECT_THAT(write_report(at("X.mot"), at("n.html"), false).error().message, HasSubstr("is not JSON"));
+  EXPECT_FALSE(fs::exists(at("n.html")));
+}
+
+TEST_F(RunIk, AMissedGateStillWritesAndEndsWithOne) {
+  auto strict = job("strict.mot");
+  strict.max_rms_m = 1e-5;
+  const auto outcome = run_ik(strict).value();
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_TRUE(fs::exists(at("strict.mot")));
+  std::string told;
+  for (const auto& finding : outcome.summary.findings) told += finding.text;
+  EXPECT_THAT(told, HasSubstr("at most 0.0 mm is accepted"));
+}
+
+TEST_F(RunIk, ExclusionsCarryTheirReason) {
+  auto trial = io::read_markers(at("in/markers.c3d")).value();
+  for (std::int64_t f = 0; f < trial.markers.frames(); ++f) trial.markers.set_missing(f, 0);
+  trial.markers.names[1] = "stranger";
+  if (!trial.residual_m.empty()) trial.residual_m.clear();
+  if (!trial.camera_mask.empty()) trial.camera_mask.clear();
+  const std::string unseen = trial.markers.names[0], weightless = trial.markers.names[2];
+  ASSERT_TRUE(io::write_markers(at("odd.trc"), trial, false));
+  auto odd = job("odd.mot");
+  odd.markers = at("odd.trc");
+  odd.options.marker_weights = {{weightless, 0.0}};
+  const auto outcome = run_ik(odd).value();
+  std::map<std::string, std::string> why;
+  for (const auto& marker : outcome.summary.markers) why[marker.name] = marker.why_excluded;
+  EXPECT_EQ(why[unseen], "never seen");
+  EXPECT_EQ(why[weightless], "given the weight 0");
+  EXPECT_EQ(why["stranger"], "in the recording, not in the model");
+}
+
+TEST_F(RunIk, NothingIsWrittenWhenItFailsOrIsStopped) {
+  auto gone = job("gone.mot");
+  gone.markers = at("in/none.c3d");
+  EXPECT_EQ(run_ik(gone).error().code, Code::io);
+  auto early = job("gone.mot");
+  early.options.first_time_s = 100.0;
+  EXPECT_THAT(run_ik(early).error().message, HasSubstr("markers.c3d"));
+  const auto stopped = run_ik(job("gone.mot"), [](std::int64_t, std::int64_t) { return false; });
+  EXPECT_EQ(stopped.error().code, Code::cancelled);
+  for (const char* file : {"gone.mot", "gone_sd.sto", "gone_report.json"}) EXPECT_FALSE(fs::exists(at(file)));
+}
+
+TEST_F(RunIk, AsksForWhatIsNotGiven) {
+  IkJob empty;
+  EXPECT_EQ(run_ik(empty).error().code, Code::usage);
+  empty = job("Q2.mot");
+  empty.output.clear();
+  EXPECT_THAT(run_ik(empty).error().message, HasSubstr("no output"));
+}
+
+TEST(Beside, KeepsFolderAndStem) {
+  EXPECT_EQ(beside("a/b/Q.mot", "_sd.sto"), fs::path("a/b/Q_sd.sto"));
+  EXPECT_EQ(beside("Q.v2.mot", "_x"), fs::path("Q.v2_x"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
