@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/report/ik_report.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -160,13 +158,6 @@ PlotPoints plot_grid(const IkReport& report, const ReportOptions& options) {
 }
 
 }  // namespace
-
-Status ReportOptions::check() const {
-  if (max_points < 2) return fail(Code::usage, fmt::format("max_points is {}; need 2 or more", max_points));
-  if (max_series_bytes < 1000)
-    return fail(Code::usage, fmt::format("max_series_bytes is {}; need 1000 or more", max_series_bytes));
-  return {};
-}
 
 nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& options) {
   check(report.motion != nullptr, "a report needs a joint motion");

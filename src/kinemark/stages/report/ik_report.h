@@ -21,13 +21,6 @@ struct IkReport {
       nullptr;  ///< states for the gap map; nullptr: seen or not, from the errors
 };
 
-struct ReportOptions {
-  std::int64_t max_points = 20'000;            ///< per plotted series, at least 2
-  std::int64_t max_series_bytes = 24'000'000;  ///< of all plotted series as they stand in the page
-
-  [[nodiscard]] Status check() const;
-};
-
 /// The data that the page draws: `{"summary": summary_json(), "series": {...}}`.
 ///
 /// Series are little-endian float32 (deg or m, mm) or uint8 in base64. A recording with more frames than

@@ -150,8 +150,6 @@ void find_worst_frames(IkSummary& s, const JointMotion& motion, const std::vecto
 
 }  // namespace
 
-std::string_view to_string(Verdict verdict) { return verdict == Verdict::good ? "good" : "attention"; }
-
 Status SummaryOptions::check() const {
   if (worst_frames < 0)
     return fail(Code::usage, fmt::format("worst_frames is {}; need 0 or more", worst_frames));

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -15,29 +14,9 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/report/report_parts.h"
 
 namespace kinemark::report {
-
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// A file that the result depends on.
-struct InputFile {
-  std::string role;  ///< "model", "markers", "tasks", ...
-  std::string path;  ///< as the user gave it
-  std::int64_t bytes = 0;
-  std::string hash;       ///< hexadecimal digits, lower case
-  std::string hash_kind;  ///< "XXH3-64"
-};
-
-/// A quality bound that the run had to meet.
-struct Gate {
-  std::string name;      ///< "marker_rms"
-  bool passed = true;    ///< false: the run ends with exit status 1
-  double value = 0.0;    ///< what was reached, in `unit`
-  double bound = 0.0;    ///< what was asked, in `unit`
-  std::string unit;      ///< "mm", "%", ...
-  std::string sentence;  ///< for people: what was compared and what to do when it failed
-};
 
 /// What the solver knew of one marker of the file or the model.
 struct MarkerFacts {
@@ -64,17 +43,6 @@ struct IkRun {
   std::vector<MarkerFacts> markers;             ///< in any order; markers not listed have weight 1
   std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
   std::vector<std::string> warnings;            ///< one sentence each
-};
-
-enum class Verdict : std::uint8_t { good, attention };
-
-/// A line of the list "what needs your attention".
-struct Finding {
-  Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
-  std::string about;              ///< "gate", "frames", "coordinate", "marker" or "warning"
-  std::string subject;            ///< name of the gate, coordinate or marker; may be empty
-  std::string text;               ///< one sentence
-  double time_s = kUnknown;       ///< where to look first
 };
 
 struct CoordinateSummary {
@@ -148,7 +116,5 @@ struct SummaryOptions {
 /// Q_report.json, so that a page can be made from result files. Counts and errors are not read: summarize()
 /// finds them again.
 [[nodiscard]] Result<IkRun> run_from_json(const nlohmann::ordered_json& json);
-
-[[nodiscard]] std::string_view to_string(Verdict verdict);
 
 }  // namespace kinemark::report

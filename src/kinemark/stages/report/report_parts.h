@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What all reports have: inputs with their hashes, quality gates, findings, and the bound on a page's size.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::report {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A file that the result depends on.
+struct InputFile {
+  std::string role;  ///< "model", "markers", "tasks", ...
+  std::string path;  ///< as the user gave it
+  std::int64_t bytes = 0;
+  std::string hash;       ///< hexadecimal digits, lower case
+  std::string hash_kind;  ///< "XXH3-64"
+};
+
+/// A quality bound that the run had to meet.
+struct Gate {
+  std::string name;      ///< "marker_rms"
+  bool passed = true;    ///< false: the run ends with exit status 1
+  double value = 0.0;    ///< what was reached, in `unit`
+  double bound = 0.0;    ///< what was asked, in `unit`
+  std::string unit;      ///< "mm", "%", ...
+  std::string sentence;  ///< for people: what was compared and what to do when it failed
+};
+
+enum class Verdict : std::uint8_t { good, attention };
+
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+
+/// A line of the list "what needs your attention".
+struct Finding {
+  Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
+  std::string about;              ///< "gate", "frames", "coordinate", "marker", "gap", ... or "warning"
+  std::string subject;            ///< name of the gate, coordinate or marker; may be empty
+  std::string text;               ///< one sentence
+  double time_s = kUnknown;       ///< where to look first
+};
+
+/// How much of the arrays goes into a page.
+struct ReportOptions {
+  std::int64_t max_points = 20'000;            ///< per plotted series, at least 2
+  std::int64_t max_series_bytes = 24'000'000;  ///< of all plotted series as they stand in the page
+
+  [[nodiscard]] Status check() const;
+};
+
+}  // namespace kinemark::report
