@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "kinemark/core/units.h"
 #include "kinemark/stages/report/ik_summary.h"
+#include "kinemark/stages/report/internal/json_parts.h"
 
 namespace kinemark::report {
 
@@ -13,18 +12,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+using internal::findings_json;
+using internal::gates_json;
+using internal::inputs_json;
+using internal::millimetres;
+using internal::number;
+using internal::options_json;
+
 constexpr int kSchemaVersion = 1;
-
-/// Rounded to so many decimals; null when unknown.
-Json number(double value, int decimals) {
-  if (!std::isfinite(value)) return nullptr;
-  const double scale = std::pow(10.0, decimals);
-  const double rounded = std::round(value * scale) / scale;
-  if (!std::isfinite(rounded)) return value;
-  return rounded == 0.0 ? 0.0 : rounded;  // no minus in front of zero
-}
-
-Json millimetres(double metres) { return number(1e3 * metres, 4); }
 
 /// deg to 1e-4, m to 1e-6.
 Json coordinate_value(const CoordinateSummary& c, double value) {
@@ -70,40 +65,6 @@ Json worst_frames_json(const IkSummary& s) {
                    {"worst_marker", w.marker},
                    {"worst_marker_error_mm", millimetres(w.marker_error_m)},
                    {"status", data::to_string(w.status)}});
-  return out;
-}
-
-Json gates_json(const IkRun& run) {
-  Json out = Json::array();
-  for (const Gate& g : run.gates)
-    out.push_back({{"name", g.name},
-                   {"passed", g.passed},
-                   {"value", number(g.value, 6)},
-                   {"bound", number(g.bound, 6)},
-                   {"unit", g.unit},
-                   {"sentence", g.sentence}});
-  return out;
-}
-
-Json findings_json(const IkSummary& s) {
-  Json out = Json::array();
-  for (const Finding& f : s.findings)
-    out.push_back({{"level", f.level == Verdict::attention ? "attention" : "note"},
-                   {"about", f.about},
-                   {"subject", f.subject},
-                   {"text", f.text},
-                   {"time_s", number(f.time_s, 6)}});
-  return out;
-}
-
-Json inputs_json(const IkRun& run) {
-  Json out = Json::array();
-  for (const InputFile& i : run.inputs)
-    out.push_back({{"role", i.role},
-                   {"path", i.path},
-                   {"bytes", i.bytes},
-                   {"hash", i.hash},
-                   {"hash_kind", i.hash_kind}});
   return out;
 }
 
@@ -155,8 +116,6 @@ IkRun read_run(const Json& json) {
 nlohmann::ordered_json summary_json(const IkSummary& s) {
   const IkRun& run = s.run;
   const auto frames = static_cast<double>(s.time.frames);
-  Json options = Json::object();
-  for (const auto& [key, value] : run.options) options[key] = value;
   return {{"schema", "kinemark.ik_report"},
           {"schema_version", kSchemaVersion},
           {"trial", run.trial},
@@ -177,13 +136,13 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"max_error_mm", millimetres(s.max_error_m)},
           {"determined_fraction", number(s.determined_fraction, 6)},
           {"status_frames", status_json(s)},
-          {"findings", findings_json(s)},
-          {"gates", gates_json(run)},
+          {"findings", findings_json(s.findings)},
+          {"gates", gates_json(run.gates)},
           {"coordinates", coordinates_json(s)},
           {"markers", markers_json(s)},
           {"worst_frames", worst_frames_json(s)},
-          {"options", std::move(options)},
-          {"inputs", inputs_json(run)},
+          {"options", options_json(run.options)},
+          {"inputs", inputs_json(run.inputs)},
           {"warnings", run.warnings}};
 }
 

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "kinemark/stages/report/clean_report.h"
+#include "kinemark/stages/report/internal/clean_words.h"
+
+namespace kinemark::report {
+
+namespace {
+
+using data::SampleState;
+using internal::length_s;
+
+constexpr double kLargeSdM = 0.010;     ///< a fill beyond this is of no use for joint angles
+constexpr double kSure = 0.8;           ///< confidence from which a defect counts as there
+constexpr double kHighCutoff = 0.4;     ///< of the rate: above this a filter takes next to nothing away
+constexpr double kCyclesAtLeast = 2.0;  ///< a cut-off with fewer cycles in the recording leaves only drift
+
+std::int64_t count(const CleanMarker& m, SampleState state) {
+  return m.before[static_cast<std::size_t>(state)];
+}
+
+std::string in_words(std::int64_t n, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+/// "A", "A and B", "A, B, C and 4 more".
+std::string list_names(const std::vector<std::string>& names, std::size_t most = 6) {
+  if (names.empty()) return "";
+  if (names.size() == 1) return names.front();
+  if (names.size() > most) {
+    const std::vector<std::string> some(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
+    return fmt::format("{} and {} more", fmt::join(some, ", "), names.size() - most);
+  }
+  const std::vector<std::string> but_last(names.begin(), names.end() - 1);
+  return fmt::format("{} and {}", fmt::join(but_last, ", "), names.back());
+}
+
+void add(std::vector<Finding>& out, Verdict level, std::string about, std::string subject, std::string text,
+         double time_s = kUnknown) {
+  out.push_back({level, std::move(about), std::move(subject), std::move(text), time_s});
+}
+
+void add_gates(const CleanReport& r, std::vector<Finding>& out) {
+  for (const Gate& gate : r.run.gates)
+    if (!gate.passed) add(out, Verdict::attention, "gate", gate.name, gate.sentence);
+  if (r.run.exit_status != 0 && out.empty())
+    add(out, Verdict::attention, "gate", "",
+        fmt::format("The run ended with exit status {}.", r.run.exit_status));
+}
+
+/// Defects of one kind that ended the same way, together; a single one in its own words.
+struct DefectGroup {
+  const CleanDefect* first = nullptr;
+  bool sure = false;
+  std::int64_t number = 0;
+  std::vector<std::string> markers;
+};
+
+void add_defects(const CleanReport& r, std::vector<Finding>& out) {
+  std::vector<DefectGroup> groups;
+  for (const CleanDefect& d : r.defects) {
+    const bool sure = d.confidence >= kSure;
+    auto at = std::ranges::find_if(groups, [&](const DefectGroup& g) {
+      return g.sure == sure && g.first->handled == d.handled && g.first->kind == d.kind &&
+             g.first->done == d.done;
+    });
+    if (at == groups.end()) at = groups.insert(at, {&d, sure, 0, {}});
+    ++at->number;
+    const std::string name = d.marker.empty() ? "all markers" : d.marker;
+    if (std::ranges::find(at->markers, name) == at->markers.end()) at->markers.push_back(name);
+  }
+  for (const DefectGroup& g : groups) {
+    const CleanDefect& d = *g.first;
+    const Verdict level = g.sure && !d.handled ? Verdict::attention : Verdict::good;
+    const std::string end = d.done.empty() ? "" : fmt::format(" Done: {}.", d.done);
+    const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
+    const std::string text = g.number == 1
+                                 ? d.sentence
+                                 : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
+                                               d.kind, g.number, list_names(g.markers), d.sentence);
+    add(out, level, "marker", d.marker, text + unsure + end, r.time.time_s(d.first_frame));
+  }
+}
+
+void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
+  const CleanUpsampling& up = r.upsampling;
+  const std::string end = up.done.empty() ? "" : fmt::format(" Done: {}.", up.done);
+  const Verdict level = up.handled ? Verdict::good : Verdict::attention;
+  if (up.factor > 1) {
+    add(out, level, "upsampling", "",
+        fmt::format("The recorder interpolated this recording: 1 of {} samples was measured.{}", up.factor,
+                    end));
+    return;
+  }
+  std::vector<std::string> names;
+  for (const CleanMarker& m : r.markers)
+    if (m.upsampling_factor > 1) names.push_back(m.name);
+  if (names.empty()) return;
+  add(out, level, "upsampling", names.front(),
+      fmt::format("The recorder interpolated {} ({}).{}", in_words(std::ssize(names), "marker", "markers"),
+                  list_names(names), end));
+}
+
+/// One line for each marker that has fills nobody should rely on.
+void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
+  std::vector<std::pair<const CleanGap*, std::int64_t>> worst;  // of a marker, and how many there are
+  for (const CleanGap& g : r.gaps) {
+    if (!g.filled || !(g.max_sd_m > kLargeSdM)) continue;
+    auto at = std::ranges::find_if(worst, [&](const auto& w) { return w.first->marker == g.marker; });
+    if (at == worst.end()) at = worst.insert(at, {&g, 0});
+    ++at->second;
+    if (g.max_sd_m > at->first->max_sd_m) at->first = &g;
+  }
+  for (const auto& [gap, number] : worst)
+    add(out, Verdict::attention, "gap", gap->marker,
+        fmt::format("{} of {} {} filled with a standard deviation above {:.0f} mm; the largest is {:.1f} mm, "
+                    "in a gap of {:.3g} s.",
+                    in_words(number, "gap", "gaps"), gap->marker, number == 1 ? "was" : "were",
+                    1e3 * kLargeSdM, 1e3 * gap->max_sd_m, length_s(*gap, r.time)),
+        r.time.time_s(gap->first_frame));
+}
+
+void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
+  const CleanGap* longest = nullptr;
+  std::int64_t number = 0;
+  double sum_s = 0.0;
+  std::vector<std::string> names;
+  for (const CleanGap& g : r.gaps) {
+    if (g.filled) continue;
+    ++number;
+    sum_s += length_s(g, r.time);
+    if (longest == nullptr || length_s(g, r.time) > length_s(*longest, r.time)) longest = &g;
+    if (std::ranges::find(names, g.marker) == names.end()) names.push_back(g.marker);
+  }
+  if (longest == nullptr) return;
+  const std::string why = longest->why_open.empty() ? "" : fmt::format(" {}", longest->why_open);
+  add(out, Verdict::good, "gap", longest->marker,
+      fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
+                  in_words(number, "gap was", "gaps were"), sum_s, list_names(names),
+                  length_s(*longest, r.time), longest->marker, why),
+      r.time.time_s(longest->first_frame));
+}
+
+/// One line for all markers of which something holds.
+void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
+                    const std::function<bool(const CleanMarker&)>& holds, std::string_view text) {
+  std::vector<std::string> names;
+  for (const CleanMarker& m : r.markers)
+    if (holds(m)) names.push_back(m.name);
+  if (names.empty()) return;
+  add(out, Verdict::good, "marker", names.front(),
+      fmt::format("{} ({} of {}): {}", list_names(names), names.size(),
+                  in_words(std::ssize(r.markers), "marker", "markers"), text));
+}
+
+void add_filters(const CleanReport& r, std::vector<Finding>& out) {
+  const double seconds = static_cast<double>(r.time.frames) / r.time.rate_hz;
+  const auto chosen = [](const CleanMarker& m) { return !m.criterion_name.empty(); };
+  add_of_markers(
+      r, out, [](const CleanMarker& m) { return !m.white; },
+      "the residual is not white. The filter took away more than noise, or the noise is not white: rely less "
+      "on the error bars.");
+  add_of_markers(
+      r, out,
+      [&](const CleanMarker& m) { return chosen(m) && m.filter.cutoff_hz > kHighCutoff * r.time.rate_hz; },
+      "the cut-off found is at the upper end of its range. Next to no noise was there to take away; data "
+      "that "
+      "were filtered before look like this.");
+  add_of_markers(
+      r, out,
+      [&](const CleanMarker& m) { return chosen(m) && m.filter.cutoff_hz * seconds < kCyclesAtLeast; },
+      "the cut-off found is at the lower end of its range. The marker hardly moves, or the recording is too "
+      "short to tell movement from noise.");
+  add_of_markers(
+      r, out, [](const CleanMarker& m) { return m.bad_variances > 0; },
+      "some variances were not positive and finite; the marker's median was taken instead.");
+}
+
+}  // namespace
+
+std::vector<Finding> clean_findings(const CleanReport& report) {
+  std::vector<Finding> out;
+  add_gates(report, out);
+  add_defects(report, out);
+  add_upsampling(report, out);
+  add_uncertain_fills(report, out);
+  add_of_markers(
+      report, out,
+      [&](const CleanMarker& m) {
+        return count(m, SampleState::missing) == report.time.frames && report.time.frames > 0;
+      },
+      "never seen.");
+  add_open_gaps(report, out);
+  add_filters(report, out);
+  for (const std::string& warning : report.run.warnings) add(out, Verdict::good, "warning", "", warning);
+  std::ranges::stable_sort(out, {}, [](const Finding& f) { return f.level == Verdict::good; });
+  return out;
+}
+
+}  // namespace kinemark::report

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "kinemark/core/check.h"
+#include "kinemark/core/random.h"
+#include "kinemark/stages/report/internal/example_clean.h"
+
+namespace kinemark::report::internal {
+
+namespace {
+
+using data::SampleState;
+
+constexpr double kRateHz = 120.0;
+constexpr double kNoiseM = 0.0004;
+constexpr std::array<std::string_view, 12> kNames{"C7",           "CLAV",        "R.Acromium",  "R.Bicep",
+                                                  "R.Elbow.Lat",  "R.Elbow.Med", "R.Forearm.1", "R.Forearm.2",
+                                                  "R.Wrist.Ulna", "R.Wrist.Rad", "R.Hand",      "R.Finger"};
+constexpr std::int64_t kBicep = 3, kFirstMade = 6, kLastMade = 7, kUlna = 8, kRadius = 9, kHand = 10,
+                       kFinger = 11;
+
+/// Position of a marker and its first two derivatives along one axis: two waves of an arm that swings.
+struct Motion {
+  double x, v, a;
+};
+Motion motion(std::int64_t marker, std::int64_t axis, double t) {
+  const double reach = 0.02 + 0.03 * static_cast<double>(marker);  // the hand moves more than the neck
+  Motion m{0.1 * static_cast<double>(marker) + (axis == 1 ? 1.2 : 0.3), 0.0, 0.0};
+  for (const double hz : {0.8, 2.1}) {
+    const double w = 2.0 * std::numbers::pi * hz;
+    const double phase = w * t + static_cast<double>(axis) + 0.3 * static_cast<double>(marker);
+    const double size = reach / (hz * hz);
+    m.x += size * std::sin(phase);
+    m.v += size * w * std::cos(phase);
+    m.a -= size * w * w * std::sin(phase);
+  }
+  return m;
+}
+
+/// A stretch of one marker that was not measured, and how it was treated; frames as shares of the recording.
+struct Hole {
+  std::int64_t marker;
+  double from, to;
+  bool filled;
+  SampleState state;
+  std::string_view method;
+  double max_sd_m;
+};
+constexpr std::array<Hole, 6> kHoles{{
+    {kBicep, 0.30, 0.34, true, SampleState::model_filled, "auto", 0.0009},
+    {kBicep, 0.70, 0.71, true, SampleState::interpolated, "cubic", 0.0005},
+    {kUlna, 0.45, 0.56, true, SampleState::model_filled, "auto", 0.0142},
+    {kRadius, 0.45, 0.52, true, SampleState::model_filled, "auto", 0.0061},
+    {kHand, 0.00, 0.02, true, SampleState::model_filled, "rigid", 0.0021},
+    {kFinger, 0.60, 0.85, false, SampleState::missing, "", kUnknown},
+}};
+
+std::int64_t frame_at(double share, std::int64_t frames) {
+  return static_cast<std::int64_t>(share * static_cast<double>(frames));
+}
+
+void fill_samples(ExampleClean& e, std::uint64_t seed) {
+  const auto frames = e.report.time.frames;
+  const auto all = 3 * static_cast<std::size_t>(frames) * kNames.size();
+  e.after.covariance.assign(2 * all, 0.0);
+  for (auto* array : {&e.derivatives.velocity, &e.derivatives.velocity_sd, &e.derivatives.acceleration,
+                      &e.derivatives.acceleration_sd})
+    array->assign(all, kUnknown);
+  for (std::int64_t m = 0; m < std::ssize(kNames); ++m) {
+    Random random(seed, static_cast<std::uint64_t>(m));
+    for (std::int64_t f = 0; f < frames; ++f) {
+      const double t = e.report.time.time_s(f);
+      const std::size_t i = e.after.index(f, m);
+      e.before.state[i] = e.after.state[i] = SampleState::measured;
+      if (m >= kFirstMade && m <= kLastMade && f % 2 == 1) e.after.state[i] = SampleState::upsampled;
+      for (std::int64_t axis = 0; axis < 3; ++axis) {
+        const Motion truth = motion(m, axis, t);
+        const std::size_t k = 3 * i + static_cast<std::size_t>(axis);
+        // Noise of the sample, and what a filter of 10 Hz or so leaves of it.
+        e.before.x_in_world[k] = truth.x + kNoiseM * random.gaussian();
+        const double left = std::sin(7.0 * t + static_cast<double>(axis + m));
+        e.after.x_in_world[k] = truth.x + 0.00015 * left;
+        e.derivatives.velocity[k] = truth.v + 0.009 * left;
+        e.derivatives.acceleration[k] = truth.a + 0.5 * left;
+        e.derivatives.velocity_sd[k] = 0.008;
+        e.derivatives.acceleration_sd[k] = 0.45;
+      }
+      for (const std::size_t d : {0U, 3U, 5U}) e.after.covariance[6 * i + d] = 0.00016 * 0.00016;
+    }
+  }
+}
+
+/// The error bar grows towards the middle of a gap.
+void cut_hole(ExampleClean& e, const Hole& hole) {
+  const std::int64_t frames = e.report.time.frames;
+  const std::int64_t first = frame_at(hole.from, frames), last = frame_at(hole.to, frames) - 1;
+  for (std::int64_t f = first; f <= last; ++f) {
+    e.before.set_missing(f, hole.marker);
+    const std::size_t i = e.after.index(f, hole.marker);
+    if (!hole.filled) {
+      e.after.set_missing(f, hole.marker);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (auto* array : {&e.derivatives.velocity, &e.derivatives.velocity_sd, &e.derivatives.acceleration,
+                            &e.derivatives.acceleration_sd})
+          (*array)[3 * i + axis] = kUnknown;
+      }
+      for (std::size_t c = 0; c < 6; ++c) e.after.covariance[6 * i + c] = kUnknown;
+      continue;
+    }
+    e.after.state[i] = hole.state;
+    const double along = (static_cast<double>(f - first) + 1.0) / (static_cast<double>(last - first) + 2.0);
+    const double bulge = std::sin(std::numbers::pi * along);
+    const double sd = 0.0002 + hole.max_sd_m * bulge;
+    for (const std::size_t d : {0U, 3U, 5U}) e.after.covariance[6 * i + d] = sd * sd;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      e.after.x_in_world[3 * i + axis] += 0.8 * hole.max_sd_m * bulge * (axis == 1 ? -1.0 : 1.0);
+      e.derivatives.velocity_sd[3 * i + axis] += 20.0 * hole.max_sd_m * bulge;
+      e.derivatives.acceleration_sd[3 * i + axis] += 300.0 * hole.max_sd_m * bulge;
+    }
+  }
+  CleanGap gap{.marker = std::string(kNames[static_cast<std::size_t>(hole.marker)]),
+               .first_frame = first,
+               .last_frame = last,
+               .at_edge = first == 0,
+               .filled = hole.filled,
+               .method = std::string(hole.method)};
+  if (hole.filled) {
+    gap.sd_m = 0.7 * hole.max_sd_m;
+    gap.max_sd_m = hole.max_sd_m;
+    gap.windows = 40;
+    gap.window_s = static_cast<double>(last - first + 1) / kRateHz;
+    gap.predictors = {"R.Forearm.1", "R.Forearm.2", "R.Elbow.Lat"};
+  } else {
+    gap.why_open = "The gap is longer than 2 s.";
+  }
+  if (hole.method == "auto")
+    gap.weights = {{"regression, tied", 0.61, 0.0021, false},
+                   {"rigid", 0.31, 0.0034, false},
+                   {"cubic", 0.08, 0.0098, false},
+                   {"pca", 0.0, 0.021, true}};
+  if (hole.marker == kUlna) gap.dropped = {"R.Wrist.Rad"};
+  e.report.gaps.push_back(std::move(gap));
+}
+
+void fill_facts(ExampleClean& e) {
+  for (std::int64_t m = 0; m < std::ssize(kNames); ++m) {
+    const auto at = static_cast<double>(m);
+    CleanMarker c{.name = std::string(kNames[static_cast<std::size_t>(m)])};
+    c.filter = {"kalman", m < 4 ? 3 : 4, 6.0 + 0.9 * at, kNoiseM * (1.0 + 0.05 * at)};
+    c.words = "Smoother of an integrated random walk; order and cut-off have the least estimated risk.";
+    c.noise_from = "data";
+    c.criterion_name = "SURE, m^2";
+    for (const int order : {2, 3, 4, 5})
+      c.tried.push_back(
+          {order, 5.0 + 0.9 * at + 0.4 * order, 1e-8 * (1.0 + 0.1 * std::abs(order - c.filter.order))});
+    c.residual_rms_m = 0.95 * c.filter.noise_sd_m;
+    c.white = m != kFinger;
+    c.ljung_box_p = c.white ? 0.37 : 1e-9;
+    for (int lag = 1; lag <= 10; ++lag)
+      c.autocorrelation.push_back(c.white ? 0.03 * std::sin(3.0 * lag + at) : 0.6 * std::exp(-0.3 * lag));
+    c.bar_scale = {1.04, 1.11, 1.2, 1.3};
+    c.gap_bar_scale = {1.2, 1.3, 1.4, 1.5};
+    if (m >= kFirstMade && m <= kLastMade) {
+      c.upsampling_factor = 2;
+      c.upsampling_kernel = "linear";
+    }
+    c.band = "open";
+    for (int k = 0; k < 40; ++k) {
+      const double hz = 0.25 * std::pow(240.0, k / 39.0);
+      const double noise = 3.0 * 2.0 * c.filter.noise_sd_m * c.filter.noise_sd_m / kRateHz;
+      const double high_pass = 1.0 / (1.0 + std::pow(c.filter.cutoff_hz / hz, 6.0));
+      c.spectrum.frequency_hz.push_back(hz);
+      c.spectrum.raw_m2_per_hz.push_back(noise + 1e-4 * std::pow(1.0 + hz, -6.0));
+      c.spectrum.residual_m2_per_hz.push_back(noise * high_pass * high_pass);
+    }
+    e.facts.push_back(std::move(c));
+  }
+  for (const CleanMarker& c : e.facts) e.derivatives.filters.push_back(c.filter);
+}
+
+void fill_run(ExampleClean& e) {
+  CleanRun& run = e.report.run;
+  run.trial = "reach_07.c3d";
+  run.gap_method = "auto";
+  run.filter_method = "auto";
+  run.version = "0.1.0";
+  run.command_line = "kinemark clean reach_07.c3d reach_07_clean.nwb --gaps auto --filter auto --derivatives";
+  run.seed = 1;
+  run.clean_s = static_cast<double>(e.report.time.frames) / 21000.0;
+  run.options = {{"derivatives", "yes"}, {"filter", "auto"}, {"gaps", "auto"}, {"max_gap_s", "2"}};
+  run.inputs = {{"markers", "reach_07.c3d", 812544, "5be1093c77d2a8f0", "XXH3-64"}};
+  run.warnings = {"reach_07.c3d: the header says 14 markers; 12 are there."};
+  e.report.upsampling = {true,
+                         1,
+                         {"R.Forearm.1 and R.Forearm.2 were interpolated by a factor of 2 (linear).",
+                          "Interpolation that was followed by a low-pass filter cannot be seen."},
+                         "marked as upsampled, not used as measurements",
+                         true};
+}
+
+}  // namespace
+
+CleanReport ExampleClean::finished(const ReportOptions& options) const {
+  CleanReport out = report;
+  for (std::int64_t m = 0; m < after.markers(); ++m)
+    add_marker(out, facts[static_cast<std::size_t>(m)],
+               {.before = &before,
+                .before_marker = m,
+                .after = &after,
+                .after_marker = m,
+                .derivatives = &derivatives},
+               options);
+  return out;
+}
+
+ExampleClean example_clean(std::int64_t frames, std::uint64_t seed) {
+  check(frames >= 100, "an example needs at least 100 frames");
+  ExampleClean e;
+  e.report.time = {.rate_hz = kRateHz, .t0_s = 0.0, .frames = frames};
+  const std::vector<std::string> names(kNames.begin(), kNames.end());
+  e.before = data::Trajectories::all_missing(names, e.report.time);
+  e.after = data::Trajectories::all_missing(names, e.report.time);
+  fill_samples(e, seed);
+  for (const Hole& hole : kHoles) cut_hole(e, hole);
+  fill_facts(e);
+  fill_run(e);
+
+  const std::int64_t spike = frame_at(0.15, frames);
+  e.before.x(spike, kFinger)(1) += 0.12;
+  e.after.set_missing(spike, kFinger, SampleState::rejected);
+  e.report.defects = {
+      {"spike", "R.Finger", "", spike, spike, 0.98,
+       "R.Finger leaves its path by 120 mm for one sample and comes back.", "rejected", true},
+      {"label swap", "R.Elbow.Lat", "R.Elbow.Med", frame_at(0.8, frames), frame_at(0.83, frames), 0.93,
+       "R.Elbow.Lat and R.Elbow.Med sit in each other's place, 62 mm out of place.", "left as it is", false}};
+  return e;
+}
+
+}  // namespace kinemark::report::internal
