@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What LEDs do before the rig: where each is at any time, and what hides or mirrors it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kinemark/math/se3.h"
+#include "kinemark/stages/simulation/rig_physics.h"
+
+namespace kinemark::simulation {
+
+/// A mirror's doing at one instant; share 0: none.
+struct Reflection {
+  Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< m, from where the light seems to come
+  double share = 0.0;                                        ///< of the LED's direct light
+};
+
+/// Frames in which something stands between an LED and a camera.
+struct Occlusion {
+  int led = 0;
+  int camera = -1;                               ///< -1: all of them
+  std::int64_t first_frame = 0, last_frame = 0;  ///< both included
+};
+
+struct RigScene {
+  std::vector<std::string> leds;  ///< names
+  /// State of an LED at a time (s); called from several threads at once.
+  std::function<LedState(int led, double time_s)> led;
+  /// Mirrors; may be empty.
+  std::function<Reflection(int led, double time_s, const Eigen::Vector3d& x_in_world)> reflection;
+  std::vector<Occlusion> occlusions;
+};
+
+/// The orientation tree: three LEDs, sides 533, 310 and 310 mm; columns are its vertices, m: back left, back
+/// right, front; the plane is level.
+[[nodiscard]] Eigen::Matrix3d tree_vertices();
+/// Distances of its vertices 0-1, 0-2 and 1-2, m.
+[[nodiscard]] std::array<double, 3> tree_sides_m();
+
+/// Where the tree stands: centroid (m in world), then turned about X, Y and Z: Ry(yaw) Rx(pitch) Rz(roll).
+struct TreePose {
+  Eigen::Vector3d centroid_in_world = Eigen::Vector3d::Zero();
+  double yaw_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;
+  [[nodiscard]] math::SE3 world_from_tree() const;
+  /// Columns are the LEDs, m in world.
+  [[nodiscard]] Eigen::Matrix3d leds_in_world() const;
+};
+
+/// Ten places of the tree that both cameras see, spread through the volume.
+[[nodiscard]] const std::array<TreePose, 10>& tree_test_poses();
+
+/// Still LEDs "back left", "back right", "front", shining along Z.
+[[nodiscard]] RigScene still_tree(const TreePose& pose);
+
+struct WheelOptions {
+  double turned_deg = 8.0;  ///< about the vertical; the study uses 8 and 35. Then tilted by -4 deg
+  double diameter_m = 0.392;
+  double rate_hz = 1.5;      ///< revolutions per second
+  double glint_share = 0.0;  ///< 0.04: the frame mirrors that share during 8 degrees of each turn
+};
+
+/// One LED, "rim", on a wheel about (20, -30, -40) mm.
+[[nodiscard]] RigScene rotating_wheel(const WheelOptions& options = {});
+
+/// world_from_wheel: the wheel lies in the plane of X and Y about its axis Z.
+[[nodiscard]] math::SE3 wheel_pose(const WheelOptions& options = {});
+
+/// LEDs on "shoulder", "elbow", "wrist" and "hand" of a signer who signs LOOK-AT[Continuative] once in
+/// 0.719 s: the hand runs round an ellipse of 170 by 80 mm with an uneven rhythm, 2.7 m/s at its fastest and
+/// 0.5 at its slowest. Bones of 310, 280 and 80 mm keep their lengths. With the three occlusions of the
+/// study: hand in camera B, frames 120 to 131; wrist in A, 200 to 209; elbow in both, 300 to 306.
+[[nodiscard]] RigScene signing_arm();
+
+}  // namespace kinemark::simulation
