@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/stages/trajectory/smoothing/internal/choose.h"
+
+namespace kinemark::trajectory::smoothing {
+namespace {
+
+constexpr double kEvenTimes = 1e-6;     ///< of the interval: offsets that differ less are the same
+constexpr double kSameVariance = 1e-9;  ///< relative
+constexpr int kDiagonal[3] = {0, 3, 5};
+
+bool usable(double variance) { return std::isfinite(variance) && variance > 0.0; }
+
+Status take_times(const data::Trajectories& in, std::int64_t marker, MarkerSamples& out) {
+  if (in.sample_offset_s.size() == in.names.size()) {
+    if (!std::isfinite(in.sample_offset_s[static_cast<std::size_t>(marker)]))
+      return fail(Code::bad_input, fmt::format("marker '{}' has a sample time that is not a number",
+                                               in.names[static_cast<std::size_t>(marker)]));
+    return {};
+  }
+  if (in.sample_offset_s.empty()) return {};
+  bool even = true;
+  double earlier = -INFINITY;
+  std::int64_t earlier_frame = -1;
+  out.time_s.resize(static_cast<std::size_t>(out.frames));
+  for (std::int64_t f = 0; f < out.frames; ++f) {
+    const double offset = in.sample_offset_s[in.index(f, marker)];
+    const double t = static_cast<double>(f) * out.interval_s + offset;
+    out.time_s[static_cast<std::size_t>(f)] = t;
+    even = even && std::abs(offset - in.sample_offset_s[in.index(0, marker)]) <= kEvenTimes * out.interval_s;
+    if (out.present[static_cast<std::size_t>(f)] == 0) continue;
+    if (!(t > earlier) || !std::isfinite(t))
+      return fail(
+          Code::bad_input,
+          fmt::format(
+              "marker '{}' was seen at {} s in frame {} and at {} s in frame {}; sample times must rise",
+              in.names[static_cast<std::size_t>(marker)], in.time.t0_s + earlier, earlier_frame,
+              in.time.t0_s + t, f));
+    earlier = t;
+    earlier_frame = f;
+  }
+  if (even) {
+    out.time_s.clear();
+    return {};
+  }
+  // Frames without a sample need a time too: their offset is a guess that must keep the times rising.
+  for (std::int64_t f = 0; f < out.frames;) {
+    if (out.present[static_cast<std::size_t>(f)] != 0) {
+      ++f;
+      continue;
+    }
+    std::int64_t end = f;
+    while (end < out.frames && out.present[static_cast<std::size_t>(end)] == 0) ++end;
+    for (std::int64_t k = f; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (f == 0 || end == out.frames)
+        out.time_s[i] = static_cast<double>(k) * out.interval_s;
+      else
+        out.time_s[i] =
+            out.time_s[static_cast<std::size_t>(f - 1)] +
+            (out.time_s[static_cast<std::size_t>(end)] - out.time_s[static_cast<std::size_t>(f - 1)]) *
+                static_cast<double>(k - f + 1) / static_cast<double>(end - f + 1);
+    }
+    f = end;
+  }
+  return {};
+}
+
+void take_variances(const data::Trajectories& in, std::int64_t marker, MarkerSamples& out) {
+  Array<double> known;
+  for (std::int64_t f = 0; f < out.frames; ++f) {
+    if (out.present[static_cast<std::size_t>(f)] == 0) continue;
+    for (const int d : kDiagonal)
+      if (const double v = in.covariance[6 * in.index(f, marker) + d]; usable(v)) known.push_back(v);
+  }
+  if (known.empty()) return;
+  out.has_covariance = true;
+  std::nth_element(known.begin(), known.begin() + std::ssize(known) / 2, known.end());
+  const double median = known[known.size() / 2];
+  out.typical_sd_m = std::sqrt(median);
+  out.variance.assign(static_cast<std::size_t>(3 * out.frames), 1.0);
+  bool all_one = true;
+  for (std::int64_t f = 0; f < out.frames; ++f) {
+    if (out.present[static_cast<std::size_t>(f)] == 0) continue;
+    bool bad = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double v = in.covariance[6 * in.index(f, marker) + kDiagonal[axis]];
+      bad = bad || !usable(v);
+      double& relative = out.variance[static_cast<std::size_t>(axis * out.frames + f)];
+      relative = usable(v) ? v / median : 1.0;
+      all_one = all_one && std::abs(relative - 1.0) <= kSameVariance;
+      if (std::abs(relative - out.variance[static_cast<std::size_t>(f)]) > kSameVariance * relative)
+        out.same_for_all_axes = false;
+    }
+    out.bad_variances += bad ? 1 : 0;
+  }
+  if (all_one) out.variance.clear();
+}
+
+}  // namespace
+
+std::vector<Series> MarkerSamples::series(const Array<std::uint8_t>& seen,
+                                          std::vector<Array<double>>& y) const {
+  Series whole;
+  whole.frames = frames;
+  whole.interval_s = interval_s;
+  whole.seen = seen.data();
+  whole.time_s = time_s.empty() ? nullptr : time_s.data();
+  whole.variance = variance.empty() ? nullptr : variance.data();
+  if (same_for_all_axes) {
+    whole.axes = 3;
+    whole.y = x.data();
+    return {whole};
+  }
+  std::vector<Series> apart;
+  y.resize(3);
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& column = y[static_cast<std::size_t>(axis)];
+    column.resize(static_cast<std::size_t>(frames));
+    for (std::int64_t f = 0; f < frames; ++f)
+      column[static_cast<std::size_t>(f)] = x[static_cast<std::size_t>(3 * f + axis)];
+    Series s = whole;
+    s.y = column.data();
+    s.variance = variance.data() + axis * frames;
+    apart.push_back(s);
+  }
+  return apart;
+}
+
+Result<MarkerSamples> marker_samples(const data::Trajectories& in, std::int64_t marker) {
+  MarkerSamples out;
+  out.frames = in.frames();
+  out.interval_s = 1.0 / in.time.rate_hz;
+  const auto n = static_cast<std::size_t>(out.frames);
+  out.x.resize(3 * n);
+  out.present.assign(n, 0);
+  out.judged.assign(n, 0);
+  for (std::int64_t f = 0; f < out.frames; ++f) {
+    const auto p = in.x(f, marker);
+    for (int axis = 0; axis < 3; ++axis) out.x[static_cast<std::size_t>(3 * f + axis)] = p[axis];
+    if (!in.present(f, marker)) continue;
+    out.present[static_cast<std::size_t>(f)] = 1;
+    if (in.state[in.index(f, marker)] != data::SampleState::measured) continue;
+    out.judged[static_cast<std::size_t>(f)] = 1;
+    ++out.measured;
+  }
+  if (const auto status = take_times(in, marker, out); !status) return std::unexpected(status.error());
+  if (!in.covariance.empty()) take_variances(in, marker, out);
+
+  for (std::int64_t f = 0; f < out.frames;) {
+    std::int64_t end = f;
+    while (end < out.frames && out.present[static_cast<std::size_t>(end)] != 0 &&
+           out.judged[static_cast<std::size_t>(end)] == 0)
+      ++end;
+    if (end - f > 1) {
+      if (out.variance.empty()) out.variance.assign(3 * n, 1.0);
+      for (int axis = 0; axis < 3; ++axis)
+        for (std::int64_t k = f; k < end; ++k)
+          out.variance[static_cast<std::size_t>(axis * out.frames + k)] *= static_cast<double>(end - f);
+    }
+    f = std::max(f + 1, end);
+  }
+  if (out.measured < kFewestSamples) out.judged = out.present;
+  return out;
+}
+
+}  // namespace kinemark::trajectory::smoothing

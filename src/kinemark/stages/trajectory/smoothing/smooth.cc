@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/smoothing/smooth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "kinemark/core/parallel.h"
+#include "kinemark/stages/trajectory/smoothing/internal/account.h"
+#include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
+#include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
+#include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+
+namespace kinemark::trajectory {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOptions& options,
+                                   std::int64_t marker) {
+  const auto samples = smoothing::marker_samples(in, marker);
+  if (!samples) return std::unexpected(samples.error());
+  MarkerResult result;
+  result.marker = marker;
+  result.state.resize(static_cast<std::size_t>(in.frames()));
+  for (std::int64_t f = 0; f < in.frames(); ++f)
+    result.state[static_cast<std::size_t>(f)] = in.state[in.index(f, marker)];
+  MarkerAccount& account = result.account;
+  account.name = in.names[static_cast<std::size_t>(marker)];
+  account.used.method = to_string(options.method);
+  account.used.cutoff_hz = account.used.noise_sd_m = kNan;
+  account.measured = samples->measured;
+  account.bad_variances = samples->bad_variances;
+  Status status;
+  switch (options.method) {
+    case FilterMethod::kalman:
+    case FilterMethod::gcv:
+      smoothing::smooth_kalman(*samples, in, options, result);
+      break;
+    case FilterMethod::savgol:
+      status = smoothing::smooth_savgol(*samples, options, in.time.rate_hz, result);
+      break;
+    case FilterMethod::none:
+    case FilterMethod::butterworth:
+    case FilterMethod::classic:
+      status = smoothing::smooth_butterworth(*samples, options, in.time.rate_hz, result);
+      break;
+  }
+  if (!status) return std::unexpected(status.error());
+  smoothing::judge_residuals(*samples, in.time.rate_hz, result);
+  return result;
+}
+
+/// Copy one marker's numbers, `width` to a frame, into the array of all markers; made on first use.
+void place(const Array<double>& from, Array<double>& to, std::int64_t marker, std::int64_t markers,
+           int width) {
+  if (from.empty()) return;
+  const std::int64_t frames = std::ssize(from) / width;
+  if (to.empty()) to.assign(static_cast<std::size_t>(frames * markers * width), kNan);
+  for (std::int64_t f = 0; f < frames; ++f)
+    std::copy_n(from.begin() + f * width, width, to.begin() + (f * markers + marker) * width);
+}
+
+}  // namespace
+
+Status smooth_each(const data::Trajectories& in, const SmoothOptions& options,
+                   const std::function<Status(MarkerResult&&)>& sink) {
+  if (const auto status = in.validate(); !status) return status;
+  if (const auto status = options.check(in.time.rate_hz); !status) return status;
+  const std::int64_t together = std::max(1, thread_count(options.threads));
+  for (std::int64_t begin = 0; begin < in.markers(); begin += together) {
+    const std::int64_t count = std::min(together, in.markers() - begin);
+    std::vector<std::optional<Result<MarkerResult>>> done(static_cast<std::size_t>(count));
+    parallel_for(count, 1, options.threads, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+        done[static_cast<std::size_t>(i)] = smooth_marker(in, options, begin + i);
+    });
+    for (auto& result : done) {
+      if (!*result) return std::unexpected(result->error());
+      const std::int64_t marker = (*result)->marker;
+      if (const auto status = sink(std::move(**result)); !status) return status;
+      result.reset();
+      if (options.progress && !options.progress(marker + 1, in.markers()))
+        return fail(Code::cancelled, "smoothing was stopped");
+    }
+  }
+  return {};
+}
+
+Result<SmoothResult> smooth(const data::Trajectories& in, const SmoothOptions& options) {
+  SmoothResult out;
+  out.trajectories = in;
+  data::Trajectories& t = out.trajectories;
+  t.covariance.clear();
+  data::Derivatives& d = out.derivatives;
+  const std::int64_t markers = in.markers();
+  const auto numbers = in.x_in_world.size();
+  for (Array<double>* values : {&d.velocity, &d.acceleration, &d.jerk}) values->assign(numbers, kNan);
+  const auto status = smooth_each(in, options, [&](MarkerResult&& one) -> Status {
+    place(one.x, t.x_in_world, one.marker, markers, 3);
+    place(one.covariance, t.covariance, one.marker, markers, 6);
+    place(one.velocity, d.velocity, one.marker, markers, 3);
+    place(one.velocity_sd, d.velocity_sd, one.marker, markers, 3);
+    place(one.acceleration, d.acceleration, one.marker, markers, 3);
+    place(one.acceleration_sd, d.acceleration_sd, one.marker, markers, 3);
+    place(one.jerk, d.jerk, one.marker, markers, 3);
+    place(one.jerk_sd, d.jerk_sd, one.marker, markers, 3);
+    for (std::int64_t f = 0; f < in.frames(); ++f) {
+      if (one.state[static_cast<std::size_t>(f)] == in.state[in.index(f, one.marker)]) continue;
+      t.state[in.index(f, one.marker)] = one.state[static_cast<std::size_t>(f)];
+      t.set_method(f, one.marker, one.account.used.method);
+    }
+    d.filters.push_back(one.account.used);
+    out.markers.push_back(std::move(one.account));
+    return {};
+  });
+  if (!status) return std::unexpected(status.error());
+  return out;
+}
+
+}  // namespace kinemark::trajectory
