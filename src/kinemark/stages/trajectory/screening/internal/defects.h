@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// One function per kind of defect; each appends what it finds.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/stages/trajectory/screening/screen.h"
+
+namespace kinemark::trajectory::internal {
+
+using Findings = std::vector<Finding>;
+
+void find_zeros(const data::Trajectories& t, Findings& out);
+void find_unit_slips(const data::Trajectories& t, Findings& out);
+void find_duplicated_frames(const data::Trajectories& t, Findings& out);
+/// `out` holds the duplicated frames: repeats within them are no news.
+void find_stuck(const data::Trajectories& t, const ScreenOptions& options, Findings& out);
+void find_clock_jumps(std::span<const double> frame_time_s, Findings& out);
+/// The same from the markers, where nobody wrote the times down.
+void find_leaps(const data::Trajectories& t, Findings& out);
+void find_swaps(const data::Trajectories& t, const ScreenOptions& options, Findings& out);
+/// `out` holds the swaps: a short one is no spike.
+void find_spikes(const data::Trajectories& t, const ScreenOptions& options, Findings& out);
+
+/// "frame 7" or "frames 7 to 9".
+[[nodiscard]] std::string frames_in_words(std::int64_t first, std::int64_t last);
+/// Confidence that grows with a ratio: one half at `half`, 0.8 at four times that.
+[[nodiscard]] double confidence_of(double ratio, double half);
+/// Median, the upper one of two; 0 of nothing.
+[[nodiscard]] double median_of(std::vector<double> values);
+/// Largest rounding step of the three axes of a marker, m.
+[[nodiscard]] double rounding_of(const data::Trajectories& t, std::int64_t marker);
+
+}  // namespace kinemark::trajectory::internal

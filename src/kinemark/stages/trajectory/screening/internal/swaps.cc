@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Labels that jump: two markers that exchange theirs, and one that visits the path of another.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "kinemark/stages/trajectory/screening/internal/defects.h"
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+using data::Trajectories;
+using Eigen::Vector3d;
+
+constexpr double kLongestGap = 0.1;    // s, over which a path is continued as a straight line
+constexpr double kLongestVisit = 0.5;  // s
+constexpr double kMuchBetter = 0.25;   // of the distances left by the labels as they are
+constexpr double kTimesUsual = 8.0;    // a jump stands that much above what a marker's continuation misses by
+
+/// Paths continued by a straight line from their last two samples. Told of samples frame by frame.
+class Continuation {
+ public:
+  explicit Continuation(const Trajectories& t)
+      : t_(t), gap_(std::max<std::int64_t>(1, std::llround(kLongestGap * t.time.rate_hz))) {
+    for (std::int64_t m = 0; m < t.markers(); ++m) {
+      std::vector<double> missed;
+      for (std::int64_t f = 2; f < t.frames(); ++f)
+        if (t.present(f, m) && t.present(f - 1, m) && t.present(f - 2, m))
+          missed.push_back((t.x(f, m) - 2.0 * t.x(f - 1, m) + t.x(f - 2, m)).norm());
+      usual_.push_back(median_of(missed));
+    }
+    paths_.resize(usual_.size());
+  }
+
+  /// Where the marker should be, from what was seen before the frame and not too long ago.
+  [[nodiscard]] std::optional<Vector3d> at(std::int64_t frame, std::int64_t marker) const {
+    const Path& p = paths_[static_cast<std::size_t>(marker)];
+    if (p.last < 0 || frame - p.last > gap_) return std::nullopt;
+    return Vector3d(p.x + static_cast<double>(frame - p.last) * p.velocity);
+  }
+  [[nodiscard]] std::int64_t last_seen(std::int64_t marker) const {
+    return paths_[static_cast<std::size_t>(marker)].last;
+  }
+  /// What continuations of this marker miss by, m, median.
+  [[nodiscard]] double usual(std::int64_t marker) const { return usual_[static_cast<std::size_t>(marker)]; }
+
+  void see(std::int64_t frame) {
+    for (std::int64_t m = 0; m < t_.markers(); ++m) {
+      if (!t_.present(frame, m)) continue;
+      Path& p = paths_[static_cast<std::size_t>(m)];
+      p.velocity = p.last == frame - 1 && frame > 0 ? Vector3d(t_.x(frame, m) - p.x) : Vector3d::Zero();
+      p.x = t_.x(frame, m);
+      p.last = frame;
+    }
+  }
+
+ private:
+  struct Path {
+    std::int64_t last = -1;
+    Vector3d x = Vector3d::Zero();
+    Vector3d velocity = Vector3d::Zero();  // m per frame
+  };
+  const Trajectories& t_;
+  std::int64_t gap_;
+  std::vector<double> usual_;
+  std::vector<Path> paths_;
+};
+
+struct Jump {
+  std::int64_t frame = 0;
+  std::int64_t marker = 0;
+  std::int64_t left = 0;  ///< frame of the sample before
+  double length = 0.0;    ///< m
+};
+
+struct Exchange {
+  std::int64_t frame = 0, one = 0, other = 0;
+  double ratio = 0.0;  ///< distance as labelled over distance exchanged
+};
+
+/// Go through the recording; where two markers jump onto each other's continuation, exchange them from there
+/// on, so that the next frame is judged by the right path. `t` ends with labels that follow the paths.
+void follow(Trajectories& t, double least, std::vector<Jump>& jumps, std::vector<Exchange>& exchanges) {
+  Continuation path(t);
+  std::vector<std::int64_t> label(t.names.size());  // whose samples a path takes
+  std::iota(label.begin(), label.end(), std::int64_t{0});
+  std::vector<Vector3d> x(t.names.size());
+  std::vector<data::SampleState> state(t.names.size());
+  for (std::int64_t f = 0; f < t.frames(); ++f) {
+    if (!std::ranges::is_sorted(label)) {
+      for (std::size_t m = 0; m < label.size(); ++m) {
+        x[m] = t.x(f, label[m]);
+        state[m] = t.state[t.index(f, label[m])];
+      }
+      for (std::size_t m = 0; m < label.size(); ++m) {
+        t.x(f, static_cast<std::int64_t>(m)) = x[m];
+        t.state[t.index(f, static_cast<std::int64_t>(m))] = state[m];
+      }
+    }
+    std::vector<Jump> now;
+    for (std::int64_t m = 0; m < t.markers(); ++m) {
+      if (!t.present(f, m)) continue;
+      const auto expected = path.at(f, m);
+      if (!expected) continue;
+      const double length = (t.x(f, m) - *expected).norm();
+      if (length > std::max(least, kTimesUsual * path.usual(m)))
+        now.push_back({f, m, path.last_seen(m), length});
+    }
+    std::vector<char> taken(now.size(), 0);
+    for (std::size_t a = 0; a < now.size(); ++a)
+      for (std::size_t b = a + 1; b < now.size() && taken[a] == 0; ++b) {
+        if (taken[b] != 0) continue;
+        const std::int64_t i = now[a].marker;
+        const std::int64_t j = now[b].marker;
+        const double exchanged = (t.x(f, i) - *path.at(f, j)).norm() + (t.x(f, j) - *path.at(f, i)).norm();
+        const double as_is = now[a].length + now[b].length;
+        if (exchanged >= kMuchBetter * as_is) continue;
+        exchanges.push_back({f, i, j, as_is / std::max(exchanged, 1e-6)});
+        taken[a] = taken[b] = 1;
+        std::swap(label[static_cast<std::size_t>(i)], label[static_cast<std::size_t>(j)]);
+        const Vector3d one = t.x(f, i);
+        t.x(f, i) = t.x(f, j);
+        t.x(f, j) = one;
+      }
+    for (std::size_t a = 0; a < now.size(); ++a)
+      if (taken[a] == 0) jumps.push_back(now[a]);
+    path.see(f);
+  }
+}
+
+/// Pair beginnings with ends; what is left lasts to an end of the recording, and the shorter side is called
+/// wrong.
+void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Findings& out) {
+  for (std::size_t a = 0; a < found.size(); ++a) {
+    if (found[a].frame < 0) continue;
+    const Exchange start = found[a];
+    std::int64_t first = start.frame;
+    std::int64_t last = t.frames() - 1;
+    double ratio = start.ratio;
+    bool ends = false;
+    for (std::size_t b = a + 1; b < found.size() && !ends; ++b) {
+      if (found[b].one != start.one || found[b].other != start.other || found[b].frame < 0) continue;
+      last = found[b].frame - 1;
+      ratio = std::min(ratio, found[b].ratio);
+      found[b].frame = -1;
+      ends = true;
+    }
+    if (!ends && start.frame < t.frames() - start.frame) {
+      first = 0;
+      last = start.frame - 1;
+    }
+    out.push_back({.defect = Defect::label_swap,
+                   .marker = start.one,
+                   .other_marker = start.other,
+                   .first_frame = first,
+                   .last_frame = last,
+                   .evidence = ratio,
+                   .confidence = confidence_of(ratio, ends ? 0.4 : 1.0),
+                   .sentence = fmt::format(
+                       "Markers '{}' and '{}' carry each other's label in {}: exchanged they continue "
+                       "their paths {:.0f} times better{}.",
+                       t.names[static_cast<std::size_t>(start.one)],
+                       t.names[static_cast<std::size_t>(start.other)], frames_in_words(first, last), ratio,
+                       ends ? "" : "; which side is right cannot be told, the shorter one is named")});
+  }
+}
+
+/// The marker whose path lies at x_i throughout [first, last], or -1; `distance` is the median distance, m.
+std::int64_t host_of(const Trajectories& t, std::int64_t guest, std::int64_t first, std::int64_t last,
+                     double& distance) {
+  std::int64_t host = -1;
+  distance = HUGE_VAL;
+  for (std::int64_t m = 0; m < t.markers(); ++m) {
+    if (m == guest) continue;
+    // Its path: where it is seen, else the line between the samples around.
+    std::int64_t before = first;
+    std::int64_t after = last;
+    while (before > 0 && !t.present(before, m)) --before;
+    while (after + 1 < t.frames() && !t.present(after, m)) ++after;
+    if (!t.present(before, m) || !t.present(after, m)) continue;
+    std::vector<double> distances;
+    for (std::int64_t f = first; f <= last; ++f) {
+      if (!t.present(f, guest)) continue;
+      const double u =
+          after > before ? static_cast<double>(f - before) / static_cast<double>(after - before) : 0.0;
+      const Vector3d x =
+          t.present(f, m) ? Vector3d(t.x(f, m)) : Vector3d((1.0 - u) * t.x(before, m) + u * t.x(after, m));
+      distances.push_back((t.x(f, guest) - x).norm());
+    }
+    const double d = median_of(distances);
+    if (d < distance) {
+      distance = d;
+      host = m;
+    }
+  }
+  return host;
+}
+
+void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double least, Findings& out) {
+  const auto longest = std::max<std::int64_t>(1, std::llround(kLongestVisit * t.time.rate_hz));
+  for (std::size_t a = 0; a < jumps.size(); ++a) {
+    const Jump& there = jumps[a];
+    const std::int64_t left = there.left;
+    for (std::size_t b = a + 1; b < jumps.size() && jumps[b].frame - there.frame <= longest; ++b) {
+      const Jump& back = jumps[b];
+      if (back.marker != there.marker) continue;
+      const std::int64_t m = there.marker;
+      // Home again: on the line that its own samples before and after draw.
+      if (back.frame + 1 >= t.frames() || !t.present(back.frame + 1, m) || left < 1 ||
+          !t.present(left - 1, m))
+        break;
+      const auto away = static_cast<double>(back.frame - left);
+      const Vector3d velocity =
+          0.5 * (t.x(left, m) - t.x(left - 1, m) + t.x(back.frame + 1, m) - t.x(back.frame, m));
+      const double off = (t.x(back.frame, m) - t.x(left, m) - away * velocity).norm();
+      const double jump = std::min(there.length, back.length);
+      if (off > kMuchBetter * jump) continue;
+      double distance = HUGE_VAL;
+      const std::int64_t host = host_of(t, m, there.frame, back.frame - 1, distance);
+      if (host < 0 || distance > 0.5 * least) break;
+      const double ratio = jump / std::max(std::max(distance, off), 1e-6);
+      out.push_back(
+          {.defect = Defect::swap_within,
+           .marker = m,
+           .other_marker = host,
+           .first_frame = there.frame,
+           .last_frame = back.frame - 1,
+           .evidence = ratio,
+           .confidence = confidence_of(ratio, 0.8),
+           .sentence = fmt::format(
+               "Marker '{}' jumps {:.0f} mm to the path of '{}' in {} ({:.1f} mm from it) and "
+               "back to its own.",
+               t.names[static_cast<std::size_t>(m)], 1e3 * jump, t.names[static_cast<std::size_t>(host)],
+               frames_in_words(there.frame, back.frame - 1), 1e3 * distance)});
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void find_swaps(const Trajectories& recorded, const ScreenOptions& options, Findings& out) {
+  Trajectories t = recorded;
+  std::vector<Jump> jumps;
+  std::vector<Exchange> exchanges;
+  follow(t, options.min_jump_m, jumps, exchanges);
+  report_exchanges(t, exchanges, out);
+  report_visits(t, jumps, options.min_jump_m, out);
+}
+
+}  // namespace kinemark::trajectory::internal
