@@ -9,11 +9,11 @@ namespace kinemark::math {
 
 /// Four readings against four known shares of a source whose strength nobody knows: what is left to explain.
 ///
-/// Least squares over the strength s of |readings - s shares|^2 leaves s = shares . readings / shares . shares and a
-/// residual at right angles to the shares, told here in an orthonormal basis of that space. So its square is the
-/// misfit, its three parts are independent with the variance of a reading, and its derivative is
-/// basis * (d readings - scale * d shares), but for a term that vanishes with the misfit.
-/// Golub & Pereyra (1973), SIAM J. Numer. Anal. 10:413; Kaufman (1975), BIT 15:49.
+/// Least squares over the strength s of |readings - s shares|^2 leaves s = shares . readings / shares .
+/// shares and a residual at right angles to the shares, told here in an orthonormal basis of that space. So
+/// its square is the misfit, its three parts are independent with the variance of a reading, and its
+/// derivative is basis * (d readings - scale * d shares), but for a term that vanishes with the misfit. Golub
+/// & Pereyra (1973), SIAM J. Numer. Anal. 10:413; Kaufman (1975), BIT 15:49.
 struct ScaleFree {
   double scale = 0.0;
   Eigen::Matrix<double, 3, 4> basis;
@@ -21,11 +21,13 @@ struct ScaleFree {
 };
 
 /// `shares` must not be zero; its first element may have any sign. O(1), allocates nothing.
-[[nodiscard]] inline ScaleFree eliminate_scale(const Eigen::Vector4d& readings, const Eigen::Vector4d& shares) {
+[[nodiscard]] inline ScaleFree eliminate_scale(const Eigen::Vector4d& readings,
+                                               const Eigen::Vector4d& shares) {
   ScaleFree out;
   const double square = shares.squaredNorm();
   out.scale = shares.dot(readings) / square;
-  // Householder: H = I - v v' / h sends shares to the first axis; its other rows span what is at right angles.
+  // Householder: H = I - v v' / h sends shares to the first axis; its other rows span what is at right
+  // angles.
   const double norm = std::copysign(std::sqrt(square), shares(0));
   Eigen::Vector4d v = shares;
   v(0) += norm;

@@ -22,7 +22,8 @@ TEST(ScaleFree, BasisIsOrthonormalAndAtRightAnglesToTheShares) {
     const auto free = eliminate_scale(readings, shares);
     EXPECT_LT((free.basis * free.basis.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
     EXPECT_LT((free.basis * shares).norm(), 1e-14);
-    EXPECT_NEAR(free.residual.squaredNorm(), (readings - free.scale * shares).squaredNorm(), 1e-9 * readings.squaredNorm());
+    EXPECT_NEAR(free.residual.squaredNorm(), (readings - free.scale * shares).squaredNorm(),
+                1e-9 * readings.squaredNorm());
   }
 }
 
@@ -38,7 +39,8 @@ TEST(ScaleFree, DerivativeMeetsFiniteDifferencesOfTheMisfit) {
     const double slope = (eliminate_scale(readings, more).residual.squaredNorm() -
                           eliminate_scale(readings, less).residual.squaredNorm()) /
                          (2.0 * step);
-    // The gradient of the squared misfit is exact: what the derivative leaves out is at right angles to the residual.
+    // The gradient of the squared misfit is exact: what the derivative leaves out is at right angles to the
+    // residual.
     EXPECT_NEAR(-2.0 * at.scale * at.residual.dot(at.basis.col(k)), slope, 1e-4 * std::abs(slope) + 1e-3);
   }
 }

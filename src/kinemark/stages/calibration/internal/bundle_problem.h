@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "kinemark/data/rig.h"
+#include "kinemark/math/se3.h"
+#include "kinemark/stages/calibration/bundle.h"
+
+namespace kinemark::calibration::internal {
+
+/// A parameter that the bundle moves, and how far it may lie from where it starts.
+struct FreeParameter {
+  int camera = 0;
+  int index = 0;  ///< by data::ParameterLayout
+  double sigma = 0.0;
+};
+
+/// Everything that the bundle estimates.
+struct BundleState {
+  data::Rig rig;
+  std::vector<math::SE3> world_from_tree;   // per pose
+  std::vector<math::SE3> cam_from_grid;     // per camera, where there are grids
+  std::vector<Eigen::Vector2d> grid_shift;  // per node: the same grid stood before every camera
+};
+
+/// Normal equations of the bundle with poses and grid nodes eliminated.
+///
+/// Global unknowns: free parameters camera by camera, then six of each grid's pose. Rows of a sighting are
+/// the three parts of math::eliminate_scale, over its standard deviation.
+class BundleProblem {
+ public:
+  BundleProblem(const data::Rig& nominal, const StillPoses& tree, const std::vector<GridSightings>& grids,
+                const BundleOptions& options);
+
+  /// Poses of the tree that take part (all, unless told).
+  void use_poses(std::vector<int> poses) { poses_ = std::move(poses); }
+  [[nodiscard]] const std::vector<int>& poses() const { return poses_; }
+
+  /// A copy of `state` whose cameras have a warp of this degree; the problem follows.
+  [[nodiscard]] BundleState enrich(const BundleState& state, int warp_degree);
+
+  /// Robust cost (weights fixed) and priors.
+  [[nodiscard]] double cost(const BundleState& state) const;
+  /// New robust weights from the misfits at `state`: 1, falling as 4 sigma / misfit beyond.
+  void reweigh(const BundleState& state);
+
+  struct Step {
+    bool solved = false;
+    double decrement = 0.0;  // g' A^-1 g: the fall of the cost that the step promises, times two
+    Eigen::VectorXd global;
+    std::vector<Eigen::Matrix<double, 6, 1>> poses;  // by poses()
+    std::vector<Eigen::Vector2d> nodes;
+  };
+  /// Gauss-Newton step; keeps the factor for covariance().
+  [[nodiscard]] Step solve(const BundleState& state);
+  [[nodiscard]] BundleState moved(const BundleState& state, const Step& step, double share) const;
+
+  /// Covariance of the free parameters, from the last solve().
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
+  [[nodiscard]] const std::vector<FreeParameter>& free() const { return free_; }
+
+  /// Derivative of pose `p` of poses() (turn, then shift) by the free parameters, from the last solve().
+  [[nodiscard]] Eigen::MatrixXd pose_by_free(std::size_t p) const;
+
+  struct Misfit {
+    double chi2_per_dof = 0.0;
+    int sightings = 0, outliers = 0;
+  };
+  /// Misfit without weights, the worst share of the sightings left out. Uses the last solve() for the degrees
+  /// of freedom that priors take.
+  [[nodiscard]] Misfit misfit(const BundleState& state) const;
+
+ private:
+  struct Rows;
+  void set_free(const data::Rig& rig);
+  [[nodiscard]] Eigen::VectorXd deviation(
+      const BundleState& state) const;  // of the global unknowns from their priors
+  [[nodiscard]] int camera_columns(int camera) const;
+  template <class Visit>
+  void visit_sightings(const BundleState& state, const Visit& visit) const;
+  void add_tree(const BundleState& state, Eigen::MatrixXd& a, Eigen::VectorXd& g);
+  void add_grids(const BundleState& state, Eigen::MatrixXd& a, Eigen::VectorXd& g);
+
+  data::Rig nominal_;
+  const StillPoses& tree_;
+  const std::vector<GridSightings>& grids_;
+  BundleOptions options_;
+  std::vector<int> poses_;
+  std::vector<double> tree_weight_, grid_weight_;  // robust weight of each sighting
+  std::vector<FreeParameter> free_;
+  std::vector<int> first_column_;  // per camera and one more: of grid 0
+  Eigen::VectorXd sigma_;          // of the global unknowns
+  // Kept from the last solve: eliminated rows and the factor.
+  Eigen::MatrixXd pose_rows_, node_rows_;  // L^-1 W', 6 or 2 rows per block
+  Eigen::VectorXd pose_right_, node_right_;
+  std::vector<Eigen::Matrix<double, 6, 6>> pose_factor_;
+  std::vector<Eigen::Matrix2d> node_factor_;
+  Eigen::MatrixXd factor_;
+  double node_freedom_ = 0.0;
+};
+
+}  // namespace kinemark::calibration::internal

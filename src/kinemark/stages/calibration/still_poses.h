@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Still sightings: what a recording of something that does not move comes down to.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/counts.h"
+#include "kinemark/data/rig.h"
+
+namespace kinemark::calibration {
+
+/// Mean of the counts that one camera made of one LED while nothing moved.
+struct StillSighting {
+  Eigen::Vector4d counts = Eigen::Vector4d::Zero();
+  double variance = 0.0;  ///< of each mean, counts^2; 0: not seen
+  [[nodiscard]] bool seen() const { return variance > 0.0; }
+};
+
+/// An object of L LEDs, held still in P places.
+struct StillPoses {
+  std::vector<Eigen::Vector3d> tree;     ///< L places of its LEDs in its own frame, m
+  int cameras = 0;                       ///< C
+  std::vector<StillSighting> sightings;  ///< P x L x C
+
+  [[nodiscard]] int leds() const { return static_cast<int>(tree.size()); }
+  [[nodiscard]] int poses() const {
+    return tree.empty() || cameras == 0 ? 0 : static_cast<int>(sightings.size()) / (leds() * cameras);
+  }
+  [[nodiscard]] const StillSighting& at(int pose, int led, int camera) const {
+    return sightings[static_cast<std::size_t>((pose * leds() + led) * cameras + camera)];
+  }
+};
+
+/// A plane grid of nodes x nodes LEDs before one camera, square to its axis.
+struct GridSightings {
+  int nodes = 15;
+  double spacing_m = 1.0 / 14.0;
+  double distance_m = 3.0;
+  std::vector<StillSighting> sightings;  ///< node (i, j), i to the right, j down, at i * nodes + j
+
+  [[nodiscard]] Eigen::Vector2d place_m(int i, int j) const {
+    const double middle = 0.5 * (nodes - 1);
+    return spacing_m * Eigen::Vector2d(i - middle, j - middle);
+  }
+};
+
+struct StillOptions {
+  double flicker_counts = 1.0;  ///< amplitude of light that flickers at flicker_hz, as far as it is unknown
+  double flicker_hz = 120.0;
+};
+
+/// Frames [first, first + count).
+struct FrameRange {
+  std::int64_t first = 0, count = 0;
+};
+
+/// Mean of an LED's counts over some frames, with its variance: noise of the conversions and what averaging
+/// leaves of the flicker. Not seen when the LED was occluded, lost, saturated or dark in one of them, or
+/// moved: the scatter of its counts is beyond chance.
+[[nodiscard]] StillSighting still_sighting(const data::Counts& counts, const data::Electronics& electronics,
+                                           const FrameRange& frames, std::int64_t led, std::int64_t camera,
+                                           const StillOptions& options = {});
+
+/// The three vertices of the 1986 orientation tree from its sides, m: 0-1, 0-2, 1-2; level, its centroid at
+/// the origin, vertex 2 to the front (+z). Fails on sides that close no triangle.
+[[nodiscard]] Result<std::vector<Eigen::Vector3d>> tree_from_sides(const std::vector<double>& sides_m);
+
+/// Means over runs of `frames_per_pose` frames, by still_sighting().
+///
+/// Fails when the LEDs of tree and recording, or the cameras of rig and recording, are not equal in number,
+/// and when the frames do not divide into poses.
+[[nodiscard]] Result<StillPoses> still_poses(const data::Counts& counts, const data::Rig& rig,
+                                             std::vector<Eigen::Vector3d> tree, int frames_per_pose,
+                                             const StillOptions& options = {});
+
+}  // namespace kinemark::calibration

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/reconstruction/reconstruct.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "kinemark/camera/noise.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/stages/reconstruction/grid_lookup.h"
+#include "kinemark/stages/reconstruction/locate.h"
+
+namespace kinemark::reconstruction {
+namespace {
+
+constexpr std::int64_t kGrain = 256;  // frames; each chunk finds its own start
+
+Result<Reconstruction> begin(const data::Counts& counts, const data::Rig& rig,
+                             const ReconstructOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (auto s = check_fit(counts, rig); !s) return std::unexpected(s.error());
+  auto used = usable_sightings(counts, options.dim_share);
+  if (!used) return std::unexpected(used.error());
+  Reconstruction out;
+  out.points = data::Trajectories::all_missing(counts.leds, counts.time);
+  out.points.sample_offset_s.resize(counts.leds.size());
+  for (std::int64_t led = 0; led < counts.led_count(); ++led) {
+    double sum = 0.0;
+    for (std::int64_t c = 0; c < counts.camera_count(); ++c) sum += counts.offset_s(led, c).mean();
+    out.points.sample_offset_s[static_cast<std::size_t>(led)] =
+        sum / static_cast<double>(counts.camera_count()) - rig.electronics.time_constant_s;
+  }
+  out.used = std::move(*used);
+  out.near_edge.assign(static_cast<std::size_t>(counts.frames() * counts.led_count()), 0);
+  return out;
+}
+
+void put_covariance(data::Trajectories& points, std::size_t index, const Eigen::Matrix3d& c) {
+  const std::array<double, 6> six{c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
+  std::ranges::copy(six, points.covariance.begin() + static_cast<std::ptrdiff_t>(6 * index));
+}
+
+void add_covariance(data::Trajectories& points, std::size_t index, const Eigen::Matrix3d& c) {
+  const std::array<double, 6> six{c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
+  for (std::size_t i = 0; i < 6; ++i) points.covariance[6 * index + i] += six[i];
+}
+
+/// The cell of 2 cm that a point lies in, and which cameras saw it.
+using Cell = std::array<std::int64_t, 4>;
+constexpr double kCell_m = 0.02;
+
+Cell cell_of(const data::Counts& counts, const Reconstruction& r, std::int64_t f, std::int64_t led) {
+  const auto x = r.points.x(f, led);
+  Cell cell{};
+  for (std::size_t a = 0; a < 3; ++a) cell[a] = std::llround(x[static_cast<Eigen::Index>(a)] / kCell_m);
+  for (std::int64_t c = 0; c < counts.camera_count(); ++c)
+    cell[3] = 2 * cell[3] + r.used[counts.index(f, led, c)];
+  return cell;
+}
+
+/// Error of the calibration varies smoothly over the room: once for every cell is enough.
+void add_calibration_error(const data::Counts& counts, const data::Rig& rig, Reconstruction& r, int threads) {
+  std::map<Cell, Eigen::Matrix3d> cells;
+  for (std::int64_t f = 0; f < counts.frames(); ++f)
+    for (std::int64_t led = 0; led < counts.led_count(); ++led)
+      if (r.points.present(f, led)) cells.emplace(cell_of(counts, r, f, led), Eigen::Matrix3d::Zero());
+  std::vector<std::map<Cell, Eigen::Matrix3d>::iterator> list;
+  for (auto it = cells.begin(); it != cells.end(); ++it) list.push_back(it);
+  const auto cameras = static_cast<std::size_t>(rig.camera_count());
+  parallel_for(static_cast<std::int64_t>(list.size()), 8, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 std::vector<double> strength(cameras, 1000.0), weight(cameras);
+                 for (std::int64_t i = first; i < last; ++i) {
+                   auto& [cell, covariance] = *list[static_cast<std::size_t>(i)];
+                   for (std::size_t c = 0; c < cameras; ++c)
+                     weight[c] = (cell[3] >> (cameras - 1 - c)) & 1 ? 1.0 : 0.0;
+                   const Eigen::Vector3d x =
+                       kCell_m * Eigen::Vector3d(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                                                 static_cast<double>(cell[2]));
+                   const auto by = by_parameters(rig, x, strength, weight);
+                   covariance = by * rig.covariance * by.transpose();
+                 }
+               });
+  for (std::int64_t f = 0; f < counts.frames(); ++f)
+    for (std::int64_t led = 0; led < counts.led_count(); ++led)
+      if (r.points.present(f, led))
+        add_covariance(r.points, r.points.index(f, led), cells.at(cell_of(counts, r, f, led)));
+}
+
+void summarise(const data::Counts& counts, Reconstruction& r) {
+  for (std::int64_t led = 0; led < counts.led_count(); ++led) {
+    LedSummary s{.name = counts.leds[static_cast<std::size_t>(led)], .frames = counts.frames()};
+    for (std::int64_t f = 0; f < counts.frames(); ++f) {
+      const auto i = r.points.index(f, led);
+      const auto state = r.points.state[i];
+      s.located += state == data::SampleState::measured;
+      s.inconsistent += state == data::SampleState::rejected;
+      s.near_edge += state == data::SampleState::measured && r.near_edge[i] != 0;
+      if (state != data::SampleState::missing) continue;
+      bool saturated = false;
+      for (std::int64_t c = 0; c < counts.camera_count(); ++c)
+        saturated = saturated || counts.has_flag(f, led, c, data::kCountSaturated);
+      saturated ? ++s.saturated : ++s.occluded;
+    }
+    r.leds.push_back(std::move(s));
+  }
+}
+
+}  // namespace
+
+Status ReconstructOptions::check() const {
+  if (!(dim_share >= 0.0) || dim_share >= 1.0)
+    return fail(Code::usage, fmt::format("a dim share of {}; 0 to below 1 was expected", dim_share));
+  if (!(largest_chi2 > 0.0))
+    return fail(Code::usage, fmt::format("a largest chi2 of {}; it must be positive", largest_chi2));
+  if (!(edge > 0.0) || edge > 1.0)
+    return fail(Code::usage, fmt::format("an edge of {} half-sides; above 0 to 1 was expected", edge));
+  if (!(flicker_counts >= 0.0))
+    return fail(Code::usage, fmt::format("a flicker of {} counts; it must not be negative", flicker_counts));
+  return {};
+}
+
+Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& rig,
+                                   const ReconstructOptions& options) {
+  auto out = begin(counts, rig, options);
+  if (!out) return out;
+  Reconstruction& r = *out;
+  r.points.covariance.assign(6 * r.points.state.size(), std::nan(""));
+  const Eigen::Vector3d middle = middle_of_view(rig);
+  const double flicker = 0.5 * options.flicker_counts * options.flicker_counts;
+  parallel_for(counts.frames(), kGrain, options.threads, [&](std::int64_t first, std::int64_t last) {
+    std::vector<Eigen::Vector3d> start(counts.leds.size(), middle);
+    std::vector<CountSighting> sightings;
+    for (std::int64_t f = first; f < last; ++f)
+      for (std::int64_t led = 0; led < counts.led_count(); ++led) {
+        sightings.clear();
+        for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
+          if (r.used[counts.index(f, led, c)] == 0) continue;
+          const Eigen::Vector4d read = counts.at(f, led, c);
+          sightings.push_back({static_cast<int>(c), read,
+                               camera::conversion_variance(rig.electronics, read.mean()) + flicker});
+        }
+        auto& from = start[static_cast<std::size_t>(led)];
+        auto located = locate(rig, sightings, from);
+        if (!located && from != middle) located = locate(rig, sightings, middle);
+        if (!located) continue;
+        const auto i = r.points.index(f, led);
+        if (located->chi2 > options.largest_chi2 * (static_cast<double>(sightings.size()) - 1.0)) {
+          r.points.set_missing(f, led, data::SampleState::rejected);
+          continue;
+        }
+        from = located->x_in_world;
+        r.points.x(f, led) = located->x_in_world;
+        r.points.state[i] = data::SampleState::measured;
+        r.near_edge[i] = located->farthest_spot > options.edge;
+        put_covariance(r.points, i, located->information.inverse());
+      }
+  });
+  if (options.calibration_error && rig.covariance.size() > 0)
+    add_calibration_error(counts, rig, r, options.threads);
+  summarise(counts, r);
+  return out;
+}
+
+Result<Reconstruction> reconstruct_classic(const data::Counts& counts, const data::Rig& rig,
+                                           const ReconstructOptions& options) {
+  auto out = begin(counts, rig, options);
+  if (!out) return out;
+  for (std::size_t c = 0; c < 2; ++c)
+    if (rig.cameras[c].table.nodes < 3)
+      return fail(Code::bad_input,
+                  fmt::format("camera '{}' has no look-up table; calibrate with the grid first",
+                              rig.cameras[c].name));
+  Reconstruction& r = *out;
+  parallel_for(counts.frames(), kGrain, options.threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t f = first; f < last; ++f)
+      for (std::int64_t led = 0; led < counts.led_count(); ++led) {
+        if (r.used[counts.index(f, led, 0)] == 0 || r.used[counts.index(f, led, 1)] == 0) continue;
+        std::array<Eigen::Vector2d, 2> plane;
+        for (std::size_t c = 0; c < 2; ++c)
+          plane[c] =
+              look_up(rig.cameras[c].table, detector_ratios(counts.at(f, led, static_cast<std::int64_t>(c))));
+        const Eigen::Vector3d x = meet_midway(rig.cameras, plane);
+        if (!x.allFinite()) continue;
+        r.points.x(f, led) = x;
+        r.points.state[r.points.index(f, led)] = data::SampleState::measured;
+      }
+  });
+  summarise(counts, r);
+  return out;
+}
+
+}  // namespace kinemark::reconstruction

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+namespace kinemark::trajectory {
+
+/// What one instant says about a point in space: position and inverse covariance (singular where one camera
+/// alone saw it, zero where none did).
+struct PositionSight {
+  double time_s = 0.0;                                    ///< strictly increasing
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< m^-2
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< m
+};
+
+/// A smoother of the family "order-times integrated Wiener process".
+struct Bandwidth {
+  int order = 4;                  ///< 3, 4 or 5
+  double spectral_density = 0.0;  ///< q of the order-th derivative, m^2 s^(1 - 2 order)
+  double time_constant_s = 0.0;   ///< 1 / omega0
+  double cutoff_hz = 0.0;         ///< -3 dB of the whole smoother
+  double sure = 0.0;              ///< risk found, less a constant
+};
+
+/// The member of a family that `order` and a half-gain frequency name, for samples of inverse variance
+/// `information` (m^-2 per axis) `interval_s` apart: q = omega0^(2 order) interval / information.
+[[nodiscard]] Bandwidth bandwidth_at(int order, double half_gain_hz, double information, double interval_s);
+
+struct BandwidthOptions {
+  int order = 0;                  ///< 3, 4 or 5; 0: the best of them
+  double half_gain_hz = 0.0;      ///< 0: the best
+  std::size_t max_sights = 1200;  ///< records longer than that are judged by four pieces of them
+};
+
+/// Order and bandwidth with the least estimated risk (Stein's unbiased estimate with known covariances):
+/// sum (z - x)' H (z - x) + 2 tr(P H), over the sights that fix all three coordinates.
+///
+/// Falls back to a 6 Hz filter of order 4 when fewer than 12 sights are complete. Cost: about 50 filters over
+/// min(F, max_sights) sights.
+/// Stein (1981), Ann. Stat. 9:1135; Craven & Wahba (1979), Numer. Math. 31:377.
+[[nodiscard]] Bandwidth choose_bandwidth(std::span<const PositionSight> sights,
+                                         const BandwidthOptions& options = {});
+
+}  // namespace kinemark::trajectory

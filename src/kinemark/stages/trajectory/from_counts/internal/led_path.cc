@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinemark/camera/noise.h"
+#include "kinemark/camera/response.h"
+#include "kinemark/math/scale_free.h"
+#include "kinemark/stages/trajectory/from_counts/internal/wiener_filter.h"
+
+namespace kinemark::trajectory::internal {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+
+LedPath::LedPath(const data::Counts& counts, const data::Rig& rig, std::int64_t led, std::int64_t first,
+                 std::int64_t last, const std::vector<Vector3d>& start,
+                 const std::vector<std::uint8_t>& usable, const SmoothCountsOptions& options)
+    : rig_(rig),
+      options_(options),
+      frames_(static_cast<std::size_t>(last - first)),
+      cameras_(static_cast<std::size_t>(counts.camera_count())),
+      views_(frames_ * cameras_),
+      now_(frames_),
+      sights_(frames_),
+      flicker_(cameras_, Vector2d::Zero()) {
+  const double delay = rig.electronics.time_constant_s;
+  for (std::size_t c = 0; c < cameras_; ++c)
+    epoch_s_ += counts.offset_s(led, static_cast<std::int64_t>(c)).mean() - delay;
+  epoch_s_ /= static_cast<double>(cameras_);
+  for (std::size_t k = 0; k < frames_; ++k) {
+    const auto frame = first + static_cast<std::int64_t>(k);
+    time_s_.push_back(counts.time.time_s(frame));
+    now_[k] = {start[static_cast<std::size_t>(frame)], Vector3d::Zero(), Vector3d::Zero()};
+    for (std::size_t c = 0; c < cameras_; ++c) {
+      const auto camera = static_cast<std::int64_t>(c);
+      View& v = view(k, c);
+      v.usable = usable[counts.index(frame, led, camera)] != 0;
+      v.readings = counts.at(frame, led, camera) - rig.cameras[c].detector.offset_counts;
+      v.dt = counts.offset_s(led, camera).array() - delay - epoch_s_;
+      v.variance = camera::conversion_variance(rig.electronics, std::max(0.0, v.readings.mean()));
+    }
+  }
+  fit_.name = counts.leds[static_cast<std::size_t>(led)];
+  fit_.flicker_counts.assign(cameras_, 0.0);
+}
+
+void LedPath::remove_flicker(int camera, const Vector2d& cos_sin) {
+  const double omega = 2.0 * std::numbers::pi * options_.flicker_hz, delay = rig_.electronics.time_constant_s;
+  const auto c = static_cast<std::size_t>(camera);
+  for (std::size_t k = 0; k < frames_; ++k) {
+    View& v = view(k, c);
+    for (int i = 0; i < 4; ++i) {
+      const double phase = omega * (time_s_[k] + epoch_s_ + v.dt[i] + delay);
+      v.readings[i] -= cos_sin.x() * std::cos(phase) + cos_sin.y() * std::sin(phase);
+    }
+  }
+  flicker_[c] += cos_sin;
+  fit_.flicker_counts[c] = flicker_[c].norm();
+}
+
+void LedPath::linearise(const data::Camera& camera, View& v, const Vector3d& x) const {
+  // The response bends over decimetres: within a millimetre its tangent is right to a hundredth of a count.
+  constexpr double kStraight_m = 1e-3;
+  if (v.linear && (x - v.at).squaredNorm() < kStraight_m * kStraight_m) return;
+  const auto response = camera::respond(camera, x);
+  v.phi = response.phi;
+  v.d_point = response.d_point;
+  v.at = x;
+  v.linear = response.in_front;
+}
+
+void LedPath::gather(bool weigh) {
+  const double nu = options_.student_freedom;
+  for (std::size_t k = 0; k < frames_; ++k) {
+    const Motion& m = now_[k];
+    Matrix3d h = Matrix3d::Zero();
+    Vector3d g = Vector3d::Zero();
+    for (std::size_t c = 0; c < cameras_; ++c) {
+      View& v = view(k, c);
+      if (!v.usable) continue;
+      linearise(rig_.cameras[c], v, m.position);
+      if (!v.linear) {
+        v.usable = false;
+        continue;
+      }
+      const Vector4d shares = v.phi + v.d_point * (m.position - v.at) +
+                              (v.d_point * m.velocity).cwiseProduct(v.dt) +
+                              0.5 * (v.d_point * m.acceleration).cwiseProduct(v.dt.cwiseAbs2());
+      const auto left = math::eliminate_scale(v.readings, shares);
+      v.chi2 = left.residual.squaredNorm() / v.variance;
+      if (weigh) v.weight = v.chi2 > options_.reject_chi2 ? 0.0 : std::min(1.0, (nu + 3.0) / (nu + v.chi2));
+      const Matrix3d j = -left.scale * (left.basis * v.d_point);
+      const double w = v.weight / v.variance;
+      h += w * j.transpose() * j;
+      g += w * j.transpose() * left.residual;
+    }
+    auto& s = sights_[k];
+    s.time_s = time_s_[k] + epoch_s_;
+    s.information = h;
+    // The ridge, 1 / (10 m)^2, only bounds the step along what this frame does not tell.
+    s.position = m.position - (h + 1e-2 * Matrix3d::Identity()).ldlt().solve(g);
+  }
+}
+
+void LedPath::regress_flicker() {
+  const double omega = 2.0 * std::numbers::pi * options_.flicker_hz, delay = rig_.electronics.time_constant_s;
+  constexpr double kFewest = 40, kLargest = 6.0;  // sightings; counts: more is no flicker
+  for (std::size_t c = 0; c < cameras_; ++c) {
+    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+    Vector2d right = Vector2d::Zero();
+    int count = 0;
+    for (std::size_t k = 0; k < frames_; ++k) {
+      View& v = view(k, c);
+      if (!v.usable || v.weight <= 0.0) continue;
+      const Motion& m = now_[k];
+      const Vector4d shares =
+          v.phi + v.d_point * (m.position - v.at) + (v.d_point * m.velocity).cwiseProduct(v.dt);
+      const auto left = math::eliminate_scale(v.readings, shares);
+      Eigen::Matrix<double, 4, 2> waves;
+      for (int i = 0; i < 4; ++i) {
+        const double phase = omega * (time_s_[k] + epoch_s_ + v.dt[i] + delay);
+        waves.row(i) << std::cos(phase), std::sin(phase);
+      }
+      const Eigen::Matrix<double, 3, 2> seen = left.basis * waves;
+      square += v.weight * seen.transpose() * seen;
+      right += v.weight * seen.transpose() * left.residual;
+      ++count;
+    }
+    if (count < kFewest || square.determinant() < 1e-3 * square.trace() * square.trace()) continue;
+    const Vector2d found = square.ldlt().solve(right);
+    if ((flicker_[c] + found).norm() < kLargest) remove_flicker(static_cast<int>(c), found);
+  }
+}
+
+template <int kOrder>
+void LedPath::smooth_with(bool last) {
+  std::vector<Sight<3>> sights(frames_);
+  for (std::size_t k = 0; k < frames_; ++k)
+    sights[k] = {sights_[k].time_s, sights_[k].information, sights_[k].position};
+  WienerFilter<kOrder, 3> filter(bandwidth_.spectral_density, bandwidth_.time_constant_s);
+  if (last) result_.resize(frames_);
+  const auto at_frame = filter.taylor_shift(-epoch_s_);
+  filter.smooth(sights, last, [&](std::size_t k, const auto& x, const auto* p) {
+    now_[k] = {filter.derivative(x, 0), filter.derivative(x, 1), filter.derivative(x, 2)};
+    if (!last) return;
+    // From where the states stand to the frame's own time.
+    const auto there = filter.shifted(x, at_frame);
+    const auto spread = filter.shifted(*p, at_frame);
+    Sample& s = result_[k];
+    s.motion = {filter.derivative(there, 0), filter.derivative(there, 1), filter.derivative(there, 2)};
+    s.covariance = filter.derivative_covariance(spread, 0);
+    s.sd = {s.covariance.diagonal().cwiseMax(0.0).cwiseSqrt(),
+            filter.derivative_covariance(spread, 1).diagonal().cwiseMax(0.0).cwiseSqrt(),
+            filter.derivative_covariance(spread, 2).diagonal().cwiseMax(0.0).cwiseSqrt()};
+  });
+}
+
+void LedPath::smooth(bool last) {
+  if (bandwidth_.order == 3) return smooth_with<3>(last);
+  if (bandwidth_.order == 4) return smooth_with<4>(last);
+  smooth_with<5>(last);
+}
+
+void LedPath::run() {
+  const bool regress = options_.flicker == Flicker::regress || options_.flicker == Flicker::dark_slot;
+  const bool known = flicker_[0].norm() > 0.0;  // from the dark slot
+  for (int pass = 0; pass < options_.passes; ++pass) {
+    const bool last = pass + 1 == options_.passes;
+    gather(pass > 0);
+    if (regress && !known && (pass == 1 || pass == 2)) {
+      regress_flicker();
+      gather(true);
+    }
+    if (pass == 0 || pass == 2) {
+      bandwidth_ =
+          choose_bandwidth(sights_, {.order = options_.order, .half_gain_hz = options_.half_gain_hz});
+    }
+    smooth(last);
+  }
+  conclude();
+}
+
+void LedPath::conclude() {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < frames_; ++k)
+    for (std::size_t c = 0; c < cameras_; ++c) {
+      const View& v = view(k, c);
+      if (!v.usable) continue;
+      fit_.rejected += v.weight == 0.0;
+      fit_.held_down += v.weight < 0.5;
+      if (v.weight == 0.0) continue;
+      result_[k].seen = true;
+      ++fit_.sightings;
+      sum += v.chi2;
+    }
+  // Two of six residuals of a frame find the point where all frames stand alone; the path spends far fewer.
+  fit_.chi2_per_dof = fit_.sightings > 0 ? sum / (3.0 * static_cast<double>(fit_.sightings)) : 0.0;
+  fit_.bandwidth = bandwidth_;
+}
+
+}  // namespace kinemark::trajectory::internal

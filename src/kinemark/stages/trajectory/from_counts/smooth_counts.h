@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Counts to paths in one step: every conversion is used at its own time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/counts.h"
+#include "kinemark/data/derivatives.h"
+#include "kinemark/data/rig.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/trajectory/from_counts/bandwidth.h"
+
+namespace kinemark::trajectory {
+
+/// Light of the room that flickers with the mains.
+enum class Flicker {
+  regress,    ///< cosine and sine found in the residuals of each LED and camera
+  dark_slot,  ///< found in the slot without LED; regress where there is none
+  ignore,
+};
+
+struct SmoothCountsOptions {
+  int order = 0;              ///< 3, 4 or 5 integrations; 0: chosen for each LED by SURE
+  double half_gain_hz = 0.0;  ///< of the filter; 0: chosen for each LED by SURE
+  Flicker flicker = Flicker::regress;
+  double flicker_hz = 120.0;
+  double dim_share = 0.3;  ///< light below this share of the LED's median (each camera's own) is no sighting
+  double student_freedom = 6.0;  ///< of the weights on each camera's misfit
+  double reject_chi2 = 40.0;     ///< misfit of one camera (3 degrees of freedom) from which it is not used
+  double longest_gap_s = 0.3;    ///< longer ones stay missing, and the path is cut there
+  double largest_sd_m = 0.02;    ///< samples less certain than this on some axis stay missing
+  int passes = 5;                ///< 3 or more
+  int threads = 0;               ///< LEDs are smoothed beside each other
+
+  [[nodiscard]] Status check() const;
+};
+
+/// How one LED's path was found.
+struct LedFit {
+  std::string name;
+  Bandwidth bandwidth;
+  double chi2_per_dof = 0.0;   ///< of the sightings used, robust weights left out; near 1 when noise is all
+  std::int64_t sightings = 0;  ///< used, of F x C
+  std::int64_t rejected = 0;   ///< misfit above reject_chi2
+  std::int64_t held_down = 0;  ///< weight below one half
+  std::vector<double> flicker_counts;  ///< amplitude found, per camera
+};
+
+struct SmoothedCounts {
+  /// One marker per LED, at the times of the frames. Frames with a sighting are measured, others model_filled
+  /// (their covariance says how well), outside of the sightings missing.
+  data::Trajectories points;
+  data::Derivatives derivatives;  ///< velocity and acceleration
+  std::vector<LedFit> leds;
+};
+
+/// Smooth the paths of all LEDs of a recording.
+///
+/// Maximum a posteriori of an integrated Wiener process whose position, at the time of each conversion less
+/// the amplifier's delay, makes the counts. Source strength is eliminated for each camera and frame.
+/// Student-t weights on each camera's misfit, flicker of the room, order and bandwidth by Stein's unbiased
+/// risk.
+///
+/// @param start  F x L points to begin from (reconstruct()), right to a centimetre or so; missing ones are
+/// bridged Fails when shapes disagree. An LED without two complete sightings stays missing. Cost: about 50 us
+/// per frame and LED. Theory: docs/theory/reconstruction.md
+[[nodiscard]] Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig& rig,
+                                                   const data::Trajectories& start,
+                                                   const SmoothCountsOptions& options = {});
+
+}  // namespace kinemark::trajectory
