@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Prioritised accelerations of a body tree: each level does its best among what the levels above leave open.
+//
+// With M = LL' and z = L'q'', a task J q'' = r becomes A z = r, A = J L^-T. Then (Demircan et al. 2008,
+// equations 2 to 13)
+//   Lambda^-1 = J M^-1 J' = A A',   Jbar = M^-1 J' Lambda = L^-T A^+,   N = I - Jbar J  <->  I - VV',
+// V an orthonormal basis of the rows of A; null spaces of several levels are products of such projectors. In
+// this form a level may have more rows than rank: z is its least-squares solution. V comes from a QR
+// decomposition with column pivoting, whose diagonal follows the singular values s of A. Directions that
+// hardly move the task are damped, s / (s^2 + damping^2), and given up below a share of the largest.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace kinemark::motion::internal {
+
+struct PriorityDamping {
+  double damping = 0.1;      ///< >= 0, in units of A (kg^-1/2 per metre of task)
+  double truncation = 1e-4;  ///< of the largest pivot; directions below belong to lower levels
+};
+
+/// One thread's solver. Sized on the first use of each level; allocates nothing afterwards while levels keep
+/// their number of rows.
+class PrioritySolver {
+ public:
+  explicit PrioritySolver(int speeds);
+
+  /// Start anew with mass matrix M (nv x nv). Speeds with held[k] != 0 take the acceleration held_a[k] and no
+  /// part in the tasks. False when M is not positive definite.
+  bool begin(const Eigen::MatrixXd& M, const std::vector<std::uint8_t>& held, const Eigen::VectorXd& held_a);
+
+  /// The next level: J q'' = r, rows x nv.
+  void add_level(const Eigen::Ref<const Eigen::MatrixXd>& J, const Eigen::Ref<const Eigen::VectorXd>& r,
+                 const PriorityDamping& damping);
+
+  /// The same for a first level that fixes every speed, from H = J'J and g = J'r alone. False, and nothing is
+  /// done, when it leaves a direction with a singular value below `min_singular`.
+  bool add_full_level(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, double damping,
+                      double min_singular);
+
+  /// Accelerations wished for in all that no level uses.
+  void add_posture(const Eigen::VectorXd& wished);
+
+  /// q'' of all speeds, held ones included.
+  [[nodiscard]] const Eigen::VectorXd& acceleration();
+  /// Directions that the levels fix together.
+  [[nodiscard]] int rank() const { return used_; }
+  /// Speeds that are not held.
+  [[nodiscard]] int free_speeds() const { return free_count_; }
+  /// Smallest pivot that a level uses, near its smallest singular value; infinity before the first level.
+  [[nodiscard]] double smallest_pivot() const { return smallest_; }
+
+ private:
+  struct Level {
+    Eigen::MatrixXd A, B, R, G, shared;  ///< A transposed: speeds x rows
+    Eigen::VectorXd r, permuted, along;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    Eigen::LLT<Eigen::MatrixXd> llt;
+  };
+  void gather(const Eigen::VectorXd& all);
+
+  std::vector<int> free_;  ///< speeds that are not held; the first free_count_ entries count
+  int free_count_ = 0;
+  Eigen::MatrixXd M_, H_, V_;
+  Eigen::LLT<Eigen::MatrixXd> llt_, normal_;
+  Eigen::VectorXd z_, part_, projected_, result_, held_a_, workspace_;
+  std::deque<Level> levels_;
+  std::size_t next_level_ = 0;
+  int used_ = 0;
+  bool any_held_ = false;
+  double smallest_ = 0.0;
+};
+
+}  // namespace kinemark::motion::internal
