@@ -36,11 +36,11 @@ struct GapOptions {
                             ///< the axes, is larger or unknown; > 0, infinity: fill whatever it is
   double max_extrapolation_s = 0.1;  ///< gaps at the start or end of the recording, where only time is left
                                      ///< to predict from; >= 0
-  double noise_sd_m = 0.0;   ///< of a measured sample, per axis; 0: from each marker's own data
-  bool check_labels = true;  ///< look for swaps among neighbours and leave those predictors out
-  std::uint64_t seed = 1;    ///< which artificial gaps are taken when there are more than enough
-  int threads = 1;           ///< 0: all cores. Any number gives the same bits.
-  Progress progress;         ///< gaps done of all
+  double noise_sd_m = 0.0;           ///< of a measured sample, per axis; 0: from each marker's own data
+  bool check_labels = true;          ///< look for swaps among neighbours and leave those predictors out
+  std::uint64_t seed = 1;            ///< which artificial gaps are taken when there are more than enough
+  int threads = 1;                   ///< 0: all cores. Any number gives the same bits.
+  Progress progress;                 ///< gaps done of all
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;

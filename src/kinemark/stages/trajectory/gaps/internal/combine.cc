@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/gaps/internal/combine.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+constexpr double kWorstToBest = 3.0;    // RMS
+constexpr double kShrink = 0.1;         // added to the diagonal, as a part of it
+constexpr double kLeastSquare = 1e-15;  // m^2
+constexpr double kStrayRms = 5.0;       // from the median of the candidates
+constexpr double kStrayM = 0.010;
+constexpr double kOffEndRms = 3.0;  // from the samples beside the gap
+constexpr double kOffEndM = 0.005;
+constexpr double kSdScale = 0.90;  // mixture of scales: the RMS is above what covers 68 %
+constexpr double kFewWindows = 1.5;
+
+/// Candidates by number, and their errors grown to the length of the gap.
+struct Pool {
+  std::vector<std::size_t> use;
+  std::vector<Eigen::MatrixXd> errors;
+  std::vector<double> rms;  // 3D
+};
+
+Pool grow_errors(const GapProblem& p, const std::vector<Fill>& fills) {
+  Pool pool;
+  const double ratio = static_cast<double>(p.shape.length) / static_cast<double>(p.window.length);
+  for (const Fill& fill : fills) {
+    const double scale = p.shortened() ? std::pow(ratio, error_growth(fill.kind)) : 1.0;
+    pool.errors.push_back(scale * fill.errors);
+    pool.rms.push_back(scale * fill.rms_m());
+  }
+  for (std::size_t k = 0; k < fills.size(); ++k)
+    if (fills[k].gap.allFinite() && std::isfinite(pool.rms[k])) pool.use.push_back(k);
+  return pool;
+}
+
+Eigen::MatrixXd median_fill(const std::vector<Fill>& fills, const std::vector<std::size_t>& use) {
+  Eigen::MatrixXd median = fills[use.front()].gap;
+  std::vector<double> v(use.size());
+  for (Index i = 0; i < median.size(); ++i) {
+    for (std::size_t k = 0; k < use.size(); ++k) v[k] = fills[use[k]].gap(i);
+    std::ranges::sort(v);
+    median(i) = 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
+  }
+  return median;
+}
+
+/// Leave out, in this order, what is far worse than the best and what strays in this gap.
+void guard(const std::vector<Fill>& fills, Pool& pool, std::vector<bool>& guarded) {
+  const auto by_rms = [&](std::size_t a, std::size_t b) { return pool.rms[a] < pool.rms[b]; };
+  const double best = pool.rms[*std::ranges::min_element(pool.use, by_rms)];
+  std::erase_if(pool.use, [&](std::size_t k) { return pool.rms[k] > kWorstToBest * best; });
+  if (pool.use.size() < 2) return;
+  const Eigen::MatrixXd median = median_fill(fills, pool.use);
+  for (const std::size_t k : pool.use) {
+    const double stray = std::sqrt((fills[k].gap - median).rowwise().squaredNorm().mean());
+    guarded[k] = stray > kStrayRms * pool.rms[k] + kStrayM ||
+                 (is_untied(fills[k].kind) && fills[k].near_rms_m > kOffEndRms * pool.rms[k] + kOffEndM);
+  }
+  std::vector<std::size_t> left;
+  for (const std::size_t k : pool.use)
+    if (!guarded[k]) left.push_back(k);
+  if (!left.empty()) {
+    pool.use = std::move(left);
+  } else {
+    guarded.assign(guarded.size(), false);
+  }
+}
+
+/// SD per axis along the gap. w: weights of pool.use.
+Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, const Pool& pool,
+                           const Eigen::VectorXd& w, const Eigen::MatrixXd& gap) {
+  const Index W = p.windows();
+  const Index R = p.rows.size();
+  Eigen::MatrixXd combined = Eigen::MatrixXd::Zero(R, 3 * W);
+  for (std::size_t k = 0; k < pool.use.size(); ++k)
+    combined += w(static_cast<Index>(k)) * pool.errors[pool.use[k]];
+  // Disagreement of the candidates, in the gap and in each window.
+  Eigen::VectorXd share = w.cwiseMax(0.02);
+  share /= share.sum();
+  double here = 0.0;
+  Eigen::VectorXd there = Eigen::VectorXd::Zero(W);
+  Eigen::VectorXd square(W);
+  for (Index i = 0; i < W; ++i)
+    square(i) = combined.middleCols(3 * i, 3).squaredNorm() / static_cast<double>(3 * R);
+  for (std::size_t k = 0; k < pool.use.size(); ++k) {
+    const double v = share(static_cast<Index>(k));
+    here += v * (fills[pool.use[k]].gap - gap).squaredNorm() / static_cast<double>(gap.size());
+    for (Index i = 0; i < W; ++i)
+      there(i) += v * (pool.errors[pool.use[k]] - combined).middleCols(3 * i, 3).squaredNorm() /
+                  static_cast<double>(3 * R);
+  }
+  // How much of the size of the errors the disagreement explains: slope of the logarithms, 0 to 1.
+  const Eigen::ArrayXd le = 0.5 * (square.array() + 1e-18).log();
+  const Eigen::ArrayXd ls = 0.5 * (there.array() + 1e-18).log();
+  double slope = 0.5;
+  if (W > 3)
+    slope = std::clamp(
+        ((le - le.mean()) * (ls - ls.mean())).mean() / ((ls - ls.mean()).square().mean() + 1e-6), 0.0, 1.0);
+  const double floor = 0.05 * there.mean() + 1e-18;
+  Eigen::VectorXd profile = Eigen::VectorXd::Zero(R);
+  for (Index i = 0; i < W; ++i) {
+    const double factor = std::clamp(std::pow((here + floor) / (there(i) + floor), slope), 1.0 / 16.0, 16.0);
+    profile += factor * combined.middleCols(3 * i, 3).rowwise().squaredNorm() / static_cast<double>(3 * W);
+  }
+  if (p.shape.left > 0 && p.shape.right > 0) profile = (0.5 * (profile + profile.reverse())).eval();
+  if (R >= 5) {
+    const Eigen::VectorXd rough = profile;
+    for (Index r = 0; r < R; ++r)
+      profile(r) = (rough(std::max<Index>(0, r - 1)) + rough(r) + rough(std::min(R - 1, r + 1))) / 3.0;
+  }
+  // Windows that overlap say less than their number.
+  const double span = static_cast<double>(p.starts.back() - p.starts.front());
+  const double independent = std::max(1.0, span / static_cast<double>(p.window.length) + 1.0);
+  const Eigen::VectorXd sd =
+      (kSdScale * (profile * (1.0 + kFewWindows / independent)).array().sqrt()).matrix();
+  // Rows of the window to frames of the gap, at the same part of the way.
+  Eigen::VectorXd out(p.shape.length);
+  Index r = 0;
+  for (Index i = 0; i < p.shape.length; ++i) {
+    const double at = static_cast<double>(i + 1) / static_cast<double>(p.shape.length + 1) *
+                          static_cast<double>(p.window.length + 1) -
+                      1.0;
+    while (r + 2 < R && static_cast<double>(p.rows(r + 1)) <= at) ++r;
+    if (R == 1) {
+      out(i) = sd(0);
+      continue;
+    }
+    const double low = static_cast<double>(p.rows(r));
+    const double u = std::clamp((at - low) / (static_cast<double>(p.rows(r + 1)) - low), 0.0, 1.0);
+    out(i) = (1.0 - u) * sd(r) + u * sd(r + 1);
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::VectorXd simplex_weights(const Eigen::MatrixXd& M) {
+  std::vector<Index> active(static_cast<std::size_t>(M.rows()));
+  std::iota(active.begin(), active.end(), Index{0});
+  while (true) {
+    const Eigen::MatrixXd A = M(active, active);
+    const Eigen::VectorXd w = A.ldlt().solve(Eigen::VectorXd::Ones(A.rows()));
+    Index worst = 0;
+    if (active.size() == 1 || w.minCoeff(&worst) > 0.0) {
+      Eigen::VectorXd out = Eigen::VectorXd::Zero(M.rows());
+      for (std::size_t k = 0; k < active.size(); ++k)
+        out(active[k]) = active.size() == 1 ? 1.0 : w(static_cast<Index>(k)) / w.sum();
+      return out;
+    }
+    active.erase(active.begin() + worst);
+  }
+}
+
+Combination combine(const GapProblem& p, const std::vector<Fill>& fills, bool only_best) {
+  Combination out;
+  out.weights.assign(fills.size(), 0.0);
+  out.guarded.assign(fills.size(), false);
+  Pool pool = grow_errors(p, fills);
+  if (pool.use.empty()) {  // nothing to learn from: the most cautious candidate
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < fills.size(); ++i)
+      if (fills[i].kind == FillKind::pchip) k = i;
+    out.weights[k] = 1.0;
+    out.gap = fills[k].gap;
+    out.sd_m = Eigen::VectorXd::Constant(p.shape.length, std::numeric_limits<double>::quiet_NaN());
+    return out;
+  }
+  if (only_best) {
+    pool.use = {*std::ranges::min_element(
+        pool.use, [&](std::size_t a, std::size_t b) { return pool.rms[a] < pool.rms[b]; })};
+  } else {
+    guard(fills, pool, out.guarded);
+  }
+  const auto n = static_cast<Index>(pool.use.size());
+  const auto errors = [&](Index k) -> const Eigen::MatrixXd& {
+    return pool.errors[pool.use[static_cast<std::size_t>(k)]];
+  };
+  Eigen::MatrixXd M(n, n);
+  for (Index a = 0; a < n; ++a)
+    for (Index b = 0; b <= a; ++b) M(a, b) = M(b, a) = errors(a).cwiseProduct(errors(b)).mean();
+  M.diagonal() *= 1.0 + kShrink;
+  M.diagonal().array() += kLeastSquare;
+  const Eigen::VectorXd w = simplex_weights(M);
+  out.gap = Eigen::MatrixXd::Zero(p.shape.length, 3);
+  for (Index k = 0; k < n; ++k) {
+    out.weights[pool.use[static_cast<std::size_t>(k)]] = w(k);
+    out.gap += w(k) * fills[pool.use[static_cast<std::size_t>(k)]].gap;
+  }
+  out.sd_m = predict_sd(p, fills, pool, w, out.gap);
+  return out;
+}
+
+}  // namespace kinemark::trajectory::internal

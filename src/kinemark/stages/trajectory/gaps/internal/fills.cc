@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/gaps/internal/fills.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "kinemark/stages/trajectory/gaps/internal/spatial_fills.h"
+#include "kinemark/stages/trajectory/gaps/internal/walk_choice.h"
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+struct Traits {
+  std::string_view name;
+  bool temporal;
+  bool untied;
+  double growth;
+};
+
+// In the order of FillKind. Growth: measured on real recordings, docs/theory/gaps.md.
+constexpr std::array<Traits, kFillKinds> kTraits = {{
+    {"linear", true, false, 2.0},
+    {"cubic", true, false, 3.0},
+    {"pchip", true, false, 2.0},
+    {"walk", true, false, 2.0},
+    {"walk, order 3", true, false, 3.0},
+    {"rigid, untied", false, true, 0.0},
+    {"rigid, chord", false, false, 1.0},
+    {"rigid", false, false, 1.0},
+    {"regression, untied", false, true, 0.0},
+    {"regression, chord", false, false, 0.5},
+    {"regression", false, false, 0.5},
+    {"pca, untied", false, true, 0.0},
+    {"pca", false, false, 0.5},
+}};
+
+const Traits& traits(FillKind kind) { return kTraits[static_cast<std::size_t>(kind)]; }
+
+Fill linear_fill(FillKind kind, const Signal& x, const Eigen::MatrixXd& A_rows,
+                 const Eigen::MatrixXd& A_gap) {
+  return {.kind = kind, .gap = A_gap * x.gap_near, .errors = x.rows - A_rows * x.near};
+}
+
+Fill pchip(const GapProblem& p, const Signal& x) {
+  return {.kind = FillKind::pchip,
+          .gap = pchip_fill(p.shape, x.gap_near, p.all_rows),
+          .errors = x.rows - pchip_fill(p.window, x.near, p.rows)};
+}
+
+void temporal_fills(const Recording& recording, const GapProblem& p, GapMethod method, WalkCache& cache,
+                    std::vector<Fill>& fills) {
+  const bool all = method == GapMethod::automatic;
+  if (p.shape.near() == 0) return;
+  const bool both = p.shape.left > 0 && p.shape.right > 0;
+  const Signal x = gather(
+      p, 3, false, [&](Index frame, auto out) { out = recording.x(p.span.marker, frame).transpose(); });
+  const auto rows_of = [&](const Eigen::MatrixXd& A) {
+    return Eigen::MatrixXd(A(p.rows, Eigen::indexing::all));
+  };
+  if (all || method == GapMethod::linear || !both)
+    fills.push_back(
+        linear_fill(FillKind::chord, x, rows_of(chord_operator(p.window)), chord_operator(p.shape)));
+  if (both && (all || method == GapMethod::cubic))
+    fills.push_back(
+        linear_fill(FillKind::spline, x, rows_of(spline_operator(p.window)), spline_operator(p.shape)));
+  if (both && (all || method == GapMethod::pchip || p.windows() == 0)) fills.push_back(pchip(p, x));
+  if (p.windows() == 0 || (!all && method != GapMethod::walk)) return;
+  const WalkChooser walks(p, recording.rate_hz(), cache);
+  if (const auto walk = walks.best(x, 1, p.shortened() ? 1 : 2))
+    fills.push_back(linear_fill(FillKind::walk, x, *walk->rows, *walk->gap));
+  if (both && !p.shortened())
+    if (const auto walk = walks.best(x, 3, 3))
+      fills.push_back(linear_fill(FillKind::walk_stiff, x, *walk->rows, *walk->gap));
+}
+
+}  // namespace
+
+std::string_view to_string(FillKind kind) { return traits(kind).name; }
+bool is_temporal(FillKind kind) { return traits(kind).temporal; }
+bool is_untied(FillKind kind) { return traits(kind).untied; }
+double error_growth(FillKind kind) { return traits(kind).growth; }
+
+double Fill::rms_m() const {
+  if (errors.size() == 0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(3.0 * errors.squaredNorm() / static_cast<double>(errors.size()));
+}
+
+std::vector<Fill> make_fills(const Recording& recording, const GapProblem& problem, GapMethod method,
+                             WalkCache& cache) {
+  std::vector<Fill> fills;
+  const bool spatial =
+      method == GapMethod::rigid || method == GapMethod::regression || method == GapMethod::pca;
+  if (!spatial) temporal_fills(recording, problem, method, cache, fills);
+  if ((spatial || method == GapMethod::automatic) && problem.windows() > 0 && !problem.predictors.empty())
+    spatial_fills(recording, problem, method, cache, fills);
+  return fills;
+}
+
+}  // namespace kinemark::trajectory::internal

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/stages/trajectory/gaps/gap_options.h"
+#include "kinemark/stages/trajectory/gaps/internal/gap_problem.h"
+
+namespace kinemark::trajectory::internal {
+
+/// Every way to fill a gap that `automatic` weighs against the others.
+enum class FillKind : std::uint8_t {
+  chord,
+  spline,
+  pchip,
+  walk,               ///< order 1 or 2
+  walk_stiff,         ///< order 3
+  rigid_untied,       ///< mean place in the local frame
+  rigid_chord,        ///< local frame, chord between both ends
+  rigid_walk,         ///< local frame, walk
+  regression_untied,  ///< local frame, neighbours' places
+  regression_chord,   ///< ... what the chord leaves unexplained, of target and neighbours
+  regression_walk,    ///< ... what the walk leaves unexplained
+  pca_untied,
+  pca_chord,
+};
+inline constexpr int kFillKinds = 13;
+
+/// "linear", "cubic", "pchip", "walk", "walk, order 3", "rigid, untied", ...
+[[nodiscard]] std::string_view to_string(FillKind kind);
+/// Uses nothing but the marker's own path.
+[[nodiscard]] bool is_temporal(FillKind kind);
+/// Does not pass through the samples beside the gap.
+[[nodiscard]] bool is_untied(FillKind kind);
+/// How errors grow with the length of a gap: as length^growth.
+[[nodiscard]] double error_growth(FillKind kind);
+
+/// One candidate and its errors on the windows.
+struct Fill {
+  FillKind kind = FillKind::chord;
+  Eigen::MatrixXd gap;      ///< L x 3, m in world
+  Eigen::MatrixXd errors;   ///< R x 3 W, truth - fill, m in world; as many columns as there are windows
+  double near_rms_m = 0.0;  ///< untied: 3D distance to the samples beside the gap
+  /// 3D, RMS over the windows; infinity without any.
+  [[nodiscard]] double rms_m() const;
+};
+
+/// The candidates that a method needs and that the problem allows. Without windows those that need no
+/// training.
+[[nodiscard]] std::vector<Fill> make_fills(const Recording& recording, const GapProblem& problem,
+                                           GapMethod method, WalkCache& cache);
+
+}  // namespace kinemark::trajectory::internal

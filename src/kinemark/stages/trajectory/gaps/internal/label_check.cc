@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/gaps/internal/label_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+constexpr Index kMaxMarkers = 1000;  // beyond, the table of pairs would take minutes
+constexpr Index kSampledFrames = 120;
+constexpr std::size_t kPartners = 8;
+constexpr std::size_t kVotes = 5;  // partners that decide whether a marker is out of place
+constexpr std::size_t kLeastVotes = 3;
+constexpr double kOutRange = 1.75;  // of the 20 to 80 % range, and
+constexpr double kOutM = 0.010;
+constexpr double kNormalRange = 1.683;  // 20 to 80 % of a normal distribution, in SD
+constexpr double kSlackM = 0.003;
+constexpr double kCap = 25.0;     // of a squared deviate, so that one distance cannot decide alone
+constexpr double kSuspect = 4.0;  // mean squared deviate of a marker that may be swapped
+constexpr double kMisfit = 6.0;   // ... of a swapped pair as labelled
+constexpr double kCured = 0.25;   // ... and what of it remains after the exchange
+constexpr std::size_t kMaxSuspects = 16;
+constexpr Index kMergeFrames = 3;
+constexpr std::size_t kLeastFrames = 3;
+
+/// A marker whose distance to another one stays about the same.
+struct Partner {
+  Index marker = 0;
+  double median_m = 0.0;
+  double range_m = 0.0;  // 20 to 80 %
+};
+using Partners = std::vector<std::vector<Partner>>;  // per marker, steadiest first
+using Flags = std::vector<std::vector<std::uint8_t>>;
+
+void keep_steadiest(std::vector<Partner>& list, const Partner& p) {
+  const auto at = std::ranges::upper_bound(list, p.range_m, {}, &Partner::range_m);
+  if (at == list.end() && list.size() >= kPartners) return;
+  list.insert(at, p);
+  if (list.size() > kPartners) list.pop_back();
+}
+
+Partners find_partners(const Recording& r) {
+  Partners partners(static_cast<std::size_t>(r.markers()));
+  const Index sampled = std::min(r.frames(), kSampledFrames);
+  std::vector<double> d;
+  for (Index a = 0; a < r.markers(); ++a)
+    for (Index b = a + 1; b < r.markers(); ++b) {
+      d.clear();
+      for (Index i = 0; i < sampled; ++i) {
+        const Index f = sampled == 1 ? 0 : i * (r.frames() - 1) / (sampled - 1);
+        if (r.usable(a, f) && r.usable(b, f)) d.push_back((r.x(a, f) - r.x(b, f)).norm());
+      }
+      if (d.size() < 8 || 10 * static_cast<Index>(d.size()) < 3 * sampled) continue;
+      const auto quantile = [&](double q) {
+        const auto at = d.begin() + std::lround(q * static_cast<double>(d.size() - 1));
+        std::ranges::nth_element(d, at);
+        return *at;
+      };
+      const double low = quantile(0.2);
+      const double high = quantile(0.8);
+      const double median = quantile(0.5);
+      keep_steadiest(partners[static_cast<std::size_t>(a)], {b, median, high - low});
+      keep_steadiest(partners[static_cast<std::size_t>(b)], {a, median, high - low});
+    }
+  return partners;
+}
+
+double squared_deviate(const Partner& p, double distance_m) {
+  const double z = (distance_m - p.median_m) / (p.range_m / kNormalRange + kSlackM);
+  return std::min(z * z, kCap);
+}
+
+/// One frame of the check.
+class FrameCheck {
+ public:
+  FrameCheck(const Recording& r, const Partners& partners) : r_(r), partners_(partners) {}
+
+  /// Mean squared deviate of the distances that marker `of` would have at the place of `at`, without
+  /// `without`.
+  [[nodiscard]] double misfit(Index of, Index at, Index without, Index frame) const {
+    double sum = 0.0;
+    int n = 0;
+    for (const Partner& p : partners_[static_cast<std::size_t>(of)]) {
+      if (p.marker == at || p.marker == without || !r_.usable(p.marker, frame)) continue;
+      sum += squared_deviate(p, (r_.x(at, frame) - r_.x(p.marker, frame)).norm());
+      ++n;
+    }
+    return n >= 2 ? sum / n : 0.0;
+  }
+
+  /// Pairs that fit far better the other way round, each marker in at most one of them.
+  [[nodiscard]] std::vector<std::pair<Index, Index>> find_swaps(Index frame) const {
+    std::vector<std::pair<double, Index>> suspects;
+    for (Index m = 0; m < r_.markers(); ++m) {
+      if (!r_.usable(m, frame)) continue;
+      const double u = misfit(m, m, m, frame);
+      if (u > kSuspect) suspects.emplace_back(-u, m);
+    }
+    if (suspects.size() < 2) return {};
+    std::ranges::sort(suspects);
+    if (suspects.size() > kMaxSuspects) suspects.resize(kMaxSuspects);
+    std::vector<std::pair<double, std::pair<Index, Index>>> found;
+    for (std::size_t i = 0; i < suspects.size(); ++i)
+      for (std::size_t k = i + 1; k < suspects.size(); ++k) {
+        const Index a = std::min(suspects[i].second, suspects[k].second);
+        const Index b = std::max(suspects[i].second, suspects[k].second);
+        const double as_labelled = 0.5 * (misfit(a, a, b, frame) + misfit(b, b, a, frame));
+        if (as_labelled < kMisfit) continue;
+        const double exchanged = 0.5 * (misfit(a, b, b, frame) + misfit(b, a, a, frame));
+        if (exchanged < kCured * as_labelled) found.push_back({exchanged / as_labelled, {a, b}});
+      }
+    std::ranges::sort(found);
+    std::vector<std::pair<Index, Index>> pairs;
+    for (const auto& [quality, pair] : found)
+      if (std::ranges::none_of(pairs, [&pair = pair](const auto& p) {
+            return p.first == pair.first || p.first == pair.second || p.second == pair.first ||
+                   p.second == pair.second;
+          }))
+        pairs.push_back(pair);
+    return pairs;
+  }
+
+  /// Markers at least half of whose partners are at the wrong distance; the worst goes first, and is then
+  /// nobody's partner.
+  [[nodiscard]] std::vector<Index> find_out_of_place(Index frame) const {
+    std::vector<Index> out;
+    const auto is_out = [&](Index m) { return std::ranges::find(out, m) != out.end(); };
+    while (out.size() < kMaxSuspects) {
+      std::pair<double, double> worst{0.5, 0.0};  // share of bad distances, then by how much
+      Index who = -1;
+      for (Index m = 0; m < r_.markers(); ++m) {
+        if (!r_.usable(m, frame) || is_out(m)) continue;
+        std::size_t votes = 0;
+        std::size_t bad = 0;
+        double excess = 0.0;
+        for (const Partner& p : partners_[static_cast<std::size_t>(m)]) {
+          if (votes == kVotes) break;
+          if (!r_.usable(p.marker, frame) || is_out(p.marker)) continue;
+          const double off = std::abs((r_.x(m, frame) - r_.x(p.marker, frame)).norm() - p.median_m);
+          ++votes;
+          if (off > kOutRange * p.range_m + kOutM) ++bad;
+          excess += off / (kOutRange * p.range_m + kOutM);
+        }
+        if (votes < kLeastVotes) continue;
+        const std::pair<double, double> share{static_cast<double>(bad) / static_cast<double>(votes), excess};
+        if (share > worst) {
+          worst = share;
+          who = m;
+        }
+      }
+      if (who < 0) break;
+      out.push_back(who);
+    }
+    return out;
+  }
+
+ private:
+  const Recording& r_;
+  const Partners& partners_;
+};
+
+/// Frames of each pair to stretches: short interruptions bridged, single frames left out.
+std::vector<Swap> join_frames(const Recording& r,
+                              const std::map<std::pair<Index, Index>, std::vector<Index>>& hits) {
+  std::vector<Swap> swaps;
+  for (const auto& [pair, frames] : hits) {
+    for (std::size_t i = 0; i < frames.size();) {
+      std::size_t k = i + 1;
+      while (k < frames.size() && frames[k] - frames[k - 1] <= kMergeFrames) ++k;
+      if (k - i >= kLeastFrames) {
+        std::vector<double> d;
+        for (std::size_t n = i; n < k; ++n)
+          d.push_back((r.x(pair.first, frames[n]) - r.x(pair.second, frames[n])).norm());
+        std::ranges::nth_element(d, d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2));
+        swaps.push_back({.first_marker = pair.first,
+                         .second_marker = pair.second,
+                         .first = frames[i],
+                         .end = frames[k - 1] + 1,
+                         .distance_m = d[d.size() / 2]});
+      }
+      i = k;
+    }
+  }
+  return swaps;
+}
+
+}  // namespace
+
+std::vector<Swap> check_labels(Recording& recording) {
+  if (recording.markers() < 4 || recording.markers() > kMaxMarkers) return {};
+  const Partners partners = find_partners(recording);
+  const FrameCheck check(recording, partners);
+  std::map<std::pair<Index, Index>, std::vector<Index>> hits;
+  for (Index f = 0; f < recording.frames(); ++f)
+    for (const auto& pair : check.find_swaps(f)) hits[pair].push_back(f);
+  const std::vector<Swap> swaps = join_frames(recording, hits);
+  for (const Swap& s : swaps)
+    for (Index f = s.first; f < s.end; ++f)
+      if (recording.usable(s.first_marker, f) && recording.usable(s.second_marker, f))
+        recording.exchange(s.first_marker, s.second_marker, f);
+  Flags doubtful(static_cast<std::size_t>(recording.markers()),
+                 std::vector<std::uint8_t>(static_cast<std::size_t>(recording.frames()), 0));
+  for (Index f = 0; f < recording.frames(); ++f)
+    for (const Index m : check.find_out_of_place(f))
+      doubtful[static_cast<std::size_t>(m)][static_cast<std::size_t>(f)] = 1;
+  recording.set_doubtful(doubtful);
+  return swaps;
+}
+
+}  // namespace kinemark::trajectory::internal

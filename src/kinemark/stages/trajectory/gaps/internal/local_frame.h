@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "kinemark/stages/trajectory/gaps/internal/recording.h"
+
+namespace kinemark::trajectory::internal {
+
+/// Turn and place that map the reference shape onto the markers of one frame: x_in_world = R x_in_local + c.
+struct Placement {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();
+};
+
+/// A frame that goes with a few markers, as rigidly as they allow.
+///
+/// Three markers and more that do not lie on a line give a turn (weighted least squares, Horn 1987, J. Opt.
+/// Soc. Am. A 4(4):629-642); fewer only a place; none leaves the world as it is.
+class LocalFrame {
+ public:
+  /// @param sd_m  Of the distance to the target, per marker; weights are 1 / (sd^2 + (1 mm)^2).
+  /// @param shape_frames  Frames where all markers are usable; their mean is the reference shape.
+  LocalFrame(const Recording& recording, std::span<const Index> markers, std::span<const double> sd_m,
+             std::span<const Index> shape_frames);
+
+  /// All markers are usable in the frame.
+  [[nodiscard]] Placement at(Index frame) const;
+  [[nodiscard]] bool turns() const { return turns_; }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d centre(Index frame) const;
+
+  const Recording* recording_;
+  std::vector<Index> markers_;
+  Eigen::VectorXd weight_;  // sums to 1
+  Eigen::Matrix3Xd shape_;  // about its centre
+  bool turns_ = false;
+};
+
+}  // namespace kinemark::trajectory::internal
