@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Typed access to the fields of a TOML table, with one sentence for what is wrong.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::io {
+
+/// Reads fields of one table into variables that already hold the defaults. The first thing that is wrong
+/// stops the rest; finish() returns it, or names a key that nobody asked for.
+class TomlFields {
+ public:
+  /// `where` begins every failure: "rig.toml: camera 'A'".
+  TomlFields(const toml::table& table, std::string where) : table_(table), where_(std::move(where)) {}
+
+  enum class Need : std::uint8_t { optional, required };
+
+  TomlFields& number(std::string_view key, double& out, Need need = Need::optional);
+  TomlFields& integer(std::string_view key, int& out, Need need = Need::optional);
+  TomlFields& flag(std::string_view key, bool& out);
+  TomlFields& text(std::string_view key, std::string& out, Need need = Need::optional);
+  TomlFields& numbers(std::string_view key, std::vector<double>& out);
+  /// A vector of out.size() numbers, or a matrix of as many rows.
+  TomlFields& vector(std::string_view key, Eigen::Ref<Eigen::VectorXd> out, Need need = Need::optional);
+  TomlFields& matrix(std::string_view key, Eigen::Ref<Eigen::MatrixXd> out, Need need = Need::optional);
+  /// A table or an array of tables inside this one; null when absent.
+  const toml::table* table(std::string_view key);
+  const toml::array* tables(std::string_view key);
+
+  [[nodiscard]] Status finish() const;
+  [[nodiscard]] bool failed() const { return !status_.has_value(); }
+  [[nodiscard]] const std::string& where() const { return where_; }
+  void refuse(std::string_view key, std::string_view expected);
+
+ private:
+  const toml::node* find(std::string_view key, Need need, std::string_view expected);
+
+  const toml::table& table_;
+  std::string where_;
+  std::vector<std::string> asked_;
+  Status status_;
+};
+
+}  // namespace kinemark::io
