@@ -9,9 +9,9 @@
 namespace kinemark::cli {
 
 void add_info(CLI::App& app, const Globals& globals, Run& run) {
-  auto* command = app.add_subcommand("info", "What a marker, motion or model file holds");
+  auto* command = app.add_subcommand("info", "What a marker, motion, model or recording file holds");
   const auto path = std::make_shared<std::string>();
-  command->add_option("FILE", *path, ".c3d, .trc, .mot, .sto or .osim")->required();
+  command->add_option("FILE", *path, ".c3d, .trc, .mot, .sto, .osim or .mcap")->required();
   command->callback([&globals, path, &run] {
     run = [&globals, path] {
       const auto facts = pipeline::describe_file(*path);

@@ -32,7 +32,7 @@ void add_validate(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand(
       "validate", "Check files: exit status 0 good, 1 readable but odd, 3 or 4 not readable");
   const auto paths = std::make_shared<std::vector<std::string>>();
-  command->add_option("FILE", *paths, ".c3d, .trc, .mot, .sto or .osim")->required();
+  command->add_option("FILE", *paths, ".c3d, .trc, .mot, .sto, .osim or .mcap")->required();
   command->callback([&globals, paths, &run] {
     run = [&globals, paths] {
       int worst = 0;

@@ -9,6 +9,8 @@
 
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/recording/counts_recording.h"
+#include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
 
 namespace kinemark::pipeline {
@@ -76,6 +78,41 @@ Result<Json> describe_model(const std::filesystem::path& path) {
               {"warnings", model->warnings}};
 }
 
+/// What the counts of a recording are, and how many of their sightings are flawed.
+Status add_counts(const std::filesystem::path& path, Json& facts) {
+  const auto recording = io::read_counts(path);
+  if (!recording) return std::unexpected(recording.error());
+  const data::Counts& counts = recording->counts;
+  facts["frames"] = counts.frames();
+  facts["rate_hz"] = counts.time.rate_hz;
+  facts["first_time_s"] = counts.time.t0_s;
+  facts["rig"] = counts.rig_id;
+  facts["dark_slot"] = counts.has_dark_slot();
+  const auto flagged = [&counts](data::CountFlag flag) {
+    return std::ranges::count_if(counts.flags, [flag](std::uint8_t flags) { return (flags & flag) != 0; });
+  };
+  facts["saturated"] = flagged(data::kCountSaturated);
+  facts["occluded"] = flagged(data::kCountOccluded);
+  facts["lost"] = flagged(data::kCountLost);
+  facts["cameras"] = counts.cameras;
+  facts["labels"] = counts.leds;
+  return {};
+}
+
+Result<Json> describe_recording(const std::filesystem::path& path) {
+  const auto survey = io::survey_recording(path);
+  if (!survey) return std::unexpected(survey.error());
+  Json facts{{"file", path.string()},    {"kind", "recording"},          {"end", io::to_string(survey->end)},
+             {"bytes", survey->bytes},   {"messages", survey->messages}, {"channels", Json::array()},
+             {"metadata", Json::array()}};
+  for (const auto& channel : survey->channels) facts["channels"].push_back(channel.topic);
+  for (const auto& metadata : survey->metadata) facts["metadata"].push_back(metadata.name);
+  if (std::ranges::any_of(survey->channels, io::carries_counts))
+    if (auto s = add_counts(path, facts); !s) return std::unexpected(s.error());
+  facts["warnings"] = survey->warnings;
+  return facts;
+}
+
 }  // namespace
 
 Result<Json> describe_file(const std::filesystem::path& path) {
@@ -84,6 +121,7 @@ Result<Json> describe_file(const std::filesystem::path& path) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".osim") return describe_model(path);
   if (ending == ".mot" || ending == ".sto") return describe_table(path);
+  if (ending == ".mcap") return describe_recording(path);
   return describe_markers(path);
 }
 

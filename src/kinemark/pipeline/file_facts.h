@@ -16,7 +16,9 @@ namespace kinemark::pipeline {
 /// analog_channels, analog_rate_hz, force_plates, labels, warnings. Tables (.mot, .sto): rows, columns,
 /// first_time_s, last_time_s, in_degrees, labels, warnings. Models (.osim): name, bodies, joints,
 /// coordinates, markers, couplings, point_constraints, mass_kg, labels (of coordinates), body_names,
-/// warnings. Every answer has "file" and "kind".
+/// warnings. Recordings (.mcap): end, bytes, messages, channels, metadata, warnings, and of counts also
+/// frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (sightings), cameras, labels.
+/// Every answer has "file" and "kind".
 [[nodiscard]] Result<nlohmann::ordered_json> describe_file(const std::filesystem::path& path);
 
 /// The same for people, one fact a line.

@@ -17,6 +17,7 @@
 #include "kinemark/io/recording/clock_watch.h"
 #include "kinemark/io/recording/encoder.h"
 #include "kinemark/io/recording/internal/counts_layout.h"
+#include "kinemark/io/recording/internal/mcap.h"
 #include "kinemark/io/recording/survey.h"
 
 namespace kinemark::io {
@@ -25,6 +26,7 @@ namespace {
 using namespace internal;
 
 constexpr std::size_t kFlushBytes = 1U << 20;
+constexpr std::size_t kFrameOverheadBytes = kRecordHead + kMessageHead + kCheckBytes;
 
 template <class T>
 void put_all(Bytes& out, std::span<const T> values) {
@@ -71,7 +73,13 @@ class Assembly {
         dark_size_(counts_.dark_time_s.size()),
         message_bytes_(frame_bytes(counts_)),
         // A message number that lies must not cost more memory than its file can explain.
-        frames_allowed_(static_cast<std::int64_t>((16 * file_bytes + (64U << 20)) / message_bytes_)) {}
+        frames_allowed_(static_cast<std::int64_t>((16 * file_bytes + (64U << 20)) / message_bytes_)) {
+    // As many as fit into the file: growing step by step costs several times the memory and the time.
+    const std::size_t frames = file_bytes / (message_bytes_ + kFrameOverheadBytes);
+    counts_.counts.reserve(4 * frames * sightings_);
+    counts_.flags.reserve(frames * sightings_);
+    counts_.dark.reserve(frames * dark_size_);
+  }
 
   /// False when the rest of the file cannot be used.
   bool add(const RecordingMessage& message) {
@@ -190,6 +198,8 @@ Status write_counts(const std::filesystem::path& path, const data::Counts& count
   if (auto s = file->write(bytes); !s) return s;
   return file->commit();
 }
+
+bool carries_counts(const RecordingChannel& channel) { return is_counts(channel); }
 
 Result<CountsRecording> read_counts(const std::filesystem::path& path) {
   auto reader = RecordingReader::open(path, {.skip_damage = true});

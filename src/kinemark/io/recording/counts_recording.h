@@ -38,6 +38,9 @@ struct CountsRecording {
 [[nodiscard]] Result<CountsRecording> read_counts(const std::filesystem::path& path);
 [[nodiscard]] Result<CountsRecording> read_counts(RecordingReader reader);
 
+/// True for a channel that read_counts() reads.
+[[nodiscard]] bool carries_counts(const RecordingChannel& channel);
+
 /// One frame of counts; shapes as in data::Counts for a single frame.
 struct CountsFrame {
   std::int64_t frame = 0;                ///< counts up; a step of more than 1 says that frames were lost

@@ -69,16 +69,18 @@ const Hour& hour() {
 }
 
 void BM_ReadCounts(benchmark::State& state) {
+  const std::filesystem::path path = hour().path();
   std::int64_t frames = 0;
-  for (auto _ : state) frames = io::read_counts(hour().path())->counts.frames();
+  for (auto _ : state) frames = io::read_counts(path)->counts.frames();
   state.SetBytesProcessed(hour().bytes() * state.iterations());
   state.counters["frames_of_written"] = static_cast<double>(frames) / Hour::kFrames;
 }
 BENCHMARK(BM_ReadCounts)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void BM_Survey(benchmark::State& state) {
+  const std::filesystem::path path = hour().path();
   std::int64_t messages = 0;
-  for (auto _ : state) messages = io::survey_recording(hour().path())->messages;
+  for (auto _ : state) messages = io::survey_recording(path)->messages;
   state.SetBytesProcessed(hour().bytes() * state.iterations());
   state.counters["messages_of_written"] = static_cast<double>(messages) / Hour::kFrames;
 }
