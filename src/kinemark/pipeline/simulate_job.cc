@@ -10,39 +10,13 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/human_model.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 #include "kinemark/pipeline/motion_tables.h"
 #include "kinemark/pipeline/staging.h"
 
 namespace kinemark::pipeline {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-/// Makes a folder with its parents; those that it made go again when they stay empty.
-class NewFolder {
- public:
-  explicit NewFolder(fs::path folder) {
-    std::error_code ignored;
-    for (folder = fs::absolute(folder, ignored).lexically_normal();
-         folder.has_relative_path() && !fs::exists(folder, ignored); folder = folder.parent_path())
-      made_.push_back(folder);
-    if (!made_.empty()) fs::create_directories(made_.front(), error_);
-  }
-  ~NewFolder() {
-    std::error_code ignored;
-    for (const auto& folder : made_) fs::remove(folder, ignored);
-  }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-  [[nodiscard]] const std::error_code& error() const { return error_; }
-
- private:
-  std::vector<fs::path> made_;  ///< innermost first
-  std::error_code error_;
-};
-
-}  // namespace
 
 Result<std::vector<fs::path>> simulate_subject(const SubjectJob& job, const Progress& progress) {
   auto description = job.model.empty() ? human_model() : io::read_osim(job.model);
@@ -52,7 +26,7 @@ Result<std::vector<fs::path>> simulate_subject(const SubjectJob& job, const Prog
   const auto subject = simulation::simulate_subject(*model, job.options);
   if (!subject) return std::unexpected(subject.error());
 
-  const NewFolder folder(job.folder);
+  const internal::NewFolder folder(job.folder);
   if (folder.error())
     return fail(Code::io,
                 fmt::format("{}: cannot be made ({})", job.folder.string(), folder.error().message()));

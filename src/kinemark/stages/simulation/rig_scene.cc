@@ -75,17 +75,19 @@ math::SE3 wheel_pose(const WheelOptions& options) {
 
 RigScene rotating_wheel(const WheelOptions& options) {
   RigScene scene;
-  scene.leds = {"rim"};
-  scene.led = [options, pose = wheel_pose(options)](int, double time_s) {
-    const double angle = 2.0 * pi * options.rate_hz * time_s;
+  for (int led = 1; led <= options.leds; ++led)
+    scene.leds.push_back(options.leds == 1 ? "rim" : "rim " + std::to_string(led));
+  scene.led = [options, pose = wheel_pose(options)](int led, double time_s) {
+    const double angle = 2.0 * pi * (options.rate_hz * time_s + static_cast<double>(led) / options.leds);
     const Vector3d in_wheel(options.diameter_m / 2.0 * std::cos(angle),
                             options.diameter_m / 2.0 * std::sin(angle), 0.0);
     return LedState{.x_in_world = pose * in_wheel, .normal = pose.rotation.col(2)};
   };
   if (options.glint_share > 0.0)
-    scene.reflection = [options](int, double time_s, const Vector3d& x_in_world) {
-      // The mirror catches the eye while the wheel stands within 4 degrees of one radian.
-      const double off = std::remainder(2.0 * pi * options.rate_hz * time_s - 1.0, 2.0 * pi);
+    scene.reflection = [options](int led, double time_s, const Vector3d& x_in_world) {
+      // The mirror catches the eye while the LED's radius stands within 4 degrees of one radian.
+      const double turns = options.rate_hz * time_s + static_cast<double>(led) / options.leds;
+      const double off = std::remainder(2.0 * pi * turns - 1.0, 2.0 * pi);
       return Reflection{.place_in_world = x_in_world + Vector3d(0.0, 0.260, 0.030),
                         .share = std::abs(off) < 4.0 * kRadPerDeg ? options.glint_share : 0.0};
     };

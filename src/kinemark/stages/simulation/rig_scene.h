@@ -63,9 +63,10 @@ struct WheelOptions {
   double diameter_m = 0.392;
   double rate_hz = 1.5;      ///< revolutions per second
   double glint_share = 0.0;  ///< 0.04: the frame mirrors that share during 8 degrees of each turn
+  int leds = 1;              ///< 1 to 8, evenly along the rim
 };
 
-/// One LED, "rim", on a wheel about (20, -30, -40) mm.
+/// One LED, "rim", or several, "rim 1" and so on, on a wheel about (20, -30, -40) mm.
 [[nodiscard]] RigScene rotating_wheel(const WheelOptions& options = {});
 
 /// world_from_wheel: the wheel lies in the plane of X and Y about its axis Z.

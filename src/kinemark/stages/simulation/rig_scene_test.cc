@@ -47,6 +47,14 @@ TEST(Wheel, GoesRoundInItsPlane) {
   EXPECT_FALSE(scene.reflection);
 }
 
+TEST(Wheel, CarriesSeveralLeds) {
+  const auto scene = rotating_wheel({.leds = 8});
+  ASSERT_EQ(scene.leds.size(), 8U);
+  EXPECT_EQ(scene.leds[7], "rim 8");
+  EXPECT_NEAR((scene.led(0, 0.2).x_in_world - scene.led(4, 0.2).x_in_world).norm(), 0.392, 1e-15);
+  EXPECT_EQ(scene.led(0, 0.2).x_in_world, rotating_wheel().led(0, 0.2).x_in_world);
+}
+
 TEST(Wheel, TheGlintLastsEightDegreesOfEachTurn) {
   const auto scene = rotating_wheel({.glint_share = 0.04});
   int on = 0;
