@@ -14,13 +14,21 @@ export interface Band {
 }
 
 /** value -+ width * SD. Without a value or an SD there is no band. */
-export function band({ value, sd }: CoordinateSeries, width = 2): Band {
+export function band({ value, sd }: Pick<CoordinateSeries, "value" | "sd">, width = 2): Band {
   const edge = (sign: number): Line =>
     Array.from(value, (v, i) => {
       const e = v + sign * width * (sd?.[i] ?? NaN);
       return Number.isFinite(e) ? e : null;
     });
   return { middle: withBreaks(value), lower: edge(-1), upper: edge(1) };
+}
+
+/**
+ * The part of a line whose code is `code`, with one neighbour on either side so that it joins the rest; null
+ * elsewhere. Drawn over the whole line in another colour, it shows which samples were made, and how.
+ */
+export function partWithCode(line: Line, codes: Uint8Array, code: number): Line {
+  return line.map((v, i) => (codes[i] === code || codes[i - 1] === code || codes[i + 1] === code ? v : null));
 }
 
 /** Stretches [from, to) of points whose code is at least `threshold`. */

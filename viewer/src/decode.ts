@@ -27,7 +27,9 @@ export interface Trial {
 }
 
 export function decodeBytes(base64: string, points: number): Uint8Array {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
   if (bytes.length !== points) throw new Error(`a series holds ${bytes.length} codes; ${points} points need as many`);
   return bytes;
 }

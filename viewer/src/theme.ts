@@ -17,6 +17,10 @@ export interface Palette {
   hatchBackground: string;
   /** measured, filled, missing, rejected */
   gaps: [string, string, string, string];
+  /** measured, upsampled, interpolated, filled from others, missing, rejected */
+  states: [string, string, string, string, string, string];
+  /** Samples as they came in, under the result. */
+  raw: string;
   /** converged, not all determined, not converged, no markers */
   status: [string, string, string, string];
 }
@@ -34,6 +38,8 @@ const light: Palette = {
   hatch: "#b3bec6",
   hatchBackground: "#f3f5f7",
   gaps: ["#a9d3df", "#e3a62f", "#33414c", "#d2401c"],
+  states: ["#a9d3df", "#7d6bc4", "#e3a62f", "#1f8a5f", "#33414c", "#d2401c"],
+  raw: "#8b97a0",
   status: ["#a9d3df", "#c3ccd2", "#d2401c", "#33414c"],
 };
 
@@ -50,6 +56,8 @@ const dark: Palette = {
   hatch: "#465662",
   hatchBackground: "#1b242b",
   gaps: ["#2a6377", "#d9a036", "#dbe3e8", "#f0653f"],
+  states: ["#2a6377", "#a99be6", "#d9a036", "#3fbf8a", "#dbe3e8", "#f0653f"],
+  raw: "#7d8b96",
   status: ["#2a6377", "#56656f", "#f0653f", "#dbe3e8"],
 };
 

@@ -12,7 +12,7 @@ export class View {
   /** Time that a click asked for, or null. */
   focus: number | null = null;
   coordinate = 0;
-  /** Index into the used markers, or -1. */
+  /** Index of the chosen marker, or -1. */
   marker = -1;
 
   readonly #listeners: (() => void)[] = [];
@@ -39,11 +39,17 @@ export class View {
     });
   }
 
-  /** Show one second before and after an instant, in the section named; the browser's Back returns. */
-  jumpTo(time: number, section: string): void {
-    this.set({ range: [time - 1, time + 1], focus: time });
+  /** Show what begins at `time` and one second on either side, in the section named; the browser's Back returns. */
+  jumpTo(time: number, section: string, length = 0): void {
+    this.set({ range: [time - 1, time + length + 1], focus: time });
     location.hash = section;
   }
+}
+
+/** From the first frame to the last; never empty. */
+export function wholeOf(summary: { first_time_s: number; frames: number; rate_hz: number }): TimeRange {
+  const start = summary.first_time_s;
+  return [start, start + Math.max(1, summary.frames - 1) / summary.rate_hz];
 }
 
 /** The range moved, and if need be shortened, into the whole. */

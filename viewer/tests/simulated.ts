@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { PageData } from "../src/types.ts";
 
-const base64 = (values: ArrayBufferView): string =>
+export const base64 = (values: ArrayBufferView): string =>
   Buffer.from(values.buffer, values.byteOffset, values.byteLength).toString("base64");
 
 /** A text that would do harm if any part of the page took it for markup. */

@@ -1,38 +1,52 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { Trial } from "../decode.ts";
 import { columnRange, firstAtOrAfter, nearest, worstCode } from "../downsample.ts";
 import { el, fitCanvas } from "../dom.ts";
 import { seconds } from "../format.ts";
 import { onThemeChange, palette } from "../theme.ts";
 import type { View } from "../view.ts";
 
-export const gapWords = ["measured", "filled in", "missing", "rejected"] as const;
-export const statusWords = ["converged", "not all coordinates determined", "not converged", "no markers"] as const;
+/** What the codes of a row mean: the worse, the larger; 0 is as it should be. */
+export interface MapKind {
+  /** Prefix of the classes that colour the legend. */
+  group: string;
+  words: readonly string[];
+  /** Asked for at every redraw. */
+  colours: () => readonly string[];
+}
+
+export interface MapRow {
+  name: string;
+  kind: MapKind;
+  /** One per point, or null when not known. */
+  codes: Uint8Array | null;
+  /** Index of the marker that a click chooses, or -1. */
+  marker: number;
+  faint?: boolean;
+  /** More to say of a point, or "". */
+  remark?: (point: number) => string;
+}
 
 const rowHeight = 14;
 const top = 4;
-const statusGap = 8;
+const groupGap = 8;
 
-/** Markers by time: where each came from. The first strip is how the solver fared. */
+/** Rows by time: where each marker's samples came from. Rows of another kind stand apart. */
 export class GapMap {
   readonly canvas = el("canvas", { role: "img", "aria-label": "Map of gaps: one row per marker, time to the right" });
   readonly readout = el("p", { class: "readout" });
-  readonly #rows: { name: string; faint: boolean; codes: Uint8Array | null; marker: number }[];
+  #rows: readonly MapRow[];
+  #tops: number[] = [];
   #gutter = 120;
 
   constructor(
     readonly box: HTMLElement,
-    readonly trial: Trial,
+    readonly time: Float64Array,
     readonly view: View,
+    rows: readonly MapRow[],
   ) {
-    const used = trial.markerErrorMm.length;
-    this.#rows = trial.summary.markers.map((m, i) => ({
-      name: m.used ? m.name : `${m.name} (left out)`,
-      faint: !m.used,
-      codes: trial.gaps[i] ?? null,
-      marker: i < used ? i : -1,
-    }));
+    this.#rows = rows;
+    this.#layOut();
     box.append(this.canvas);
     this.canvas.addEventListener("mousemove", (e) => this.#point(e));
     this.canvas.addEventListener("mouseleave", () => {
@@ -40,7 +54,7 @@ export class GapMap {
       view.set({ pointer: null });
     });
     this.canvas.addEventListener("click", (e) => {
-      const marker = this.#rows[this.#rowAt(e.offsetY)]?.marker ?? -1;
+      const marker = this.#rowAt(e.offsetY)?.marker ?? -1;
       view.set(marker < 0 ? { focus: this.#timeAt(e.offsetX) } : { focus: this.#timeAt(e.offsetX), marker });
     });
     new ResizeObserver(() => this.draw()).observe(box);
@@ -48,10 +62,26 @@ export class GapMap {
     view.onChange(() => this.draw());
   }
 
+  /** Show other rows of the same recording. */
+  setRows(rows: readonly MapRow[]): void {
+    this.#rows = rows;
+    this.#layOut();
+    this.draw();
+  }
+
+  #layOut(): void {
+    let y = top;
+    this.#tops = this.#rows.map((row, r) => {
+      if (r > 0 && this.#rows[r - 1]!.kind !== row.kind) y += groupGap;
+      y += rowHeight;
+      return y - rowHeight;
+    });
+  }
+
   #width = 600;
 
-  #rowAt(y: number): number {
-    return Math.floor((y - top - rowHeight - statusGap) / rowHeight);
+  #rowAt(y: number): MapRow | undefined {
+    return this.#rows[this.#tops.findIndex((t) => t <= y && y < t + rowHeight)];
   }
 
   #timeAt(x: number): number {
@@ -62,40 +92,31 @@ export class GapMap {
 
   #point(event: MouseEvent): void {
     const time = this.#timeAt(event.offsetX);
-    const i = nearest(this.trial.time, time);
-    const row = this.#rows[this.#rowAt(event.offsetY)];
+    const i = nearest(this.time, time);
+    const row = this.#rowAt(event.offsetY);
     this.view.set({ pointer: time });
-    if (i < 0) return;
-    const when = seconds(this.trial.time[i]!);
-    if (event.offsetY < top + rowHeight) {
-      this.readout.textContent = `Fit at ${when}: ${statusWords[this.trial.status[i] as 0 | 1 | 2 | 3]}`;
-    } else if (row !== undefined) {
-      const word = row.codes === null ? "not known" : gapWords[row.codes[i] as 0 | 1 | 2 | 3];
-      const error = row.marker < 0 ? NaN : this.trial.markerErrorMm[row.marker]![i]!;
-      this.readout.textContent =
-        `${row.name} at ${when}: ${word}` + (Number.isFinite(error) ? `, error ${error.toFixed(1)} mm` : "");
-    }
+    if (i < 0 || row === undefined) return;
+    const word = row.codes === null ? "not known" : row.kind.words[row.codes[i]!]!;
+    this.readout.textContent = `${row.name} at ${seconds(this.time[i]!)}: ${word}${row.remark?.(i) ?? ""}`;
   }
 
   draw(): void {
     this.#width = Math.max(280, Math.floor(this.box.clientWidth));
-    const height = top + rowHeight + statusGap + this.#rows.length * rowHeight + 22;
+    const height = (this.#tops.at(-1) ?? top) + rowHeight + 22;
     const pen = fitCanvas(this.canvas, this.#width, height);
-    const colours = palette();
     pen.font = "11px system-ui, sans-serif";
     const longest = Math.max(...this.#rows.map((r) => pen.measureText(r.name).width), 40);
     this.#gutter = Math.min(Math.ceil(longest) + 12, 0.35 * this.#width);
 
-    this.#strip(pen, top, this.trial.status, colours.status, "Fit", false);
     this.#rows.forEach((row, r) => {
-      const y = top + rowHeight + statusGap + r * rowHeight;
       pen.globalAlpha = row.faint ? 0.5 : 1;
-      this.#strip(pen, y, row.codes, colours.gaps, row.name, row.marker >= 0 && row.marker === this.view.marker);
+      const selected = row.marker >= 0 && row.marker === this.view.marker;
+      this.#strip(pen, this.#tops[r]!, row.codes, row.kind.colours(), row.name, selected);
     });
     pen.globalAlpha = 1;
     this.#axis(pen, height);
-    this.#line(pen, this.view.pointer, height, colours.muted);
-    this.#line(pen, this.view.focus, height, colours.focus);
+    this.#line(pen, this.view.pointer, height, palette().muted);
+    this.#line(pen, this.view.focus, height, palette().focus);
   }
 
   #strip(
@@ -112,7 +133,7 @@ export class GapMap {
     pen.font = `${selected ? "600 " : ""}11px system-ui, sans-serif`;
     pen.fillText(name, this.#gutter - 8, y + rowHeight / 2, this.#gutter - 10);
     if (codes === null) return;
-    const { time } = this.trial;
+    const { time } = this;
     const [from, to] = this.view.range;
     const first = firstAtOrAfter(time, from - 1e-9);
     const last = Math.max(first + 1, firstAtOrAfter(time, to + 1e-9));

@@ -2,21 +2,47 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Trial } from "../decode.ts";
 import { el, section } from "../dom.ts";
-import { GapMap, gapWords, statusWords } from "../plots/gap_map.ts";
+import { GapMap, type MapKind, type MapRow } from "../plots/gap_map.ts";
+import { palette } from "../theme.ts";
 import type { View } from "../view.ts";
 
-/** Markers by time: measured, filled in, missing, rejected. */
+const gapKind: MapKind = {
+  group: "gap",
+  words: ["measured", "filled in", "missing", "rejected"],
+  colours: () => palette().gaps,
+};
+const statusKind: MapKind = {
+  group: "status",
+  words: ["converged", "not all coordinates determined", "not converged", "no markers"],
+  colours: () => palette().status,
+};
+
+export const legend = ({ group, words }: MapKind): HTMLElement =>
+  el("ul", { class: "legend" }, ...words.map((w, i) => el("li", { class: `${group}-${i}` }, w)));
+
+/** Markers by time: measured, filled in, missing, rejected. The first strip is how the solver fared. */
 export function gaps(trial: Trial, view: View): { node: HTMLElement; start: () => void } {
   const box = el("div", { class: "gap-map", id: "gap-map" });
-  const map = new GapMap(box, trial, view);
-  const key = (group: string, words: readonly string[]): HTMLElement =>
-    el("ul", { class: "legend" }, ...words.map((w, i) => el("li", { class: `${group}-${i}` }, w)));
+  const used = trial.markerErrorMm.length;
+  const rows: MapRow[] = trial.summary.markers.map((m, i) => ({
+    name: m.used ? m.name : `${m.name} (left out)`,
+    kind: gapKind,
+    codes: trial.gaps[i] ?? null,
+    marker: i < used ? i : -1,
+    faint: !m.used,
+    remark: (point) => {
+      const error = trial.markerErrorMm[i]?.[point] ?? NaN;
+      return Number.isFinite(error) ? `, error ${error.toFixed(1)} mm` : "";
+    },
+  }));
+  rows.unshift({ name: "Fit", kind: statusKind, codes: trial.status, marker: -1 });
+  const map = new GapMap(box, trial.time, view, rows);
   const thinned = trial.frameStep === 1 ? "" : " A spot that stands for several frames shows the worst of them.";
   const node = section(
     "gaps",
     "Gaps",
     `Where each marker's samples come from. The strip on top is the fit of each frame.${thinned}`,
-    el("div", { class: "legends" }, el("span", {}, "Markers"), key("gap", gapWords), el("span", {}, "Fit"), key("status", statusWords)),
+    el("div", { class: "legends" }, el("span", {}, "Markers"), legend(gapKind), el("span", {}, "Fit"), legend(statusKind)),
     map.readout,
     box,
   );

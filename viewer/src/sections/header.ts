@@ -2,16 +2,49 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el } from "../dom.ts";
 import { duration, number, percent, plural } from "../format.ts";
-import type { Summary } from "../types.ts";
+import type { Finding, Summary } from "../types.ts";
 
-const tile = (value: string, label: string, detail: string): HTMLElement =>
+export const tile = (value: string, label: string, detail: string): HTMLElement =>
   el("div", { class: "tile" }, el("dd", {}, value), el("dt", {}, label), el("dd", { class: "detail" }, detail));
+
+/** Name of the trial beside the verdict. */
+export function titleRow(
+  what: string,
+  trial: string,
+  below: HTMLElement,
+  { verdict, findings }: { verdict: "good" | "attention"; findings: readonly Finding[] },
+): HTMLElement {
+  const notes = findings.filter((f) => f.level === "note").length;
+  const serious = findings.length - notes;
+  return el(
+    "div",
+    { class: "title" },
+    el("div", {}, el("p", { class: "brand" }, el("b", {}, "kinemark"), ` ${what}`), el("h1", {}, trial), below),
+    el(
+      "p",
+      { class: `verdict ${verdict}`, id: "verdict" },
+      el("b", {}, verdict === "good" ? "Good" : "Needs attention"),
+      el(
+        "span",
+        {},
+        [serious > 0 ? plural(serious, "problem") : "no problems", notes > 0 ? plural(notes, "note") : ""]
+          .filter((t) => t !== "")
+          .join(", "),
+      ),
+    ),
+  );
+}
+
+/** The first tile of every report. */
+export const framesTile = (frames: number, rateHz: number): HTMLElement =>
+  tile(
+    number(frames),
+    "frames",
+    `${duration(frames / rateHz)} at ${number(rateHz, Number.isInteger(rateHz) ? 0 : 2)} Hz`,
+  );
 
 /** Trial, model, verdict, and the numbers that people look for first. */
 export function header(summary: Summary): HTMLElement {
-  const notes = summary.findings.filter((f) => f.level === "note").length;
-  const serious = summary.findings.length - notes;
-  const good = summary.verdict === "good";
   const used = summary.markers.filter((m) => m.used).length;
   const asked = summary.coordinates.filter((c) => !c.locked).length;
   const locked = summary.coordinates.length - asked;
@@ -20,33 +53,16 @@ export function header(summary: Summary): HTMLElement {
   return el(
     "header",
     {},
-    el(
-      "div",
-      { class: "title" },
-      el(
-        "div",
-        {},
-        el("p", { class: "brand" }, el("b", {}, "kinemark"), ` joint angles by ${summary.method || "inverse kinematics"}`),
-        el("h1", {}, summary.trial),
-        el("p", { class: "model" }, "Model ", el("b", {}, summary.model)),
-      ),
-      el(
-        "p",
-        { class: `verdict ${summary.verdict}`, id: "verdict" },
-        el("b", {}, good ? "Good" : "Needs attention"),
-        el(
-          "span",
-          {},
-          [serious > 0 ? plural(serious, "problem") : "no problems", notes > 0 ? plural(notes, "note") : ""]
-            .filter((t) => t !== "")
-            .join(", "),
-        ),
-      ),
+    titleRow(
+      `joint angles by ${summary.method || "inverse kinematics"}`,
+      summary.trial,
+      el("p", { class: "model" }, "Model ", el("b", {}, summary.model)),
+      summary,
     ),
     el(
       "dl",
       { class: "tiles" },
-      tile(number(summary.frames), "frames", `${duration(summary.frames / summary.rate_hz)} at ${number(summary.rate_hz, Number.isInteger(summary.rate_hz) ? 0 : 2)} Hz`),
+      framesTile(summary.frames, summary.rate_hz),
       tile(
         percent(summary.frames === 0 ? null : solved / summary.frames),
         "frames converged",

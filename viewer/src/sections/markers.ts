@@ -6,9 +6,11 @@ import { columnRange, extremes, nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
 import { number, percent, seconds } from "../format.ts";
 import { TimePlot } from "../plots/time_plot.ts";
+import { pathOf, svg } from "../svg.ts";
 import { palette } from "../theme.ts";
 import type { MarkerSummary } from "../types.ts";
 import type { View } from "../view.ts";
+import { barCell, nameCell } from "./cells.ts";
 import { sortableTable } from "./table.ts";
 
 /** How far each measured marker lies from the model's: over time, and in a table. */
@@ -26,7 +28,7 @@ export function markers(trial: Trial, view: View): { node: HTMLElement; start: (
   const table = sortableTable<MarkerSummary>(
     "Errors per marker",
     [
-      { title: "Marker", key: (m) => m.name, cell: (m) => nameCell(m, indexOf.get(m)! < used) },
+      { title: "Marker", key: (m) => m.name, cell: (m) => nameWithRemark(m, indexOf.get(m)! < used) },
       { title: "Seen", unit: "%", numeric: true, key: (m) => m.seen_frames, cell: (m) => percent(summary.frames === 0 ? null : m.seen_frames / summary.frames).replace(" %", "") },
       { title: "RMS error", unit: "mm", numeric: true, key: (m) => m.rms_error_mm, cell: (m) => barCell(m.rms_error_mm, largest) },
       { title: "Largest", unit: "mm", numeric: true, key: (m) => m.max_error_mm, cell: (m) => largestCell(m, indexOf.get(m)!, view) },
@@ -93,17 +95,10 @@ export function markers(trial: Trial, view: View): { node: HTMLElement; start: (
   return { node, start };
 }
 
-function nameCell(marker: MarkerSummary, selectable: boolean): Node {
+function nameWithRemark(marker: MarkerSummary, selectable: boolean): Node {
   const remark = marker.used ? null : el("small", { class: "remark low" }, "left out");
-  // A button, so that the row can be chosen from the keyboard; the click itself is the row's.
-  const name = selectable ? el("button", { type: "button", class: "name" }, marker.name) : el("span", { class: "name" }, marker.name);
+  const name = selectable ? nameCell(marker.name) : el("span", { class: "name" }, marker.name);
   return el("span", { title: marker.why_excluded }, name, " ", remark);
-}
-
-function barCell(value: number | null, largest: number): Node {
-  if (value === null) return document.createTextNode("–");
-  const bar = el("meter", { min: 0, max: largest, value, "aria-hidden": "true" });
-  return el("span", { class: "bar-cell" }, bar, el("span", {}, number(value, 1)));
 }
 
 function largestCell(m: MarkerSummary, marker: number, view: View): Node {
@@ -121,32 +116,17 @@ function largestCell(m: MarkerSummary, marker: number, view: View): Node {
 const weightText = (weight: number | null): string =>
   weight === null ? "–" : String(Number(weight.toPrecision(4))).replace("-", "−");
 
-const svg = "http://www.w3.org/2000/svg";
-
 /** The largest error of each hundredth of the trial, on the marker's own scale. */
 function sparkline(series: Float32Array | undefined, marker: MarkerSummary): Node {
-  const picture = document.createElementNS(svg, "svg");
-  picture.setAttribute("class", "spark");
-  picture.setAttribute("viewBox", "0 0 100 20");
-  picture.setAttribute("preserveAspectRatio", "none");
-  picture.setAttribute("role", "img");
-  picture.setAttribute("aria-label", `Error of ${marker.name} over time`);
-  if (series === undefined) return picture;
-  const columns = Math.min(100, series.length);
-  let path = "";
-  let pen = "M";
-  for (let c = 0; c < columns; ++c) {
-    const high = extremes(series, ...columnRange(0, series.length, columns, c))[1];
-    if (Number.isNaN(high)) {
-      pen = "M";
-      continue;
-    }
-    const x = (100 * (c + 0.5)) / columns;
-    path += `${pen}${x.toFixed(1)} ${(19 - (18 * high) / Math.max(1e-9, marker.max_error_mm ?? 0)).toFixed(1)}`;
-    pen = "L";
-  }
-  const line = document.createElementNS(svg, "path");
-  line.setAttribute("d", path);
-  picture.append(line);
-  return picture;
+  const columns = Math.min(100, series?.length ?? 0);
+  const largest = Math.max(1e-9, marker.max_error_mm ?? 0);
+  const points = Array.from({ length: columns }, (_, c): [number, number] | null => {
+    const high = extremes(series!, ...columnRange(0, series!.length, columns, c))[1];
+    return Number.isNaN(high) ? null : [(100 * (c + 0.5)) / columns, 19 - (18 * high) / largest];
+  });
+  return svg(
+    "svg",
+    { class: "spark", viewBox: "0 0 100 20", preserveAspectRatio: "none", role: "img", "aria-label": `Error of ${marker.name} over time` },
+    svg("path", { d: pathOf(points) }),
+  );
 }

@@ -2,22 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el, section } from "../dom.ts";
 import { bytes, number } from "../format.ts";
-import type { Summary } from "../types.ts";
+import type { InputFile } from "../types.ts";
 
 const exitWords: Record<number, string> = {
   0: "0, good",
   1: "1, ran but missed a quality check",
 };
 
-/** What it takes to make this result again. */
-export function settings(summary: Summary): HTMLElement {
+/** What every report knows of its run. */
+export interface Run {
+  version: string;
+  command_line: string;
+  exit_status: number;
+  seed: number;
+  threads: number;
+  options: Record<string, string>;
+  inputs: readonly InputFile[];
+}
+
+/** What it takes to make this result again. `methods` and `tookS` stand among the facts of the run. */
+export function settings(summary: Run, methods: readonly [string, string][], tookS: number | null): HTMLElement {
   const facts: [string, string][] = [
     ["Program", `kinemark ${summary.version}`],
-    ["Method", summary.method],
+    ...methods,
     ["Exit status", exitWords[summary.exit_status] ?? String(summary.exit_status)],
     ["Seed", String(summary.seed)],
     ["Threads", String(summary.threads)],
-    ["Solve time", summary.solve_s === null ? "–" : `${number(summary.solve_s, 3)} s`],
+    ["Time taken", tookS === null ? "–" : `${number(tookS, 3)} s`],
   ];
   return section(
     "settings",
@@ -38,7 +49,8 @@ export function settings(summary: Summary): HTMLElement {
   );
 }
 
-function plain(caption: string, titles: string[], rows: string[][]): HTMLElement | null {
+/** A table of words; null without rows. */
+export function plain(caption: string, titles: readonly string[], rows: readonly (readonly string[])[]): HTMLElement | null {
   if (rows.length === 0) return null;
   return el(
     "div",

@@ -5,7 +5,7 @@ import { number } from "../format.ts";
 import { shifted, zoomed, type View } from "../view.ts";
 
 /** Sticky bar: where to find what, and which part of the trial the plots show. */
-export function timeBar(view: View): HTMLElement {
+export function timeBar(view: View, sections: readonly (readonly [id: string, title: string])[]): HTMLElement {
   const text = el("span", { class: "range", "aria-live": "polite" });
   const whole = el("button", { type: "button", click: () => view.set({ range: view.whole, focus: null }) }, "Whole trial");
   const button = (label: string, sign: string, change: () => void): HTMLButtonElement =>
@@ -25,12 +25,7 @@ export function timeBar(view: View): HTMLElement {
     el(
       "div",
       { class: "links" },
-      link("attention", "Attention"),
-      link("angles", "Joint angles"),
-      link("markers", "Markers"),
-      link("gaps", "Gaps"),
-      link("worst", "Worst frames"),
-      link("settings", "Settings"),
+      ...sections.map(([id, title]) => link(id, title)),
     ),
     el(
       "div",

@@ -13,6 +13,9 @@ export interface Opened {
   close: () => Promise<void>;
 }
 
+/** Something that must be true of an opened page; it throws when it is not. */
+export type Check = (opened: Opened) => Promise<void>;
+
 /** Open a file in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
 export async function open(file: string, colorScheme: "light" | "dark" = "light"): Promise<Opened> {
   const profile = mkdtempSync(join(tmpdir(), "kinemark-viewer-"));

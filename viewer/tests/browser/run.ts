@@ -7,9 +7,9 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { hostile, simulated } from "../simulated.ts";
-import { ink, opaqueInColumn, open, settle, type Opened } from "./browser.ts";
-
-type Check = (opened: Opened) => Promise<void>;
+import { simulatedClean } from "../simulated_clean.ts";
+import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
+import { alwaysOfClean, ofSimulatedClean } from "./clean.ts";
 
 /** True of every report that has angles with SDs and markers. */
 const always: Record<string, Check> = {
@@ -147,6 +147,15 @@ const ofSimulated: Record<string, Check> = {
   },
 };
 
+/** A page of a later version. */
+const ofUnknown: Record<string, Check> = {
+  "what cannot be read is said, not half shown": async ({ page, complaints }) => {
+    assert.equal(await page.locator(".broken").textContent(), "This report cannot be shown: this page cannot read kinemark.other version 9");
+    assert.equal(await page.locator("section").count(), 0);
+    assert.deepEqual(complaints, []);
+  },
+};
+
 async function run(file: string, checks: Record<string, Check>): Promise<number> {
   const opened = await open(file);
   let failed = 0;
@@ -168,12 +177,20 @@ const folder = mkdtempSync(join(tmpdir(), "kinemark-page-"));
 let failed = 0;
 if (given.length === 0) {
   const template = readFileSync(new URL("../../dist/report.html", import.meta.url), "utf8");
-  const data = JSON.stringify(simulated()).replaceAll("<", "\\u003c");
-  const file = join(folder, "report.html");
-  writeFileSync(file, template.replace('id="kinemark-data">null', () => `id="kinemark-data">${data}`));
-  failed += await run(file, { ...ofSimulated, ...always });
+  const page = (name: string, data: unknown): string => {
+    const text = JSON.stringify(data).replaceAll("<", "\\u003c");
+    const file = join(folder, name);
+    writeFileSync(file, template.replace('id="kinemark-data">null', () => `id="kinemark-data">${text}`));
+    return file;
+  };
+  failed += await run(page("ik.html", simulated()), { ...ofSimulated, ...always });
+  failed += await run(page("clean.html", simulatedClean()), { ...ofSimulatedClean, ...alwaysOfClean });
+  failed += await run(page("unknown.html", { summary: { schema: "kinemark.other", schema_version: 9 }, series: {} }), ofUnknown);
 } else {
-  for (const file of given) failed += await run(resolve(file), always);
+  for (const file of given) {
+    const clean = readFileSync(file, "utf8").includes('"schema":"kinemark.clean_report"');
+    failed += await run(resolve(file), clean ? alwaysOfClean : always);
+  }
 }
 rmSync(folder, { recursive: true });
 process.exitCode = failed === 0 ? 0 : 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { band, stretches, withBreaks } from "../../src/band.ts";
+import { band, partWithCode, stretches, withBreaks } from "../../src/band.ts";
 
 describe("band", () => {
   const series = {
@@ -23,6 +23,17 @@ describe("band", () => {
 describe("withBreaks", () => {
   it("never hands NaN or infinity to the plot", () => {
     expect(withBreaks(Float32Array.of(0, NaN, Infinity, -1))).toEqual([0, null, null, -1]);
+  });
+});
+
+describe("partWithCode", () => {
+  const line = [0, 1, 2, null, 4, 5];
+  it("keeps one neighbour on either side, so that the part joins the rest", () => {
+    expect(partWithCode(line, Uint8Array.of(0, 0, 3, 4, 0, 0), 3)).toEqual([null, 1, 2, null, null, null]);
+    expect(partWithCode(line, Uint8Array.of(2, 0, 0, 0, 0, 2), 2)).toEqual([0, 1, null, null, 4, 5]);
+  });
+  it("is nothing where no sample has the code", () => {
+    expect(partWithCode(line, new Uint8Array(6), 1).every((v) => v === null)).toBe(true);
   });
 });
 

@@ -83,7 +83,7 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
   for (const DefectGroup& g : groups) {
     const CleanDefect& d = *g.first;
     const Verdict level = g.sure && !d.handled ? Verdict::attention : Verdict::good;
-    const std::string end = d.done.empty() ? "" : fmt::format(" Done: {}.", d.done);
+    const std::string end = d.done.empty() ? "" : fmt::format(" What was done: {}.", d.done);
     const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
     const std::string text = g.number == 1
                                  ? d.sentence
@@ -95,7 +95,7 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
 
 void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
   const CleanUpsampling& up = r.upsampling;
-  const std::string end = up.done.empty() ? "" : fmt::format(" Done: {}.", up.done);
+  const std::string end = up.done.empty() ? "" : fmt::format(" What was done: {}.", up.done);
   const Verdict level = up.handled ? Verdict::good : Verdict::attention;
   if (up.factor > 1) {
     add(out, level, "upsampling", "",

@@ -1,2 +1,178 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "kinemark/stages/report/clean_report.h"
+#include "kinemark/stages/report/internal/example_clean.h"
+
+namespace kinemark::report {
+namespace {
+
+using internal::example_clean;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// Ten seconds at 100 Hz with nothing to complain about.
+CleanReport faultless() {
+  CleanReport r;
+  r.time = {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1000};
+  for (const char* name : {"A", "B", "C"}) {
+    CleanMarker m{.name = name};
+    m.before[static_cast<std::size_t>(data::SampleState::measured)] = 1000;
+    m.filter = {"kalman", 4, 9.0, 0.0004};
+    m.criterion_name = "SURE, m^2";
+    r.markers.push_back(m);
+  }
+  return r;
+}
+
+CleanGap gap(std::string marker, std::int64_t first, std::int64_t last) {
+  return {.marker = std::move(marker), .first_frame = first, .last_frame = last};
+}
+
+TEST(CleanFindings, NothingToSayOfAFaultlessRecording) {
+  EXPECT_THAT(clean_findings(faultless()), IsEmpty());
+}
+
+TEST(CleanFindings, TheExampleHasAllOfThemWithTheSeriousOnesFirst) {
+  const auto findings = clean_findings(example_clean(1200).finished());
+  ASSERT_THAT(findings, SizeIs(7));
+  EXPECT_TRUE(std::ranges::is_sorted(findings, std::ranges::greater{}, &Finding::level));
+  EXPECT_EQ(std::ranges::count(findings, Verdict::attention, &Finding::level), 2);
+  EXPECT_THAT(findings[0].text, HasSubstr("sit in each other's place"));
+  EXPECT_DOUBLE_EQ(findings[0].time_s, 8.0);
+  EXPECT_THAT(findings[1].text, HasSubstr("14.2 mm, in a gap of 1.1 s"));
+  EXPECT_EQ(findings[1].subject, "R.Wrist.Ulna");
+}
+
+TEST(CleanFindings, AFailedGateIsSaidInItsOwnWords) {
+  CleanReport r = faultless();
+  r.run.gates = {{"a", true, 0, 0, "", "Passed."}, {"b", false, 0, 0, "", "Failed."}};
+  r.run.exit_status = 1;
+  ASSERT_THAT(clean_findings(r), SizeIs(1));
+  EXPECT_EQ(clean_findings(r)[0].text, "Failed.");
+  r.run.gates.clear();
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("exit status 1"));
+}
+
+TEST(CleanFindings, ADefectIsSeriousWhenItIsCertainAndWasLeft) {
+  CleanReport r = faultless();
+  r.defects = {{"spike", "A", "", 10, 10, 0.95, "A spike.", "rejected", true}};
+  EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
+  r.defects[0].handled = false;
+  EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
+  r.defects[0].confidence = 0.6;
+  EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("Not certain"));
+  EXPECT_DOUBLE_EQ(clean_findings(r)[0].time_s, 0.1);
+}
+
+TEST(CleanFindings, ThousandsOfSpikesAreOneLine) {
+  CleanReport r = faultless();
+  for (int i = 0; i < 3000; ++i)
+    r.defects.push_back(
+        {"spike", i % 2 == 0 ? "A" : "B", "", i, i, 0.9, "A leaves its path.", "rejected", true});
+  r.defects.push_back({"zero", "", "", 5, 5, 0.9, "Zeros.", "rejected", true});
+  const auto findings = clean_findings(r);
+  ASSERT_THAT(findings, SizeIs(2));
+  EXPECT_THAT(findings[0].text,
+              HasSubstr("\"spike\" in 3000 places (A and B). The first: A leaves its path."));
+  EXPECT_THAT(findings[0].text, HasSubstr("What was done: rejected."));
+  EXPECT_THAT(findings[1].text, HasSubstr("Zeros."));
+}
+
+TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
+  CleanReport r = faultless();
+  r.upsampling = {.looked = true, .factor = 4, .sentences = {}, .done = "nothing", .handled = false};
+  ASSERT_THAT(clean_findings(r), SizeIs(1));
+  EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 of 4 samples"));
+  r.upsampling.handled = true;
+  EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
+  r.upsampling.factor = 1;
+  EXPECT_THAT(clean_findings(r), IsEmpty());
+  r.markers[1].upsampling_factor = 2;
+  ASSERT_THAT(clean_findings(r), SizeIs(1));
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 marker (B)"));
+}
+
+TEST(CleanFindings, UncertainFillsAreToldMarkerByMarkerWithTheWorst) {
+  CleanReport r = faultless();
+  for (const double sd_m : {0.011, 0.019, 0.004}) {
+    CleanGap g = gap("B", 100, 149);
+    g.filled = true;
+    g.max_sd_m = sd_m;
+    if (sd_m == 0.019) g.first_frame = 120;
+    r.gaps.push_back(g);
+  }
+  CleanGap unknown = gap("C", 0, 9);
+  unknown.filled = true;
+  r.gaps.push_back(unknown);
+  const auto findings = clean_findings(r);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].level, Verdict::attention);
+  EXPECT_EQ(
+      findings[0].text,
+      "2 gaps of B were filled with a standard deviation above 10 mm; the largest is 19.0 mm, in a gap of "
+      "0.3 s.");
+  EXPECT_DOUBLE_EQ(findings[0].time_s, 1.2);
+}
+
+TEST(CleanFindings, OpenGapsAreSummedWithTheLongestAndItsReason) {
+  CleanReport r = faultless();
+  r.gaps = {gap("A", 0, 9), gap("C", 200, 499), gap("A", 700, 709)};
+  r.gaps[1].why_open = "The gap is longer than 2 s.";
+  const auto findings = clean_findings(r);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].level, Verdict::good);
+  EXPECT_EQ(
+      findings[0].text,
+      "3 gaps were left open (3.2 s in all, in A and C); the longest lasts 3 s in C. The gap is longer than "
+      "2 s.");
+  EXPECT_DOUBLE_EQ(findings[0].time_s, 2.0);
+}
+
+TEST(CleanFindings, FiltersThatTellLittleAreNamed) {
+  CleanReport r = faultless();
+  r.markers[0].white = false;
+  r.markers[1].filter.cutoff_hz = 45.0;
+  r.markers[2].filter.cutoff_hz = 0.15;
+  r.markers[2].bad_variances = 3;
+  const auto findings = clean_findings(r);
+  ASSERT_THAT(findings, SizeIs(4));
+  EXPECT_THAT(findings[0].text, HasSubstr("A (1 of 3 markers): the residual is not white"));
+  EXPECT_THAT(findings[1].text, HasSubstr("B (1 of 3 markers): the cut-off found is at the upper end"));
+  EXPECT_THAT(findings[2].text, HasSubstr("C (1 of 3 markers): the cut-off found is at the lower end"));
+  EXPECT_THAT(findings[3].text, HasSubstr("variances"));
+}
+
+TEST(CleanFindings, ACutOffThatWasGivenIsNotJudged) {
+  CleanReport r = faultless();
+  r.markers[1].filter.cutoff_hz = 45.0;
+  r.markers[1].criterion_name = "";
+  EXPECT_THAT(clean_findings(r), IsEmpty());
+}
+
+TEST(CleanFindings, ManyNamesAreCut) {
+  CleanReport r = faultless();
+  r.markers.resize(20, r.markers[0]);
+  for (std::size_t i = 0; i < r.markers.size(); ++i) {
+    r.markers[i].name = "M" + std::to_string(i);
+    r.markers[i].white = false;
+  }
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("M0, M1, M2, M3, M4, M5 and 14 more (20 of 20 markers)"));
+}
+
+TEST(CleanFindings, AMarkerThatWasNeverSeenIsNamed) {
+  CleanReport r = faultless();
+  r.markers[2].before = {1000, 0, 0, 0, 0, 0};
+  ASSERT_THAT(clean_findings(r), SizeIs(1));
+  EXPECT_EQ(clean_findings(r)[0].text, "C (1 of 3 markers): never seen.");
+}
+
+}  // namespace
+}  // namespace kinemark::report

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <span>
 
@@ -25,11 +26,11 @@ using internal::PlotPoints;
 /// Gaps and defects in a page; its tables and its size stay usable.
 constexpr std::size_t kMostListed = 3000;
 
-/// Points so that all markers of a recording stay within the page: per marker and point seven triples of
+/// Points so that all markers of a recording stay within the page: per marker and point eight triples of
 /// floats and two states. Base64 adds a third.
 PlotPoints plot_grid(const TimeBase& time, std::int64_t markers, const ReportOptions& options) {
   check(options.check().has_value(), "report options are out of range");
-  const std::int64_t bytes = (7 * 3 * 4 + 2) * markers * 4 / 3 + 1;
+  const std::int64_t bytes = (8 * 3 * 4 + 2) * markers * 4 / 3 + 1;
   return {time.frames,
           std::max<std::int64_t>(2, std::min(options.max_points, options.max_series_bytes / bytes))};
 }
@@ -81,6 +82,17 @@ struct Gatherer {
       if (any_finite(column)) out[static_cast<std::size_t>(axis)] = points.largest(column);
     }
   }
+  /// What came in less the result; nothing where one of them has no coordinates.
+  void change(const Trajectories& before, std::int64_t before_marker, const Trajectories& after,
+              std::array<std::vector<float>, 3>& out) {
+    std::vector<double> raw(column.size());
+    for (std::int64_t axis = 0; axis < 3; ++axis) {
+      gather(before.x_in_world, before.markers(), before_marker, 3, axis, raw);
+      gather(after.x_in_world, markers, marker, 3, axis, column);
+      std::ranges::transform(raw, column, column.begin(), std::minus{});
+      if (any_finite(column)) out[static_cast<std::size_t>(axis)] = points.extremes(column);
+    }
+  }
   /// Square roots of the diagonal of xx xy xz yy yz zz.
   void variances(std::span<const double> array, std::array<std::vector<float>, 3>& out) {
     if (array.empty()) return;
@@ -112,6 +124,7 @@ Json series_json(const CleanSeries& s) {
   return {{"raw_mm", axes_json(s.raw, kMmPerM)},
           {"position_mm", axes_json(s.position, kMmPerM)},
           {"position_sd_mm", axes_json(s.position_sd, kMmPerM)},
+          {"change_mm", axes_json(s.change, kMmPerM)},
           {"velocity", axes_json(s.velocity, 1.0F)},
           {"velocity_sd", axes_json(s.velocity_sd, 1.0F)},
           {"acceleration", axes_json(s.acceleration, 1.0F)},
@@ -162,6 +175,7 @@ void add_marker(CleanReport& report, CleanMarker facts, const MarkerArrays& arra
   Gatherer result{points, after.markers(), arrays.after_marker, std::move(raw.column)};
   result.values(after.x_in_world, series.position);
   result.variances(after.covariance, series.position_sd);
+  result.change(before, arrays.before_marker, after, series.change);
   if (const data::Derivatives* d = arrays.derivatives; d != nullptr) {
     check(d->velocity.empty() || d->velocity.size() == after.x_in_world.size(),
           "a marker's report needs derivatives of the result");

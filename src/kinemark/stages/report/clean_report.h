@@ -130,7 +130,8 @@ struct CleanSeries {
   /// Per axis: m, m/s, m/s^2; a vector is empty when the result has no such number.
   std::array<std::vector<float>, 3> raw, position, velocity, acceleration;
   std::array<std::vector<float>, 3> position_sd, velocity_sd, acceleration_sd;
-  std::vector<std::uint8_t> before, after;  ///< data::SampleState as ranked in README.md
+  std::array<std::vector<float>, 3> change;  ///< raw - position where both are present, m
+  std::vector<std::uint8_t> before, after;   ///< data::SampleState as ranked in README.md
 };
 
 /// The report of a cleaned recording. Plain data: fill `run`, `time`, `upsampling`, `gaps` and `defects`, and

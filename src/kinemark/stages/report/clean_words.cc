@@ -34,7 +34,7 @@ std::string how_filled(const CleanGap& gap) {
   for (const GapWeight& w : gap.weights)
     if (w.weight >= 0.005) parts.push_back(fmt::format("{:.0f} % {}", 100.0 * w.weight, w.name));
   if (gap.weights.size() < 2 || parts.empty()) return gap.method;
-  return fmt::format("{}: {}", gap.method, fmt::join(parts, ", "));
+  return fmt::format("{}: {}", gap.method, fmt::join(parts, "; "));
 }
 
 double length_s(const CleanGap& gap, const TimeBase& time) {

@@ -13,7 +13,7 @@ namespace kinemark::report::internal {
 /// upsampled, interpolated, model_filled, missing, rejected.
 [[nodiscard]] std::uint8_t state_rank(data::SampleState state);
 
-/// How a gap was filled, in words: "auto: 61 % rigid, 39 % cubic", "cubic", or "" when it was left open.
+/// How a gap was filled, in words: "auto: 61 % rigid; 39 % cubic", "cubic", or "" when it was left open.
 [[nodiscard]] std::string how_filled(const CleanGap& gap);
 
 /// Seconds from the first missing frame to the last, one frame included: 1 frame at 100 Hz is 0.01 s.

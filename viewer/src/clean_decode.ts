@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import type { CleanPageData, CleanSummary, EncodedAxes } from "./clean_types.ts";
+import { decodeBytes, decodeFloats } from "./decode.ts";
+
+/** x, y, z; null where the result has no such number. */
+export type Axes = (Float32Array | null)[];
+
+/** What the plots of one marker need: mm, m/s, m/s^2. */
+export interface MarkerSeries {
+  raw: Axes;
+  position: Axes;
+  positionSd: Axes;
+  /** What came in less the result. */
+  change: Axes;
+  velocity: Axes;
+  velocitySd: Axes;
+  acceleration: Axes;
+  accelerationSd: Axes;
+}
+
+/** A cleaned recording, ready to draw. */
+export interface CleanTrial {
+  summary: CleanSummary;
+  /** Frames per point; above 1 the points hold the extremes of each stretch. */
+  frameStep: number;
+  time: Float64Array;
+  /** Codes of the gap map, one row per marker. */
+  before: Uint8Array[];
+  after: Uint8Array[];
+  /** Read when it is first asked for: a page may hold tens of megabytes, of which people look at little. */
+  marker: (index: number) => MarkerSeries;
+}
+
+export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
+  if (summary.schema !== "kinemark.clean_report" || summary.schema_version !== 1) {
+    throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
+  }
+  if (series.markers.length !== summary.markers.length) {
+    throw new Error(`the page holds ${series.markers.length} series; ${summary.markers.length} markers need as many`);
+  }
+  const n = series.points;
+  const axes = (encoded: EncodedAxes): Axes => encoded.map((text) => (text === null ? null : decodeFloats(text, n)));
+  const known = new Map<number, MarkerSeries>();
+  return {
+    summary,
+    frameStep: series.frame_step,
+    time: Float64Array.from({ length: n }, (_, i) => summary.first_time_s + (i * series.frame_step) / summary.rate_hz),
+    before: series.markers.map((m) => decodeBytes(m.before, n)),
+    after: series.markers.map((m) => decodeBytes(m.after, n)),
+    marker: (index) => {
+      const found = known.get(index);
+      if (found !== undefined) return found;
+      const m = series.markers[index];
+      if (m === undefined) throw new Error(`there is no marker ${index}`);
+      const decoded: MarkerSeries = {
+        raw: axes(m.raw_mm),
+        position: axes(m.position_mm),
+        positionSd: axes(m.position_sd_mm),
+        change: axes(m.change_mm),
+        velocity: axes(m.velocity),
+        velocitySd: axes(m.velocity_sd),
+        acceleration: axes(m.acceleration),
+        accelerationSd: axes(m.acceleration_sd),
+      };
+      known.set(index, decoded);
+      return decoded;
+    },
+  };
+}

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { decodeClean } from "../clean_decode.ts";
+import type { CleanPageData } from "../clean_types.ts";
+import { cleanGaps } from "../sections/clean_gaps.ts";
+import { cleanHeader } from "../sections/clean_header.ts";
+import { cleanMarker } from "../sections/clean_marker.ts";
+import { cleanTable } from "../sections/clean_table.ts";
+import { findings } from "../sections/findings.ts";
+import { recording } from "../sections/recording.ts";
+import { settings } from "../sections/settings.ts";
+import { timeBar } from "../sections/time_bar.ts";
+import type { Finding } from "../types.ts";
+import { wholeOf, View } from "../view.ts";
+import type { Content } from "./content.ts";
+
+/** A cleaned recording: what was filled and filtered, why, and how certain the result is. */
+export function cleanPage(data: CleanPageData): Content {
+  const trial = decodeClean(data);
+  const { summary } = trial;
+  const view = new View(wholeOf(summary));
+  const show = (name: string, time: number, length = 0): void => {
+    const marker = summary.markers.findIndex((m) => m.name === name);
+    if (marker >= 0) view.set({ marker });
+    view.jumpTo(time, marker >= 0 ? "marker" : "gaps", length);
+  };
+  const jump = (finding: Finding, time: number): void => show(finding.subject, time);
+  if (summary.markers.length > 0) view.marker = worthALook(data);
+  const plots = [cleanGaps(trial, view), cleanMarker(trial, view, show)] as const;
+  const table = cleanTable(summary, view);
+  return {
+    skip: ["markers", "Skip to the markers"],
+    header: cleanHeader(summary),
+    bar: timeBar(view, [
+      ["attention", "Attention"],
+      ["gaps", "Gaps"],
+      ["markers", "Markers"],
+      ["marker", "One marker"],
+      ["recording", "Recording"],
+      ["settings", "Settings"],
+    ]),
+    sections: [
+      findings(
+        summary.findings,
+        summary.gates,
+        "Nothing. No gap was left open, no fill is uncertain, no defect was found, and every residual is white.",
+        jump,
+      ),
+      plots[0].node,
+      table,
+      plots[1].node,
+      recording(summary, show),
+      settings(summary, [["Gaps", summary.gap_method], ["Filter", summary.filter_method]], summary.clean_s),
+    ],
+    start: () => plots.forEach((p) => p.start()),
+  };
+}
+
+/** The marker to begin with: the one that the first finding names, otherwise the first. */
+function worthALook({ summary }: CleanPageData): number {
+  for (const { subject } of summary.findings) {
+    const marker = summary.markers.findIndex((m) => m.name === subject);
+    if (marker >= 0) return marker;
+  }
+  return 0;
+}

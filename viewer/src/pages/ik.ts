@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { decode } from "../decode.ts";
+import { angles } from "../sections/angles.ts";
+import { findings } from "../sections/findings.ts";
+import { gaps } from "../sections/gaps.ts";
+import { header } from "../sections/header.ts";
+import { markers } from "../sections/markers.ts";
+import { settings } from "../sections/settings.ts";
+import { timeBar } from "../sections/time_bar.ts";
+import { worstFrames } from "../sections/worst_frames.ts";
+import type { Finding, PageData } from "../types.ts";
+import { wholeOf, View } from "../view.ts";
+import type { Content } from "./content.ts";
+
+/** A solved trial: joint angles with their error bars, marker errors, gaps, worst frames. */
+export function ikPage(data: PageData): Content {
+  const trial = decode(data);
+  const { summary } = trial;
+  const view = new View(wholeOf(summary));
+  const plots = [angles(trial, view), markers(trial, view), gaps(trial, view)] as const;
+  const jump = (finding: Finding, time: number): void => {
+    const coordinate = summary.coordinates.findIndex((c) => c.name === finding.subject);
+    if (finding.about === "coordinate" && coordinate >= 0) view.set({ coordinate });
+    view.jumpTo(time, "angles");
+  };
+  return {
+    skip: ["angles", "Skip to the joint angles"],
+    header: header(summary),
+    bar: timeBar(view, [
+      ["attention", "Attention"],
+      ["angles", "Joint angles"],
+      ["markers", "Markers"],
+      ["gaps", "Gaps"],
+      ["worst", "Worst frames"],
+      ["settings", "Settings"],
+    ]),
+    sections: [
+      findings(
+        summary.findings,
+        summary.gates,
+        "Nothing. Every frame converged, every coordinate is determined in every frame, and there are no warnings.",
+        jump,
+      ),
+      ...plots.map((p) => p.node),
+      worstFrames(summary, view),
+      settings(summary, [["Method", summary.method]], summary.solve_s),
+    ],
+    start: () => plots.forEach((p) => p.start()),
+  };
+}
