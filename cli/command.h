@@ -24,10 +24,13 @@ struct Globals {
 using Run = std::function<int()>;
 
 void add_info(CLI::App& app, const Globals& globals, Run& run);
+void add_clean(CLI::App& app, const Globals& globals, Run& run);
 void add_convert(CLI::App& app, const Globals& globals, Run& run);
 void add_validate(CLI::App& app, const Globals& globals, Run& run);
 void add_simulate(CLI::App& app, const Globals& globals, Run& run);
+void add_simulate_rig(CLI::App& simulate, const Globals& globals, Run& run);
 void add_ik(CLI::App& app, const Globals& globals, Run& run);
+void add_recover(CLI::App& app, const Globals& globals, Run& run);
 void add_report(CLI::App& app, const Globals& globals, Run& run);
 
 }  // namespace kinemark::cli

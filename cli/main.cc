@@ -56,11 +56,13 @@ int run_program(int argc, char** argv) {
   add_globals(app, globals);
   Run run;
   kinemark::cli::add_simulate(app, globals, run);
+  kinemark::cli::add_clean(app, globals, run);
   kinemark::cli::add_ik(app, globals, run);
   kinemark::cli::add_report(app, globals, run);
   kinemark::cli::add_info(app, globals, run);
   kinemark::cli::add_convert(app, globals, run);
   kinemark::cli::add_validate(app, globals, run);
+  kinemark::cli::add_recover(app, globals, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/clean_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct CleanArguments {
+  pipeline::CleanJob job;
+  std::string gaps = "none", filter = "auto", upsampled = "mark", cutoff_rule = "winter";
+  double noise_mm = 0.0, max_gap_sd_mm = 20.0;
+  bool uncorrected = false;
+};
+
+void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome) {
+  const auto& report = outcome.report;
+  const auto& markers = outcome.trial.markers;
+  std::int64_t open = 0, filled = 0, measured = 0;
+  for (const auto state : markers.state) {
+    measured += state == data::SampleState::measured;
+    open += state == data::SampleState::missing || state == data::SampleState::rejected;
+  }
+  filled = static_cast<std::int64_t>(markers.state.size()) - open - measured;
+  say(globals,
+      fmt::format("{} markers, {} frames at {:g} Hz; of {} samples {} measured, {} made, {} missing.",
+                  markers.markers(), markers.frames(), markers.time.rate_hz, markers.state.size(), measured,
+                  filled, open));
+  for (const auto& marker : report.markers) say(globals, fmt::format("{}: {}", marker.name, marker.words));
+  for (const auto& finding : report::clean_findings(report))
+    say(globals,
+        fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
+  for (const auto& note : outcome.notes) say(globals, fmt::format("note: {}", note));
+  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  if (globals.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
+}
+
+Status read_names(CleanArguments& arguments) {
+  auto& job = arguments.job;
+  const auto gaps = trajectory::parse_gap_method(arguments.gaps);
+  if (!gaps) return std::unexpected(gaps.error());
+  const auto filter = trajectory::parse_filter_method(arguments.filter);
+  if (!filter) return std::unexpected(filter.error());
+  const auto rule = trajectory::parse_cutoff_rule(arguments.cutoff_rule);
+  if (!rule) return std::unexpected(rule.error());
+  const auto made = pipeline::parse_recorder_made(arguments.upsampled);
+  if (!made) return std::unexpected(made.error());
+  job.gaps.method = *gaps;
+  job.filter.method = *filter;
+  job.filter.cutoff_rule = *rule;
+  job.recorder_made = *made;
+  return {};
+}
+
+int run_command(const Globals& globals, CleanArguments& arguments) {
+  if (auto s = read_names(arguments); !s) return report_error(s.error());
+  auto& job = arguments.job;
+  job.gaps.max_sd_m = 1e-3 * arguments.max_gap_sd_mm;
+  job.gaps.noise_sd_m = job.filter.noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.filter.correct_cutoff = !arguments.uncorrected;
+  job.threads = globals.threads;
+  job.seed = globals.seed;
+  job.force = globals.force;
+  job.command_line = globals.command_line;
+  const auto outcome = pipeline::run_clean(job, show_progress(globals, "markers"));
+  if (!outcome) return report_error(outcome.error());
+  print_outcome(globals, *outcome);
+  return 0;
+}
+
+}  // namespace
+
+void add_clean(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command = app.add_subcommand("clean", "Gaps filled, noise smoothed, derivatives, provenance kept");
+  command->footer(
+      "Reads and writes .c3d, .trc, .csv, .nwb. Nothing is filled unless --gaps says how; every sample "
+      "keeps\n"
+      "its state (measured, interpolated, model_filled, upsampled, rejected, missing) and its SD.");
+  const auto arguments = std::make_shared<CleanArguments>();
+  auto& job = arguments->job;
+  command->add_option("IN", job.input, "Recording to read")->required();
+  command->add_option("OUT", job.output, "File to write; its ending names the format")->required();
+  command
+      ->add_option("--gaps", arguments->gaps,
+                   "none, auto, linear, cubic, pchip, walk, rigid, regression or pca")
+      ->capture_default_str();
+  command->add_option("--max-gap", job.gaps.max_gap_s, "Longer gaps stay open, s")->capture_default_str();
+  command
+      ->add_option("--max-gap-sd", arguments->max_gap_sd_mm, "Gaps that would be less certain stay open, mm")
+      ->capture_default_str();
+  command
+      ->add_option("--filter", arguments->filter,
+                   "auto (kalman), none, kalman, butterworth, gcv, savgol or classic")
+      ->capture_default_str();
+  command
+      ->add_option("--order", job.filter.order,
+                   "Order of the filter; 0: found from the data, or the usual one")
+      ->capture_default_str();
+  command->add_option("--cutoff", job.filter.cutoff_hz, "-3 dB of the whole filter, Hz; 0: found from data")
+      ->capture_default_str();
+  command
+      ->add_option("--cutoff-rule", arguments->cutoff_rule, "butterworth without --cutoff: winter, challis")
+      ->capture_default_str();
+  command->add_flag("--uncorrected-cutoff", arguments->uncorrected,
+                    "butterworth: cut-off of each pass, as filtfilt elsewhere has it");
+  command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0: found from the data")
+      ->capture_default_str();
+  command
+      ->add_option("--upsampled", arguments->upsampled,
+                   "Samples that the recorder interpolated: keep, mark, missing or decimate")
+      ->capture_default_str();
+  command->add_flag("--reject", job.reject_defects,
+                    "Reject spikes, swaps, stuck and false samples instead of only telling");
+  command->add_flag("--derivatives", job.derivatives,
+                    "Write velocity, acceleration and jerk with their SDs too");
+  command->add_option("--report", job.report, "Page to write, .html");
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_command(globals, *arguments); };
+  });
+}
+
+}  // namespace kinemark::cli
