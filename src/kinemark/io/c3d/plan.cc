@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/io/c3d/layout.h"
+#include "kinemark/io/c3d/provenance.h"
 
 namespace kinemark::io {
 namespace {
@@ -262,6 +263,7 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   add_events(plan, trial);
   if (!fits) add_trial_group(plan, first, last);
   add_text(plan.parameters.group("MANUFACTURER"), "SOFTWARE", options.software);
+  add_provenance(trial.markers, plan.parameters);
   return plan;
 }
 

@@ -13,6 +13,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/io/c3d/describe.h"
+#include "kinemark/io/c3d/provenance.h"
 
 namespace kinemark::io {
 namespace {
@@ -203,6 +204,7 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
     }
   }
   if (seen->with_cameras == 0) trial.camera_mask = {};
+  if (options.points) apply_provenance(reader.parameters(), trial);
   return trial;
 }
 

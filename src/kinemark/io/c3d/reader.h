@@ -52,7 +52,8 @@ class C3dReader {
   data::Trial description_;
 };
 
-/// The whole file, in metres. See decode_frames() for what is missing, measured or interpolated.
+/// The whole file, in metres. See decode_frames() for what is missing, measured or interpolated, and
+/// apply_provenance() for what our own files tell beyond that.
 /// Memory: the trial's arrays and half a megabyte per thread.
 [[nodiscard]] Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options = {});
 

@@ -207,7 +207,11 @@ TEST(C3dReader, WithoutParametersTheHeaderIsEnough) {
     for (std::size_t at = 512; at < bytes.open().value().layout().data_offset; ++at) bytes.put(at, 0xFF);
     const Trial t = bytes.read().value();
     EXPECT_EQ(t.markers.names[5], "point 6");
-    EXPECT_TRUE(same_bits(t.markers.state, whole.markers.state)) << to_string(processor);
+    for (std::size_t i = 0; i < t.markers.state.size(); ++i) {
+      const auto was = whole.markers.state[i];
+      const bool filled = was == SampleState::model_filled || was == SampleState::upsampled;
+      ASSERT_EQ(t.markers.state[i], filled ? SampleState::interpolated : was) << to_string(processor);
+    }
     EXPECT_THAT(t.warnings, Contains(HasSubstr("the header alone is believed")));
   }
 }

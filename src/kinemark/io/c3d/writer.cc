@@ -10,6 +10,7 @@
 
 #include "kinemark/core/array.h"
 #include "kinemark/io/c3d/plan.h"
+#include "kinemark/io/c3d/provenance.h"
 #include "kinemark/io/file.h"
 
 namespace kinemark::io {
@@ -113,6 +114,9 @@ Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
   auto plan = plan_c3d(trial, options);
   if (!plan) return fail_at(path.string(), plan.error());
   auto section = encode_parameters(plan->parameters, plan->processor);
+  if (!section && std::erase_if(plan->parameters.groups,
+                                [](const C3dGroup& g) { return g.name == kProvenanceGroup; }) > 0)
+    section = encode_parameters(plan->parameters, plan->processor);
   if (!section) return fail_at(path.string(), section.error());
   // The section's length does not depend on where the data begin, so it is encoded once to know and once for
   // good.

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/number.h"
+#include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/time_column.h"
+#include "kinemark/io/text/trajectories_csv.h"
+
+namespace kinemark::io {
+namespace {
+
+using data::SampleState;
+using internal::excerpt;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMaxFrame = 1e15;
+
+// What a column may be, in the order of `kNames`.
+enum Kind : std::uint8_t {
+  frame,
+  time_s,
+  marker,
+  x,
+  y,
+  z,
+  state,
+  method,
+  offset,
+  sd_x,
+  sd_y,
+  sd_z,
+  xy,
+  xz,
+  yz,
+  kinds
+};
+constexpr std::array<std::string_view, kinds> kNames = {
+    "frame",    "time_s", "marker", "x_m",    "y_m",       "z_m",       "state",    "method",
+    "offset_s", "sd_x_m", "sd_y_m", "sd_z_m", "cov_xy_m2", "cov_xz_m2", "cov_yz_m2"};
+
+constexpr std::array kStates = {SampleState::missing,      SampleState::measured,  SampleState::interpolated,
+                                SampleState::model_filled, SampleState::upsampled, SampleState::rejected};
+
+/// Cells of a line; quotes around one may hold commas, and two quotes stand for one. False: a quote is open.
+bool split(std::string_view line, std::vector<std::string>& cells) {
+  cells.clear();
+  std::size_t i = 0;
+  while (true) {
+    std::string& cell = cells.emplace_back();
+    if (i < line.size() && line[i] == '"') {
+      for (++i; i < line.size(); ++i) {
+        if (line[i] != '"') {
+          cell += line[i];
+        } else if (i + 1 < line.size() && line[i + 1] == '"') {
+          cell += line[++i];
+        } else {
+          break;
+        }
+      }
+      if (i >= line.size()) return false;
+      ++i;
+      while (i < line.size() && line[i] != ',') ++i;
+    } else {
+      const std::size_t end = std::min(line.find(',', i), line.size());
+      cell = trim(line.substr(i, end - i));
+      i = end;
+    }
+    if (i >= line.size()) return true;
+    ++i;
+  }
+}
+
+/// One line of the file.
+struct Sample {
+  std::int64_t frame;
+  std::int32_t marker;
+  SampleState state;
+  std::uint8_t method;
+  std::array<double, 3> x;
+  double offset_s;
+  std::array<double, 6> covariance;
+};
+
+class Parser {
+ public:
+  explicit Parser(data::Trial& trial) : trial_(trial) {}
+
+  Status header(std::string_view line) {
+    if (!split(line, cells_)) return fail(Code::bad_input, "line 1: a quote is not closed");
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const auto kind = std::ranges::find(kNames, cells_[c]);
+      if (kind == kNames.end()) {
+        trial_.warnings.push_back(fmt::format("column '{}' is not known and not read", excerpt(cells_[c])));
+        continue;
+      }
+      auto& at = column_[static_cast<std::size_t>(kind - kNames.begin())];
+      if (at) return fail(Code::bad_input, fmt::format("line 1: column '{}' occurs twice", *kind));
+      at = c;
+    }
+    columns_ = cells_.size();
+    for (const Kind kind : {frame, time_s, marker, x, y, z})
+      if (!column_[kind])
+        return fail(Code::bad_input,
+                    fmt::format("line 1: column '{}' is absent; need frame, time_s, marker, x_m, y_m and z_m",
+                                kNames[kind]));
+    return {};
+  }
+
+  Status row(std::string_view line, std::int64_t number) {
+    line_ = number;
+    if (!split(line, cells_)) return wrong("a quote is not closed");
+    if (cells_.size() != columns_)
+      return wrong(fmt::format("has {} cells; the header has {}", cells_.size(), columns_));
+    error_.reset();
+    Sample s{};
+    const double frame_number = number_in(frame, true);
+    const double time = number_in(time_s, true);
+    s.x = {number_in(x), number_in(y), number_in(z)};
+    s.offset_s = number_in(offset);
+    const double sd[] = {number_in(sd_x), number_in(sd_y), number_in(sd_z)};
+    s.covariance = {sd[0] * sd[0], number_in(xy), number_in(xz), sd[1] * sd[1], number_in(yz), sd[2] * sd[2]};
+    if (error_) return wrong(*error_);
+    if (frame_number != std::floor(frame_number) || std::abs(frame_number) > kMaxFrame)
+      return wrong(fmt::format("frame {} is not a whole number", frame_number));
+    s.frame = static_cast<std::int64_t>(frame_number);
+    if (cells_[*column_[marker]].empty()) return wrong("names no marker");
+    const auto [at, is_new] =
+        markers_.try_emplace(cells_[*column_[marker]], static_cast<std::int32_t>(markers_.size()));
+    if (is_new) trial_.markers.names.push_back(at->first);
+    s.marker = at->second;
+    if (auto status = provenance(s); !status) return status;
+    times_.try_emplace(s.frame, time);
+    samples_.push_back(s);
+    return {};
+  }
+
+  Status finish();
+
+ private:
+  [[nodiscard]] std::unexpected<Error> wrong(const std::string& what) const {
+    return fail(Code::bad_input, fmt::format("line {}: {}", line_, what));
+  }
+
+  /// The number in a column, NaN where blank or where there is no such column.
+  double number_in(Kind kind, bool needed = false) {
+    if (!column_[kind]) return kNaN;
+    const std::string& cell = cells_[*column_[kind]];
+    if (cell.empty() && !needed) return kNaN;
+    const auto value = parse_number(cell);
+    if (value && (std::isfinite(*value) || (!needed && std::isnan(*value)))) return *value;
+    error_ = fmt::format("{} is '{}'; need a number", kNames[kind], excerpt(cell));
+    return kNaN;
+  }
+
+  Status provenance(Sample& s) {
+    const bool has_x = std::ranges::all_of(s.x, [](double v) { return std::isfinite(v); });
+    s.state = has_x ? SampleState::measured : SampleState::missing;
+    if (column_[state] && !cells_[*column_[state]].empty()) {
+      const std::string& name = cells_[*column_[state]];
+      const auto known =
+          std::ranges::find_if(kStates, [&](SampleState k) { return data::to_string(k) == name; });
+      if (known == kStates.end()) return wrong(fmt::format("'{}' is not a state", excerpt(name)));
+      s.state = *known;
+    }
+    if (s.state == SampleState::missing || s.state == SampleState::rejected)
+      s.x.fill(kNaN);
+    else if (!has_x)
+      return wrong(fmt::format("is {} but has not three coordinates", data::to_string(s.state)));
+    if (!column_[method] || cells_[*column_[method]].empty()) return {};
+    auto& methods = trial_.markers.methods;
+    auto at = std::ranges::find(methods, cells_[*column_[method]]);
+    if (at == methods.end()) {
+      if (methods.size() == 255) return wrong("is made by a method more; 255 can be told apart");
+      at = methods.insert(methods.end(), cells_[*column_[method]]);
+    }
+    s.method = static_cast<std::uint8_t>(at - methods.begin() + 1);
+    return {};
+  }
+
+  data::Trial& trial_;
+  std::array<std::optional<std::size_t>, kinds> column_;
+  std::size_t columns_ = 0;
+  std::vector<std::string> cells_;
+  std::int64_t line_ = 0;
+  std::optional<std::string> error_;
+  std::map<std::string, std::int32_t, std::less<>> markers_;
+  std::map<std::int64_t, double> times_;  ///< of each frame
+  std::vector<Sample> samples_;
+};
+
+Status Parser::finish() {
+  if (samples_.empty()) return fail(Code::bad_input, "has a header but no samples");
+  const std::int64_t first = times_.begin()->first;
+  const std::int64_t frames = times_.rbegin()->first - first + 1;
+  const auto rows = static_cast<std::int64_t>(samples_.size());
+  const auto markers = static_cast<std::int64_t>(markers_.size());
+  if (frames > (4 * rows + 1'000'000) / markers)
+    return fail(Code::bad_input, fmt::format("has frames from {} to {} and {} markers, but only {} lines",
+                                             first, first + frames - 1, markers, rows));
+  // Frames without a line lie evenly between their neighbours.
+  std::vector<double> time_column;
+  for (auto at = times_.begin(); at != times_.end(); ++at) {
+    time_column.push_back(at->second);
+    const auto next = std::next(at);
+    if (next == times_.end()) break;
+    const auto steps = static_cast<double>(next->first - at->first);
+    for (double k = 1.0; k < steps; k += 1.0)
+      time_column.push_back(at->second + k / steps * (next->second - at->second));
+  }
+  data::Trajectories& t = trial_.markers;
+  if (time_column.size() == 1) {
+    t.time = {.rate_hz = 1.0, .t0_s = time_column[0], .frames = 1};
+    trial_.warnings.emplace_back("a single frame does not tell a rate; 1 Hz is taken");
+  } else {
+    std::vector<std::string> told;
+    auto time = internal::even_time(time_column, 0.0, {}, told);
+    if (!time) return fail(Code::bad_input, "the column time_s does not increase from frame to frame");
+    t.time = *time;
+    // A CSV never states a rate; only an uneven clock is news.
+    for (std::string& warning : told)
+      if (warning.find("uneven") != std::string::npos) trial_.warnings.push_back(std::move(warning));
+  }
+
+  trial_.first_frame = first;
+  const auto numbers = static_cast<std::size_t>(frames * markers);
+  t.x_in_world.assign(3 * numbers, kNaN);
+  t.state.assign(numbers, SampleState::missing);
+  if (!t.methods.empty()) t.method.assign(numbers, 0);
+  if (column_[offset]) t.sample_offset_s.assign(numbers, 0.0);
+  const bool uncertain = column_[sd_x] && column_[sd_y] && column_[sd_z];
+  if (uncertain) t.covariance.assign(6 * numbers, kNaN);
+  std::vector<bool> seen(numbers, false);
+  for (const Sample& s : samples_) {
+    const std::size_t i = t.index(s.frame - first, s.marker);
+    if (seen[i])
+      return fail(Code::bad_input, fmt::format("marker '{}' has two lines for frame {}",
+                                               t.names[static_cast<std::size_t>(s.marker)], s.frame));
+    seen[i] = true;
+    std::ranges::copy(s.x, t.x_in_world.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    t.state[i] = s.state;
+    if (!t.method.empty()) t.method[i] = s.method;
+    if (!t.sample_offset_s.empty() && std::isfinite(s.offset_s)) t.sample_offset_s[i] = s.offset_s;
+    if (!uncertain) continue;
+    std::ranges::copy(s.covariance, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
+    // Standard deviations alone: axes that do not depend on each other.
+    for (const auto& [k, kind] : {std::pair{1, xy}, {2, xz}, {4, yz}})
+      if (!column_[kind]) t.covariance[6 * i + static_cast<std::size_t>(k)] = 0.0;
+  }
+  return trial_.validate();
+}
+
+}  // namespace
+
+Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::string& name) {
+  data::Trial trial;
+  trial.source = name;
+  trial.format = "CSV";
+  trial.units_in_file = "m";
+  internal::Lines lines(text);
+  std::string_view line;
+  if (!lines.next(line)) return fail(Code::bad_input, name + ": is empty; expected a CSV of trajectories");
+  if (auto status = internal::check_header_line(line, 1); !status) return fail_at(name, status.error());
+  Parser parser(trial);
+  if (auto status = parser.header(line); !status) return fail_at(name, status.error());
+  while (lines.next(line)) {
+    if (internal::is_blank(line)) continue;
+    if (auto status = parser.row(line, lines.number()); !status) return fail_at(name, status.error());
+  }
+  if (auto status = parser.finish(); !status) return fail_at(name, status.error());
+  return trial;
+}
+
+Result<data::Trial> read_trajectories_csv(const std::filesystem::path& path) {
+  const auto text = read_text(path);
+  if (!text) return std::unexpected(text.error());
+  return parse_trajectories_csv(*text, path.string());
+}
+
+}  // namespace kinemark::io

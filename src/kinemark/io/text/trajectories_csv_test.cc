@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/text/trajectories_csv.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/io/file.h"
+#include "support/scratch.h"
+
+namespace kinemark::io {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+data::Trial small() {
+  data::Trial trial;
+  trial.first_frame = 7;
+  trial.markers =
+      data::Trajectories::all_missing({"A", "B, \"left\""}, {.rate_hz = 4.0, .t0_s = 1.0, .frames = 2});
+  trial.markers.x(0, 0) = Eigen::Vector3d(0.1, -2.0, 1.0 / 3.0);
+  trial.markers.state[0] = data::SampleState::measured;
+  trial.markers.x(1, 1) = Eigen::Vector3d(1.0, 2.0, 3.0);
+  trial.markers.state[3] = data::SampleState::interpolated;
+  trial.markers.set_method(1, 1, "cubic");
+  trial.markers.state[2] = data::SampleState::rejected;
+  return trial;
+}
+
+TEST(TrajectoriesCsv, OneLineForEveryMarkerAndFrame) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_trajectories_csv(scratch / "m.csv", small(), false));
+  EXPECT_EQ(read_text(scratch / "m.csv").value(),
+            "frame,time_s,marker,x_m,y_m,z_m,state,method\n"
+            "7,1,A,0.1,-2,0.3333333333333333,measured,\n"
+            "7,1,\"B, \"\"left\"\"\",,,,missing,\n"
+            "8,1.25,A,,,,rejected,\n"
+            "8,1.25,\"B, \"\"left\"\"\",1,2,3,interpolated,cubic\n");
+}
+
+TEST(TrajectoriesCsv, ComesBackWithStatesMethodsOffsetsAndCovariance) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial = small();
+  trial.markers.sample_offset_s = {0.0, 0.01, 1.0 / 3.0, -0.002};
+  trial.markers.covariance.assign(24, std::nan(""));
+  for (const std::size_t i : {0U, 3U})
+    for (std::size_t k = 0; k < 6; ++k)
+      trial.markers.covariance[6 * i + k] = 1e-6 * static_cast<double>(k + 1);
+  ASSERT_TRUE(write_trajectories_csv(scratch / "m.csv", trial, false));
+  const auto back = read_trajectories_csv(scratch / "m.csv");
+  ASSERT_TRUE(back) << back.error().message;
+  const auto& got = back->markers;
+  const auto& wanted = trial.markers;
+  EXPECT_EQ(got.names, wanted.names);
+  EXPECT_EQ(got.time, wanted.time);
+  EXPECT_EQ(got.state, wanted.state);
+  EXPECT_EQ(got.x(0, 0), wanted.x(0, 0));
+  EXPECT_EQ(got.x(1, 1), wanted.x(1, 1));
+  EXPECT_EQ(got.made_by(1, 1), "cubic");
+  EXPECT_EQ(got.made_by(0, 0), "");
+  EXPECT_EQ(got.sample_offset_s, wanted.sample_offset_s);
+  for (std::size_t i = 0; i < 24; ++i)
+    if (std::isnan(wanted.covariance[i]))
+      EXPECT_TRUE(std::isnan(got.covariance[i])) << i;
+    else
+      EXPECT_DOUBLE_EQ(got.covariance[i], wanted.covariance[i]) << i;
+  EXPECT_EQ(back->first_frame, 7);
+  EXPECT_EQ(back->format, "CSV");
+  EXPECT_THAT(back->warnings, ElementsAre());
+}
+
+TEST(TrajectoriesCsv, AnyOrderOfColumnsAndLinesAndNoStates) {
+  const auto trial = parse_trajectories_csv(
+      "marker,z_m,y_m,x_m,time_s,frame,sd_x_m,sd_y_m,sd_z_m,colour\r\n"
+      "B,3,2,1,0.5,12,0.1,0.2,0.3,red\r\n"
+      "A,,,,0.4,11,,,,\r\n\r\n"
+      "A, 6 ,5,4,0.2,9,1,1,1,blue\r\n",
+      "a.csv");
+  ASSERT_TRUE(trial) << trial.error().message;
+  const auto& t = trial->markers;
+  EXPECT_THAT(t.names, ElementsAre("B", "A"));
+  EXPECT_EQ(trial->first_frame, 9);
+  EXPECT_EQ(t.frames(), 4);
+  EXPECT_NEAR(t.time.rate_hz, 10.0, 1e-9);
+  EXPECT_EQ(t.x(3, 0), Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(t.x(0, 1), Eigen::Vector3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(t.count_missing(), 6);
+  EXPECT_DOUBLE_EQ(t.covariance[6 * t.index(3, 0) + 3], 0.04);
+  EXPECT_EQ(t.covariance[6 * t.index(3, 0) + 1], 0.0);
+  EXPECT_THAT(trial->warnings, ElementsAre(HasSubstr("column 'colour' is not known")));
+}
+
+TEST(TrajectoriesCsv, ASingleFrameHasNoRate) {
+  const auto trial =
+      parse_trajectories_csv("frame,time_s,marker,x_m,y_m,z_m\n1,2.5,A,1,2,3\n", "a.csv").value();
+  EXPECT_EQ(trial.markers.time, (TimeBase{.rate_hz = 1.0, .t0_s = 2.5, .frames = 1}));
+  EXPECT_THAT(trial.warnings, ElementsAre(HasSubstr("does not tell a rate")));
+}
+
+TEST(TrajectoriesCsv, BadFilesGetOneSentenceWithTheLine) {
+  const std::string header = "frame,time_s,marker,x_m,y_m,z_m,state\n";
+  const auto message = [](const std::string& text) {
+    const auto trial = parse_trajectories_csv(text, "a.csv");
+    EXPECT_FALSE(trial);
+    if (trial) return std::string("was read");
+    EXPECT_EQ(trial.error().code, Code::bad_input);
+    return trial.error().message;
+  };
+  EXPECT_THAT(message(""), HasSubstr("a.csv: is empty"));
+  EXPECT_THAT(message("frame,time_s,A.x,A.y,A.z\n"), HasSubstr("line 1: column 'marker' is absent"));
+  EXPECT_THAT(message("frame,frame\n"), HasSubstr("line 1: column 'frame' occurs twice"));
+  EXPECT_THAT(message(header), HasSubstr("has a header but no samples"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3\n"), HasSubstr("line 2: has 6 cells; the header has 7"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,x,\n"), HasSubstr("line 2: z_m is 'x'; need a number"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,inf,\n"), HasSubstr("line 2: z_m is 'inf'"));
+  EXPECT_THAT(message(header + ",0,A,1,2,3,\n"), HasSubstr("line 2: frame is ''"));
+  EXPECT_THAT(message(header + "1.5,0,A,1,2,3,\n"), HasSubstr("line 2: frame 1.5 is not a whole number"));
+  EXPECT_THAT(message(header + "1,0,,1,2,3,\n"), HasSubstr("line 2: names no marker"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3,filled\n"), HasSubstr("line 2: 'filled' is not a state"));
+  EXPECT_THAT(message(header + "1,0,A,1,,3,measured\n"), HasSubstr("line 2: is measured but has not three"));
+  EXPECT_THAT(message(header + "1,0,\"A,1,2,3,\n"), HasSubstr("line 2: a quote is not closed"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n1,0,A,1,2,3,\n"), HasSubstr("'A' has two lines for frame 1"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n2,0,A,1,2,3,\n"), HasSubstr("time_s does not increase"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n900000000000,1,A,1,2,3,\n"), HasSubstr("but only 2 lines"));
+}
+
+TEST(TrajectoriesCsv, RefusesAnInvalidTrialAndAnExistingFile) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial = small();
+  trial.markers.names[1] = "A";
+  EXPECT_EQ(write_trajectories_csv(scratch / "m.csv", trial, false).error().code, Code::bad_input);
+  EXPECT_EQ(scratch.count_files(), 0);
+  ASSERT_TRUE(write_trajectories_csv(scratch / "m.csv", small(), false));
+  EXPECT_EQ(write_trajectories_csv(scratch / "m.csv", small(), false).error().code, Code::io);
+  EXPECT_TRUE(write_trajectories_csv(scratch / "m.csv", small(), true));
+  EXPECT_EQ(read_trajectories_csv(scratch / "absent.csv").error().code, Code::io);
+}
+
+TEST(TrajectoriesCsv, LongTrialsComeOutWhole) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 50'000});
+  ASSERT_TRUE(write_trajectories_csv(scratch / "m.csv", trial, false));
+  const std::string text = read_text(scratch / "m.csv").value();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 50'001);
+  EXPECT_THAT(text, testing::EndsWith("\n50000,499.99,A,,,,missing,\n"));
+  EXPECT_EQ(parse_trajectories_csv(text, "m.csv").value().markers.time, trial.markers.time);
+}
+
+}  // namespace
+}  // namespace kinemark::io
