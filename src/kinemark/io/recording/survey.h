@@ -44,7 +44,7 @@ struct RecordingSurvey {
 };
 
 /// Reads the whole file, past damage where it can, and keeps no message. Errors as RecordingReader::open().
-/// About 1 GB/s.
+/// About 0.5 GB/s.
 [[nodiscard]] Result<RecordingSurvey> survey_recording(const std::filesystem::path& path);
 [[nodiscard]] Result<RecordingSurvey> survey_recording(RecordingReader reader);
 
