@@ -31,7 +31,7 @@ export function cleanTable(summary: CleanSummary, view: View): HTMLElement {
       { title: "Residual", unit: "mm", numeric: true, key: (m) => m.residual_rms_mm, cell: (m) => number(m.residual_rms_mm, 3) },
       { title: "Residual is", key: (m) => (m.white ? "white" : "not white"), cell: (m) => whiteCell(m.white) },
       { title: "Filled in", unit: "%", numeric: true, key: (m) => share(m, filledIn(m.after)), cell: (m) => percent(share(m, filledIn(m.after))).replace(" %", "") },
-      { title: "Largest SD", unit: "mm", numeric: true, key: (m) => m.largest_fill_sd_mm, cell: (m) => number(m.largest_fill_sd_mm, 1) },
+      { title: "Worst SD", unit: "mm", numeric: true, key: (m) => m.largest_fill_sd_mm, cell: (m) => number(m.largest_fill_sd_mm, 1) },
       { title: "Left missing", unit: "%", numeric: true, key: (m) => share(m, absent(m.after)), cell: (m) => percent(share(m, absent(m.after))).replace(" %", "") },
     ],
     markers,
@@ -44,7 +44,7 @@ export function cleanTable(summary: CleanSummary, view: View): HTMLElement {
   return section(
     "markers",
     "Markers",
-    "Noise SD is the scatter of a sample along one axis as found in the data; the filter's order and cut-off follow from it. Largest SD is that of the least certain filled sample.",
+    "Noise SD is the scatter of a sample along one axis as found in the data; the filter's order and cut-off follow from it. Worst SD is that of the least certain filled sample.",
     node,
   );
 }
