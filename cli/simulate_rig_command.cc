@@ -69,7 +69,8 @@ void add_scene_options(CLI::App& rig, RigArguments& arguments) {
       ->capture_default_str();
   rig.add_flag("--glint", arguments.glint, "wheel: its frame mirrors 4 % of the light at one angle");
   rig.add_option("-t,--markers", job.markers, "markers: .c3d, .trc or .csv whose markers are LEDs");
-  rig.add_option("--marker", job.marker_options.markers, "markers: use this one; repeat for up to 8");
+  rig.add_option("--marker", job.marker_options.markers, "markers: use this one; repeat for up to 8")
+      ->allow_extra_args(false);
   rig.add_flag("--z-up", arguments.z_is_up, "markers: the laboratory's Z points up, not its Y");
   rig.add_flag("--keep-place", arguments.keep_place, "markers: do not move them to the middle of the rig");
 }
@@ -80,9 +81,11 @@ void add_recording_options(CLI::App& rig, RigArguments& arguments) {
   rig.add_flag("--highest-rate", job.highest_rate, "As many frames per second as the LEDs leave room for");
   rig.add_option("--duration", job.duration_s, "Length, s; the scene's own when absent");
   rig.add_option("--intensity", arguments.intensity,
-                 "Relative light: 0.5 for all LEDs, hand=0.5 for one; repeat");
+                 "Relative light: 0.5 for all LEDs, hand=0.5 for one; repeat")
+      ->allow_extra_args(false);
   rig.add_option("--occlude", job.occlusions,
-                 "Hide an LED: LED:CAMERA:FIRST-LAST, either may be 'all'; repeat");
+                 "Hide an LED: LED:CAMERA:FIRST-LAST, either may be 'all'; repeat")
+      ->allow_extra_args(false);
   rig.add_flag("--dark-slot", job.rig.dark_slot, "One more slot in which no LED shines");
   rig.add_flag("--no-noise", arguments.no_noise, "No noise of amplifiers and converter");
 }

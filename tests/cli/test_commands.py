@@ -15,7 +15,7 @@ IK_FILES = ["q.mot", "q_marker_errors.sto", "q_report.json", "q_sd.sto"]
 
 class HelpAndUsage(CommandTest):
     def test_help_of_every_command(self):
-        for command in ([], ["simulate"], ["simulate", "subject"], ["ik"], ["report"], ["info"], ["convert"], ["validate"]):
+        for command in ([], ["simulate"], ["simulate", "subject"], ["simulate", "rig"], ["ik"], ["report"], ["info"], ["convert"], ["validate"]):
             ran = self.good(*command, "--help")
             self.assertIn("Usage: " + " ".join(["kinemark", *command]), ran.out)
             self.assertEqual(ran.err, "")
@@ -53,6 +53,20 @@ class SimulateInfoValidate(CommandTest):
         first, second = (self.folder / folder / "markers.trc" for folder in ("a/b", "c"))
         self.assertNotEqual(first.read_bytes(), second.read_bytes(), "another seed")
         self.refused(4, "use --force", "simulate", "subject", "-o", "c")
+
+    def test_simulate_rig_writes_counts_and_truth_or_one_sentence(self):
+        ran = self.good("simulate", "rig", "wheel", "-o", "w", "--leds", 8, "--highest-rate", "--duration", 0.2, "--json")
+        told = json.loads(ran.out)
+        names = ["recording.mcap", "truth.trc", "truth_derivatives.sto", "rig_true.toml", "rig_nominal.toml"]
+        self.assertEqual([path.rsplit("/", 1)[-1] for path in told["written"]], names)
+        self.assertIn("8 LEDs, 138.274 frames per second, 28 frames", told["warnings"])
+        self.refused(4, "use --force", "simulate", "rig", "-o", "w")
+        self.refused(2, "276.5 frames per second at most", "simulate", "rig", "sign", "-o", "s", "--rate", 300)
+        self.refused(2, "there is no scene 'dance'", "simulate", "rig", "dance", "-o", "s")
+        self.refused(2, "no physics", "simulate", "rig", "-o", "s", "--detector", "generic")
+        self.refused(2, "neither a number nor", "simulate", "rig", "-o", "s", "--intensity", "bright")
+        self.refused(4, "none.trc", "simulate", "rig", "markers", "-o", "s", "-t", "none.trc")
+        self.assertFalse((self.folder / "s").exists())
 
     def test_info_of_markers_has_the_agreed_keys(self):
         facts = json.loads(self.good("info", self.c3d, "--json").out)

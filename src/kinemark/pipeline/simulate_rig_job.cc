@@ -57,6 +57,9 @@ Result<Staged> stage(const RigJob& job) {
                     300 + static_cast<std::uint64_t>(job.tree_pose)};
     }
     case RigSceneKind::wheel:
+      if (!std::isfinite(job.wheel.turned_deg))
+        return fail(Code::usage,
+                    fmt::format("a wheel turned by {} degrees; need a number", job.wheel.turned_deg));
       // The two orientations of the study have streams of their own.
       return Staged{simulation::rotating_wheel(job.wheel), 2.2, job.wheel.turned_deg > 20.0 ? 401U : 400U};
     case RigSceneKind::sign:

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
@@ -111,6 +113,8 @@ TEST(SimulateRig, WhatIsWrongIsOneSentenceAndLeavesNothing) {
   EXPECT_THAT(with([](RigJob& j) { j.recording.rate_hz = 300.0; }),
               HasSubstr("276.5 frames per second at most"));
   EXPECT_THAT(with([](RigJob& j) { j.tree_pose = 10; }, RigSceneKind::tree), HasSubstr("tree pose 10"));
+  EXPECT_THAT(with([](RigJob& j) { j.wheel.turned_deg = NAN; }, RigSceneKind::wheel),
+              HasSubstr("turned by nan"));
   EXPECT_THAT(with([](RigJob&) {}, RigSceneKind::markers), HasSubstr("needs a marker file"));
   EXPECT_THAT(with([](RigJob& j) { j.occlusions = {"thumb:A:1-2"}; }),
               HasSubstr("there are shoulder, elbow"));
