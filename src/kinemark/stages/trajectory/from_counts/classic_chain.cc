@@ -3,37 +3,12 @@
 #include "kinemark/stages/trajectory/from_counts/classic_chain.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/digital_filter.h"
 
 namespace kinemark::trajectory {
 namespace {
-
-struct Biquad {
-  std::array<double, 3> b;
-  std::array<double, 2> a;  // a1, a2
-};
-
-/// Bilinear transform of the second-order Butterworth low-pass; k = tan(pi f / rate).
-Biquad low_pass(double k) {
-  const double root2 = std::numbers::sqrt2, scale = 1.0 / (1.0 + root2 * k + k * k);
-  const double g = k * k * scale;
-  return {{g, 2.0 * g, g}, {2.0 * (k * k - 1.0) * scale, (1.0 - root2 * k + k * k) * scale}};
-}
-
-void run(const Biquad& f, std::vector<double>& x) {
-  // Start as if the first value had always been there.
-  double z0 = x[0] * (1.0 - f.b[0]), z1 = x[0] * (f.b[2] - f.a[1]);
-  for (double& value : x) {
-    const double in = value, out = f.b[0] * in + z0;
-    z0 = f.b[1] * in - f.a[0] * out + z1;
-    z1 = f.b[2] * in - f.a[1] * out;
-    value = out;
-  }
-}
 
 /// Second derivatives at the knots of the interpolating cubic spline, not-a-knot at both ends.
 std::vector<double> second_derivatives(const std::vector<double>& t, const std::vector<double>& y) {
@@ -92,20 +67,12 @@ std::vector<double> butterworth_both_ways(std::span<const double> values, double
   check(rate_hz > 0.0 && options.cutoff_hz > 0.0, "a low-pass filter needs a rate and a cut-off above zero");
   const std::size_t n = values.size();
   if (n < 4 || options.cutoff_hz >= 0.99 * 0.5 * rate_hz) return {values.begin(), values.end()};
-  const double passes = options.cutoff_of_both_passes ? std::pow(std::numbers::sqrt2 - 1.0, 0.25) : 1.0;
-  const double k = std::tan(std::numbers::pi * options.cutoff_hz / rate_hz) / passes;
-  const Biquad filter = low_pass(std::min(k, std::tan(0.495 * std::numbers::pi)));
-  const std::size_t pad = std::min<std::size_t>(60, n - 2);
-  std::vector<double> x;
-  x.reserve(n + 2 * pad);
-  for (std::size_t i = pad; i > 0; --i) x.push_back(2.0 * values[0] - values[i]);
-  x.insert(x.end(), values.begin(), values.end());
-  for (std::size_t i = 1; i <= pad; ++i) x.push_back(2.0 * values[n - 1] - values[n - 1 - i]);
-  run(filter, x);
-  std::ranges::reverse(x);
-  run(filter, x);
-  std::ranges::reverse(x);
-  return {x.begin() + static_cast<std::ptrdiff_t>(pad), x.end() - static_cast<std::ptrdiff_t>(pad)};
+  const double cutoff = options.cutoff_hz / rate_hz;
+  const auto sections =
+      math::butterworth_lowpass(2, options.cutoff_of_both_passes ? math::two_pass_cutoff(2, cutoff) : cutoff);
+  std::vector<double> x(values.begin(), values.end());
+  math::filter_both_ways(sections, static_cast<int>(std::min<std::size_t>(60, n - 2)), x);
+  return x;
 }
 
 std::vector<double> two_point_difference(std::span<const double> values, double rate_hz) {

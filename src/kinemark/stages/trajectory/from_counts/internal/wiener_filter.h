@@ -3,8 +3,10 @@
 // Fixed-interval smoother of an integrated Wiener process, in covariance form.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -98,7 +100,7 @@ class WienerFilter {
     for (int i = 1; i <= order; ++i) scale *= i / h_;
     return scale;
   }
-  static Prediction start(const Sight<kAxes>& first);
+  [[nodiscard]] Prediction start(std::span<const Sight<kAxes>> sights) const;
   void set_interval(double dt_s);
   [[nodiscard]] Step weigh(const Prediction& at, const Sight<kAxes>& sight) const;
   [[nodiscard]] Prediction advance(const Step& step) const;
@@ -119,11 +121,31 @@ class WienerFilter {
 
 template <int kOrder, int kAxes>
 typename WienerFilter<kOrder, kAxes>::Prediction WienerFilter<kOrder, kAxes>::start(
-    const Sight<kAxes>& first) {
-  // A metre on every coefficient: some thousand times what a sight leaves, so it says nothing.
-  Prediction at{State::Zero(), Covariance::Identity()};
-  at.x.template head<kAxes>() = first.value;
-  return at;
+    std::span<const Sight<kAxes>> sights) const {
+  // A polynomial through the first sights, over two time constants or so, held ten times less certain than it is: it
+  // counts those sights 1 % too much, and keeps the digits that a start from nothing would cost.
+  constexpr std::size_t kMost = 512;
+  constexpr double kLess = 100.0, kRidge = 1.0;  // of the variance; m^-2
+  Covariance square = kRidge * Covariance::Identity();
+  State right = State::Zero();
+  right.template head<kAxes>() = kRidge * sights[0].value;
+  int informative = 0;
+  for (std::size_t k = 0; k < std::min(sights.size(), kMost); ++k) {
+    const double s = (sights[k].time_s - sights[0].time_s) / h_;
+    if (informative >= kOrder + 2 && s > 2.0) break;
+    if (!(sights[k].information.trace() > 0.0)) continue;
+    ++informative;
+    const Axes weighted = sights[k].information * sights[k].value;
+    double power_i = 1.0;
+    for (int i = 0; i < kOrder; ++i, power_i *= s) {
+      right.template segment<kAxes>(kAxes * i) += power_i * weighted;
+      double power = power_i;
+      for (int j = 0; j < kOrder; ++j, power *= s)
+        square.template block<kAxes, kAxes>(kAxes * i, kAxes * j) += power * sights[k].information;
+    }
+  }
+  const Eigen::LLT<Covariance> llt(square);
+  return {llt.solve(right), kLess * llt.solve(Covariance::Identity())};
 }
 
 template <int kOrder, int kAxes>
@@ -178,7 +200,7 @@ void WienerFilter<kOrder, kAxes>::smooth(std::span<const Sight<kAxes>> sights, b
   if (n == 0) return;
   std::vector<Prediction> marks;  // prediction of the first sight of each block
   marks.reserve(n / kBlock + 1);
-  Prediction at = start(sights[0]);
+  Prediction at = start(sights);
   for (std::size_t k = 0; k < n; ++k) {
     if (k % kBlock == 0) marks.push_back(at);
     if (k + 1 == n || marks.size() == (n - 1) / kBlock + 1) break;
@@ -207,7 +229,7 @@ void WienerFilter<kOrder, kAxes>::smooth(std::span<const Sight<kAxes>> sights, b
         for (int j = kOrder - 1; j > 0; --j)
           for (int i = 0; i < j; ++i)
             lambda.template segment<kAxes>(kAxes * j) += f_(i, j) * lambda.template segment<kAxes>(kAxes * i);
-        if (with_covariance)
+        if (with_covariance) {
           for (int pass = 0; pass < 2; ++pass) {
             for (int j = kOrder - 1; j > 0; --j)
               for (int i = 0; i < j; ++i)
@@ -215,6 +237,9 @@ void WienerFilter<kOrder, kAxes>::smooth(std::span<const Sight<kAxes>> sights, b
                     f_(i, j) * adjoint.template middleCols<kAxes>(kAxes * i);
             adjoint.transposeInPlace();
           }
+          // Rounding's antisymmetric part would grow from step to step.
+          adjoint = 0.5 * (adjoint + adjoint.transpose().eval());
+        }
       }
       const auto p0 = s.p.template leftCols<kAxes>();
       lambda.template head<kAxes>() -= s.w * (p0.transpose() * lambda + s.y);

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/calibrate_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+int run_calibrate(const Globals& globals, pipeline::CalibrateJob& job) {
+  job.force = globals.force;
+  const auto done = pipeline::calibrate_rig_file(job, show_progress(globals, "steps"));
+  if (!done) {
+    const int status = report_error(done.error());
+    // A model that the counts contradict is a quality gate that was missed, not a bad file.
+    return done.error().message.starts_with("calibration refused") ? 1 : status;
+  }
+  for (const auto& warning : done->at("warnings")) say(globals, warning.get<std::string>());
+  if (done->contains("chi2_per_dof"))
+    say(globals, fmt::format("{} poses, chi2/dof {:.2f}, warp of degree {}; tree sides right to {:.2f} mm RMS",
+                             done->at("poses").get<int>(), done->at("chi2_per_dof").get<double>(),
+                             done->at("warp_degree").get<int>(), done->at("side_rms_mm").get<double>()));
+  say(globals, fmt::format("wrote {}", job.output.string()));
+  if (globals.json) fmt::print("{}\n", done->dump(2));
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command = app.add_subcommand("calibrate", "A rig from recordings of a tree or a grid of known size");
+  command->footer(
+      "Each recording says what it shows (see 'kinemark simulate rig --grid --tree-poses'). Exit status 1 when the\n"
+      "model of the cameras does not fit what they counted.");
+  const auto job = std::make_shared<pipeline::CalibrateJob>();
+  const std::map<std::string, pipeline::CalibrateJob::Method> methods{{"bundle", pipeline::CalibrateJob::Method::bundle},
+                                                                     {"grid-lut", pipeline::CalibrateJob::Method::grid_lut}};
+  command->add_option("INPUT", job->inputs, "Recordings (.mcap) of the tree, of the grid before each camera, or of both")
+      ->required();
+  command->add_option("--nominal", job->nominal, "Rig as it was set up by hand, rig.toml")->required();
+  command->add_option("-o,--output", job->output, "Rig to write, rig.toml")->required();
+  command->add_option("--method", job->method, "bundle: everything at once; grid-lut: the look-up table of 1986")
+      ->transform(CLI::CheckedTransformer(methods, CLI::ignore_case))
+      ->default_str("bundle");
+  command->add_option("--sides", job->sides_m, "Sides of the tree between LEDs 1-2, 1-3 and 2-3, m; as recorded when absent")
+      ->expected(3);
+  command->add_option("--frames-per-pose", job->frames_per_pose, "Frames that the tree stood still; as recorded when absent");
+  command->add_option("--warp-degree", job->bundle.warp_degree, "Degree of the detector's warp to begin with")->capture_default_str();
+  command->add_flag("--no-crosstalk{false},--crosstalk", job->bundle.crosstalk, "Leave terms between electrodes out");
+  command->add_flag("--no-escalate{false},--escalate", job->bundle.escalate, "Keep the model as it is, fit or not");
+  command->callback([&globals, job, &run] { run = [&globals, job] { return run_calibrate(globals, *job); }; });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/stages/reconstruction/reconstruct.h"
+#include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark reconstruct` is asked to do.
+struct ReconstructJob {
+  enum class Method : std::uint8_t { smoother, frames, classic };
+
+  std::filesystem::path recording;  ///< of counts
+  std::filesystem::path rig;        ///< rig.toml
+  std::filesystem::path output;     ///< markers: .c3d, .trc or .csv
+  Method method = Method::smoother;
+  reconstruction::ReconstructOptions frames;
+  trajectory::SmoothCountsOptions smoother;
+  bool force = false;
+};
+
+/// Points of a recording of counts as markers. Returns method, frames, written, warnings and for each LED what became of
+/// its frames, and by the smoother how it was smoothed.
+[[nodiscard]] Result<nlohmann::ordered_json> reconstruct_file(const ReconstructJob& job);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/from_counts/bandwidth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "kinemark/core/check.h"
+#include "kinemark/core/random.h"
+
+namespace kinemark::trajectory {
+namespace {
+
+std::vector<PositionSight> wave(double hz, double sd, int n, std::uint64_t seed = 3) {
+  Random random(seed, 1);
+  std::vector<PositionSight> out;
+  for (int k = 0; k < n; ++k) {
+    const double t = 0.01 * k, phase = 2.0 * std::numbers::pi * hz * t;
+    const Eigen::Vector3d noise{random.gaussian(), random.gaussian(), random.gaussian()};
+    out.push_back({t, Eigen::Matrix3d::Identity() / (sd * sd),
+                   Eigen::Vector3d(0.2 * std::cos(phase), 0.2 * std::sin(phase), 0.02 * std::cos(2.0 * phase)) + sd * noise});
+  }
+  return out;
+}
+
+TEST(Bandwidth, FasterMotionGetsAHigherCutoff) {
+  const auto slow = choose_bandwidth(wave(0.5, 5e-4, 400)), fast = choose_bandwidth(wave(3.0, 5e-4, 400));
+  EXPECT_GT(fast.cutoff_hz, 2.0 * slow.cutoff_hz);
+  EXPECT_LT(fast.cutoff_hz, 35.0);
+}
+
+TEST(Bandwidth, MoreNoiseGetsALowerCutoff) {
+  EXPECT_GT(choose_bandwidth(wave(1.5, 1e-4, 400)).cutoff_hz, choose_bandwidth(wave(1.5, 5e-3, 400)).cutoff_hz);
+}
+
+TEST(Bandwidth, KeepsWhatWasAskedFor) {
+  const auto found = choose_bandwidth(wave(1.5, 5e-4, 300), {.order = 3, .half_gain_hz = 8.0});
+  EXPECT_EQ(found.order, 3);
+  EXPECT_NEAR(found.cutoff_hz, 8.0 * std::pow(std::numbers::sqrt2 - 1.0, 1.0 / 6.0), 1e-9);
+}
+
+TEST(Bandwidth, LongRecordsAreJudgedByPieces) {
+  const auto whole = choose_bandwidth(wave(1.5, 5e-4, 3000), {.max_sights = 100'000});
+  const auto pieces = choose_bandwidth(wave(1.5, 5e-4, 3000));
+  EXPECT_NEAR(pieces.cutoff_hz / whole.cutoff_hz, 1.0, 0.35);
+}
+
+TEST(Bandwidth, IncompleteSightsDoNotCount) {
+  auto sights = wave(1.5, 5e-4, 400);
+  for (std::size_t k = 100; k < 130; ++k) {
+    sights[k].information.row(2).setZero();
+    sights[k].information.col(2).setZero();
+    sights[k].position.z() = 1e3;
+  }
+  EXPECT_NEAR(choose_bandwidth(sights).cutoff_hz / choose_bandwidth(wave(1.5, 5e-4, 400)).cutoff_hz, 1.0, 0.35);
+}
+
+TEST(Bandwidth, TooFewSightsFallBackToSixHertz) {
+  const auto found = choose_bandwidth(wave(1.5, 5e-4, 8));
+  EXPECT_EQ(found.order, 4);
+  EXPECT_NEAR(found.time_constant_s, 1.0 / (12.0 * std::numbers::pi), 1e-12);
+  EXPECT_GT(choose_bandwidth({}).spectral_density, 0.0);
+}
+
+TEST(Bandwidth, NamesAMemberOfTheFamily) {
+  const auto b = bandwidth_at(4, 5.0, 4e6, 0.01);
+  EXPECT_NEAR(b.spectral_density, std::pow(10.0 * std::numbers::pi, 8) * 0.01 / 4e6, 1e-6 * b.spectral_density);
+  EXPECT_THROW(static_cast<void>(bandwidth_at(6, 5.0, 1.0, 1.0)), ContractError);
+}
+
+}  // namespace
+}  // namespace kinemark::trajectory
