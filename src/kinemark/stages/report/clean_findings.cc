@@ -70,7 +70,7 @@ struct DefectGroup {
 void add_defects(const CleanReport& r, std::vector<Finding>& out) {
   std::vector<DefectGroup> groups;
   for (const CleanDefect& d : r.defects) {
-    const bool sure = d.confidence >= kSure;
+    const bool sure = !(d.confidence < kSure);  // unknown: whoever found it did not doubt it
     auto at = std::ranges::find_if(groups, [&](const DefectGroup& g) {
       return g.sure == sure && g.first->handled == d.handled && g.first->kind == d.kind &&
              g.first->done == d.done;

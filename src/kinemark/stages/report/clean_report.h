@@ -108,7 +108,7 @@ struct CleanDefect {
   std::string other_marker;  ///< partner of a swap, or empty
   std::int64_t first_frame = 0;
   std::int64_t last_frame = 0;
-  double confidence = kUnknown;  ///< 0 to 1
+  double confidence = kUnknown;  ///< 0 to 1; unknown counts as certain
   std::string sentence;          ///< what is wrong, with numbers
   std::string done;              ///< in words: "rejected", "left as it is", ...
   bool handled = false;          ///< false with a confidence of 0.8 and more: needs attention

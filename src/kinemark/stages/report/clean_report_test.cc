@@ -50,6 +50,33 @@ Alone alone(const ExampleClean& e, std::int64_t marker) {
   return out;
 }
 
+TEST(ExampleClean, IsARecordingThatAStageCouldHaveMade) {
+  const ExampleClean e = example_clean(300);
+  for (const data::Trajectories* t : {&e.before, &e.after}) {
+    const auto ok = t->validate();
+    EXPECT_TRUE(ok) << ok.error().message;
+  }
+  const auto ok = e.derivatives.validate(e.after);
+  EXPECT_TRUE(ok) << ok.error().message;
+  for (const CleanGap& g : e.report.gaps) {
+    const std::int64_t m = e.before.find(g.marker);
+    for (std::int64_t f = g.first_frame; f <= g.last_frame; ++f) {
+      EXPECT_FALSE(e.before.present(f, m));
+      EXPECT_EQ(e.after.present(f, m), g.filled);
+    }
+  }
+}
+
+TEST(AddMarker, WhatIsNotThereHasNoErrorBarEither) {
+  const ExampleClean e = example_clean(1200);
+  const CleanSeries s = e.finished().series[kFinger];
+  for (const std::size_t f : {180U, 720U, 1000U}) {
+    EXPECT_GE(s.after[f], 4);
+    for (const auto* axes : {&s.position, &s.position_sd, &s.velocity, &s.velocity_sd, &s.acceleration_sd})
+      for (const auto& axis : *axes) EXPECT_TRUE(std::isnan(axis[f])) << f;
+  }
+}
+
 TEST(AddMarker, HoldsEverySampleOfAShortRecording) {
   const ExampleClean e = example_clean(300);
   const CleanReport r = e.finished();

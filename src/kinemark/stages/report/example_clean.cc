@@ -94,6 +94,16 @@ void fill_samples(ExampleClean& e, std::uint64_t seed) {
   }
 }
 
+/// Nothing is known of a sample that is not there.
+void forget(ExampleClean& e, std::int64_t frame, std::int64_t marker, SampleState why) {
+  e.after.set_missing(frame, marker, why);
+  const std::size_t i = e.after.index(frame, marker);
+  for (auto* array : {&e.derivatives.velocity, &e.derivatives.velocity_sd, &e.derivatives.acceleration,
+                      &e.derivatives.acceleration_sd})
+    for (std::size_t axis = 0; axis < 3; ++axis) (*array)[3 * i + axis] = kUnknown;
+  for (std::size_t c = 0; c < 6; ++c) e.after.covariance[6 * i + c] = kUnknown;
+}
+
 /// The error bar grows towards the middle of a gap.
 void cut_hole(ExampleClean& e, const Hole& hole) {
   const std::int64_t frames = e.report.time.frames;
@@ -102,13 +112,7 @@ void cut_hole(ExampleClean& e, const Hole& hole) {
     e.before.set_missing(f, hole.marker);
     const std::size_t i = e.after.index(f, hole.marker);
     if (!hole.filled) {
-      e.after.set_missing(f, hole.marker);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (auto* array : {&e.derivatives.velocity, &e.derivatives.velocity_sd, &e.derivatives.acceleration,
-                            &e.derivatives.acceleration_sd})
-          (*array)[3 * i + axis] = kUnknown;
-      }
-      for (std::size_t c = 0; c < 6; ++c) e.after.covariance[6 * i + c] = kUnknown;
+      forget(e, f, hole.marker, SampleState::missing);
       continue;
     }
     e.after.state[i] = hole.state;
@@ -231,7 +235,7 @@ ExampleClean example_clean(std::int64_t frames, std::uint64_t seed) {
 
   const std::int64_t spike = frame_at(0.15, frames);
   e.before.x(spike, kFinger)(1) += 0.12;
-  e.after.set_missing(spike, kFinger, SampleState::rejected);
+  forget(e, spike, kFinger, SampleState::rejected);
   e.report.defects = {
       {"spike", "R.Finger", "", spike, spike, 0.98,
        "R.Finger leaves its path by 120 mm for one sample and comes back.", "rejected", true},
