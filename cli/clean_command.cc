@@ -9,6 +9,9 @@
 namespace kinemark::cli {
 namespace {
 
+/// More markers than this are told of in the report only.
+constexpr std::size_t kMarkersTold = 12;
+
 struct CleanArguments {
   pipeline::CleanJob job;
   std::string gaps = "none", filter = "auto", upsampled = "mark", cutoff_rule = "winter";
@@ -29,7 +32,8 @@ void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome
       fmt::format("{} markers, {} frames at {:g} Hz; of {} samples {} measured, {} made, {} missing.",
                   markers.markers(), markers.frames(), markers.time.rate_hz, markers.state.size(), measured,
                   filled, open));
-  for (const auto& marker : report.markers) say(globals, fmt::format("{}: {}", marker.name, marker.words));
+  if (report.markers.size() <= kMarkersTold)
+    for (const auto& marker : report.markers) say(globals, fmt::format("{}: {}", marker.name, marker.words));
   for (const auto& finding : report::clean_findings(report))
     say(globals,
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
