@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -204,8 +202,11 @@ std::vector<Finding> clean_findings(const CleanReport& report) {
   add_open_gaps(report, out);
   add_filters(report, out);
   for (const std::string& warning : report.run.warnings) add(out, Verdict::good, "warning", "", warning);
-  std::ranges::stable_sort(out, {}, [](const Finding& f) { return f.level == Verdict::good; });
-  return out;
+  // In order, but what is serious before what is not.
+  std::vector<Finding> sorted;
+  for (const Verdict level : {Verdict::attention, Verdict::good})
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+  return sorted;
 }
 
 }  // namespace kinemark::report

@@ -141,7 +141,10 @@ void keep_longest(Json& list) {
   };
   std::vector<std::size_t> order(list.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater{}, frames);
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+    const std::int64_t x = frames(a), y = frames(b);
+    return x != y ? x > y : a < b;
+  });
   order.resize(kMostListed);
   std::ranges::sort(order);
   Json kept = Json::array();
