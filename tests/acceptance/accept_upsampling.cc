@@ -244,9 +244,10 @@ void check_limits(int count, const MotionLibrary& library) {
       called += report.markers.front().found() ? 1 : 0;
       told += report.band.verdict == BandVerdict::low_passed ? 1 : 0;
     }
-    const bool blind = limit.sinc || called == 0;
-    print_row(blind && told >= 0.95 * count, fmt::format("limit: {}, {} streams", limit.what, count),
-              "spectrum says low-passed in >= 95 %; called interpolated: told",
+    const bool quiet = limit.sinc || called == 0;
+    print_row(quiet && told >= 0.95 * count, fmt::format("limit: {}, {} streams", limit.what, count),
+              limit.sinc ? "spectrum says low-passed in >= 95 %"
+                         : "spectrum says low-passed in >= 95 %, none called interpolated",
               fmt::format("low-passed {}, called interpolated {}", told, called));
   }
 }

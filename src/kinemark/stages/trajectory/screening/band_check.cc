@@ -113,6 +113,8 @@ BandCheck check_band(const data::Trajectories& t, std::int64_t marker) {
   // White noise of variance s^2 has a mean |DFT|^2 of s^2 times the sum of squared weights, 3 n / 8 for Hann.
   for (double& p : power) p /= static_cast<double>(windows) * 0.375 * static_cast<double>(n);
   const std::size_t bins = power.size();
+  if (!std::ranges::all_of(power, [](double p) { return std::isfinite(p); }))
+    return band;  // numbers too large
   const double top = median_of(power, bins * 8 / 10, bins - 1);
   band.top_m = std::sqrt(top);
   band.middle_m = std::sqrt(median_of(power, bins * 3 / 10, bins * 6 / 10));

@@ -23,6 +23,7 @@ double confidence_of(double ratio, double half) {
 }
 
 double median_of(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return std::isnan(v); });  // of numbers too large to subtract
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);

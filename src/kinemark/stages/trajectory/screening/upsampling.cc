@@ -16,6 +16,8 @@ using internal::Candidate;
 using internal::PhaseTable;
 using internal::Piece;
 
+constexpr std::int64_t kEnoughBlocks = 6;  // informative ones, for a verdict of a marker's own
+
 /// Candidates of one stream: all that fire, and the closest of the others.
 struct Contest {
   std::vector<Candidate> constant;  ///< fire with one phase
@@ -122,6 +124,24 @@ Upsampling trace(const data::Trajectories& t, const Candidate& c, std::int64_t f
     for (Piece& piece : internal::pieces_of(t, m, 0)) pieces.push_back(std::move(piece));
   place_changes(pieces, c, u.runs);
   return u;
+}
+
+/// Multiplexed markers have one factor and a phase each, which no pooled test can see: the recording then
+/// takes the factor that all markers with enough evidence share, and the phase that most of them have.
+void agree_on_factor(UpsamplingReport& report) {
+  const Upsampling* model = nullptr;
+  std::vector<std::int64_t> share(13, 0);  // markers per phase
+  for (const Upsampling& u : report.markers) {
+    if (!u.found() && u.blocks < kEnoughBlocks) continue;
+    if (!u.found() || (model != nullptr && u.factor != model->factor)) return;
+    ++share[static_cast<std::size_t>(u.phase)];
+    if (model == nullptr) model = &u;
+  }
+  if (model == nullptr || model->factor == report.recording.factor) return;
+  const int phase = static_cast<int>(std::ranges::max_element(share) - share.begin());
+  const auto typical = std::ranges::find_if(
+      report.markers, [&](const Upsampling& u) { return u.found() && u.phase == phase; });
+  report.recording = *typical;
 }
 
 std::string sentence_of(const Upsampling& u, double rate_hz) {
@@ -251,13 +271,17 @@ Result<UpsamplingReport> detect_upsampling(const data::Trajectories& t, const Up
   report.recording = trace(t, all.winner(), 0, t.markers());
   for (std::size_t m = 0; m < markers; ++m) {
     const auto marker = static_cast<std::int64_t>(m);
-    Upsampling u = trace(t, contests[m].winner(), marker, marker + 1);
-    if (!u.found() && report.recording.found() && u.blocks < 6) {
+    report.markers.push_back(trace(t, contests[m].winner(), marker, marker + 1));
+    report.marker_bands.push_back(check_band(t, marker));
+  }
+  const int pooled_factor = report.recording.factor;
+  agree_on_factor(report);
+  if (report.recording.found() && report.recording.factor == pooled_factor) {
+    for (Upsampling& u : report.markers) {
+      if (u.found() || u.blocks >= kEnoughBlocks) continue;
       u = report.recording;
       u.inherited = true;
     }
-    report.markers.push_back(std::move(u));
-    report.marker_bands.push_back(check_band(t, marker));
   }
   report.band = middle_of(report.marker_bands);
   write_sentences(t, report);

@@ -71,10 +71,10 @@ struct UpsamplingReport {
 ///
 /// For each factor, phase and kernel the samples between supposed real ones are predicted; the true phase
 /// leaves rounding only, the others leave noise. As phases are compared with one another, smooth, filtered,
-/// still or rounded data do not look interpolated. Only `measured` samples in stretches of 12 factor frames
-/// and more take part (24 factor for splines). Tolerates: gaps, rounding, real instants that wander by about
-/// 0.3 frames, a phase that slips now and then (a clock that drifts, a dropped frame), noise added later
-/// below a tenth of that of the samples.
+/// still or rounded data do not look interpolated. Only samples that are present, in stretches of 12 factor
+/// frames and more take part (24 factor for splines). Tolerates: gaps, rounding, real instants that wander by
+/// about 0.3 frames, a phase that slips now and then (a clock that drifts, a dropped frame), noise added
+/// later below a tenth of that of the samples.
 ///
 /// Blind to interpolation followed by a low-pass filter, to band-limited resampling, to factors that are no
 /// integer, and to streams without noise above their rounding; `band` tells the first two from open data.

@@ -105,8 +105,9 @@ void find_leaps(const data::Trajectories& t, Findings& out) {
     if (seen < kLeastMarkers || !(speed > seen * 1e-8)) continue;  // 0.1 mm per frame
     const double times = along / speed;
     const double unexplained = std::max(0.0, leap - times * along) / leap;
-    if (times < 1.8 || unexplained > 0.02 || bend > 0.25 * speed) continue;
-    if (std::abs(times - std::round(times)) > 0.15) continue;
+    const bool multiple = times > 1.8 && std::abs(times - std::round(times)) < 0.15;
+    const bool even = unexplained < 0.02 && bend < 0.25 * speed;
+    if (!multiple || !even || !std::isfinite(leap)) continue;
     leaps.push_back({f, times, seen});
   }
   if (leaps.size() > kMostSingle) {

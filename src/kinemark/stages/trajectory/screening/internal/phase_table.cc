@@ -11,7 +11,7 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 constexpr std::int64_t kBlockKnots = 16;
-constexpr std::int64_t kPieceFrames = 4096;
+constexpr std::int64_t kPieceFrames = 2048;
 constexpr std::int64_t kMinBlocks = 6;
 constexpr float kChangeCost = 8.0F;
 constexpr float kMostCost = 2.0F;  // of one block that says something else: an outlier cannot force a change
@@ -125,13 +125,16 @@ std::vector<Piece> pieces_of(const data::Trajectories& t, std::int64_t marker, s
     }
     f = end;
   }
-  const std::int64_t every = max_frames > 0 ? (total + max_frames - 1) / max_frames : 1;
+  const auto count = static_cast<std::int64_t>(spans.size());
+  const std::int64_t take =
+      max_frames > 0 && total > max_frames ? std::max<std::int64_t>(1, count * max_frames / total) : count;
   std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < spans.size(); i += static_cast<std::size_t>(std::max<std::int64_t>(1, every))) {
+  for (std::int64_t k = 0; k < take; ++k) {
+    const auto& [first, end] = spans[static_cast<std::size_t>((2 * k + 1) * count / (2 * take))];
     for (int axis = 0; axis < 3; ++axis) {
       Piece piece;
-      piece.first_frame = spans[i].first;
-      for (std::int64_t f = spans[i].first; f < spans[i].second; ++f) piece.y.push_back(t.x(f, marker)(axis));
+      piece.first_frame = first;
+      for (std::int64_t f = first; f < end; ++f) piece.y.push_back(t.x(f, marker)(axis));
       piece.step_m = rounding_step_m(piece.y);
       pieces.push_back(std::move(piece));
     }
@@ -171,7 +174,7 @@ void add_rows(const Piece& piece, Kernel kernel, Knots& knots, PhaseTable& table
     double second = least;
     bool complete = true;
     for (std::size_t p = first; p < first + width; ++p) {
-      complete &= count[p] >= 3 * (f - 1);
+      complete &= count[p] >= 3 * (f - 1) && std::isfinite(sum[p]);
       sum[p] = std::sqrt(sum[p] / static_cast<double>(std::max<std::int64_t>(1, count[p])));
       second = std::min(second, std::max(least, sum[p]));
       least = std::min(least, sum[p]);

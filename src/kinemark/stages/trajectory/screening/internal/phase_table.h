@@ -18,8 +18,8 @@ struct Piece {
   double step_m = 0.0;    ///< rounding step
 };
 
-/// Complete stretches of a marker, all three axes, cut into pieces of at most 4096 frames; every k-th of them
-/// when they would hold more than max_frames frames (0: no limit).
+/// Complete stretches of a marker, all three axes, cut into pieces of at most 2048 frames; evenly spaced ones
+/// when they hold more than max_frames frames (0: no limit).
 [[nodiscard]] std::vector<Piece> pieces_of(const data::Trajectories& trajectories, std::int64_t marker,
                                            std::int64_t max_frames);
 

@@ -149,8 +149,9 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Findings& o
   std::vector<char> duplicated(static_cast<std::size_t>(t.frames()), 0);
   for (const Finding& d : out)
     for (std::int64_t f = d.first_frame; f <= d.last_frame; ++f) duplicated[static_cast<std::size_t>(f)] = 1;
-  const auto shortest =
-      std::max<std::int64_t>(8, static_cast<std::int64_t>(std::ceil(options.min_stuck_s * t.time.rate_hz)));
+  const double held =
+      std::min(std::ceil(options.min_stuck_s * t.time.rate_hz), static_cast<double>(t.frames()) + 1.0);
+  const auto shortest = std::max<std::int64_t>(8, static_cast<std::int64_t>(held));
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     std::vector<std::pair<std::int64_t, std::int64_t>> runs;  // frames that hold one value
     std::vector<double> lengths;

@@ -87,7 +87,7 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Findings& 
       // The narrowest that explains it, beginning at this frame.
       for (int width = 1; width <= kMostSamples; ++width) {
         const Spike s = measure(t, m, f, width, cubics[static_cast<std::size_t>(width - 1)], rounding);
-        if (s.ratio < kLeastRatio || s.height < options.min_spike_m) continue;
+        if (!(s.ratio > kLeastRatio) || !(s.height > options.min_spike_m)) continue;
         const std::int64_t last = f + width - 1;
         if (!swapped(m, f, last))
           out.push_back(

@@ -21,11 +21,16 @@ constexpr double kLongestVisit = 0.5;  // s
 constexpr double kMuchBetter = 0.25;   // of the distances left by the labels as they are
 constexpr double kTimesUsual = 8.0;    // a jump stands that much above what a marker's continuation misses by
 
+/// Frames in a time, 1 at least and no more than there are.
+std::int64_t frames_in(const Trajectories& t, double time_s) {
+  return std::max<std::int64_t>(
+      1, std::llround(std::min(time_s * t.time.rate_hz, static_cast<double>(t.frames()))));
+}
+
 /// Paths continued by a straight line from their last two samples. Told of samples frame by frame.
 class Continuation {
  public:
-  explicit Continuation(const Trajectories& t)
-      : t_(t), gap_(std::max<std::int64_t>(1, std::llround(kLongestGap * t.time.rate_hz))) {
+  explicit Continuation(const Trajectories& t) : t_(t), gap_(frames_in(t, kLongestGap)) {
     for (std::int64_t m = 0; m < t.markers(); ++m) {
       std::vector<double> missed;
       for (std::int64_t f = 2; f < t.frames(); ++f)
@@ -118,7 +123,7 @@ void follow(Trajectories& t, double least, std::vector<Jump>& jumps, std::vector
         const std::int64_t j = now[b].marker;
         const double exchanged = (t.x(f, i) - *path.at(f, j)).norm() + (t.x(f, j) - *path.at(f, i)).norm();
         const double as_is = now[a].length + now[b].length;
-        if (exchanged >= kMuchBetter * as_is) continue;
+        if (!(exchanged < kMuchBetter * as_is)) continue;
         exchanges.push_back({f, i, j, as_is / std::max(exchanged, 1e-6)});
         taken[a] = taken[b] = 1;
         std::swap(label[static_cast<std::size_t>(i)], label[static_cast<std::size_t>(j)]);
@@ -201,7 +206,7 @@ std::int64_t host_of(const Trajectories& t, std::int64_t guest, std::int64_t fir
 }
 
 void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double least, Findings& out) {
-  const auto longest = std::max<std::int64_t>(1, std::llround(kLongestVisit * t.time.rate_hz));
+  const std::int64_t longest = frames_in(t, kLongestVisit);
   for (std::size_t a = 0; a < jumps.size(); ++a) {
     const Jump& there = jumps[a];
     const std::int64_t left = there.left;
