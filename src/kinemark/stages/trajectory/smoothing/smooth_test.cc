@@ -281,7 +281,9 @@ TEST(Smooth, AMarkerAtRestStaysAtRest) {
       EXPECT_NEAR(result->derivatives.velocity[i], 0.0, 1e-6) << to_string(method);
       EXPECT_NEAR(result->derivatives.acceleration[i], 0.0, 1e-4) << to_string(method);
     }
-    EXPECT_LT(result->markers.front().used.noise_sd_m, 1e-9);
+    if (method != FilterMethod::none) {
+      EXPECT_LT(result->markers.front().used.noise_sd_m, 1e-9) << to_string(method);
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include "kinemark/stages/trajectory/smoothing/internal/choose.h"
 #include "kinemark/stages/trajectory/smoothing/internal/error_bars.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
+#include "kinemark/stages/trajectory/smoothing/internal/refine.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {
@@ -168,6 +169,8 @@ void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, c
     if (samples.has_covariance) choice.noise_sd_m = samples.typical_sd_m;
   }
   const double noise = choice.noise_sd_m;
+  if (choosing.criterion == Criterion::sure && choice.enough && noise > 0.0 && options.cutoff_hz == 0.0)
+    choice.cutoff_hz = refine_cutoff(judged, choice.order, choice.cutoff_hz, noise);
   BarScale scale;
   scale.interior.fill(std::numeric_limits<double>::infinity());
   if (choice.enough && noise > 0.0) scale = scale_bars(judged, choice.order, choice.cutoff_hz, noise);
