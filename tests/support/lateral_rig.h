@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Two lateral-effect cameras and what they count of moving points: for tests of stages, which may not know the simulator.
+// Two lateral-effect cameras and what they count of moving points: for tests of stages, which may not know
+// the simulator.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -65,22 +66,26 @@ inline data::Rig real_rig(std::uint64_t seed) {
 }
 
 /// Mean counts of a point without noise.
-inline Eigen::Vector4d mean_counts(const data::Camera& camera, const Eigen::Vector3d& x, double light = kLight) {
+inline Eigen::Vector4d mean_counts(const data::Camera& camera, const Eigen::Vector3d& x,
+                                   double light = kLight) {
   return light * camera::respond(camera, x).phi + camera.detector.offset_counts;
 }
 
 /// Standard deviation of one conversion, rounding included.
-inline double count_sd(const data::Rig& rig) { return std::sqrt(camera::conversion_variance(rig.electronics, kLight / 4.0)); }
+inline double count_sd(const data::Rig& rig) {
+  return std::sqrt(camera::conversion_variance(rig.electronics, kLight / 4.0));
+}
 
 using PathOfLed = std::function<Eigen::Vector3d(int led, double time_s)>;
 
 /// Counts of LEDs on given paths, every conversion at its own time; noise from Random(seed, 1).
-inline data::Counts count_paths(const data::Rig& rig, int leds, std::int64_t frames, double rate_hz, const PathOfLed& path,
-                                std::uint64_t seed, double flicker_counts = 0.0) {
+inline data::Counts count_paths(const data::Rig& rig, int leds, std::int64_t frames, double rate_hz,
+                                const PathOfLed& path, std::uint64_t seed, double flicker_counts = 0.0) {
   std::vector<std::string> names, cameras;
   for (int led = 0; led < leds; ++led) names.push_back("led " + std::to_string(led));
   for (const auto& camera : rig.cameras) cameras.push_back(camera.name);
-  auto counts = data::Counts::zeros(names, cameras, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = frames}, false);
+  auto counts =
+      data::Counts::zeros(names, cameras, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = frames}, false);
   Random random(seed, 1);
   const double sd = std::sqrt(camera::conversion_variance(rig.electronics, kLight / 4.0) - 1.0 / 12.0);
   for (int led = 0; led < leds; ++led)

@@ -14,22 +14,25 @@ namespace kinemark::pipeline {
 
 /// What `kinemark calibrate` is asked to do.
 struct CalibrateJob {
-  enum class Method : std::uint8_t { bundle, grid_lut };
+  enum class Method : std::uint8_t { bundle, grid_lut, scan };
 
-  /// Recordings of known things. Each says in its metadata "calibration" what it shows: kind "tree" (frames_per_pose,
-  /// sides_m) or "grid" (nodes, spacing_m, distance_m; one camera each).
+  /// Recordings of known things. Each says in its metadata "calibration" what it shows: kind "tree"
+  /// (frames_per_pose, sides_m), "grid" (nodes, spacing_m, distance_m; one camera each) or "scan"
+  /// (frames_per_place, places_m).
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path nominal;  ///< rig as set up by hand, rig.toml
   std::filesystem::path output;   ///< rig.toml to write
   Method method = Method::bundle;
   calibration::BundleOptions bundle;
-  std::vector<double> sides_m;    ///< of the tree; empty: as the recording says
-  int frames_per_pose = 0;        ///< 0: as the recording says
+  std::vector<double> sides_m;  ///< of the tree; empty: as the recording says
+  int frames_per_pose = 0;      ///< 0: as the recording says
+  bool align_only = false;      ///< tell how far the cameras stand from the nominal rig; write nothing
   bool force = false;
 };
 
-/// Calibrate and write the rig. Returns what was found: method, cameras, warnings, and by the bundle chi2_per_dof,
-/// warp_degree, crosstalk, iterations, poses, sightings, outliers, side_rms_mm.
-[[nodiscard]] Result<nlohmann::ordered_json> calibrate_rig_file(const CalibrateJob& job, const Progress& progress = {});
+/// Calibrate and write the rig. Returns what was found: method, written, warnings, and by bundle and scan
+/// chi2_per_dof, warp_degree, crosstalk, iterations, poses, sightings, outliers, side_rms_mm, alignment.
+[[nodiscard]] Result<nlohmann::ordered_json> calibrate_rig_file(const CalibrateJob& job,
+                                                                const Progress& progress = {});
 
 }  // namespace kinemark::pipeline

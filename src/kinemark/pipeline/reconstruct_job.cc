@@ -12,8 +12,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json told_of(const reconstruction::LedSummary& led) {
-  return {{"name", led.name},           {"frames", led.frames},       {"located", led.located},
-          {"occluded", led.occluded},   {"saturated", led.saturated}, {"inconsistent", led.inconsistent},
+  return {{"name", led.name},          {"frames", led.frames},       {"located", led.located},
+          {"occluded", led.occluded},  {"saturated", led.saturated}, {"inconsistent", led.inconsistent},
           {"near_edge", led.near_edge}};
 }
 

@@ -25,8 +25,8 @@ struct ReconstructJob {
   bool force = false;
 };
 
-/// Points of a recording of counts as markers. Returns method, frames, written, warnings and for each LED what became of
-/// its frames, and by the smoother how it was smoothed.
+/// Points of a recording of counts as markers. Returns method, frames, written, warnings and for each LED
+/// what became of its frames, and by the smoother how it was smoothed.
 [[nodiscard]] Result<nlohmann::ordered_json> reconstruct_file(const ReconstructJob& job);
 
 }  // namespace kinemark::pipeline

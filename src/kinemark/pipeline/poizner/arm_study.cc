@@ -37,13 +37,14 @@ double length_sd(const Matrix3Xd& a, const Matrix3Xd& b) {
   return std::sqrt((length.array() - length.mean()).square().mean());
 }
 
-double gap_rms(const Matrix3Xd& ours, const Matrix3Xd& truth, const Array<std::uint8_t>& hidden, std::int64_t led,
-               std::int64_t leds) {
+double gap_rms(const Matrix3Xd& ours, const Matrix3Xd& truth, const Array<std::uint8_t>& hidden,
+               std::int64_t led, std::int64_t leds) {
   double squares = 0.0;
   int count = 0;
   for (std::int64_t f = 0; f < kFrames; ++f) {
     bool gap = false;
-    for (std::int64_t c = 0; c < 2; ++c) gap = gap || hidden[static_cast<std::size_t>((f * leds + led) * 2 + c)] != 0;
+    for (std::int64_t c = 0; c < 2; ++c)
+      gap = gap || hidden[static_cast<std::size_t>((f * leds + led) * 2 + c)] != 0;
     if (!gap) continue;
     squares += (ours.col(f) - truth.col(f)).squaredNorm();
     ++count;
@@ -82,8 +83,8 @@ Result<ArmOutcome> study_arm(const CalibratedRig& rig) {
     one.name = counts.leds[l];
     one.classic = motion_errors(old, old_velocity, align.rotation * classic[l].acceleration, recorded->truth,
                                 recorded->derivatives, led, first, last);
-    one.ours = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth, recorded->derivatives, led,
-                             first, last);
+    one.ours = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth,
+                             recorded->derivatives, led, first, last);
     one.told = told_errors(path, first, last);
     one.gap_rms_m = gap_rms(path.position, truth, recorded->hidden, led, leds);
     one.fastest_error_m_s = ours.fastest - real.fastest;

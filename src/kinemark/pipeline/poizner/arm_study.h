@@ -16,15 +16,16 @@ namespace kinemark::pipeline {
 struct ArmLed {
   std::string name;
   MotionErrors classic, ours, told;
-  double gap_rms_m = 0.0;            ///< ours, in frames that a camera or both did not see; 0 without any
-  double fastest_error_m_s = 0.0, slowest_error_m_s = 0.0;  ///< ours: of the largest and smallest speed, signed
+  double gap_rms_m = 0.0;  ///< ours, in frames that a camera or both did not see; 0 without any
+  double fastest_error_m_s = 0.0,
+         slowest_error_m_s = 0.0;  ///< ours: of the largest and smallest speed, signed
   double classic_fastest_error_m_s = 0.0, classic_slowest_error_m_s = 0.0;
   int order = 0;
   double cutoff_hz = 0.0;
 };
 
 struct ArmOutcome {
-  std::vector<ArmLed> leds;  ///< shoulder, elbow, wrist, hand
+  std::vector<ArmLed> leds;                                        ///< shoulder, elbow, wrist, hand
   std::array<double, 3> classic_length_sd_m{}, our_length_sd_m{};  ///< upper arm, forearm, hand
   Coverage positions, rates;
   std::vector<Eigen::Matrix3Xd> classic_paths;  ///< per LED, true world, m

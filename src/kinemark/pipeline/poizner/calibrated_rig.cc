@@ -43,7 +43,8 @@ math::SE3 align_ours(const CalibratedRig& rig, const calibration::StillPoses& tr
 
 math::SE3 align_classic(const data::Rig& classic, const calibration::StillPoses& tree,
                         const simulation::TreePosesRecording& recorded) {
-  constexpr double kBright = 100.0;  // counts of every channel: away from the edge, where the table is at a loss
+  constexpr double kBright =
+      100.0;  // counts of every channel: away from the edge, where the table is at a loss
   Pairs pairs;
   for (int pose = 0; pose < std::min(kAligned, tree.poses()); ++pose)
     for (int led = 0; led < tree.leds(); ++led) {
@@ -73,6 +74,7 @@ Result<CalibratedRig> calibrate_rig(std::uint64_t seed, CalibratedRigOptions opt
   if (!grid) return std::unexpected(grid.error());
   simulation::TreePosesOptions poses;
   poses.poses = options.tree_poses;
+  poses.recording.intensity.assign(3, options.intensity);
   const auto tree = simulation::record_tree_poses(*physical, poses);
   if (!tree) return std::unexpected(tree.error());
 
@@ -94,12 +96,13 @@ Result<CalibratedRig> calibrate_rig(std::uint64_t seed, CalibratedRigOptions opt
   const auto begin = std::chrono::steady_clock::now();
   auto bundle = calibration::calibrate_bundle(*classic, *still, grids, options.bundle);
   if (!bundle) return std::unexpected(bundle.error());
-  CalibratedRig out{.physical = std::move(*physical),
-                    .classic = std::move(*classic),
-                    .bundle = std::move(*bundle),
-                    .bundle_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                    .truth_from_ours = {},
-                    .truth_from_classic = {}};
+  CalibratedRig out{
+      .physical = std::move(*physical),
+      .classic = std::move(*classic),
+      .bundle = std::move(*bundle),
+      .bundle_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+      .truth_from_ours = {},
+      .truth_from_classic = {}};
   out.truth_from_ours = align_ours(out, *still, *tree);
   out.truth_from_classic = align_classic(out.classic, *still, *tree);
   return out;

@@ -17,6 +17,7 @@ namespace kinemark::pipeline {
 struct CalibratedRigOptions {
   simulation::RigDrawOptions rig;
   int tree_poses = 300;
+  double intensity = 1.0;  ///< of the tree's LEDs; the grid's are always whole
   bool grid_in_bundle = true;
   calibration::BundleOptions bundle;
 };
@@ -27,8 +28,8 @@ struct CalibratedRig {
   data::Rig classic;                 ///< look-up tables, poses set by hand
   calibration::BundleResult bundle;  ///< rig and report
   double bundle_s = 0.0;             ///< time that the bundle took
-  /// Rigid motions that take each method's world onto the true one, found on the tree's poses: the study judges
-  /// lengths and shapes, and no method can know where the laboratory is.
+  /// Rigid motions that take each method's world onto the true one, found on the tree's poses: the study
+  /// judges lengths and shapes, and no method can know where the laboratory is.
   math::SE3 truth_from_ours, truth_from_classic;
 };
 

@@ -16,7 +16,8 @@ Eigen::Matrix3Xd differences(const Eigen::Matrix3Xd& x, double rate_hz) {
   Eigen::Matrix3Xd out(3, x.cols());
   for (int a = 0; a < 3; ++a) {
     const Eigen::VectorXd row = x.row(a);
-    const auto d = trajectory::two_point_difference({row.data(), static_cast<std::size_t>(row.size())}, rate_hz);
+    const auto d =
+        trajectory::two_point_difference({row.data(), static_cast<std::size_t>(row.size())}, rate_hz);
     out.row(a) = Eigen::Map<const Eigen::RowVectorXd>(d.data(), row.size());
   }
   return out;
@@ -46,8 +47,8 @@ std::vector<ClassicPath> classic_paths(const data::Counts& counts, const data::R
       for (auto& axis : raw[c]) axis.resize(frames);
       for (std::size_t f = 0; f < frames; ++f) {
         const auto frame = static_cast<std::int64_t>(f), camera = static_cast<std::int64_t>(c);
-        const auto at = reconstruction::look_up(classic.cameras[c].table,
-                                                reconstruction::detector_ratios(counts.at(frame, led, camera)));
+        const auto at = reconstruction::look_up(
+            classic.cameras[c].table, reconstruction::detector_ratios(counts.at(frame, led, camera)));
         valid[f] = usable[counts.index(frame, led, camera)] != 0 && at.allFinite();
         for (std::size_t a = 0; a < 2; ++a) raw[c][a][f] = at[static_cast<Eigen::Index>(a)];
       }

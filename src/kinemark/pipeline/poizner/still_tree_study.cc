@@ -61,8 +61,8 @@ void add_distances(const Cloud& cloud, StillMeasures& to) {
   }
 }
 
-/// Standard deviation of a distance between mean positions: what the rig's covariance does to both ends together, and the
-/// noise of `frames` frames.
+/// Standard deviation of a distance between mean positions: what the rig's covariance does to both ends
+/// together, and the noise of `frames` frames.
 double predict(const data::Rig& rig, const data::Counts& counts, const Cloud& cloud,
                const std::vector<Matrix3d>& frame_noise, const std::array<int, 2>& side) {
   const auto a = static_cast<std::size_t>(side[0]), b = static_cast<std::size_t>(side[1]);
@@ -78,7 +78,8 @@ double predict(const data::Rig& rig, const data::Counts& counts, const Cloud& cl
       strength.push_back(light);
       weight.push_back(light * light);
     }
-    by += (led == a ? 1.0 : -1.0) * along.transpose() * reconstruction::by_parameters(rig, cloud.mean[led], strength, weight);
+    by += (led == a ? 1.0 : -1.0) * along.transpose() *
+          reconstruction::by_parameters(rig, cloud.mean[led], strength, weight);
     variance += along.dot(frame_noise[led] * along) / static_cast<double>(counts.frames());
   }
   return std::sqrt(variance + (by * rig.covariance).dot(by));
@@ -133,8 +134,10 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
       Matrix3d noise = Matrix3d::Zero();
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         for (std::int64_t c = 0; c < 2; ++c)
-          strength[static_cast<std::size_t>(c)] += counts.at(f, l, c).sum() / static_cast<double>(counts.frames());
-        if (bare->points.present(f, l)) noise += covariance_of(bare->points, f, l) / static_cast<double>(counts.frames());
+          strength[static_cast<std::size_t>(c)] +=
+              counts.at(f, l, c).sum() / static_cast<double>(counts.frames());
+        if (bare->points.present(f, l))
+          noise += covariance_of(bare->points, f, l) / static_cast<double>(counts.frames());
       }
       frame_noise.push_back(noise);
       const Vector3d truth = recorded->truth.x(0, l);

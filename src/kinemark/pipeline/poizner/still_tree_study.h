@@ -25,8 +25,8 @@ struct StillMeasures {
 struct StillOutcome {
   StillMeasures classic, ours;
   Eigen::Vector3d cramer_rao_sd_m = Eigen::Vector3d::Zero();  ///< median, per axis
-  std::vector<double> predicted_sd_m;  ///< of each distance: calibration and noise
-  double error_over_predicted = 0.0;   ///< root mean square
+  std::vector<double> predicted_sd_m;                         ///< of each distance: calibration and noise
+  double error_over_predicted = 0.0;                          ///< root mean square
   Coverage points, distances;
 };
 
@@ -37,6 +37,7 @@ struct StillStudyOptions {
 };
 
 /// Scenario S1: ten places, 100 frames at 100 Hz each.
-[[nodiscard]] Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudyOptions& options = {});
+[[nodiscard]] Result<StillOutcome> study_still_tree(const CalibratedRig& rig,
+                                                    const StillStudyOptions& options = {});
 
 }  // namespace kinemark::pipeline

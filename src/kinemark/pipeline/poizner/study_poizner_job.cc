@@ -26,7 +26,8 @@ std::optional<std::uint64_t> number(std::string_view text) {
 Result<PoiznerSeed> study_seed(std::uint64_t seed) {
   auto rig = calibrate_rig(seed);
   if (!rig) return fail_at(fmt::format("seed {}", seed), rig.error());
-  PoiznerSeed out{.seed = seed, .chi2_per_dof = rig->bundle.report.chi2_per_dof, .tree = {}, .wheels = {}, .arm = {}};
+  PoiznerSeed out{
+      .seed = seed, .chi2_per_dof = rig->bundle.report.chi2_per_dof, .tree = {}, .wheels = {}, .arm = {}};
   auto tree = study_still_tree(*rig);
   if (!tree) return fail_at(fmt::format("seed {}", seed), tree.error());
   out.tree = std::move(*tree);
@@ -55,8 +56,10 @@ Result<std::vector<std::uint64_t>> parse_seeds(std::string_view text) {
   constexpr std::size_t kMost = 1000;
   std::vector<std::uint64_t> out;
   const auto wrong = [&] {
-    return fail(Code::usage, fmt::format("--seeds: '{}'; numbers and ranges such as 1-10 or 1,4,7-9 were expected, {} at most",
-                                         text, kMost));
+    return fail(
+        Code::usage,
+        fmt::format("--seeds: '{}'; numbers and ranges such as 1-10 or 1,4,7-9 were expected, {} at most",
+                    text, kMost));
   };
   for (std::size_t at = 0; at <= text.size();) {
     const auto comma = std::min(text.find(',', at), text.size());
@@ -64,7 +67,9 @@ Result<std::vector<std::uint64_t>> parse_seeds(std::string_view text) {
     const auto dash = part.find('-');
     const auto first = number(part.substr(0, dash));
     const auto last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
-    if (!first || !last || *last < *first || *last - *first >= kMost || out.size() + (*last - *first) >= kMost) return wrong();
+    if (!first || !last || *last < *first || *last - *first >= kMost ||
+        out.size() + (*last - *first) >= kMost)
+      return wrong();
     for (std::uint64_t seed = *first; seed <= *last; ++seed) out.push_back(seed);
     at = comma + 1;
   }
@@ -79,12 +84,14 @@ simulation::WheelOptions study_wheel_options(int wheel) {
 }
 
 std::string_view wheel_name(int wheel) {
-  constexpr std::array<std::string_view, kWheels> kNames{"wheel at 8 deg", "wheel at 35 deg", "wheel at 8 deg, glint",
-                                                         "wheel at 35 deg, glint"};
+  constexpr std::array<std::string_view, kWheels> kNames{"wheel at 8 deg", "wheel at 35 deg",
+                                                         "wheel at 8 deg, glint", "wheel at 35 deg, glint"};
   return kNames[static_cast<std::size_t>(wheel)];
 }
 
-bool PoiznerStudy::pass() const { return std::ranges::all_of(rows, [](const StudyRow& row) { return row.pass(); }); }
+bool PoiznerStudy::pass() const {
+  return std::ranges::all_of(rows, [](const StudyRow& row) { return row.pass(); });
+}
 
 Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progress) {
   if (job.seeds.empty()) return fail(Code::usage, "the study needs one seed or more");
@@ -113,7 +120,8 @@ nlohmann::ordered_json study_json(const PoiznerStudy& study) {
   const auto value = [](const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); };
   Json rows = Json::array();
   for (const auto& row : study.rows) {
-    const Json limits = row.at_least ? Json::array({value(row.at_least), value(row.at_most)}) : value(row.at_most);
+    const Json limits =
+        row.at_least ? Json::array({value(row.at_least), value(row.at_most)}) : value(row.at_most);
     rows.push_back({{"quantity", row.quantity},
                     {"unit", row.unit},
                     {"paper", value(row.paper)},
@@ -129,10 +137,12 @@ nlohmann::ordered_json study_json(const PoiznerStudy& study) {
 }
 
 std::string study_table(const PoiznerStudy& study) {
-  std::string out = fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12}\n", "", "unit", "paper", "classic", "ours", "limit", "bound");
+  std::string out = fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12}\n", "", "unit", "paper",
+                                "classic", "ours", "limit", "bound");
   for (const auto& row : study.rows)
-    out += fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12} {}\n", row.quantity, row.unit, cell(row.paper),
-                       cell(row.classic), cell(row.ours), cell(row.limit), bound(row), row.pass() ? "" : "FAILS");
+    out += fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12} {}\n", row.quantity, row.unit,
+                       cell(row.paper), cell(row.classic), cell(row.ours), cell(row.limit), bound(row),
+                       row.pass() ? "" : "FAILS");
   return out;
 }
 

@@ -33,9 +33,11 @@ struct StudyRow {
   std::optional<double> paper;    ///< Poizner, Wooten & Salot (1986)
   std::optional<double> classic;  ///< their method on the simulated rig: median over seeds
   double ours = 0.0;              ///< worst over seeds; pooled where the quantity says so
-  std::optional<double> limit;    ///< Cramer-Rao, or the standard deviation that came with the estimate: median
+  std::optional<double> limit;  ///< Cramer-Rao, or the standard deviation that came with the estimate: median
   std::optional<double> at_least, at_most;
-  [[nodiscard]] bool pass() const { return !(at_least && !(ours >= *at_least)) && !(at_most && !(ours <= *at_most)); }
+  [[nodiscard]] bool pass() const {
+    return !(at_least && !(ours >= *at_least)) && !(at_most && !(ours <= *at_most));
+  }
 };
 
 /// The four turns of the wheel: two orientations, without and with the glint.
@@ -61,8 +63,8 @@ struct PoiznerStudy {
 /// Run S1, S2 and S3 by both methods for every seed. About 1 s a seed on one thread. `progress` counts seeds.
 [[nodiscard]] Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progress = {});
 
-/// {"seeds": [...], "rows": [{quantity, unit, paper, classic, ours, limit, bound, pass}], "pass": ...}; bound is a number
-/// (at most) or [at least, at most]; what is absent is null.
+/// {"seeds": [...], "rows": [{quantity, unit, paper, classic, ours, limit, bound, pass}], "pass": ...}; bound
+/// is a number (at most) or [at least, at most]; what is absent is null.
 [[nodiscard]] nlohmann::ordered_json study_json(const PoiznerStudy& study);
 /// The table for people.
 [[nodiscard]] std::string study_table(const PoiznerStudy& study);

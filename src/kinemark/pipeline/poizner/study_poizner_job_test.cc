@@ -5,9 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+
+#include "kinemark/pipeline/poizner/study_figures.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -53,11 +56,17 @@ TEST(StudyPoizner, OneRigMakesTheWholeTable) {
   EXPECT_EQ(json["pass"].get<bool>(), study->pass());
   EXPECT_TRUE(json["rows"][3]["paper"].is_null());
   EXPECT_THAT(study_table(*study), HasSubstr("arm: hand, error of position"));
+  const auto page = study_page(*study);
+  EXPECT_THAT(page, HasSubstr("</html>"));
+  EXPECT_THAT(page, HasSubstr("Acceleration of the hand"));
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);  // nothing is fetched
 }
 
 TEST(StudyPoizner, StopsWhenAskedAndNeedsASeed) {
   PoiznerJob job;
-  EXPECT_EQ(study_poizner(job, [](std::int64_t, std::int64_t) { return false; }).error().code, Code::cancelled);
+  EXPECT_EQ(study_poizner(job, [](std::int64_t, std::int64_t) { return false; }).error().code,
+            Code::cancelled);
   job.seeds.clear();
   EXPECT_EQ(study_poizner(job).error().code, Code::usage);
 }

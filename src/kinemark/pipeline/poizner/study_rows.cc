@@ -35,13 +35,14 @@ void add_tree(const Seeds& seeds, std::vector<StudyRow>& rows) {
   constexpr std::array<char, 3> kAxis{'x', 'y', 'z'};
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
-    rows.push_back({.quantity = fmt::format("still tree: scatter of a frame, {}", kAxis[a]),
-                    .unit = "mm",
-                    .paper = 1.0,
-                    .classic = median(over(seeds, kMillimetres, [&](auto& s) { return s.tree.classic.sd_m[axis]; })),
-                    .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.tree.ours.sd_m[axis]; })),
-                    .limit = median(over(seeds, kMillimetres, [&](auto& s) { return s.tree.cramer_rao_sd_m[axis]; })),
-                    .at_most = kMost[a]});
+    rows.push_back(
+        {.quantity = fmt::format("still tree: scatter of a frame, {}", kAxis[a]),
+         .unit = "mm",
+         .paper = 1.0,
+         .classic = median(over(seeds, kMillimetres, [&](auto& s) { return s.tree.classic.sd_m[axis]; })),
+         .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.tree.ours.sd_m[axis]; })),
+         .limit = median(over(seeds, kMillimetres, [&](auto& s) { return s.tree.cramer_rao_sd_m[axis]; })),
+         .at_most = kMost[a]});
   }
   rows.push_back({.quantity = "still tree: scatter / Cramer-Rao bound",
                   .unit = "1",
@@ -56,28 +57,46 @@ void add_tree(const Seeds& seeds, std::vector<StudyRow>& rows) {
       predicted += std::pow(kMillimetres * s.tree.predicted_sd_m[i], 2);
       count += 1.0;
     }
-  rows.push_back({.quantity = "still tree: error of distances, mean",
-                  .unit = "mm",
-                  .classic = median(over(seeds, kMillimetres, [](auto& s) { return s.tree.classic.mean_error_m(); })),
-                  .ours = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.ours.mean_error_m(); })),
-                  .at_most = 0.15});
+  rows.push_back(
+      {.quantity = "still tree: error of distances, mean",
+       .unit = "mm",
+       .classic = median(over(seeds, kMillimetres, [](auto& s) { return s.tree.classic.mean_error_m(); })),
+       .ours = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.ours.mean_error_m(); })),
+       .at_most = 0.15});
   rows.push_back({.quantity = "still tree: error of distances, root mean square of all seeds",
                   .unit = "mm",
                   .ours = std::sqrt(squares / count),
                   .limit = std::sqrt(predicted / count),
                   .at_most = 0.15});
-  rows.push_back({.quantity = "still tree: error of distances, largest",
-                  .unit = "mm",
-                  .paper = 46.0,
-                  .classic = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.classic.max_error_m(); })),
-                  .ours = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.ours.max_error_m(); })),
-                  .at_most = 0.8});
+  rows.push_back(
+      {.quantity = "still tree: error of distances, largest",
+       .unit = "mm",
+       .paper = 46.0,
+       .classic = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.classic.max_error_m(); })),
+       .ours = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.ours.max_error_m(); })),
+       .at_most = 0.8});
   const auto told = over(seeds, 1.0, [](auto& s) { return s.tree.error_over_predicted; });
-  rows.push_back({.quantity = "still tree: error / predicted, smallest", .unit = "1", .ours = smallest(told), .limit = 1.0, .at_least = 0.6});
-  rows.push_back({.quantity = "still tree: error / predicted, largest", .unit = "1", .ours = largest(told), .limit = 1.0, .at_most = 1.3});
+  rows.push_back({.quantity = "still tree: error / predicted, smallest",
+                  .unit = "1",
+                  .ours = smallest(told),
+                  .limit = 1.0,
+                  .at_least = 0.6});
+  rows.push_back({.quantity = "still tree: error / predicted, largest",
+                  .unit = "1",
+                  .ours = largest(told),
+                  .limit = 1.0,
+                  .at_most = 1.3});
   const auto chi2 = over(seeds, 1.0, [](auto& s) { return s.chi2_per_dof; });
-  rows.push_back({.quantity = "calibration: chi2/dof, smallest", .unit = "1", .ours = smallest(chi2), .limit = 1.0, .at_least = 0.6});
-  rows.push_back({.quantity = "calibration: chi2/dof, largest", .unit = "1", .ours = largest(chi2), .limit = 1.0, .at_most = 1.2});
+  rows.push_back({.quantity = "calibration: chi2/dof, smallest",
+                  .unit = "1",
+                  .ours = smallest(chi2),
+                  .limit = 1.0,
+                  .at_least = 0.6});
+  rows.push_back({.quantity = "calibration: chi2/dof, largest",
+                  .unit = "1",
+                  .ours = largest(chi2),
+                  .limit = 1.0,
+                  .at_most = 1.2});
 }
 
 void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
@@ -88,12 +107,13 @@ void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
     double WheelMeasures::* field;
     double unit, paper, most;
   };
-  const std::array<Line, 6> lines{{{"median error of the diameter", &WheelMeasures::median_error_m, kMillimetres, 0.6, 0.30},
-                                   {"scatter of the diameter", &WheelMeasures::sd_m, kMillimetres, 0.5, 0.32},
-                                   {"largest error of the diameter", &WheelMeasures::max_error_m, kMillimetres, 10.0, 1.5},
-                                   {"ratio of the axes", &WheelMeasures::axes_ratio, 1.0, 1.03, 1.005},
-                                   {"scatter across the plane", &WheelMeasures::plane_sd_m, kMillimetres, 1.1, steep ? 0.60 : 0.35},
-                                   {"error of the fitted circle", &WheelMeasures::circle_error_m, kMillimetres, 0.0, 0.2}}};
+  const std::array<Line, 6> lines{
+      {{"median error of the diameter", &WheelMeasures::median_error_m, kMillimetres, 0.6, 0.30},
+       {"scatter of the diameter", &WheelMeasures::sd_m, kMillimetres, 0.5, 0.32},
+       {"largest error of the diameter", &WheelMeasures::max_error_m, kMillimetres, 10.0, 1.5},
+       {"ratio of the axes", &WheelMeasures::axes_ratio, 1.0, 1.03, 1.005},
+       {"scatter across the plane", &WheelMeasures::plane_sd_m, kMillimetres, 1.1, steep ? 0.60 : 0.35},
+       {"error of the fitted circle", &WheelMeasures::circle_error_m, kMillimetres, 0.0, 0.2}}};
   for (const auto& line : lines) {
     const auto get = [&](const WheelMeasures& m) { return std::abs(m.*line.field); };
     StudyRow row{.quantity = fmt::format("{}: {}", wheel_name(wheel), line.what),
@@ -104,12 +124,14 @@ void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
     if (line.paper > 0.0) row.paper = line.paper;
     rows.push_back(std::move(row));
   }
-  rows.push_back({.quantity = fmt::format("{}: error of position", wheel_name(wheel)),
-                  .unit = "mm",
-                  .classic = median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].classic_errors.position; })),
-                  .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].our_errors.position; })),
-                  .limit = median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].told.position; })),
-                  .at_most = steep ? 0.65 : 0.40});
+  rows.push_back(
+      {.quantity = fmt::format("{}: error of position", wheel_name(wheel)),
+       .unit = "mm",
+       .classic =
+           median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].classic_errors.position; })),
+       .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].our_errors.position; })),
+       .limit = median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].told.position; })),
+       .at_most = steep ? 0.65 : 0.40});
 }
 
 void add_arm(const Seeds& seeds, std::vector<StudyRow>& rows) {
@@ -128,38 +150,46 @@ void add_arm(const Seeds& seeds, std::vector<StudyRow>& rows) {
   for (std::size_t led = names.size(); led-- > 0;)
     for (std::size_t r = 0; r < kRates.size(); ++r) {
       const auto& rate = kRates[r];
-      rows.push_back({.quantity = fmt::format("arm: {}, error of {}", names[led].name, rate.what),
-                      .unit = rate.name,
-                      .classic = median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].classic.*rate.field; })),
-                      .ours = largest(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].ours.*rate.field; })),
-                      .limit = median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].told.*rate.field; })),
-                      .at_most = kMost[led][r]});
+      rows.push_back(
+          {.quantity = fmt::format("arm: {}, error of {}", names[led].name, rate.what),
+           .unit = rate.name,
+           .classic =
+               median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].classic.*rate.field; })),
+           .ours = largest(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].ours.*rate.field; })),
+           .limit = median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].told.*rate.field; })),
+           .at_most = kMost[led][r]});
     }
   const std::size_t hand = names.size() - 1;
   rows.push_back(
       {.quantity = "arm: hand, error of the largest speed",
        .unit = "mm/s",
-       .classic = median(over(seeds, kMillimetres, [&](auto& s) { return std::abs(s.arm.leds[hand].classic_fastest_error_m_s); })),
-       .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return std::abs(s.arm.leds[hand].fastest_error_m_s); })),
+       .classic = median(over(seeds, kMillimetres,
+                              [&](auto& s) { return std::abs(s.arm.leds[hand].classic_fastest_error_m_s); })),
+       .ours = largest(
+           over(seeds, kMillimetres, [&](auto& s) { return std::abs(s.arm.leds[hand].fastest_error_m_s); })),
        .at_most = 10.0});
   rows.push_back(
       {.quantity = "arm: hand, error of the smallest speed",
        .unit = "mm/s",
-       .classic = median(over(seeds, kMillimetres, [&](auto& s) { return std::abs(s.arm.leds[hand].classic_slowest_error_m_s); })),
-       .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return std::abs(s.arm.leds[hand].slowest_error_m_s); })),
+       .classic = median(over(seeds, kMillimetres,
+                              [&](auto& s) { return std::abs(s.arm.leds[hand].classic_slowest_error_m_s); })),
+       .ours = largest(
+           over(seeds, kMillimetres, [&](auto& s) { return std::abs(s.arm.leds[hand].slowest_error_m_s); })),
        .at_most = 15.0});
   constexpr std::array<const char*, 3> kSegments{"upper arm", "forearm", "hand"};
   for (std::size_t i = 0; i < kSegments.size(); ++i)
-    rows.push_back({.quantity = fmt::format("arm: {}, scatter of its length", kSegments[i]),
-                    .unit = "mm",
-                    .classic = median(over(seeds, kMillimetres, [&](auto& s) { return s.arm.classic_length_sd_m[i]; })),
-                    .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.arm.our_length_sd_m[i]; })),
-                    .at_most = 0.45});
+    rows.push_back(
+        {.quantity = fmt::format("arm: {}, scatter of its length", kSegments[i]),
+         .unit = "mm",
+         .classic = median(over(seeds, kMillimetres, [&](auto& s) { return s.arm.classic_length_sd_m[i]; })),
+         .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.arm.our_length_sd_m[i]; })),
+         .at_most = 0.45});
   for (const std::size_t led : {hand, hand - 1, hand - 2})
-    rows.push_back({.quantity = fmt::format("arm: {}, error of position while occluded", names[led].name),
-                    .unit = "mm",
-                    .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.arm.leds[led].gap_rms_m; })),
-                    .at_most = 2.0});
+    rows.push_back(
+        {.quantity = fmt::format("arm: {}, error of position while occluded", names[led].name),
+         .unit = "mm",
+         .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.arm.leds[led].gap_rms_m; })),
+         .at_most = 2.0});
 }
 
 void add_coverage_rows(const Seeds& seeds, std::vector<StudyRow>& rows) {

@@ -41,7 +41,8 @@ WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter
   }
   out.sd_m = std::sqrt(squares / static_cast<double>(n - 1));
   std::ranges::sort(diameters);
-  out.median_error_m = 0.5 * (diameters[diameters.size() / 2] + diameters[(diameters.size() - 1) / 2]) - true_diameter_m;
+  out.median_error_m =
+      0.5 * (diameters[diameters.size() / 2] + diameters[(diameters.size() - 1) / 2]) - true_diameter_m;
 
   double longest = 0.0, shortest = std::numeric_limits<double>::infinity();
   for (int degree = 0; degree < 180; ++degree) {
@@ -58,7 +59,8 @@ WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter
   Eigen::MatrixX3d a(n, 3);
   a.leftCols<2>() = 2.0 * view.in_plane.transpose();
   a.col(2).setOnes();
-  const Eigen::Vector3d circle = a.colPivHouseholderQr().solve(view.in_plane.colwise().squaredNorm().transpose());
+  const Eigen::Vector3d circle =
+      a.colPivHouseholderQr().solve(view.in_plane.colwise().squaredNorm().transpose());
   out.circle_error_m = 2.0 * std::sqrt(circle[2] + circle.head<2>().squaredNorm()) - true_diameter_m;
   return out;
 }

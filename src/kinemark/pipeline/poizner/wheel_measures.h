@@ -8,20 +8,20 @@ namespace kinemark::pipeline {
 
 /// The paper's measures of a turning wheel.
 struct WheelMeasures {
-  double median_error_m = 0.0;    ///< of the diameters, against the true one
-  double sd_m = 0.0;              ///< of the diameters
-  double max_error_m = 0.0;       ///< largest, unsigned
-  double axes_ratio = 1.0;        ///< longest over shortest extent in the best-fit plane
-  double plane_sd_m = 0.0;        ///< across that plane
-  double circle_error_m = 0.0;    ///< diameter of the circle of least squares, against the true one
+  double median_error_m = 0.0;  ///< of the diameters, against the true one
+  double sd_m = 0.0;            ///< of the diameters
+  double max_error_m = 0.0;     ///< largest, unsigned
+  double axes_ratio = 1.0;      ///< longest over shortest extent in the best-fit plane
+  double plane_sd_m = 0.0;      ///< across that plane
+  double circle_error_m = 0.0;  ///< diameter of the circle of least squares, against the true one
 };
 
 /// Points of a circle in its best-fit plane: columns, m.
 struct PlaneView {
   Eigen::Vector3d centre;
-  Eigen::Matrix3d axes;        ///< columns: along most, along less, across
-  Eigen::Matrix2Xd in_plane;   ///< m
-  Eigen::VectorXd across;      ///< m
+  Eigen::Matrix3d axes;       ///< columns: along most, along less, across
+  Eigen::Matrix2Xd in_plane;  ///< m
+  Eigen::VectorXd across;     ///< m
 };
 
 [[nodiscard]] PlaneView best_fit_plane(const Eigen::Matrix3Xd& points);

@@ -17,8 +17,9 @@ using Eigen::Vector3d;
 constexpr std::int64_t kFrames = 220, kEnds = 8;  // frames at both ends that errors leave out
 constexpr std::uint64_t kStream = 400;            // of the noise: one more for the second orientation
 
-Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>> of_led(const Array<double>& values, std::int64_t led,
-                                                                   std::int64_t leds, std::int64_t frames) {
+Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>> of_led(const Array<double>& values,
+                                                                   std::int64_t led, std::int64_t leds,
+                                                                   std::int64_t frames) {
   return {values.data() + 3 * led, 3, frames, Eigen::OuterStride<>(3 * leds)};
 }
 
@@ -30,13 +31,15 @@ double rms(const Eigen::Matrix3Xd& errors) {
 
 MotionErrors motion_errors(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xd& velocity,
                            const Eigen::Matrix3Xd& acceleration, const data::Trajectories& truth,
-                           const data::Derivatives& rates, std::int64_t led, std::int64_t first, std::int64_t last) {
+                           const data::Derivatives& rates, std::int64_t led, std::int64_t first,
+                           std::int64_t last) {
   const auto leds = truth.markers(), frames = truth.frames();
   const auto error = [&](const Eigen::Matrix3Xd& ours, const Array<double>& theirs) {
     const Eigen::Matrix3Xd difference = ours - of_led(theirs, led, leds, frames);
     return rms(difference.middleCols(first, last - first));
   };
-  return {error(position, truth.x_in_world), error(velocity, rates.velocity), error(acceleration, rates.acceleration)};
+  return {error(position, truth.x_in_world), error(velocity, rates.velocity),
+          error(acceleration, rates.acceleration)};
 }
 
 TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives& rates, std::int64_t led,
@@ -44,7 +47,8 @@ TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives
   const auto leds = points.markers(), frames = points.frames();
   const Eigen::Matrix3d& turn = truth_from_world.rotation;
   TurnedPath out;
-  out.position = (turn * of_led(points.x_in_world, led, leds, frames)).colwise() + truth_from_world.translation;
+  out.position =
+      (turn * of_led(points.x_in_world, led, leds, frames)).colwise() + truth_from_world.translation;
   out.velocity = turn * of_led(rates.velocity, led, leds, frames);
   out.acceleration = turn * of_led(rates.acceleration, led, leds, frames);
   out.velocity_sd = of_led(rates.velocity_sd, led, leds, frames);
@@ -63,9 +67,11 @@ MotionErrors told_errors(const TurnedPath& path, std::int64_t first, std::int64_
 }
 
 void add_coverage(const TurnedPath& path, const data::Trajectories& truth, const data::Derivatives& rates,
-                  std::int64_t led, std::int64_t first, std::int64_t last, Coverage& positions, Coverage& derivatives) {
+                  std::int64_t led, std::int64_t first, std::int64_t last, Coverage& positions,
+                  Coverage& derivatives) {
   const auto leds = truth.markers(), frames = truth.frames();
-  const auto add = [&](const Eigen::Matrix3Xd& ours, const Eigen::Matrix3Xd& sd, const Array<double>& theirs, Coverage& to) {
+  const auto add = [&](const Eigen::Matrix3Xd& ours, const Eigen::Matrix3Xd& sd, const Array<double>& theirs,
+                       Coverage& to) {
     const auto real = of_led(theirs, led, leds, frames);
     for (std::int64_t f = first; f < last; ++f)
       for (int a = 0; a < 3; ++a) to.add(ours(a, f) - real(a, f), sd(a, f));
@@ -88,7 +94,8 @@ Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::Whe
   if (!smooth) return std::unexpected(smooth.error());
 
   WheelOutcome out;
-  const auto classic = classic_paths(recorded->counts, rig.classic, {start->used.begin(), start->used.end()}).front();
+  const auto classic =
+      classic_paths(recorded->counts, rig.classic, {start->used.begin(), start->used.end()}).front();
   const auto path = turned_path(smooth->points, smooth->derivatives, 0, rig.truth_from_ours);
   out.classic_raw = measure_wheel(classic.raw, wheel.diameter_m);
   out.classic = measure_wheel(classic.filtered, wheel.diameter_m);
@@ -96,13 +103,15 @@ Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::Whe
   const Eigen::Matrix3d& turn = rig.truth_from_classic.rotation;
   out.classic_path = (turn * classic.filtered).colwise() + rig.truth_from_classic.translation;
   out.our_path = path.position;
-  // The old pipeline is compared with the truth in the middle of the conversions, ours at the time of the frame.
+  // The old pipeline is compared with the truth in the middle of the conversions, ours at the time of the
+  // frame.
   out.classic_errors = motion_errors(out.classic_path, turn * classic.velocity, turn * classic.acceleration,
                                      recorded->when_lit, recorded->derivatives, 0, kEnds, kFrames - kEnds);
-  out.our_errors = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth, recorded->derivatives,
-                                 0, kEnds, kFrames - kEnds);
+  out.our_errors = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth,
+                                 recorded->derivatives, 0, kEnds, kFrames - kEnds);
   out.told = told_errors(path, kEnds, kFrames - kEnds);
-  add_coverage(path, recorded->truth, recorded->derivatives, 0, kEnds, kFrames - kEnds, out.positions, out.rates);
+  add_coverage(path, recorded->truth, recorded->derivatives, 0, kEnds, kFrames - kEnds, out.positions,
+               out.rates);
   out.order = smooth->leds.front().bandwidth.order;
   out.cutoff_hz = smooth->leds.front().bandwidth.cutoff_hz;
   return out;

@@ -27,13 +27,14 @@ struct WheelOutcome {
 };
 
 /// Scenario S2: 220 frames at 100 Hz of the turning wheel.
-[[nodiscard]] Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::WheelOptions& wheel);
+[[nodiscard]] Result<WheelOutcome> study_wheel(const CalibratedRig& rig,
+                                               const simulation::WheelOptions& wheel);
 
 /// Errors of a path (columns: frames [first, last)) against the truth of LED `led`.
 [[nodiscard]] MotionErrors motion_errors(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xd& velocity,
-                                         const Eigen::Matrix3Xd& acceleration, const data::Trajectories& truth,
-                                         const data::Derivatives& rates, std::int64_t led, std::int64_t first,
-                                         std::int64_t last);
+                                         const Eigen::Matrix3Xd& acceleration,
+                                         const data::Trajectories& truth, const data::Derivatives& rates,
+                                         std::int64_t led, std::int64_t first, std::int64_t last);
 
 /// An LED's smoothed motion with its standard deviations, turned into the true world; columns: frames.
 struct TurnedPath {
@@ -41,14 +42,15 @@ struct TurnedPath {
   Eigen::Matrix3Xd position_sd, velocity_sd, acceleration_sd;
 };
 
-[[nodiscard]] TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives& rates, std::int64_t led,
-                                     const math::SE3& truth_from_world);
+[[nodiscard]] TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives& rates,
+                                     std::int64_t led, const math::SE3& truth_from_world);
 
 /// Standard deviations as errors are told: root mean square over frames of the 3-D length.
 [[nodiscard]] MotionErrors told_errors(const TurnedPath& path, std::int64_t first, std::int64_t last);
 
 /// Count errors of position, and of velocity and acceleration, against their standard deviations.
 void add_coverage(const TurnedPath& path, const data::Trajectories& truth, const data::Derivatives& rates,
-                  std::int64_t led, std::int64_t first, std::int64_t last, Coverage& positions, Coverage& derivatives);
+                  std::int64_t led, std::int64_t first, std::int64_t last, Coverage& positions,
+                  Coverage& derivatives);
 
 }  // namespace kinemark::pipeline

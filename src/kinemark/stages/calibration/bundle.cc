@@ -20,6 +20,7 @@ namespace {
 using internal::BundleProblem;
 using internal::BundleState;
 
+constexpr int kManyLeds = 12;               // so many places fix the cameras without moving the object
 constexpr double kLargestSideError = 0.06;  // of a side, with cameras as the operator believes them to stand
 
 /// Where the LEDs of one pose are, by rays alone; NaN where fewer than two cameras see one.
@@ -37,12 +38,17 @@ std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree
   return out;
 }
 
-/// Rigid motion that takes the tree to these places.
+bool located(const Eigen::Vector3d& place) { return place.allFinite(); }
+
+/// Rigid motion that takes the tree to those of these places that were located.
 math::SE3 fit_tree(const StillPoses& tree, const std::vector<Eigen::Vector3d>& at) {
-  Eigen::Matrix3Xd from(3, tree.leds()), to(3, tree.leds());
-  for (int led = 0; led < tree.leds(); ++led) {
-    from.col(led) = tree.tree[static_cast<std::size_t>(led)];
-    to.col(led) = at[static_cast<std::size_t>(led)];
+  const auto count = std::ranges::count_if(at, located);
+  Eigen::Matrix3Xd from(3, count), to(3, count);
+  Eigen::Index column = 0;
+  for (std::size_t led = 0; led < at.size(); ++led) {
+    if (!located(at[led])) continue;
+    from.col(column) = tree.tree[led];
+    to.col(column++) = at[led];
   }
   const Eigen::Matrix4d motion = Eigen::umeyama(from, to, false);
   return {motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
@@ -57,14 +63,14 @@ Start start_poses(const data::Rig& rig, const StillPoses& tree) {
   Start start;
   for (int pose = 0; pose < tree.poses(); ++pose) {
     const auto at = places(rig, tree, pose);
-    const bool all = std::ranges::all_of(at, [](const Eigen::Vector3d& p) { return p.allFinite(); });
-    start.poses.push_back(all ? fit_tree(tree, at) : math::SE3{});
-    if (all) start.usable.push_back(pose);
+    const bool enough = std::ranges::count_if(at, located) >= 3;
+    start.poses.push_back(enough ? fit_tree(tree, at) : math::SE3{});
+    if (enough) start.usable.push_back(pose);
   }
   return start;
 }
 
-/// Triangulated sides beside those of the tree.
+/// Triangulated sides beside those of the tree, for sides of half the longest or more.
 struct Sides {
   double rms_m = 0.0;
   double worst_share = 0.0;  // median error of the worst side, of that side
@@ -74,7 +80,9 @@ struct Sides {
 Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vector<int>& poses) {
   Sides out;
   std::vector<std::vector<double>> found(static_cast<std::size_t>(tree.leds() * tree.leds()));
-  double squares = 0.0;
+  double squares = 0.0, longest = 0.0;
+  for (const auto& a : tree.tree)
+    for (const auto& b : tree.tree) longest = std::max(longest, (a - b).norm());
   int count = 0;
   for (const int pose : poses) {
     const auto at = places(rig, tree, pose);
@@ -82,7 +90,7 @@ Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vec
       for (int b = a + 1; b < tree.leds(); ++b) {
         const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
         const double side = (at[i] - at[j]).norm(), given = (tree.tree[i] - tree.tree[j]).norm();
-        if (!std::isfinite(side)) continue;
+        if (!std::isfinite(side) || given < 0.5 * longest) continue;
         found[static_cast<std::size_t>(a * tree.leds() + b)].push_back(side);
         squares += (side - given) * (side - given);
         ++count;
@@ -193,11 +201,12 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
   for (auto& camera : flat.cameras) camera = camera::with_warp_degree(camera, options.warp_degree);
 
   const Start first = start_poses(flat, tree);
-  if (first.usable.size() < 4)
+  const std::size_t fewest = tree.leds() >= kManyLeds ? 1 : 4;
+  if (first.usable.size() < fewest)
     return fail(
         Code::bad_input,
-        fmt::format("{} of {} poses were seen by two cameras with all LEDs; four or more were expected",
-                    first.usable.size(), tree.poses()));
+        fmt::format("{} of {} poses were seen by two cameras with three LEDs; {} or more were expected",
+                    first.usable.size(), tree.poses(), fewest));
   if (const auto sides = compare_sides(flat, tree, first.usable); sides.worst_share > kLargestSideError)
     return fail(Code::bad_input, "the tree's sides do not match the recording: " + sides.sentence);
 

@@ -70,9 +70,9 @@ struct BundleResult {
 /// stays where `nominal` has the first camera; covariance is told in the gauge that holds the cloud of tree
 /// LEDs.
 ///
-/// Fails when fewer than four poses are seen by two cameras, when the tree's sides do not fit what is seen,
-/// and when chi2/dof of the richest model is above `refuse_above`. Cost: 300 poses, degree 10: about 1 s.
-/// Theory: docs/theory/calibration.md
+/// Fails when fewer than four poses (of an object of twelve LEDs or more: one) are seen by two cameras, when
+/// the tree's sides do not fit what is seen, and when chi2/dof of the richest model is above `refuse_above`.
+/// Cost: 300 poses, degree 10: about 1 s. Theory: docs/theory/calibration.md
 [[nodiscard]] Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses& tree,
                                                     const std::vector<GridSightings>& grids,
                                                     const BundleOptions& options = {},

@@ -40,20 +40,31 @@ TEST(GridLut, TableHoldsTheRatiosOfEveryNode) {
   EXPECT_TRUE(calibrated->validate());
   const auto& table = calibrated->cameras[0].table;
   EXPECT_EQ(table.nodes, 15);
-  EXPECT_NEAR(table.uv[2 * (7 * 15 + 7)], 0.0, 2e-3);     // the middle
-  EXPECT_GT(table.uv[2 * (14 * 15 + 7)], 0.8);            // u grows to the right
-  EXPECT_GT(table.uv[2 * (7 * 15 + 14) + 1], 0.8);        // v grows downwards
+  EXPECT_NEAR(table.uv[2 * (7 * 15 + 7)], 0.0, 2e-3);  // the middle
+  EXPECT_GT(table.uv[2 * (14 * 15 + 7)], 0.8);         // u grows to the right
+  EXPECT_GT(table.uv[2 * (7 * 15 + 14) + 1], 0.8);     // v grows downwards
   EXPECT_EQ(calibrated->method, "grid-lut");
 }
 
 TEST(GridLut, TellsHowTheGridHungWrong) {
   const auto rig = ts::ideal_rig();
-  EXPECT_THAT(grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.x(), p.y()); }), rig, 0).error().message,
-              HasSubstr("from behind"));
-  EXPECT_THAT(grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p); }), rig, 0).error().message,
-              HasSubstr("upside down"));
-  EXPECT_THAT(grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.y(), p.x()); }), rig, 0).error().message,
-              HasSubstr("on its side"));
+  EXPECT_THAT(
+      grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.x(), p.y()); }),
+                     rig, 0)
+          .error()
+          .message,
+      HasSubstr("from behind"));
+  EXPECT_THAT(
+      grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p); }), rig, 0)
+          .error()
+          .message,
+      HasSubstr("upside down"));
+  EXPECT_THAT(
+      grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.y(), p.x()); }),
+                     rig, 0)
+          .error()
+          .message,
+      HasSubstr("on its side"));
 }
 
 TEST(GridLut, RefusesWhatIsMissing) {
@@ -61,7 +72,8 @@ TEST(GridLut, RefusesWhatIsMissing) {
   auto counts = record(rig, upright);
   EXPECT_THAT(grid_sightings(counts, rig, 0, {.nodes = 9}).error().message, HasSubstr("225 LEDs; 9 x 9"));
   auto one_dark = counts;
-  for (std::int64_t f = 0; f < counts.frames(); ++f) one_dark.flags[counts.index(f, 16, 0)] |= data::kCountOccluded;
+  for (std::int64_t f = 0; f < counts.frames(); ++f)
+    one_dark.flags[counts.index(f, 16, 0)] |= data::kCountOccluded;
   const auto grid = grid_sightings(one_dark, rig, 0).value();
   EXPECT_THAT(calibrate_grid_lut(rig, {grid, grid}).error().message, HasSubstr("node (1, 1)"));
   EXPECT_THAT(calibrate_grid_lut(rig, {grid}).error().message, HasSubstr("1 grids for 2 cameras"));

@@ -12,8 +12,8 @@
 namespace kinemark::calibration {
 namespace {
 
-using ::testing::HasSubstr;
 using Eigen::Vector3d;
+using ::testing::HasSubstr;
 namespace ts = testing_support;
 
 /// Three LEDs that jump to another place every ten frames.
@@ -21,7 +21,11 @@ data::Counts recording(const data::Rig& rig) {
   const auto tree = test_tree();
   return ts::count_paths(
       rig, 3, 50, 100.0,
-      [&](int led, double t) { return Vector3d(tree[static_cast<std::size_t>(led)] + Vector3d(0.05 * std::floor(t / 0.1 + 1e-6), 0, 0)); }, 4);
+      [&](int led, double t) {
+        return Vector3d(tree[static_cast<std::size_t>(led)] +
+                        Vector3d(0.05 * std::floor(t / 0.1 + 1e-6), 0, 0));
+      },
+      4);
 }
 
 TEST(StillPoses, AveragesRunsOfFrames) {
@@ -36,7 +40,8 @@ TEST(StillPoses, AveragesRunsOfFrames) {
         const auto& s = poses->at(pose, led, c);
         ASSERT_TRUE(s.seen());
         const Vector3d place = test_tree()[static_cast<std::size_t>(led)] + Vector3d(0.05 * pose, 0, 0);
-        z2 += (s.counts - ts::mean_counts(rig.cameras[static_cast<std::size_t>(c)], place)).squaredNorm() / s.variance / 120.0;
+        z2 += (s.counts - ts::mean_counts(rig.cameras[static_cast<std::size_t>(c)], place)).squaredNorm() /
+              s.variance / 120.0;
       }
   EXPECT_NEAR(z2, 1.0, 0.35);
 }
@@ -46,12 +51,14 @@ TEST(StillPoses, LeavesOutWhatMovedOrWasNotSeen) {
   auto counts = recording(rig);
   counts.flags[counts.index(13, 0, 0)] |= data::kCountSaturated;
   for (std::int64_t f = 20; f < 30; ++f)
-    counts.counts[4 * counts.index(f, 1, 1)] = static_cast<std::int16_t>(counts.counts[4 * counts.index(f, 1, 1)] + 6 * (f - 20));
+    counts.counts[4 * counts.index(f, 1, 1)] =
+        static_cast<std::int16_t>(counts.counts[4 * counts.index(f, 1, 1)] + 6 * (f - 20));
   const auto poses = still_poses(counts, rig, test_tree(), 10).value();
   EXPECT_FALSE(poses.at(1, 0, 0).seen());
   EXPECT_TRUE(poses.at(1, 0, 1).seen());
   EXPECT_FALSE(poses.at(2, 1, 1).seen());
-  EXPECT_FALSE(still_poses(counts, rig, test_tree(), 25).value().at(0, 2, 0).seen());  // two places and a half in one run
+  EXPECT_FALSE(still_poses(counts, rig, test_tree(), 25).value().at(0, 2, 0).seen());  // two places and a
+                                                                                       // half in one run
 }
 
 TEST(StillPoses, FlickerCountsAsFarAsItDoesNotAverageOut) {
@@ -78,15 +85,18 @@ TEST(StillPoses, TreeFromItsSides) {
 TEST(StillPoses, RefusesWhatDoesNotFit) {
   const auto rig = ts::ideal_rig();
   auto counts = recording(rig);
-  EXPECT_THAT(still_poses(counts, rig, {Vector3d::Zero()}, 10).error().message, HasSubstr("3 LEDs and the tree 1"));
+  EXPECT_THAT(still_poses(counts, rig, {Vector3d::Zero()}, 10).error().message,
+              HasSubstr("3 LEDs and the tree 1"));
   EXPECT_THAT(still_poses(counts, rig, test_tree(), 7).error().message, HasSubstr("50 frames do not divide"));
   auto one = rig;
   one.cameras.pop_back();
-  EXPECT_THAT(still_poses(counts, one, test_tree(), 10).error().message, HasSubstr("2 cameras and the rig 1"));
+  EXPECT_THAT(still_poses(counts, one, test_tree(), 10).error().message,
+              HasSubstr("2 cameras and the rig 1"));
   counts.rig_id = "x";
   one = rig;
   one.id = "y";
-  EXPECT_THAT(still_poses(counts, one, test_tree(), 10).error().message, HasSubstr("rig 'x', this rig is 'y'"));
+  EXPECT_THAT(still_poses(counts, one, test_tree(), 10).error().message,
+              HasSubstr("rig 'x', this rig is 'y'"));
 }
 
 }  // namespace

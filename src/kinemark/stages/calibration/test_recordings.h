@@ -22,9 +22,12 @@ inline StillPoses tree_sightings(const data::Rig& truth, int poses, std::uint64_
   Random random(seed, 5);
   const double sd = testing_support::count_sd(truth) / std::sqrt(10.0);
   for (int pose = 0; pose < poses; ++pose) {
-    const double x = random.uniform(-0.3, 0.3), y = random.uniform(-0.35, 0.35), z = random.uniform(-0.3, 0.3);
-    const double yaw = random.uniform(-0.6, 0.6), pitch = random.uniform(-0.6, 0.6), roll = random.uniform(-3.1, 3.1);
-    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()) *
+    const double x = random.uniform(-0.3, 0.3), y = random.uniform(-0.35, 0.35),
+                 z = random.uniform(-0.3, 0.3);
+    const double yaw = random.uniform(-0.6, 0.6), pitch = random.uniform(-0.6, 0.6),
+                 roll = random.uniform(-3.1, 3.1);
+    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()) *
+                                  Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()) *
                                   Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()))
                                      .toRotationMatrix();
     Eigen::Matrix3Xd places(3, out.leds());
@@ -52,8 +55,10 @@ inline std::vector<GridSightings> grid_sightings_of(const data::Rig& truth, std:
   for (const auto& camera : truth.cameras) {
     GridSightings grid;
     for (int node = 0; node < 225; ++node) {
-      const Eigen::Vector2d place = grid.place_m(node / 15, node % 15) + shift[static_cast<std::size_t>(node)];
-      const Eigen::Vector3d x = camera.cam_from_world.inverse() * Eigen::Vector3d(place.x(), place.y(), grid.distance_m);
+      const Eigen::Vector2d place =
+          grid.place_m(node / 15, node % 15) + shift[static_cast<std::size_t>(node)];
+      const Eigen::Vector3d x =
+          camera.cam_from_world.inverse() * Eigen::Vector3d(place.x(), place.y(), grid.distance_m);
       StillSighting s{testing_support::mean_counts(camera, x), sd * sd};
       for (double& count : s.counts) count += sd * random.gaussian();
       grid.sightings.push_back(s);

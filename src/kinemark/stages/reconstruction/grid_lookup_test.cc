@@ -28,11 +28,14 @@ data::RatioTable table_of(const Map& map) {
   return table;
 }
 
-Vector2d bent(const Vector2d& p) { return {1.5 * p.x() + 0.2 * p.x() * p.y() - 0.1 * p.x() * p.x(), 1.4 * p.y() + 0.15 * p.x() * p.x()}; }
+Vector2d bent(const Vector2d& p) {
+  return {1.5 * p.x() + 0.2 * p.x() * p.y() - 0.1 * p.x() * p.x(), 1.4 * p.y() + 0.15 * p.x() * p.x()};
+}
 
 TEST(GridLookup, InvertsAQuadraticMapExactly) {
   const auto table = table_of(bent);
-  for (const Vector2d p : {Vector2d(0, 0), Vector2d(0.31, -0.22), Vector2d(-0.44, 0.47), Vector2d(0.02, 0.49)})
+  for (const Vector2d& p :
+       {Vector2d(0, 0), Vector2d(0.31, -0.22), Vector2d(-0.44, 0.47), Vector2d(0.02, 0.49)})
     EXPECT_LT((look_up(table, bent(p)) - p).norm(), 1e-12);
 }
 

@@ -10,15 +10,17 @@
 namespace kinemark::reconstruction {
 namespace {
 
-using ::testing::HasSubstr;
 using Eigen::Vector3d;
+using ::testing::HasSubstr;
 namespace ts = testing_support;
 
 const Vector3d kPlace(0.1, -0.15, 0.05);
 
 Vector3d still(int led, double) { return kPlace + Vector3d(0.1 * led, 0.0, 0.0); }
 
-data::Counts recording(const data::Rig& rig, std::int64_t frames = 60) { return ts::count_paths(rig, 2, frames, 100.0, still, 9); }
+data::Counts recording(const data::Rig& rig, std::int64_t frames = 60) {
+  return ts::count_paths(rig, 2, frames, 100.0, still, 9);
+}
 
 void set(data::Counts& counts, std::int64_t f, std::int64_t led, std::int64_t c, std::int16_t value) {
   for (std::size_t k = 0; k < 4; ++k) counts.counts[4 * counts.index(f, led, c) + k] = value;
@@ -50,16 +52,17 @@ TEST(Reconstruct, SameBitsForAnyNumberOfThreads) {
   ReconstructOptions one, four;
   one.threads = 1;
   four.threads = 4;
-  EXPECT_EQ(reconstruct(counts, rig, one)->points.x_in_world, reconstruct(counts, rig, four)->points.x_in_world);
+  EXPECT_EQ(reconstruct(counts, rig, one)->points.x_in_world,
+            reconstruct(counts, rig, four)->points.x_in_world);
 }
 
 TEST(Reconstruct, SaysWhyFramesAreNotThere) {
   const auto rig = ts::real_rig(2);
   auto counts = recording(rig);
-  set(counts, 3, 0, 1, 10);                                                        // dim
+  set(counts, 3, 0, 1, 10);  // dim
   counts.flags[counts.index(4, 0, 0)] |= data::kCountSaturated;
   counts.flags[counts.index(5, 1, 0)] |= data::kCountLost;
-  counts.counts[4 * counts.index(6, 1, 0)] += 120;                                 // one channel lies
+  counts.counts[4 * counts.index(6, 1, 0)] += 120;  // one channel lies
   const auto r = reconstruct(counts, rig).value();
   EXPECT_EQ(r.points.state[r.points.index(3, 0)], data::SampleState::missing);
   EXPECT_EQ(r.points.state[r.points.index(6, 1)], data::SampleState::rejected);
@@ -72,7 +75,8 @@ TEST(Reconstruct, SaysWhyFramesAreNotThere) {
 
 TEST(Reconstruct, FlagsSpotsNearTheEdge) {
   const auto rig = ts::ideal_rig();
-  const auto counts = ts::count_paths(rig, 1, 20, 100.0, [](int, double) { return Vector3d(0.0, 0.585, 0.0); }, 3);
+  const auto counts =
+      ts::count_paths(rig, 1, 20, 100.0, [](int, double) { return Vector3d(0.0, 0.585, 0.0); }, 3);
   const auto r = reconstruct(counts, rig).value();
   EXPECT_EQ(r.leds[0].near_edge, r.leds[0].located);
   EXPECT_GT(r.leds[0].located, 15);
@@ -83,7 +87,8 @@ TEST(Reconstruct, CalibrationErrorAddsToTheNoise) {
   const auto counts = recording(rig);
   const auto bare = reconstruct(counts, rig).value();
   rig.covariance = Eigen::MatrixXd::Zero(rig.parameter_count(), rig.parameter_count());
-  rig.covariance(data::ParameterLayout::centre, data::ParameterLayout::centre) = 1e-6;  // 1 mm of camera A along X
+  rig.covariance(data::ParameterLayout::centre, data::ParameterLayout::centre) =
+      1e-6;  // 1 mm of camera A along X
   const auto more = reconstruct(counts, rig).value();
   const auto i = 6 * bare.points.index(7, 0);
   const double added = more.points.covariance[i] - bare.points.covariance[i];
@@ -101,7 +106,8 @@ TEST(Reconstruct, RefusesWhatDoesNotFit) {
   EXPECT_THAT(reconstruct(other, mine).error().message, HasSubstr("'rig 7', this rig is 'rig 8'"));
   mine = rig;
   mine.cameras[1].name = "C";
-  EXPECT_THAT(reconstruct(counts, mine).error().message, HasSubstr("'B' in the recording and 'C' in the rig"));
+  EXPECT_THAT(reconstruct(counts, mine).error().message,
+              HasSubstr("'B' in the recording and 'C' in the rig"));
   mine.cameras.pop_back();
   EXPECT_THAT(reconstruct(counts, mine).error().message, HasSubstr("2 cameras and the rig 1"));
   ReconstructOptions options;

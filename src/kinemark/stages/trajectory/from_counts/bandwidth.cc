@@ -113,13 +113,13 @@ namespace {
 
 /// Octaves first; then the golden section of the two octaves around the best.
 template <class Risk>
-Bandwidth search(const Risk& risk_at, double highest) {
-  constexpr int kOctaves = 8, kSections = 6;
+Bandwidth search(const Risk& risk_at, double highest, int octaves) {
+  constexpr int kSections = 5;
   const double octave = std::log(2.0), ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   Bandwidth found;
   found.sure = std::numeric_limits<double>::infinity();
   int best = 0;
-  for (int i = 0; i < kOctaves; ++i)
+  for (int i = 0; i < octaves; ++i)
     if (const auto at = risk_at(highest - i * octave); at.sure < found.sure) found = at, best = i;
   double low = highest - (best + 1) * octave, high = highest - std::max(best - 1, 0) * octave;
   double a = high - ratio * (high - low), b = low + ratio * (high - low);
@@ -159,8 +159,14 @@ Bandwidth choose_bandwidth(std::span<const PositionSight> sights, const Bandwidt
       b.sure = risk(problem, b);
       return b;
     };
-    const auto found = options.half_gain_hz > 0.0 ? at(std::log(options.half_gain_hz))
-                                                  : search(at, std::log(0.35 / problem.interval_s));
+    const double top = std::log(0.35 / problem.interval_s);
+    Bandwidth found;
+    if (options.half_gain_hz > 0.0)
+      found = at(std::log(options.half_gain_hz));
+    else if (options.around_hz > 0.0)
+      found = search(at, std::min(top, std::log(2.0 * options.around_hz)), 3);
+    else
+      found = search(at, top, 8);
     if (found.sure < best.sure) best = found;
   }
   if (best.sure < std::numeric_limits<double>::infinity()) return best;

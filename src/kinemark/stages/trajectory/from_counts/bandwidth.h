@@ -31,6 +31,7 @@ struct Bandwidth {
 struct BandwidthOptions {
   int order = 0;                  ///< 3, 4 or 5; 0: the best of them
   double half_gain_hz = 0.0;      ///< 0: the best
+  double around_hz = 0.0;         ///< half gain: look only within two octaves around it; 0: everywhere
   std::size_t max_sights = 1200;  ///< records longer than that are judged by four pieces of them
 };
 

@@ -39,6 +39,7 @@ Status check_shapes(const data::Counts& counts, const data::Rig& rig, const data
 /// F x L x C: enough light, complete, not saturated.
 std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
+  constexpr double kDark = 60.0;  // counts of all four channels: what offsets and stray light alone can make
   std::vector<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<double> light;
   for (std::int64_t led = 0; led < counts.led_count(); ++led)
@@ -52,7 +53,8 @@ std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_sh
       std::nth_element(light.begin(), middle, light.end());
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         const auto i = counts.index(f, led, c);
-        out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > dim_share * *middle;
+        out[i] = (counts.flags[i] & kUnusable) == 0 &&
+                 counts.at(f, led, c).sum() > std::max(dim_share * *middle, kDark);
       }
     }
   return out;

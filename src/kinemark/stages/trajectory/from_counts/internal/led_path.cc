@@ -175,13 +175,18 @@ void LedPath::run() {
   for (int pass = 0; pass < options_.passes; ++pass) {
     const bool last = pass + 1 == options_.passes;
     gather(pass > 0);
-    if (regress && !known && (pass == 1 || pass == 2)) {
+    if (regress && !known && pass >= 1 && pass <= 3) {
       regress_flicker();
       gather(true);
     }
     if (pass == 0 || pass == 2) {
-      bandwidth_ =
-          choose_bandwidth(sights_, {.order = options_.order, .half_gain_hz = options_.half_gain_hz});
+      // The first choice judges a rough path by fewer sights; the second looks near the first.
+      BandwidthOptions how{.order = options_.order, .half_gain_hz = options_.half_gain_hz};
+      if (pass == 0)
+        how.max_sights /= 2;
+      else
+        how.around_hz = 0.5 / (std::numbers::pi * bandwidth_.time_constant_s);
+      bandwidth_ = choose_bandwidth(sights_, how);
     }
     smooth(last);
   }

@@ -29,12 +29,12 @@ struct Sight {
 ///
 /// States are Taylor coefficients c_i = x^(i) h^i / i! with h the time constant of the filter: all of one
 /// size. Forward results are kept for a block at a time and computed again on the way back, so memory grows
-/// with frames / kBlock only. Bierman (1977), Factorization Methods, section X.
+/// with frames / block only. Bierman (1977), Factorization Methods, section X.
 template <int kOrder, int kAxes>
 class WienerFilter {
  public:
   static constexpr int kStates = kOrder * kAxes;
-  static constexpr std::size_t kBlock = 256;
+  static constexpr std::size_t kBlock = 8192;
   using State = Eigen::Matrix<double, kStates, 1>;
   using Covariance = Eigen::Matrix<double, kStates, kStates>;
   using Axes = Eigen::Matrix<double, kAxes, 1>;
@@ -42,7 +42,9 @@ class WienerFilter {
 
   /// @param q           spectral density of the kOrder-th derivative, m^2 s^(1 - 2 kOrder)
   /// @param time_scale  h, s: any value gives the same answer, the filter's time constant the best digits
-  WienerFilter(double q, double time_scale) : q_(q), h_(time_scale) {}
+  /// @param block       sights whose forward results are kept at a time
+  WienerFilter(double q, double time_scale, std::size_t block = kBlock)
+      : q_(q), h_(time_scale), block_(block) {}
 
   /// Calls visit(frame, state, covariance or nullptr) for every sight, last to first, with the smoothed state
   /// and, when asked, its covariance (both in Taylor coefficients; see derivative()).
@@ -114,6 +116,7 @@ class WienerFilter {
   }
 
   double q_, h_;
+  std::size_t block_;
   double dt_ = -1.0;
   Transition f_;       // transition of one axis
   Transition growth_;  // process noise of one axis
@@ -122,8 +125,8 @@ class WienerFilter {
 template <int kOrder, int kAxes>
 typename WienerFilter<kOrder, kAxes>::Prediction WienerFilter<kOrder, kAxes>::start(
     std::span<const Sight<kAxes>> sights) const {
-  // A polynomial through the first sights, over two time constants or so, held ten times less certain than it is: it
-  // counts those sights 1 % too much, and keeps the digits that a start from nothing would cost.
+  // A polynomial through the first sights, over two time constants or so, held ten times less certain than it
+  // is: it counts those sights 1 % too much, and keeps the digits that a start from nothing would cost.
   constexpr std::size_t kMost = 512;
   constexpr double kLess = 100.0, kRidge = 1.0;  // of the variance; m^-2
   Covariance square = kRidge * Covariance::Identity();
@@ -199,11 +202,11 @@ void WienerFilter<kOrder, kAxes>::smooth(std::span<const Sight<kAxes>> sights, b
   const std::size_t n = sights.size();
   if (n == 0) return;
   std::vector<Prediction> marks;  // prediction of the first sight of each block
-  marks.reserve(n / kBlock + 1);
+  marks.reserve(n / block_ + 1);
   Prediction at = start(sights);
   for (std::size_t k = 0; k < n; ++k) {
-    if (k % kBlock == 0) marks.push_back(at);
-    if (k + 1 == n || marks.size() == (n - 1) / kBlock + 1) break;
+    if (k % block_ == 0) marks.push_back(at);
+    if (k + 1 == n || marks.size() == (n - 1) / block_ + 1) break;
     const Step step = weigh(at, sights[k]);
     set_interval(sights[k + 1].time_s - sights[k].time_s);
     at = advance(step);
@@ -211,9 +214,9 @@ void WienerFilter<kOrder, kAxes>::smooth(std::span<const Sight<kAxes>> sights, b
   State lambda = State::Zero();
   Covariance adjoint = Covariance::Zero();
   std::vector<Step> steps;
-  steps.reserve(kBlock);
+  steps.reserve(std::min(n, block_));
   for (std::size_t block = marks.size(); block-- > 0;) {
-    const std::size_t first = block * kBlock, last = std::min(n, first + kBlock);
+    const std::size_t first = block * block_, last = std::min(n, first + block_);
     steps.clear();
     at = marks[block];
     for (std::size_t k = first; k < last; ++k) {

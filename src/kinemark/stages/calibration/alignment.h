@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// How far cameras stand from where they should, and what to turn next.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/rig.h"
+#include "kinemark/stages/calibration/still_poses.h"
+
+namespace kinemark::calibration {
+
+struct AlignmentOptions {
+  double shift_tolerance_m = 2e-3;
+  double turn_tolerance_deg = 0.1;
+
+  [[nodiscard]] Status check() const;
+};
+
+/// One camera against the wanted pose, in the axes of the wanted camera: right, down, forward.
+struct CameraAlignment {
+  std::string camera;
+  Eigen::Vector3d shift_m;  ///< lens, from the wanted place
+  Eigen::Vector3d
+      turn_deg;  ///< what is missing: tilt up, pan to the right, roll clockwise as seen from behind
+  Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero(),
+                  turn_sd_deg = Eigen::Vector3d::Zero();  ///< 0: unknown
+};
+
+struct Alignment {
+  std::vector<CameraAlignment> cameras;
+  bool aligned = false;  ///< everything is within tolerance
+  std::string next;      ///< one thing to do: the worst, by its tolerance
+};
+
+/// Compare two rigs of the same cameras. The world of `found` is laid on that of `wanted` first, by lenses
+/// and lines of sight: only where cameras stand to each other matters. Standard deviations are those of
+/// found.covariance.
+[[nodiscard]] Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& found,
+                                                  const AlignmentOptions& options = {});
+
+/// The same from sightings of the tree, by a bundle with a small model of the detector: four poses will do,
+/// ten are better. Fails as calibrate_bundle(), but never refuses a misfit.
+[[nodiscard]] Result<Alignment> align_by_tree(const data::Rig& wanted, const StillPoses& tree,
+                                              const AlignmentOptions& options = {});
+
+}  // namespace kinemark::calibration

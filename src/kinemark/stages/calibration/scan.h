@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// One LED on a motor stage that visits known places: a calibration without a hand.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/counts.h"
+#include "kinemark/data/rig.h"
+#include "kinemark/stages/calibration/bundle.h"
+
+namespace kinemark::calibration {
+
+/// Where the stage held the LED.
+struct ScanPlaces {
+  Eigen::Matrix3Xd x_in_stage;  ///< m; a column per place, twelve or more
+  int frames_per_place = 10;
+};
+
+/// The places as one rigid object of as many LEDs, seen in one pose: what calibrate_bundle() takes. Places
+/// that a camera did not see, or that moved, are left out for that camera. Fails when the recording has more
+/// than one LED, or its frames do not fit the places.
+[[nodiscard]] Result<StillPoses> scan_sightings(const data::Counts& counts, const data::Rig& rig,
+                                                const ScanPlaces& places, const StillOptions& options = {});
+
+/// Bundle over the scan: cameras and the pose of the stage; method "scan". The stage's own error (25 um moves
+/// a count by 0.06) is not modelled. Fails as calibrate_bundle().
+[[nodiscard]] Result<BundleResult> calibrate_scan(const data::Rig& nominal, const data::Counts& counts,
+                                                  const ScanPlaces& places, const BundleOptions& options = {},
+                                                  const Progress& progress = {});
+
+}  // namespace kinemark::calibration

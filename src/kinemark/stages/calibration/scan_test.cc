@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/calibration/scan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "kinemark/stages/calibration/test_recordings.h"
+
+namespace kinemark::calibration {
+namespace {
+
+using ::testing::HasSubstr;
+namespace ts = testing_support;
+
+/// A lattice of 5 x 5 x 4 places, three frames each, the stage turned and shifted a little.
+struct Scan {
+  ScanPlaces places;
+  math::SE3 world_from_stage;
+  data::Counts counts;
+
+  explicit Scan(const data::Rig& truth) {
+    places.frames_per_place = 3;
+    places.x_in_stage.resize(3, 100);
+    for (int i = 0; i < 100; ++i)
+      places.x_in_stage.col(i) << 0.15 * (i % 5 - 2), 0.15 * (i / 5 % 5 - 2), 0.2 * (i / 25) - 0.3;
+    world_from_stage.rotation =
+        Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, -2, 1).normalized()).toRotationMatrix();
+    world_from_stage.translation << 0.004, -0.003, 0.005;
+    counts = ts::count_paths(
+        truth, 1, 300, 100.0,
+        [&](int, double t) {
+          const int place = std::clamp(static_cast<int>(t * 100.0 + 1e-6) / 3, 0, 99);
+          return Eigen::Vector3d(world_from_stage * places.x_in_stage.col(place));
+        },
+        8);
+  }
+};
+
+BundleOptions small() {
+  BundleOptions options;
+  options.warp_degree = 4;
+  options.crosstalk = false;
+  return options;
+}
+
+TEST(Scan, CalibratesFromOneLedInKnownPlaces) {
+  const auto truth = ts::real_rig(12);
+  const Scan scan(truth);
+  const auto result = calibrate_scan(ts::ideal_rig(), scan.counts, scan.places, small());
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->rig.method, "scan");
+  EXPECT_NEAR(result->report.chi2_per_dof, 1.0, 0.3);
+  // What the world's gauge cannot hide: the distance of the lenses, and the warp.
+  const auto base = [](const data::Rig& rig) {
+    return (rig.cameras[0].centre_in_world() - rig.cameras[1].centre_in_world()).norm();
+  };
+  EXPECT_GT(std::abs(base(ts::ideal_rig()) - base(truth)), 2e-3);
+  EXPECT_LT(std::abs(base(result->rig) - base(truth)), 5e-3);
+  EXPECT_LT(result->report.side_rms_m, 2e-3);
+}
+
+TEST(Scan, RefusesWhatDoesNotFit) {
+  const auto rig = ts::ideal_rig();
+  Scan scan(rig);
+  auto places = scan.places;
+  places.frames_per_place = 4;
+  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message,
+              HasSubstr("300 frames do not fit 100 places"));
+  places.x_in_stage = places.x_in_stage.leftCols(5).eval();
+  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message, HasSubstr("a scan of 5 places"));
+  scan.counts.leds.emplace_back("second");
+  EXPECT_FALSE(scan_sightings(scan.counts, rig, scan.places));
+}
+
+}  // namespace
+}  // namespace kinemark::calibration
