@@ -23,6 +23,9 @@ struct Globals {
 /// status.
 using Run = std::function<int()>;
 
+void add_calibrate(CLI::App& app, const Globals& globals, Run& run);
+void add_reconstruct(CLI::App& app, const Globals& globals, Run& run);
+void add_study(CLI::App& app, const Globals& globals, Run& run);
 void add_info(CLI::App& app, const Globals& globals, Run& run);
 void add_clean(CLI::App& app, const Globals& globals, Run& run);
 void add_convert(CLI::App& app, const Globals& globals, Run& run);

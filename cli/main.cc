@@ -56,9 +56,12 @@ int run_program(int argc, char** argv) {
   add_globals(app, globals);
   Run run;
   kinemark::cli::add_simulate(app, globals, run);
+  kinemark::cli::add_calibrate(app, globals, run);
+  kinemark::cli::add_reconstruct(app, globals, run);
   kinemark::cli::add_clean(app, globals, run);
   kinemark::cli::add_ik(app, globals, run);
   kinemark::cli::add_report(app, globals, run);
+  kinemark::cli::add_study(app, globals, run);
   kinemark::cli::add_info(app, globals, run);
   kinemark::cli::add_convert(app, globals, run);
   kinemark::cli::add_validate(app, globals, run);
