@@ -11,7 +11,7 @@ namespace kinemark::cli {
 void add_convert(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("convert", "A file in another format of its kind");
   command->footer(
-      "Markers: .c3d, .trc in; .c3d, .trc, .csv out. Tables: .mot, .sto. Models: .osim of any version in, "
+      "Markers: .c3d, .trc, .nwb, .csv. Tables: .mot, .sto. Models: .osim of any version in, "
       "4.0 out.");
   struct Arguments {
     std::string in, out;

@@ -7,6 +7,7 @@ The README of the recordings was parsed by an independent reader; its tables are
 calls unreadable must give one sentence and exit status 3.
 """
 
+import csv as csv_files
 import json
 import os
 import re
@@ -103,21 +104,20 @@ def first_value_differences(path, text, scratch):
     csv = scratch / "first.csv"
     subprocess.run([PROGRAM, "convert", "--quiet", "--force", path, csv], check=True)
     scale = 1.0 if "units m;" in text else None
-    with csv.open(encoding="utf-8") as file:
-        header = file.readline().rstrip("\n").split(",")
-        column = next((i for i, cell in enumerate(header) if cell.startswith(found[1] + ".") or cell == found[1] + ".x"), None)
-        if column is None:
-            return [f"no marker {found[1]!r}"]
-        for line in file:
-            cells = line.rstrip("\n").split(",")
-            if cells[0] == found[2]:
-                got = [float(cell) for cell in cells[column:column + 3]]
+    named = False
+    with csv.open(encoding="utf-8", newline="") as file:
+        for row in csv_files.DictReader(file):
+            if row["marker"] != found[1] and not row["marker"].startswith(found[1] + "."):
+                continue
+            named = True
+            if row["frame"] == found[2]:
+                got = [float(row[axis]) for axis in ("x_m", "y_m", "z_m")]
                 wanted = [float(found[i]) for i in (3, 4, 5)]
                 for factor in ((scale,) if scale else (1.0, 1e-3)):
                     if all(abs(g - w * factor) <= 0.00051 * factor + 1e-9 for g, w in zip(got, wanted)):
                         return []
                 return [f"{found[1]} frame {found[2]} is {got} m, README {wanted}"]
-    return [f"no frame {found[2]}"]
+    return [f"no frame {found[2]}" if named else f"no marker {found[1]!r}"]
 
 
 def trc_first_differences(path, text, scratch):
@@ -129,11 +129,9 @@ def trc_first_differences(path, text, scratch):
     csv = scratch / "first.csv"
     subprocess.run([PROGRAM, "convert", "--quiet", "--force", path, csv], check=True)
     factor = 1.0 if "units m " in text else 1e-3
-    with csv.open(encoding="utf-8") as file:
-        header = file.readline().rstrip("\n").split(",")
-        row = file.readline().rstrip("\n").split(",")
-    column = header.index(found[1] + ".x")
-    got = [float(cell) for cell in row[column:column + 3]]
+    with csv.open(encoding="utf-8", newline="") as file:
+        row = next(row for row in csv_files.DictReader(file) if row["marker"] == found[1])
+    got = [float(row[axis]) for axis in ("x_m", "y_m", "z_m")]
     wanted = [float(cell) * factor for cell in cells]
     return [] if all(abs(g - w) < 1e-9 for g, w in zip(got, wanted)) else [f"{found[1]} starts at {got} m, README {wanted}"]
 

@@ -52,6 +52,9 @@ class OutputFile {
   [[nodiscard]] Status write(std::span<const std::byte> bytes);
   [[nodiscard]] Status write(std::string_view text);
   [[nodiscard]] Status commit();
+  /// The file as it is called until commit(), for libraries that must open it by name. They may change its
+  /// content, not replace it.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
  private:
   OutputFile(int fd, std::filesystem::path target, std::filesystem::path temporary);

@@ -6,15 +6,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/markers/csv.h"
+#include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
 
 namespace kinemark::io {
@@ -37,9 +40,23 @@ std::string_view format_of(std::string_view begin) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
   if (begin.starts_with("PathFileType")) return ".trc";
+  if (begin.starts_with("\x89HDF\r\n\x1a\n")) return ".nwb";
   // The header block of a C3D is never without zero bytes; a text may well have a 'P' (0x50) in second place.
   if (begin.size() > 1 && begin[1] == '\x50' && begin.find('\0') != std::string_view::npos) return ".c3d";
   return "";
+}
+
+/// The part of an NWB file that a trial holds.
+Result<data::Trial> read_nwb_trial(const std::filesystem::path& path) {
+  auto file = read_nwb(path);
+  if (!file) return std::unexpected(file.error());
+  data::Trial trial{.source = path.string(), .format = "NWB", .units_in_file = "m"};
+  trial.software = file->metadata.software;
+  trial.markers = std::move(file->trajectories);
+  trial.warnings = std::move(file->warnings);
+  const double first = trial.markers.time.t0_s * trial.markers.time.rate_hz;
+  if (first > 0.0 && first < 1e15) trial.first_frame = std::llround(first) + 1;
+  return trial;
 }
 
 }  // namespace
@@ -55,18 +72,27 @@ Result<data::Trial> read_markers(const std::filesystem::path& path) {
   if (format.empty()) format = extension;
   if (format == ".c3d") return read_c3d(path);
   if (format == ".trc") return read_trc(path);
-  return fail(Code::not_supported,
-              fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d) and TRC (.trc)",
-                          path.string(), named(extension)));
+  if (format == ".nwb") return read_nwb_trial(path);
+  if (format == ".csv") return read_trajectories_csv(path);
+  return fail(
+      Code::not_supported,
+      fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB (.nwb) "
+                  "and CSV (.csv)",
+                  path.string(), named(extension)));
 }
 
 Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force) {
   const std::string extension = lower_extension(path);
   if (extension == ".c3d") return write_c3d(path, trial, {.force = force});
   if (extension == ".trc") return write_trc(path, trial, {.force = force});
-  if (extension == ".csv") return write_csv(path, trial, force);
+  if (extension == ".csv") return write_trajectories_csv(path, trial, force);
+  if (extension == ".nwb") {
+    NwbMetadata metadata;
+    if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
+    return write_nwb(path, trial.markers, nullptr, metadata, {.force = force});
+  }
   return fail(Code::usage,
-              fmt::format("{}: {} is not written as a marker file; supported are .c3d, .trc and .csv",
+              fmt::format("{}: {} is not written as a marker file; supported are .c3d, .trc, .nwb and .csv",
                           path.string(), named(extension)));
 }
 

@@ -27,7 +27,7 @@ data::Trial small() {
 
 TEST(MarkerFile, WhatIsWrittenReadsBackByTheSameDoor) {
   const testing_support::ScratchFolder scratch;
-  for (const char* name : {"a.c3d", "a.trc", "B.C3D", "B.Trc"}) {
+  for (const char* name : {"a.c3d", "a.trc", "a.nwb", "a.csv", "B.C3D", "B.Trc", "B.NWB"}) {
     SCOPED_TRACE(name);
     ASSERT_TRUE(write_markers(scratch / name, small(), false));
     const auto back = read_markers(scratch / name);
@@ -68,21 +68,36 @@ TEST(MarkerFile, OtherFilesAreToldWhatIsSupported) {
   ASSERT_TRUE(write_text(scratch / "README", "aPlain text with a P in second place", false));
   const auto motion = read_markers(scratch / "q.mot");
   EXPECT_EQ(motion.error().code, Code::not_supported);
-  EXPECT_THAT(motion.error().message,
-              HasSubstr("a .mot file is not read as a marker file; supported are C3D (.c3d) and TRC (.trc)"));
+  EXPECT_THAT(
+      motion.error().message,
+      HasSubstr("a .mot file is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB"));
   EXPECT_THAT(read_markers(scratch / "README").error().message, HasSubstr("a file without an extension"));
   EXPECT_EQ(read_markers(scratch / "absent.trc").error().code, Code::io);
   EXPECT_EQ(read_markers(scratch.path()).error().code, Code::io);
   const auto status = write_markers(scratch / "q.xlsx", small(), false);
   EXPECT_EQ(status.error().code, Code::usage);
-  EXPECT_THAT(status.error().message, HasSubstr("supported are .c3d, .trc and .csv"));
+  EXPECT_THAT(status.error().message, HasSubstr("supported are .c3d, .trc, .nwb and .csv"));
 }
 
-TEST(MarkerFile, CsvIsWrittenButNotRead) {
+TEST(MarkerFile, ProvenanceSurvivesEveryFormatThatCanHoldIt) {
   const testing_support::ScratchFolder scratch;
-  ASSERT_TRUE(write_markers(scratch / "a.csv", small(), false));
-  EXPECT_THAT(read_text(scratch / "a.csv").value(), testing::StartsWith("frame,time_s,A.x,A.y,A.z,A.state,"));
-  EXPECT_EQ(read_markers(scratch / "a.csv").error().code, Code::not_supported);
+  data::Trial trial = small();
+  for (std::int64_t f = 0; f < 3; ++f) trial.markers.x(f, 1) = Eigen::Vector3d(1.0, 2.0, 3.0);
+  trial.markers.state[trial.markers.index(0, 1)] = data::SampleState::interpolated;
+  trial.markers.state[trial.markers.index(1, 1)] = data::SampleState::model_filled;
+  trial.markers.state[trial.markers.index(2, 1)] = data::SampleState::upsampled;
+  trial.markers.set_missing(1, 0, data::SampleState::rejected);
+  trial.markers.set_method(0, 1, "cubic");
+  trial.markers.set_method(1, 1, "rigid body");
+  for (const char* name : {"a.c3d", "a.nwb", "a.csv"}) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(write_markers(scratch / name, trial, false));
+    const auto back = read_markers(scratch / name);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->markers.state, trial.markers.state);
+    for (std::int64_t f = 0; f < 3; ++f) EXPECT_EQ(back->markers.made_by(f, 1), trial.markers.made_by(f, 1));
+    EXPECT_THAT(back->warnings, testing::IsEmpty());
+  }
 }
 
 TEST(MarkerFile, TheSameRecordingAgreesInBothFormats) {

@@ -24,7 +24,7 @@ struct NwbMetadata {
   std::string session_start;  ///< ISO 8601 with time zone; empty: not known, written as 1970-01-01
   std::string created;        ///< when the file was made, likewise; empty: as session_start
   std::string reference_frame = "laboratory frame of the source file, right-handed, metres";
-  std::string subject_id;  ///< empty: the file has no subject
+  std::string subject_id;  ///< empty: not known
   std::string species;     ///< Latin name, "Homo sapiens"
   std::string sex;         ///< "F", "M", "U" (unknown) or "O" (other)
   std::string age;         ///< ISO 8601 duration, "P34Y"

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/nwb/internal/input.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/number.h"
+
+namespace kinemark::io::internal {
+namespace {
+
+constexpr std::size_t kMaxChildren = 100'000;
+constexpr std::size_t kMaxTextBytes = 1UL << 20;
+// Deflate makes a byte out of at most 1032, and a chunk that nobody wrote takes none.
+constexpr std::size_t kMaxExpansion = 1100;
+constexpr std::size_t kFreeBytes = 256UL << 20;
+
+herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*, hid_t, void*) { return -1; }
+
+herr_t collect_name(hid_t, const char* name, const H5L_info_t* info, void* out) {
+  auto& names = *static_cast<std::vector<std::string>*>(out);
+  if (info->type == H5L_TYPE_HARD || info->type == H5L_TYPE_SOFT) names.emplace_back(name);
+  return names.size() < kMaxChildren ? 0 : 1;
+}
+
+std::unexpected<Error> not_hdf5(const std::string& name) {
+  return fail(Code::bad_input,
+              fmt::format("{}: is not an NWB file: it is not HDF5, or a broken one. Nothing was "
+                          "read.",
+                          name));
+}
+
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  const std::size_t size = H5Tget_size(type);
+  return (kind == H5T_INTEGER || kind == H5T_FLOAT) && size >= 1 && size <= 16;
+}
+
+bool is_text(hid_t type) {
+  return H5Tget_class(type) == H5T_STRING &&
+         (H5Tis_variable_str(type) > 0 || H5Tget_size(type) <= kMaxTextBytes);
+}
+
+/// The memory type for texts like the file's.
+Handle memory_text(hid_t file_type) {
+  Handle out(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_cset(out.id(), H5Tget_cset(file_type));
+  if (H5Tis_variable_str(file_type) > 0)
+    H5Tset_size(out.id(), H5T_VARIABLE);
+  else
+    H5Tset_size(out.id(), H5Tget_size(file_type) + 1);  // room for the zero at the end
+  return out;
+}
+
+/// `count` texts that `read(memory_type, buffer)` delivers.
+template <class Read>
+std::optional<std::vector<std::string>> read_texts(hid_t file_type, hid_t space, std::size_t count,
+                                                   const Read& read) {
+  const Handle type = memory_text(file_type);
+  std::vector<std::string> out;
+  if (count == 0) return out;
+  out.reserve(count);
+  if (H5Tis_variable_str(file_type) > 0) {
+    std::vector<char*> pointers(count, nullptr);
+    const bool good = read(type.id(), pointers.data()) >= 0;
+    if (good)
+      for (const char* p : pointers) out.emplace_back(p == nullptr ? "" : p);
+    H5Dvlen_reclaim(type.id(), space, H5P_DEFAULT, pointers.data());
+    return good ? std::optional(std::move(out)) : std::nullopt;
+  }
+  const std::size_t width = H5Tget_size(type.id());
+  std::vector<char> bytes(count * width, '\0');
+  if (read(type.id(), bytes.data()) < 0) return std::nullopt;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string text(bytes.data() + i * width);
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    out.push_back(std::move(text));
+  }
+  return out;
+}
+
+template <class T>
+hid_t native();
+template <>
+hid_t native<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t native<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+
+}  // namespace
+
+Input::Input(Handle file, Handle link_access, std::string name, std::size_t size)
+    : file_(std::move(file)),
+      link_access_(std::move(link_access)),
+      name_(std::move(name)),
+      bytes_left_(kFreeBytes + kMaxExpansion * size) {
+  H5Pset_elink_cb(link_access_.id(), refuse_link, nullptr);
+}
+
+Result<Input> Input::open(const std::filesystem::path& path) {
+  // HDF5 does not tell a file that is not there from one that is broken.
+  const auto there = InputFile::open(path);
+  if (!there) return std::unexpected(there.error());
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file) return not_hdf5(path.string());
+  return Input(std::move(file), {H5Pcreate(H5P_LINK_ACCESS), H5Pclose}, path.string(), there->size());
+}
+
+Result<Input> Input::open(std::span<const std::byte> image, const std::string& name) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access.id(), 1UL << 16, false);
+  if (!image.empty()) H5Pset_file_image(access.id(), const_cast<std::byte*>(image.data()), image.size());
+  Handle file(image.empty() ? H5I_INVALID_HID : H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  if (!file) return not_hdf5(name);
+  return Input(std::move(file), {H5Pcreate(H5P_LINK_ACCESS), H5Pclose}, name, image.size());
+}
+
+Handle Input::object(hid_t from, const std::string& path) const {
+  return {H5Oopen(from, path.c_str(), link_access_.id()), H5Oclose};
+}
+
+std::optional<std::vector<std::string>> Input::children(hid_t group) const {
+  std::vector<std::string> out;
+  hsize_t at = 0;
+  if (H5Iget_type(group) != H5I_GROUP ||
+      H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &at, collect_name, &out) < 0)
+    return std::nullopt;
+  return out;
+}
+
+bool Input::broken(hid_t from, const std::string& name) const {
+  H5L_info_t info{};
+  return H5Lget_info(from, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD &&
+         !object(from, name);
+}
+
+std::optional<std::vector<std::int64_t>> Input::shape(hid_t dataset, bool text) const {
+  if (H5Iget_type(dataset) != H5I_DATASET) return std::nullopt;
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  if (!type || !(text ? is_text(type.id()) : is_number(type.id()))) return std::nullopt;
+  // Samples in other files are not read, nor chunks larger than the file can explain.
+  const Handle create(H5Dget_create_plist(dataset), H5Pclose);
+  const H5D_layout_t layout = H5Pget_layout(create.id());
+  if (layout == H5D_VIRTUAL || layout == H5D_LAYOUT_ERROR || H5Pget_external_count(create.id()) != 0)
+    return std::nullopt;
+  std::size_t chunk_bytes = H5Tget_size(type.id());
+  if (layout == H5D_CHUNKED) {
+    hsize_t chunk[H5S_MAX_RANK] = {};
+    const int rank = H5Pget_chunk(create.id(), H5S_MAX_RANK, chunk);
+    for (int d = 0; d < rank; ++d)
+      if (__builtin_mul_overflow(chunk_bytes, chunk[d], &chunk_bytes)) return std::nullopt;
+  }
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  hsize_t dims[H5S_MAX_RANK] = {};
+  const int rank = H5Sget_simple_extent_dims(space.id(), dims, nullptr);
+  if (rank < 0 || H5Sget_simple_extent_type(space.id()) == H5S_NULL || chunk_bytes > bytes_left_)
+    return std::nullopt;
+  std::vector<std::int64_t> out;
+  hsize_t all = 1;
+  for (int d = 0; d < rank; ++d) {
+    if (__builtin_mul_overflow(all, dims[d], &all) || all > (hsize_t{1} << 40)) return std::nullopt;
+    out.push_back(static_cast<std::int64_t>(dims[d]));
+  }
+  return out;
+}
+
+std::optional<std::vector<std::int64_t>> Input::number_shape(hid_t dataset) const {
+  return shape(dataset, false);
+}
+std::optional<std::vector<std::int64_t>> Input::text_shape(hid_t dataset) const {
+  return shape(dataset, true);
+}
+
+bool Input::afford(std::size_t count, std::size_t bytes_each) {
+  std::size_t bytes = 0;
+  if (__builtin_mul_overflow(count, bytes_each, &bytes) || bytes > bytes_left_) return false;
+  bytes_left_ -= bytes;
+  return true;
+}
+
+bool Input::read(hid_t dataset, hid_t memory_type, void* out) const {
+  return H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) >= 0;
+}
+
+std::optional<std::vector<std::string>> Input::texts(hid_t dataset) {
+  const auto dims = text_shape(dataset);
+  if (!dims) return std::nullopt;
+  std::size_t count = 1;
+  for (const std::int64_t d : *dims) count *= static_cast<std::size_t>(d);
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  if (!afford(count, sizeof(std::string) + H5Tget_size(type.id()))) return std::nullopt;
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  return read_texts(type.id(), space.id(), count,
+                    [&](hid_t memory_type, void* out) { return read(dataset, memory_type, out) ? 0 : -1; });
+}
+
+template <class T>
+std::optional<Array<T>> Input::numbers(hid_t dataset) {
+  const auto dims = number_shape(dataset);
+  if (!dims) return std::nullopt;
+  std::size_t count = 1;
+  for (const std::int64_t d : *dims) count *= static_cast<std::size_t>(d);
+  if (!afford(count, sizeof(T))) return std::nullopt;
+  Array<T> out(count, T{});
+  if (count > 0 && !read(dataset, native<T>(), out.data())) return std::nullopt;
+  return out;
+}
+template std::optional<Array<double>> Input::numbers(hid_t);
+template std::optional<Array<std::uint8_t>> Input::numbers(hid_t);
+
+std::optional<std::string> Input::text_attribute(hid_t object, const char* name) const {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute) return std::nullopt;
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  if (!type || !is_text(type.id()) || H5Sget_simple_extent_npoints(space.id()) != 1) return std::nullopt;
+  const auto texts = read_texts(type.id(), space.id(), 1, [&](hid_t memory_type, void* out) {
+    return H5Aread(attribute.id(), memory_type, out);
+  });
+  return texts ? std::optional(texts->front()) : std::nullopt;
+}
+
+std::optional<double> Input::number_attribute(hid_t object, const char* name) const {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute) return std::nullopt;
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  double value = 0.0;
+  if (!type || !is_number(type.id()) || H5Sget_simple_extent_npoints(space.id()) != 1 ||
+      H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value) < 0)
+    return std::nullopt;
+  if (H5Tget_class(type.id()) == H5T_FLOAT && H5Tget_size(type.id()) == sizeof(float))
+    return parse_number(fmt::format("{}", static_cast<float>(value))).value_or(value);
+  return value;
+}
+
+}  // namespace kinemark::io::internal

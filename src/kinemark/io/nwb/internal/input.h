@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Reading HDF5 objects that may be anything: whatever is not as asked is an empty answer.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/io/nwb/internal/handle.h"
+
+namespace kinemark::io::internal {
+
+/// A file open for reading, and how much memory its size can explain. Callers hold a Quiet.
+class Input {
+ public:
+  static Result<Input> open(const std::filesystem::path& path);
+  /// A file as bytes in memory; HDF5 copies them.
+  static Result<Input> open(std::span<const std::byte> image, const std::string& name);
+
+  /// A group or dataset by its path from `from` (file or group), or an empty handle. Links to other files are
+  /// not followed.
+  [[nodiscard]] Handle object(hid_t from, const std::string& path) const;
+  /// Names of the links in a group in alphabetical order, 100,000 at most; nothing when they cannot be read.
+  [[nodiscard]] std::optional<std::vector<std::string>> children(hid_t group) const;
+
+  /// True when a link leads to an object of this file that cannot be opened: damage, not a dangling link.
+  [[nodiscard]] bool broken(hid_t from, const std::string& name) const;
+
+  /// Dimensions of a dataset of numbers, or of texts, whose bytes lie in this file; nothing for others.
+  [[nodiscard]] std::optional<std::vector<std::int64_t>> number_shape(hid_t dataset) const;
+  [[nodiscard]] std::optional<std::vector<std::int64_t>> text_shape(hid_t dataset) const;
+
+  [[nodiscard]] std::optional<std::string> text_attribute(hid_t object, const char* name) const;
+  /// A single number; one stored in single precision as the shortest decimal that it stands for.
+  [[nodiscard]] std::optional<double> number_attribute(hid_t object, const char* name) const;
+
+  /// Everything in a dataset of texts or numbers, row by row; nothing when it is none or too large to be
+  /// true.
+  [[nodiscard]] std::optional<std::vector<std::string>> texts(hid_t dataset);
+  template <class T>
+  [[nodiscard]] std::optional<Array<T>> numbers(hid_t dataset);
+
+  /// Take `bytes` of what the file's size explains; false when it does not explain them.
+  [[nodiscard]] bool afford(std::size_t count, std::size_t bytes_each);
+
+  [[nodiscard]] hid_t file() const { return file_.id(); }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  Input(Handle file, Handle link_access, std::string name, std::size_t size);
+  [[nodiscard]] std::optional<std::vector<std::int64_t>> shape(hid_t dataset, bool text) const;
+  [[nodiscard]] bool read(hid_t dataset, hid_t memory_type, void* out) const;
+
+  Handle file_, link_access_;
+  std::string name_;
+  std::size_t bytes_left_ = 0;
+};
+
+}  // namespace kinemark::io::internal

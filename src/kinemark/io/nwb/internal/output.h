@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/io/nwb/internal/handle.h"
+
+namespace kinemark::io::internal {
+
+/// A column of a table: texts, numbers or integers.
+struct Column {
+  std::string name;
+  std::string description;
+  std::vector<std::string> texts;
+  std::vector<double> numbers;
+  std::vector<std::int64_t> integers;
+};
+
+/// Puts the pieces of an NWB file in place. A failure is remembered, not returned: what follows one does
+/// nothing of use, and failed() is asked once at the end. Callers hold a Quiet.
+class Output {
+ public:
+  /// A new file in place of an empty one. Names of objects are made from `identity`, so that the same input
+  /// gives the same bytes.
+  Output(const std::string& path, std::string_view identity);
+
+  /// A group of a neurodata type, or a plain one when `type` is empty.
+  Handle group(hid_t parent, const char* name, const char* type = "");
+  /// neurodata_type, namespace and object_id.
+  void declare(hid_t object, const char* type, const char* type_namespace = "core");
+  void attribute(hid_t object, const char* name, std::string_view text);
+  void attribute(hid_t object, const char* name, double number, hid_t file_type);
+  void attribute(hid_t object, const char* name, const std::vector<std::string>& texts);
+  Handle text(hid_t parent, const char* name, std::string_view text);
+  /// Texts in `columns` columns, row by row; one column is a plain list.
+  Handle texts(hid_t parent, const char* name, const std::vector<std::string>& texts,
+               std::size_t columns = 1);
+  Handle number(hid_t parent, const char* name, double value);
+  /// Numbers, frames x width (1: a plain list), in checksummed chunks; `fill` where nobody writes.
+  Handle samples(hid_t parent, const char* name, hid_t file_type, std::int64_t frames, int width, double fill,
+                 int compression);
+  /// Rows [first, first + count) of samples().
+  void write(const Handle& samples, hid_t memory_type, std::int64_t first, std::int64_t count, int width,
+             const void* values);
+  /// A DynamicTable; columns are of equal length.
+  void table(hid_t parent, const char* name, const char* description, const std::vector<Column>& columns);
+  void soft_link(hid_t parent, const char* name, const std::string& target);
+
+  [[nodiscard]] hid_t file() const { return file_.id(); }
+  [[nodiscard]] bool failed() const { return failed_; }
+  /// Flush and close the file; false when that or anything before failed.
+  bool close();
+
+ private:
+  Handle keep(hid_t id, Handle::Closer close);
+  void note(herr_t status) { failed_ = failed_ || status < 0; }
+  /// How to store a few numbers or texts so that they have a checksum: in the header of their object, or in a
+  /// chunk.
+  Handle small_data(std::size_t bytes, const std::vector<hsize_t>& dims);
+  Handle column(hid_t table, const Column& column);
+
+  Handle file_, text_type_, create_group_;
+  std::uint64_t identity_ = 0;
+  std::uint64_t objects_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace kinemark::io::internal

@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/nwb/internal/names.h"
+#include "kinemark/io/nwb/internal/output.h"
+#include "kinemark/io/nwb/internal/root.h"
+#include "kinemark/io/nwb/nwb.h"
+
+namespace kinemark::io {
+namespace {
+
+using internal::Handle;
+using internal::Output;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kBlockFrames = 16 * 4096;
+
+bool holds(const NwbOutline& outline, const internal::Rate& rate) {
+  const std::pair<Array<double> data::Derivatives::*, bool> promised[] = {
+      {&data::Derivatives::velocity, outline.velocity},
+      {&data::Derivatives::velocity_sd, outline.velocity_sd},
+      {&data::Derivatives::acceleration, outline.acceleration},
+      {&data::Derivatives::acceleration_sd, outline.acceleration_sd},
+      {&data::Derivatives::jerk, outline.jerk},
+      {&data::Derivatives::jerk_sd, outline.jerk_sd}};
+  return std::ranges::any_of(promised, [&](const auto& p) { return p.first == rate.values && p.second; });
+}
+
+}  // namespace
+
+NwbOutline NwbOutline::of(const data::Trajectories& t, const data::Derivatives* d) {
+  NwbOutline out{.names = t.names,
+                 .time = t.time,
+                 .method = !t.method.empty(),
+                 .covariance = !t.covariance.empty(),
+                 .filters = d != nullptr && !d->filters.empty()};
+  if (!t.sample_offset_s.empty())
+    out.offsets = t.sample_offset_s.size() == t.names.size() ? Offsets::per_marker : Offsets::per_sample;
+  if (d == nullptr) return out;
+  out.velocity = !d->velocity.empty();
+  out.velocity_sd = !d->velocity_sd.empty();
+  out.acceleration = !d->acceleration.empty();
+  out.acceleration_sd = !d->acceleration_sd.empty();
+  out.jerk = !d->jerk.empty();
+  out.jerk_sd = !d->jerk_sd.empty();
+  return out;
+}
+
+/// A file being written.
+struct NwbWriter::Open {
+  /// One series of every marker, and how its samples lie in memory.
+  struct Series {
+    std::vector<Handle> of_marker;  ///< M
+    int width = 1;
+  };
+
+  Open(OutputFile target, std::string name, NwbOutline promised, const NwbMetadata& told, int level)
+      : file(std::move(target)),
+        path(std::move(name)),
+        outline(std::move(promised)),
+        metadata(told),
+        compression(level),
+        out(file.temporary().string(), internal::identity_of(metadata, outline)) {}
+
+  void build();
+  Series make_series(hid_t module, const char* container, const char* type, const char* unit,
+                     const char* description, hid_t file_type, int width, double fill, bool spatial);
+  void add_clock(Handle series, std::size_t marker, bool first);
+  void write_starts();
+  std::vector<std::uint8_t> merge_methods(const std::vector<std::string>& methods);
+  /// Write one array of a piece: `width` numbers for each sample, frame first.
+  template <class T>
+  void put(const Series& series, hid_t memory_type, const T* values, const std::vector<std::size_t>& columns,
+           std::int64_t first_frame, std::int64_t frames);
+  void put_times(const data::Trajectories& piece, const std::vector<std::size_t>& columns,
+                 std::int64_t first_frame);
+  void write_tables();
+
+  OutputFile file;
+  std::string path;
+  NwbOutline outline;
+  NwbMetadata metadata;
+  int compression;
+  Output out;
+  Handle module;
+  std::vector<std::string> series_names;
+  std::map<std::string, std::size_t, std::less<>> index;  ///< of a marker
+  Series position, state, method, covariance, offset, stamps;
+  std::vector<Series> rates;  ///< as kRates; empty where the outline has none
+  std::vector<std::string> methods;
+  std::vector<double> offset_s;                           ///< M
+  std::vector<std::pair<std::size_t, Handle>> unclocked;  ///< marker and series without times
+  std::vector<data::FilterUsed> filters;                  ///< M
+};
+
+void NwbWriter::Open::add_clock(Handle series, std::size_t marker, bool first) {
+  if (outline.offsets == NwbOutline::Offsets::per_sample) {
+    // All series of a marker share one list of times.
+    if (first) {
+      stamps.of_marker.push_back(
+          out.samples(series.id(), "timestamps", H5T_IEEE_F64LE, outline.time.frames, 1, kNaN, compression));
+      out.attribute(stamps.of_marker.back().id(), "interval", 1.0, H5T_STD_I32LE);
+      out.attribute(stamps.of_marker.back().id(), "unit", "seconds");
+    } else {
+      out.soft_link(
+          series.id(), "timestamps",
+          fmt::format("{}/{}/{}/timestamps", internal::kModule, internal::kPosition, series_names[marker]));
+    }
+    return;
+  }
+  // Offsets of markers are known with their samples.
+  unclocked.emplace_back(marker, std::move(series));
+}
+
+void NwbWriter::Open::write_starts() {
+  for (const auto& [marker, series] : unclocked) {
+    const Handle start = out.number(series.id(), "starting_time", outline.time.t0_s + offset_s[marker]);
+    out.attribute(start.id(), "rate", outline.time.rate_hz, H5T_IEEE_F64LE);
+    out.attribute(start.id(), "unit", "seconds");
+  }
+  unclocked.clear();
+}
+
+NwbWriter::Open::Series NwbWriter::Open::make_series(hid_t parent, const char* container, const char* type,
+                                                     const char* unit, const char* description,
+                                                     hid_t file_type, int width, double fill, bool spatial) {
+  const Handle group = out.group(parent, container, type);
+  Series made{.width = width};
+  for (std::size_t m = 0; m < series_names.size(); ++m) {
+    Handle series = out.group(group.id(), series_names[m].c_str(), spatial ? "SpatialSeries" : "TimeSeries");
+    out.attribute(series.id(), "description", fmt::format("{} of marker {}", description, outline.names[m]));
+    out.attribute(series.id(), "comments", "no comments");
+    Handle samples =
+        out.samples(series.id(), "data", file_type, outline.time.frames, width, fill, compression);
+    out.attribute(samples.id(), "unit", unit);
+    out.attribute(samples.id(), "conversion", 1.0, H5T_IEEE_F32LE);
+    out.attribute(samples.id(), "offset", 0.0, H5T_IEEE_F32LE);
+    out.attribute(samples.id(), "resolution", -1.0, H5T_IEEE_F32LE);
+    made.of_marker.push_back(std::move(samples));
+    if (spatial) {
+      out.text(series.id(), "reference_frame", metadata.reference_frame);
+      state.of_marker.push_back(
+          out.samples(series.id(), "control", H5T_STD_U8LE, outline.time.frames, 1, 0.0, compression));
+      std::vector<std::string> states;
+      for (const data::SampleState s : internal::kStates) states.emplace_back(data::to_string(s));
+      out.texts(series.id(), "control_description", states);
+    }
+    add_clock(std::move(series), m, spatial);
+  }
+  return made;
+}
+
+void NwbWriter::Open::build() {
+  module = internal::write_root(out, metadata, outline);
+  series_names = internal::series_names(outline.names);
+  for (std::size_t m = 0; m < outline.names.size(); ++m) index[outline.names[m]] = m;
+  offset_s.assign(outline.names.size(), 0.0);
+  filters.assign(outline.names.size(), {.cutoff_hz = kNaN, .noise_sd_m = kNaN});
+  const char* many = "BehavioralTimeSeries";
+  position = make_series(module.id(), internal::kPosition, "Position", "meters", "position (x, y, z)",
+                         H5T_IEEE_F64LE, 3, kNaN, true);
+  if (outline.covariance)
+    covariance =
+        make_series(module.id(), internal::kCovariance, many, "meters^2",
+                    "covariance of position (xx, xy, xz, yy, yz, zz)", H5T_IEEE_F64LE, 6, kNaN, false);
+  if (outline.method)
+    method = make_series(module.id(), internal::kMethod, many, "n.a.",
+                         "method that made a sample (0: as recorded, k: id k - 1 of the table 'methods')",
+                         H5T_STD_U8LE, 1, 0.0, false);
+  if (outline.offsets == NwbOutline::Offsets::per_sample)
+    offset = make_series(module.id(), internal::kOffset, many, "seconds", "time of a sample after its frame",
+                         H5T_IEEE_F64LE, 1, 0.0, false);
+  for (const internal::Rate& rate : internal::kRates)
+    rates.push_back(holds(outline, rate) ? make_series(module.id(), rate.container, many, rate.unit,
+                                                       rate.description, H5T_IEEE_F64LE, 3, kNaN, false)
+                                         : Series{});
+}
+
+std::vector<std::uint8_t> NwbWriter::Open::merge_methods(const std::vector<std::string>& names) {
+  std::vector<std::uint8_t> out_of{0};
+  for (const std::string& name : names) {
+    auto at = std::ranges::find(methods, name);
+    if (at == methods.end()) {
+      check(methods.size() < 255, "a file holds 255 methods at most");
+      at = methods.insert(methods.end(), name);
+    }
+    out_of.push_back(static_cast<std::uint8_t>(at - methods.begin() + 1));
+  }
+  return out_of;
+}
+
+template <class T>
+void NwbWriter::Open::put(const Series& series, hid_t memory_type, const T* values,
+                          const std::vector<std::size_t>& columns, std::int64_t first_frame,
+                          std::int64_t frames) {
+  const auto width = static_cast<std::size_t>(series.width);
+  std::vector<T> block;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    for (std::int64_t f = 0; f < frames; f += kBlockFrames) {
+      const std::int64_t n = std::min(kBlockFrames, frames - f);
+      block.resize(static_cast<std::size_t>(n) * width);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+        const std::size_t sample = (static_cast<std::size_t>(f) + i) * columns.size() + k;
+        std::copy_n(values + sample * width, width, block.data() + i * width);
+      }
+      out.write(series.of_marker[columns[k]], memory_type, first_frame + f, n, series.width, block.data());
+    }
+  }
+}
+
+void NwbWriter::Open::put_times(const data::Trajectories& piece, const std::vector<std::size_t>& columns,
+                                std::int64_t first_frame) {
+  const auto& from = piece.sample_offset_s;
+  switch (outline.offsets) {
+    case NwbOutline::Offsets::none:
+      return;
+    case NwbOutline::Offsets::per_marker:
+      for (std::size_t k = 0; k < columns.size(); ++k) offset_s[columns[k]] = from[k];
+      return;
+    case NwbOutline::Offsets::per_sample:
+      put(offset, H5T_NATIVE_DOUBLE, from.data(), columns, first_frame, piece.frames());
+      Array<double> times(from.size());
+      for (std::size_t i = 0; i < times.size(); ++i)
+        times[i] = outline.time.time_s(first_frame + static_cast<std::int64_t>(i / columns.size())) + from[i];
+      put(stamps, H5T_NATIVE_DOUBLE, times.data(), columns, first_frame, piece.frames());
+  }
+}
+
+void NwbWriter::Open::write_tables() {
+  const std::size_t markers = outline.names.size();
+  std::vector<internal::Column> columns{
+      {.name = "marker", .description = "name of the marker", .texts = outline.names},
+      {.name = "series", .description = "name of its series", .texts = series_names},
+      {.name = "t0_s",
+       .description = "time of frame 0, s",
+       .numbers = std::vector<double>(markers, outline.time.t0_s)},
+      {.name = "rate_hz",
+       .description = "frames per second",
+       .numbers = std::vector<double>(markers, outline.time.rate_hz)}};
+  if (outline.offsets == NwbOutline::Offsets::per_marker) {
+    columns.push_back({.name = "offset_s", .description = "time of its samples after their frame, s"});
+    columns.back().numbers = offset_s;
+  }
+  if (outline.filters) {
+    internal::Column name{.name = "filter", .description = "filter that it went through"};
+    internal::Column order{.name = "filter_order", .description = "order of the filter"};
+    internal::Column cutoff{.name = "filter_cutoff_hz",
+                            .description = "-3 dB of the whole filter, Hz; NaN where it has none"};
+    internal::Column noise{.name = "filter_noise_sd_m",
+                           .description = "noise found in the samples, per axis, m; NaN when unknown"};
+    for (const data::FilterUsed& f : filters) {
+      name.texts.push_back(f.method);
+      order.integers.push_back(f.order);
+      cutoff.numbers.push_back(f.cutoff_hz);
+      noise.numbers.push_back(f.noise_sd_m);
+    }
+    for (auto* c : {&name, &order, &cutoff, &noise}) columns.push_back(std::move(*c));
+  }
+  out.table(module.id(), internal::kMarkersTable, "markers, in their order", columns);
+  if (!methods.empty())
+    out.table(module.id(), internal::kMethodsTable, "methods that made samples",
+              {{.name = "method", .description = "name of the method", .texts = methods}});
+}
+
+NwbWriter::NwbWriter(std::unique_ptr<Open> open) : open_(std::move(open)) {}
+NwbWriter::NwbWriter(NwbWriter&& other) noexcept = default;
+NwbWriter& NwbWriter::operator=(NwbWriter&& other) noexcept = default;
+NwbWriter::~NwbWriter() {
+  const internal::Quiet quiet;
+  open_.reset();
+}
+
+Result<NwbWriter> NwbWriter::create(const std::filesystem::path& path, const NwbOutline& outline,
+                                    const NwbMetadata& metadata, const NwbWriteOptions& options) {
+  check(options.compression >= 0 && options.compression <= 9, "compression lies in 0 to 9");
+  data::Trajectories shape{.names = outline.names, .time = outline.time};
+  shape.time.frames = 0;
+  if (auto status = shape.validate(); !status) return fail_at(path.string(), status.error());
+  if (outline.names.empty() || outline.time.frames <= 0)
+    return fail(Code::bad_input,
+                fmt::format("{}: has {} markers and {} frames; NWB needs one or more of each", path.string(),
+                            outline.names.size(), outline.time.frames));
+  if (auto status = internal::check_metadata(metadata); !status)
+    return fail_at(path.string(), status.error());
+  auto file = OutputFile::create(path, options.force);
+  if (!file) return std::unexpected(file.error());
+  const internal::Quiet quiet;
+  NwbWriter writer(
+      std::make_unique<Open>(std::move(*file), path.string(), outline, metadata, options.compression));
+  writer.open_->build();
+  if (writer.open_->out.failed())
+    return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", path.string()));
+  return writer;
+}
+
+Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives* derivatives,
+                        std::int64_t first_frame) {
+  check(open_ != nullptr, "the file is written already");
+  Open& open = *open_;
+  const NwbOutline& outline = open.outline;
+  const auto samples = static_cast<std::size_t>(piece.frames() * piece.markers());
+  check(first_frame >= 0 && first_frame + piece.frames() <= outline.time.frames,
+        "a piece lies outside the outline's frames");
+  check(piece.x_in_world.size() == 3 * samples && piece.state.size() == samples, "a piece has a wrong shape");
+  check(!outline.covariance || piece.covariance.size() == 6 * samples, "a piece lacks its covariance");
+  check(piece.method.empty() || (outline.method && piece.method.size() == samples),
+        "a piece has methods that the outline did not promise");
+  const std::size_t times = outline.offsets == NwbOutline::Offsets::none         ? 0
+                            : outline.offsets == NwbOutline::Offsets::per_marker ? piece.names.size()
+                                                                                 : samples;
+  check(piece.sample_offset_s.size() == times, "a piece's sample times are not as the outline said");
+  std::vector<std::size_t> columns;
+  for (const std::string& name : piece.names) {
+    const auto found = open.index.find(name);
+    check(found != open.index.end(), "a piece has a marker that the outline does not name");
+    columns.push_back(found->second);
+  }
+
+  const internal::Quiet quiet;
+  const std::int64_t frames = piece.frames();
+  open.put(open.position, H5T_NATIVE_DOUBLE, piece.x_in_world.data(), columns, first_frame, frames);
+  open.put(open.state, H5T_NATIVE_UINT8, reinterpret_cast<const std::uint8_t*>(piece.state.data()), columns,
+           first_frame, frames);
+  if (outline.covariance)
+    open.put(open.covariance, H5T_NATIVE_DOUBLE, piece.covariance.data(), columns, first_frame, frames);
+  if (!piece.method.empty()) {
+    const auto file_number = open.merge_methods(piece.methods);
+    Array<std::uint8_t> numbers = piece.method;
+    for (std::uint8_t& n : numbers) {
+      check(n < file_number.size(), "a sample was made by a method without a name");
+      n = file_number[n];
+    }
+    open.put(open.method, H5T_NATIVE_UINT8, numbers.data(), columns, first_frame, frames);
+  }
+  open.put_times(piece, columns, first_frame);
+  for (std::size_t r = 0; r < internal::kRates.size(); ++r) {
+    if (open.rates[r].of_marker.empty()) continue;
+    check(derivatives != nullptr && (derivatives->*internal::kRates[r].values).size() == 3 * samples,
+          "a piece lacks derivatives that the outline promised");
+    open.put(open.rates[r], H5T_NATIVE_DOUBLE, (derivatives->*internal::kRates[r].values).data(), columns,
+             first_frame, frames);
+  }
+  if (outline.filters) {
+    check(derivatives != nullptr && derivatives->filters.size() == columns.size(),
+          "a piece lacks the filters that the outline promised");
+    for (std::size_t k = 0; k < columns.size(); ++k) open.filters[columns[k]] = derivatives->filters[k];
+  }
+  if (open.out.failed()) return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open.path));
+  return {};
+}
+
+Status NwbWriter::commit() {
+  check(open_ != nullptr, "the file is written already");
+  const internal::Quiet quiet;
+  const std::unique_ptr<Open> open = std::move(open_);
+  open->write_tables();
+  open->write_starts();
+  open->module.close();
+  for (Open::Series* series :
+       {&open->position, &open->state, &open->method, &open->covariance, &open->offset, &open->stamps})
+    series->of_marker.clear();
+  open->rates.clear();
+  if (!open->out.close())
+    return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open->path));
+  return open->file.commit();
+}
+
+Status write_nwb(const std::filesystem::path& path, const data::Trajectories& trajectories,
+                 const data::Derivatives* derivatives, const NwbMetadata& metadata,
+                 const NwbWriteOptions& options) {
+  if (auto status = trajectories.validate(); !status) return fail_at(path.string(), status.error());
+  if (derivatives != nullptr)
+    if (auto status = derivatives->validate(trajectories); !status)
+      return fail_at(path.string(), status.error());
+  auto writer = NwbWriter::create(path, NwbOutline::of(trajectories, derivatives), metadata, options);
+  if (!writer) return std::unexpected(writer.error());
+  if (auto status = writer->write(trajectories, derivatives); !status) return status;
+  return writer->commit();
+}
+
+}  // namespace kinemark::io

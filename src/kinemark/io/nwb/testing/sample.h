@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// A recording with one of everything, for the tests of this folder.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "kinemark/core/random.h"
+#include "kinemark/io/nwb/nwb.h"
+
+namespace kinemark::io::testing {
+
+inline void fill(Array<double>& values, std::size_t count, double low, double high, Random& random) {
+  values.resize(count);
+  for (double& v : values) v = random.uniform(low, high);
+}
+
+/// Every state, three methods, covariances, offsets of every sample, awkward names and numbers.
+inline data::Trajectories sample_trajectories(std::int64_t frames = 50) {
+  Random random(7, 0);
+  auto t =
+      data::Trajectories::all_missing({"Subject:LASI", "a/b", "a_b", ".", "C7 \xC3\xA9"},
+                                      {.rate_hz = 60000.0 / 1001.0, .t0_s = 1.0 / 3.0, .frames = frames});
+  for (std::int64_t f = 0; f < frames; ++f) {
+    for (std::int64_t m = 0; m < t.markers(); ++m) {
+      const auto state = static_cast<data::SampleState>((f + m) % 6);
+      t.state[t.index(f, m)] = state;
+      if (!t.present(f, m)) continue;
+      for (double& x : t.x(f, m)) x = random.uniform(-2.0, 2.0);
+      if (state == data::SampleState::interpolated) t.set_method(f, m, "cubic");
+      if (state == data::SampleState::model_filled) t.set_method(f, m, m == 1 ? "rigid body" : "PCA");
+    }
+  }
+  t.x(1, 0) = Eigen::Vector3d(-0.0, 5e-324, 1e300);
+  fill(t.covariance, 6 * t.state.size(), 1e-9, 1e-6, random);
+  fill(t.sample_offset_s, t.state.size(), 0.0, 0.01, random);
+  return t;
+}
+
+inline data::Derivatives sample_derivatives(const data::Trajectories& of) {
+  Random random(8, 0);
+  data::Derivatives d;
+  for (auto* values : {&d.velocity, &d.acceleration, &d.jerk})
+    fill(*values, of.x_in_world.size(), -3.0, 3.0, random);
+  for (auto* values : {&d.velocity_sd, &d.acceleration_sd, &d.jerk_sd})
+    fill(*values, of.x_in_world.size(), 0.0, 1.0, random);
+  d.velocity[4] = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t m = 0; m < of.names.size(); ++m)
+    d.filters.push_back({.method = m == 0 ? "none" : "kalman",
+                         .order = static_cast<int>(m),
+                         .cutoff_hz = m == 0 ? std::numeric_limits<double>::quiet_NaN() : 6.1,
+                         .noise_sd_m = 1e-4});
+  return d;
+}
+
+inline NwbMetadata sample_metadata() {
+  return {.identifier = "trial 7",
+          .session_description = "reaching",
+          .session_start = "2026-11-21T09:30:00.250+01:00",
+          .created = "2026-11-21T12:00:00Z",
+          .reference_frame = "lab, Z up",
+          .subject_id = "M1",
+          .species = "Macaca mulatta",
+          .sex = "F",
+          .age = "P8Y",
+          .software = "kinemark",
+          .version = "0.1.0",
+          .command = "kinemark clean \"a b.c3d\" out.nwb",
+          .sources = {{.file = "a b.c3d", .bytes = 123456789012, .xxh3 = "0123456789abcdef"},
+                      {.file = "rig.toml", .bytes = 12, .xxh3 = ""}},
+          .options = {{"gaps", "auto"}, {"filter", ""}},
+          .seed = 18446744073709551615ULL};
+}
+
+/// Equal to the last bit; one NaN is as good as another.
+inline bool same_bits(const Array<double>& a, const Array<double>& b) {
+  return std::ranges::equal(a, b, [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (x != x && y != y);
+  });
+}
+
+}  // namespace kinemark::io::testing
