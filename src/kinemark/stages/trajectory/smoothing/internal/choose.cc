@@ -103,12 +103,11 @@ double criterion_value(Criterion criterion, const Scores& scores, double sigma) 
 }
 
 Choice choose(std::span<const Series> parts, const ChooseOptions& options) {
-  std::int64_t samples = 0, values = 0, longest = 1;
+  std::int64_t samples = 0, longest = 1;
   for (const Series& part : parts) {
     std::int64_t seen = 0;
     for (std::int64_t k = 0; k < part.frames; ++k) seen += part.seen[k] != 0;
     samples += seen;
-    values += seen * part.axes;
     longest = std::max(longest, part.frames);
   }
   const double rate = options.rate_hz;
