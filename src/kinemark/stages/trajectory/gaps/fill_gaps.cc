@@ -6,16 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/trajectory/gaps/internal/filler.h"
+#include "kinemark/stages/trajectory/gaps/internal/pieces.h"
 
 namespace kinemark::trajectory {
 namespace {
 
+using internal::Combination;
 using internal::Filled;
 using internal::Filler;
 using internal::FillKind;
@@ -26,13 +30,11 @@ using internal::Neighbour;
 constexpr Index kMaxGapFrames = 4000;  // operators are dense, frames of the gap by samples beside it
 constexpr Index kGapsPerReport = 64;
 
-/// A gap, its account, and what to write when it is filled.
+/// A gap, its accounts, and what to write when it is filled.
 struct Work {
   GapSpan span;
-  GapAccount account;
-  Eigen::MatrixXd x_in_world;  // L x 3
-  Eigen::VectorXd sd_m;        // L
-  bool temporal = false;       // made from the marker's own path alone
+  std::vector<GapAccount> accounts;  // one per piece
+  std::vector<Combination> pieces;   // as many when the gap is filled, else none
 };
 
 std::vector<GapSpan> find_gaps(const data::Trajectories& in) {
@@ -97,79 +99,133 @@ void describe(const data::Trajectories& in, const Filled& filled, GapAccount& ac
 }
 
 /// Why a fill is not good enough to be used, or "".
-std::string why_not_used(const Filled& filled, const GapAccount& account, const GapOptions& options,
+std::string why_not_used(const Filled& filled, const GapSpan& gap, double sd_m, const GapOptions& options,
                          double rate_hz) {
-  const double length_s = static_cast<double>(account.frames()) / rate_hz;
-  if (filled.problem.predictors.empty() &&
-      (filled.problem.shape.left == 0 || filled.problem.shape.right == 0) &&
+  const double length_s = static_cast<double>(gap.end - gap.first) / rate_hz;
+  if (filled.problem.predictors.empty() && (gap.left == 0 || gap.right == 0) &&
       length_s > options.max_extrapolation_s * (1.0 + 1e-9))
     return fmt::format("no sample on one side and no complete neighbours; at most {:.3g} s are extrapolated",
                        options.max_extrapolation_s);
   if (std::isinf(options.max_sd_m)) return {};
-  if (std::isnan(account.sd_m))
+  if (std::isnan(sd_m))
     return "too few complete stretches to learn from, so that its standard deviation is unknown";
-  if (account.sd_m > options.max_sd_m)
-    return fmt::format("its standard deviation would be {:.1f} mm; at most {:.1f} mm is allowed",
-                       1e3 * account.sd_m, 1e3 * options.max_sd_m);
+  if (sd_m > options.max_sd_m)
+    return fmt::format("its standard deviation would be {:.1f} mm; at most {:.1f} mm is allowed", 1e3 * sd_m,
+                       1e3 * options.max_sd_m);
   return {};
+}
+
+double mean_square_sd(std::span<const Filled> pieces) {
+  double sum = 0.0;
+  Index frames = 0;
+  for (const Filled& p : pieces) {
+    if (p.fills.empty()) return std::numeric_limits<double>::quiet_NaN();
+    sum += p.combination.sd_m.squaredNorm();
+    frames += p.combination.sd_m.size();
+  }
+  return sum / static_cast<double>(frames);
+}
+
+/// The gap as a whole or, where that is surer, in pieces.
+std::vector<Filled> fill_or_split(const Filler& filler, const std::vector<Neighbour>& neighbours,
+                                  const GapSpan& gap) {
+  std::vector<Filled> whole;
+  whole.push_back(filler.fill(gap, neighbours));
+  const std::vector<GapSpan> spans =
+      filler.uses_neighbours() ? split_gap(filler.recording(), neighbours, gap) : std::vector<GapSpan>{gap};
+  if (spans.size() == 1) return whole;
+  std::vector<Filled> pieces;
+  for (const GapSpan& span : spans) pieces.push_back(filler.fill(span, neighbours));
+  const double split_square = mean_square_sd(pieces);
+  const double whole_square = mean_square_sd(whole);
+  if (std::isnan(split_square) || split_square >= whole_square) return whole;
+  join_pieces(pieces);
+  return pieces;
+}
+
+/// Nothing but the marker's own path has a say.
+bool is_temporal(const Filled& piece) {
+  for (std::size_t k = 0; k < piece.fills.size(); ++k)
+    if (piece.combination.weights[k] > 0.0 && !internal::is_temporal(piece.fills[k].kind)) return false;
+  return true;
+}
+
+GapAccount blank_account(const data::Trajectories& in, const GapSpan& span) {
+  return {.marker = span.marker,
+          .first_frame = span.first,
+          .last_frame = span.end - 1,
+          .at_edge = span.first == 0 || span.end == in.frames(),
+          .sd_m = std::numeric_limits<double>::quiet_NaN(),
+          .max_sd_m = std::numeric_limits<double>::quiet_NaN()};
 }
 
 void fill_one(const data::Trajectories& in, const Filler& filler, const std::vector<Neighbour>& neighbours,
               const GapOptions& options, Work& work) {
-  GapAccount& account = work.account;
-  account.why_open = why_not_tried(filler, work.span, options);
-  if (!account.why_open.empty()) return;
-  Filled filled = filler.fill(work.span, neighbours);
-  describe(in, filled, account);
-  if (filled.fills.empty()) {
-    account.why_open = account.windows == 0 ? "too few complete stretches to learn from"
-                                            : "no complete neighbour and no sample to predict from";
+  std::string why = why_not_tried(filler, work.span, options);
+  if (!why.empty()) {
+    work.accounts = {blank_account(in, work.span)};
+    work.accounts.front().why_open = std::move(why);
     return;
   }
-  account.sd_m = std::sqrt(filled.combination.sd_m.squaredNorm() / static_cast<double>(account.frames()));
-  account.max_sd_m = filled.combination.sd_m.maxCoeff();
-  account.why_open = why_not_used(filled, account, options, in.time.rate_hz);
-  if (!account.why_open.empty()) return;
-  account.filled = true;
-  account.method = options.method == GapMethod::automatic ? "auto" : account.candidates.front().name;
-  work.temporal = true;
-  for (std::size_t k = 0; k < filled.fills.size(); ++k)
-    if (filled.combination.weights[k] > 0.0 && !is_temporal(filled.fills[k].kind)) work.temporal = false;
-  work.x_in_world = std::move(filled.combination.gap);
-  work.sd_m = std::move(filled.combination.sd_m);
-  if (std::isnan(account.sd_m))
-    work.sd_m.setConstant(
-        std::hypot(roaming_m(filler.recording(), work.span.marker), filler.noise_m(work.span.marker)));
+  std::vector<Filled> pieces = fill_or_split(filler, neighbours, work.span);
+  const double sd_m = std::sqrt(mean_square_sd(pieces));
+  for (const Filled& piece : pieces) {
+    GapAccount account = blank_account(in, piece.problem.span);
+    describe(in, piece, account);
+    if (piece.fills.empty()) {
+      why = account.windows == 0 ? "too few complete stretches to learn from"
+                                 : "no complete neighbour and no sample to predict from";
+    } else {
+      account.sd_m = std::sqrt(piece.combination.sd_m.squaredNorm() / static_cast<double>(account.frames()));
+      account.max_sd_m = piece.combination.sd_m.maxCoeff();
+      if (why.empty()) why = why_not_used(piece, work.span, sd_m, options, in.time.rate_hz);
+    }
+    work.accounts.push_back(std::move(account));
+  }
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    GapAccount& account = work.accounts[k];
+    account.filled = why.empty();
+    account.why_open = why;
+    if (!account.filled) continue;
+    account.method = options.method == GapMethod::automatic ? "auto" : account.candidates.front().name;
+    account.temporal = is_temporal(pieces[k]);
+    work.pieces.push_back(std::move(pieces[k].combination));
+  }
+}
+
+void set_isotropic(data::Trajectories& out, Index frame, Index marker, double variance_m2) {
+  double* c = out.covariance.data() + 6 * out.index(frame, marker);
+  std::fill_n(c, 6, 0.0);
+  c[0] = c[3] = c[5] = variance_m2;
 }
 
 /// Covariance of what is there already, so that every sample has one.
 void set_noise(const Filler& filler, data::Trajectories& out) {
-  out.covariance.assign(6 * static_cast<std::size_t>(out.frames() * out.markers()),
-                        std::numeric_limits<double>::quiet_NaN());
+  out.covariance.assign(2 * out.x_in_world.size(), std::numeric_limits<double>::quiet_NaN());
   for (Index m = 0; m < out.markers(); ++m) {
-    const double variance = filler.noise_m(m) * filler.noise_m(m);
+    const double noise = filler.noise_m(m);
     for (Index f = 0; f < out.frames(); ++f)
-      if (out.present(f, m))
-        for (const std::size_t c : {0U, 1U, 2U, 3U, 4U, 5U})
-          out.covariance[6 * out.index(f, m) + c] = c == 0 || c == 3 || c == 5 ? variance : 0.0;
+      if (out.present(f, m)) set_isotropic(out, f, m, noise * noise);
   }
 }
 
-void write(const Work& work, data::Trajectories& out) {
-  const data::SampleState state =
-      work.temporal ? data::SampleState::interpolated : data::SampleState::model_filled;
-  for (Index i = 0; i < work.x_in_world.rows(); ++i) {
-    const Index f = work.span.first + i;
-    out.x(f, work.span.marker) = work.x_in_world.row(i).transpose();
-    out.state[out.index(f, work.span.marker)] = state;
-    out.set_method(f, work.span.marker, work.account.method);
-    const double variance = work.sd_m(i) * work.sd_m(i);
-    for (const std::size_t c : {0U, 1U, 2U, 3U, 4U, 5U})
-      out.covariance[6 * out.index(f, work.span.marker) + c] = c == 0 || c == 3 || c == 5 ? variance : 0.0;
+void write(const Filler& filler, const GapAccount& account, const Combination& fill,
+           data::Trajectories& out) {
+  const Index m = account.marker;
+  const double unknown =
+      fill.sd_m.hasNaN() ? std::hypot(roaming_m(filler.recording(), m), filler.noise_m(m)) : 0.0;
+  for (Index i = 0; i < fill.gap.rows(); ++i) {
+    const Index f = account.first_frame + i;
+    out.x(f, m) = fill.gap.row(i).transpose();
+    out.state[out.index(f, m)] =
+        account.temporal ? data::SampleState::interpolated : data::SampleState::model_filled;
+    out.set_method(f, m, account.method);
+    const double sd = std::isnan(fill.sd_m(i)) ? unknown : fill.sd_m(i);
+    set_isotropic(out, f, m, sd * sd);
   }
 }
 
-SwapFinding describe(const data::Trajectories& in, const internal::Swap& s) {
+SwapFinding tell(const data::Trajectories& in, const internal::Swap& s) {
   return {.first_marker = s.first_marker,
           .second_marker = s.second_marker,
           .first_frame = s.first,
@@ -195,14 +251,7 @@ Result<GapResult> fill_gaps(const data::Trajectories& in, const GapOptions& opti
   const Filler filler(in, options);
   std::vector<Work> work;
   for (const GapSpan& gap : find_gaps(in)) {
-    Work w{.span = filler.span(gap.marker, gap.first, gap.end)};
-    w.account = {.marker = gap.marker,
-                 .first_frame = gap.first,
-                 .last_frame = gap.end - 1,
-                 .at_edge = gap.first == 0 || gap.end == in.frames(),
-                 .sd_m = std::numeric_limits<double>::quiet_NaN(),
-                 .max_sd_m = std::numeric_limits<double>::quiet_NaN()};
-    work.push_back(std::move(w));
+    work.push_back({.span = filler.span(gap.marker, gap.first, gap.end)});
   }
   // Neighbours once per marker, found when its first gap is reached by a batch.
   std::vector<std::optional<std::vector<Neighbour>>> neighbours(static_cast<std::size_t>(in.markers()));
@@ -236,10 +285,11 @@ Result<GapResult> fill_gaps(const data::Trajectories& in, const GapOptions& opti
   GapResult result{.trajectories = in};
   if (in.covariance.empty()) set_noise(filler, result.trajectories);
   for (Work& w : work) {
-    if (w.account.filled) write(w, result.trajectories);
-    result.gaps.push_back(std::move(w.account));
+    for (std::size_t k = 0; k < w.pieces.size(); ++k)
+      write(filler, w.accounts[k], w.pieces[k], result.trajectories);
+    std::ranges::move(w.accounts, std::back_inserter(result.gaps));
   }
-  for (const internal::Swap& s : filler.swaps()) result.swaps.push_back(describe(in, s));
+  for (const internal::Swap& s : filler.swaps()) result.swaps.push_back(tell(in, s));
   if (options.progress && !options.progress(total, total))
     return fail(Code::cancelled, "filling gaps was stopped");
   return result;

@@ -30,7 +30,8 @@ struct GapAccount {
   std::int64_t last_frame = 0;
   bool at_edge = false;  ///< touches the start or the end of the recording
   bool filled = false;
-  std::string method;  ///< as in Trajectories::methods, "auto" for a combination; "" when left open
+  bool temporal = false;  ///< filled from the marker's own path alone
+  std::string method;     ///< as in Trajectories::methods, "auto" for a combination; "" when left open
   std::vector<CandidateWeight> candidates;  ///< largest weight first
   double sd_m = 0.0;                        ///< predicted, per axis, RMS over the gap; NaN when unknown
   double max_sd_m = 0.0;                    ///< the largest along the gap and over the axes; NaN when unknown
@@ -68,7 +69,7 @@ struct GapResult {
 /// errors on artificial gaps of the same length in the same recording, scaled by how far the candidates
 /// disagree here, plus the noise of a sample. Where the input has no covariance, that of present samples is
 /// set to noise_sd_m squared, estimated when it is 0. Rejected samples count as missing. Samples that are
-/// present but not `measured` (upsampled, filled earlier) are neither changed nor learned from.
+/// present but neither `measured` nor `upsampled` (filled earlier) are neither changed nor learned from.
 ///
 /// A gap stays missing, and its account says why, when it is longer than max_gap_s, touches the start or end
 /// of the recording and there is nothing but time to predict from for more than max_extrapolation_s, has no

@@ -8,11 +8,9 @@
 namespace kinemark::trajectory::internal {
 
 Filler::Filler(const data::Trajectories& in, const GapOptions& options) : options_(options), recording_(in) {
+  for (Index m = 0; m < recording_.markers(); ++m)
+    noise_m_.push_back(options.noise_sd_m > 0.0 ? options.noise_sd_m : recording_.estimate_noise(m));
   if (options.check_labels) swaps_ = check_labels(recording_);
-}
-
-double Filler::noise_m(Index marker) const {
-  return options_.noise_sd_m > 0.0 ? options_.noise_sd_m : recording_.estimate_noise(marker);
 }
 
 GapSpan Filler::span(Index marker, Index first, Index end) const {
@@ -24,12 +22,16 @@ GapSpan Filler::span(Index marker, Index first, Index end) const {
   return s;
 }
 
+bool Filler::uses_neighbours() const {
+  const GapMethod m = options_.method;
+  return m == GapMethod::rigid || m == GapMethod::regression || m == GapMethod::pca ||
+         m == GapMethod::automatic;
+}
+
 Filled Filler::fill(const GapSpan& span, const std::vector<Neighbour>& neighbours) const {
   const GapMethod method = options_.method;
-  const bool spatial = method == GapMethod::rigid || method == GapMethod::regression ||
-                       method == GapMethod::pca || method == GapMethod::automatic;
   Filled out;
-  out.problem = pose_gap(recording_, neighbours, span, spatial, options_.seed);
+  out.problem = pose_gap(recording_, neighbours, span, uses_neighbours(), options_.seed);
   out.fills = make_fills(recording_, out.problem, method, cache_);
   if (out.fills.empty()) return out;
   out.combination = combine(out.problem, out.fills, method != GapMethod::automatic);

@@ -25,13 +25,14 @@ constexpr std::array<Traits, kFillKinds> kTraits = {{
     {"cubic", true, false, 3.0},
     {"pchip", true, false, 2.0},
     {"walk", true, false, 2.0},
-    {"walk, order 3", true, false, 3.0},
+    {"walk, stiff", true, false, 3.0},
     {"rigid, untied", false, true, 0.0},
     {"rigid, chord", false, false, 1.0},
     {"rigid", false, false, 1.0},
     {"regression, untied", false, true, 0.0},
     {"regression, chord", false, false, 0.5},
     {"regression", false, false, 0.5},
+    {"regression, stiff", false, false, 1.0},
     {"pca, untied", false, true, 0.0},
     {"pca", false, false, 0.5},
 }};
@@ -71,7 +72,7 @@ void temporal_fills(const Recording& recording, const GapProblem& p, GapMethod m
   if (const auto walk = walks.best(x, 1, p.shortened() ? 1 : 2))
     fills.push_back(linear_fill(FillKind::walk, x, *walk->rows, *walk->gap));
   if (both && !p.shortened())
-    if (const auto walk = walks.best(x, 3, 3))
+    if (const auto walk = walks.best(x, 3, 4))
       fills.push_back(linear_fill(FillKind::walk_stiff, x, *walk->rows, *walk->gap));
 }
 

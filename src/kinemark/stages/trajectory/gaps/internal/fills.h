@@ -18,17 +18,18 @@ enum class FillKind : std::uint8_t {
   spline,
   pchip,
   walk,               ///< order 1 or 2
-  walk_stiff,         ///< order 3
+  walk_stiff,         ///< order 3 or 4
   rigid_untied,       ///< mean place in the local frame
   rigid_chord,        ///< local frame, chord between both ends
   rigid_walk,         ///< local frame, walk
   regression_untied,  ///< local frame, neighbours' places
   regression_chord,   ///< ... what the chord leaves unexplained, of target and neighbours
   regression_walk,    ///< ... what the walk leaves unexplained
+  regression_stiff,   ///< ... what the walk of order 3 leaves unexplained
   pca_untied,
   pca_chord,
 };
-inline constexpr int kFillKinds = 13;
+inline constexpr int kFillKinds = 14;
 
 /// "linear", "cubic", "pchip", "walk", "walk, order 3", "rigid, untied", ...
 [[nodiscard]] std::string_view to_string(FillKind kind);

@@ -16,8 +16,11 @@ constexpr std::size_t kMaxCandidates = 24;
 constexpr std::size_t kMaxPredictors = 12;
 constexpr std::size_t kFewPredictors = 4;
 constexpr std::size_t kMinPredictors = 3;  // the gate leaves that many
-constexpr Index kMaxWindows = 32;
+constexpr Index kMinChosen = 32;           // windows, of those there are; more of them
+constexpr Index kMaxChosen = 64;           // when they are short, so that there are
+constexpr Index kWantedRows = 768;         // so many rows to learn from
 constexpr Index kMinWindows = 8;
+constexpr Index kMaxPlaces = 20'000;
 constexpr Index kMaxRows = 24;
 constexpr Index kSampledFrames = 300;
 
@@ -34,11 +37,12 @@ Eigen::VectorX<Index> spread_rows(Index last, Index n) {
   return Eigen::Map<Eigen::VectorX<Index>>(rows.data(), static_cast<Index>(rows.size()));
 }
 
-/// Every place where such a window fits.
+/// Every place where such a window fits; in long recordings every second, third, ...
 std::vector<Index> find_places(const Recording& recording, Index target, std::span<const Index> predictors,
                                const GapShape& window) {
   std::vector<Index> places;
-  for (Index s = window.left; s + window.length + window.right <= recording.frames(); ++s) {
+  const Index step = 1 + recording.frames() / kMaxPlaces;
+  for (Index s = window.left; s + window.length + window.right <= recording.frames(); s += step) {
     const Index first = s - window.left;
     const Index end = s + window.length + window.right;
     if (recording.complete(target, first, end) &&
@@ -158,7 +162,9 @@ GapProblem pose_gap(const Recording& recording, const std::vector<Neighbour>& ne
         p.window = window;
         p.predictors.resize(n);
         p.sd_m.resize(n);
-        p.starts = choose_windows(places, kMaxWindows, random);
+        p.starts = choose_windows(
+            places, std::clamp(kWantedRows / std::min(window.length, kMaxRows), kMinChosen, kMaxChosen),
+            random);
         return true;
       }
     }

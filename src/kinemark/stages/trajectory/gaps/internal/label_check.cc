@@ -16,8 +16,8 @@ constexpr Index kSampledFrames = 120;
 constexpr std::size_t kPartners = 8;
 constexpr std::size_t kVotes = 5;  // partners that decide whether a marker is out of place
 constexpr std::size_t kLeastVotes = 3;
-constexpr double kOutRange = 1.75;  // of the 20 to 80 % range, and
-constexpr double kOutM = 0.010;
+constexpr double kOutRange = 2.5;  // of the 20 to 80 % range, and
+constexpr double kOutM = 0.015;
 constexpr double kNormalRange = 1.683;  // 20 to 80 % of a normal distribution, in SD
 constexpr double kSlackM = 0.003;
 constexpr double kCap = 25.0;     // of a squared deviate, so that one distance cannot decide alone
@@ -164,7 +164,21 @@ class FrameCheck {
   const Partners& partners_;
 };
 
-/// Frames of each pair to stretches: short interruptions bridged, single frames left out.
+/// Frame in [border - 2, border + 2] from which the two markers have exchanged their paths, or -1. Also where
+/// a sample is missing there, behind which the exchange can have happened unseen.
+Index find_exchange(const Recording& r, Index a, Index b, Index border) {
+  for (const Index shift : {0, -1, 1, -2, 2}) {
+    const Index f = border + shift;
+    if (f <= 0 || f >= r.frames()) return border;
+    for (const Index m : {a, b})
+      if (!r.usable(m, f - 1) || !r.usable(m, f)) return border;
+    if (paths_cross(r, a, b, f)) return f;
+  }
+  return -1;
+}
+
+/// Frames of each pair to stretches: short interruptions bridged, single frames left out, and those left out
+/// that begin or end in the middle of undisturbed paths: that is a posture, not a swap.
 std::vector<Swap> join_frames(const Recording& r,
                               const std::map<std::pair<Index, Index>, std::vector<Index>>& hits) {
   std::vector<Swap> swaps;
@@ -172,16 +186,14 @@ std::vector<Swap> join_frames(const Recording& r,
     for (std::size_t i = 0; i < frames.size();) {
       std::size_t k = i + 1;
       while (k < frames.size() && frames[k] - frames[k - 1] <= kMergeFrames) ++k;
-      if (k - i >= kLeastFrames) {
-        std::vector<double> d;
-        for (std::size_t n = i; n < k; ++n)
-          d.push_back((r.x(pair.first, frames[n]) - r.x(pair.second, frames[n])).norm());
-        std::ranges::nth_element(d, d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2));
+      const Index first = find_exchange(r, pair.first, pair.second, frames[i]);
+      const Index end = find_exchange(r, pair.first, pair.second, frames[k - 1] + 1);
+      if (k - i >= kLeastFrames && first >= 0 && end > first) {
         swaps.push_back({.first_marker = pair.first,
                          .second_marker = pair.second,
-                         .first = frames[i],
-                         .end = frames[k - 1] + 1,
-                         .distance_m = d[d.size() / 2]});
+                         .first = first,
+                         .end = end,
+                         .distance_m = median_distance(r, pair.first, pair.second, first, end)});
       }
       i = k;
     }
@@ -189,20 +201,28 @@ std::vector<Swap> join_frames(const Recording& r,
   return swaps;
 }
 
+void undo(const std::vector<Swap>& swaps, Recording& recording) {
+  for (const Swap& s : swaps)
+    for (Index f = s.first; f < s.end; ++f)
+      if (recording.usable(s.first_marker, f) && recording.usable(s.second_marker, f))
+        recording.exchange(s.first_marker, s.second_marker, f);
+}
+
 }  // namespace
 
 std::vector<Swap> check_labels(Recording& recording) {
   if (recording.markers() < 4 || recording.markers() > kMaxMarkers) return {};
   const Partners partners = find_partners(recording);
+  std::vector<Swap> swaps = find_crossings(recording);
+  undo(swaps, recording);
   const FrameCheck check(recording, partners);
   std::map<std::pair<Index, Index>, std::vector<Index>> hits;
   for (Index f = 0; f < recording.frames(); ++f)
     for (const auto& pair : check.find_swaps(f)) hits[pair].push_back(f);
-  const std::vector<Swap> swaps = join_frames(recording, hits);
-  for (const Swap& s : swaps)
-    for (Index f = s.first; f < s.end; ++f)
-      if (recording.usable(s.first_marker, f) && recording.usable(s.second_marker, f))
-        recording.exchange(s.first_marker, s.second_marker, f);
+  const std::vector<Swap> by_distance = join_frames(recording, hits);
+  undo(by_distance, recording);
+  swaps.insert(swaps.end(), by_distance.begin(), by_distance.end());
+  std::ranges::stable_sort(swaps, {}, [](const Swap& s) { return s.first; });
   Flags doubtful(static_cast<std::size_t>(recording.markers()),
                  std::vector<std::uint8_t>(static_cast<std::size_t>(recording.frames()), 0));
   for (Index f = 0; f < recording.frames(); ++f)

@@ -42,12 +42,12 @@ double Recording::estimate_noise(Index marker) const {
     if (!complete(marker, f, f + 5)) continue;
     const Eigen::Vector3d d = x(marker, f) - 4.0 * x(marker, f + 1) + 6.0 * x(marker, f + 2) -
                               4.0 * x(marker, f + 3) + x(marker, f + 4);
-    for (const double v : d) size.push_back(std::abs(v));
+    size.push_back(d.norm());
   }
-  if (size.size() < 24) return 0.0;
+  if (size.size() < 8) return 0.0;
   const auto quarter = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 4);
   std::ranges::nth_element(size, quarter);
-  return *quarter / (0.3186 * std::sqrt(70.0));  // lower quartile of |N(0,1)|; 1 + 16 + 36 + 16 + 1
+  return *quarter / (1.1011 * std::sqrt(70.0));  // lower quartile of chi(3); 1 + 16 + 36 + 16 + 1
 }
 
 }  // namespace kinemark::trajectory::internal

@@ -106,15 +106,16 @@ class LocalFills {
   }
   /// False when no walk is possible.
   bool rigid_walk() {
-    const auto walk = walks_.best(y_, 1, p_.shortened() ? 1 : 3);
+    const auto walk = walks_.best(y_, 1, p_.shortened() ? 1 : 4);
     if (!walk) return false;
     add(FillKind::rigid_walk, *walk->gap * y_.gap_near, y_.rows - *walk->rows * y_.near);
     return true;
   }
-  bool regression_walk() {
+  /// The best of orders `lowest` to `highest`. False when no walk is possible.
+  bool regression_walk(FillKind kind, int lowest, int highest) {
     std::optional<Regression> best;
     Eigen::MatrixXd fill;
-    for (int order = 1; order <= (p_.shortened() ? 1 : 2); ++order) {
+    for (int order = lowest; order <= highest; ++order) {
       const auto walk = walks_.best(y_, order, order);
       if (!walk) continue;
       Regression r = regress(tie(y_, *walk->rows, *walk->gap), tie(z_, *walk->rows, *walk->gap), folds_,
@@ -124,7 +125,7 @@ class LocalFills {
       best = std::move(r);
     }
     if (!best) return false;
-    add(FillKind::regression_walk, fill, best->errors);
+    add(kind, fill, best->errors);
     return true;
   }
 
@@ -261,7 +262,10 @@ void spatial_fills(const Recording& recording, const GapProblem& problem, GapMet
   }
   if (all || method == GapMethod::regression) {
     if (all || !ends) local.regression_untied();
-    if (ends && (!local.regression_walk() || all)) local.regression_chord();
+    const int highest = problem.shortened() ? 1 : 2;
+    if (ends && (!local.regression_walk(FillKind::regression_walk, 1, highest) || all))
+      local.regression_chord();
+    if (all && ends && !problem.shortened()) local.regression_walk(FillKind::regression_stiff, 3, 4);
   }
 }
 

@@ -10,7 +10,7 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-constexpr std::array kCutoffsHz = {1.0, 2.5, 5.0, 10.0, 20.0, 45.0};
+constexpr std::array kCutoffsHz = {1.0, 1.6, 2.5, 4.0, 6.3, 10.0, 16.0, 25.0, 45.0};
 constexpr double kHighestOfRate = 0.45;
 constexpr double kWorstCondition = 1e13;  // of the normal matrix; beyond it the solution is rounding
 

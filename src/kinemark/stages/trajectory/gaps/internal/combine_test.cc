@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/gaps/internal/combine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+constexpr Index kWindows = 32;
+constexpr Index kRows = 20;
+
+GapProblem problem() {
+  GapProblem p;
+  p.shape = {.length = kRows, .left = 10, .right = 10};
+  p.window = p.shape;
+  p.rows = Eigen::VectorX<Index>::LinSpaced(kRows, 0, kRows - 1);
+  p.all_rows = p.rows;
+  for (Index w = 0; w < kWindows; ++w) p.starts.push_back(10 + 100 * w);
+  return p;
+}
+
+/// A candidate with independent errors: N(0, sd) on the windows and in the gap, where the truth is 0.
+Fill candidate(FillKind kind, double sd_m, std::uint64_t stream) {
+  Random random(5, stream);
+  Fill f{.kind = kind, .gap = Eigen::MatrixXd(kRows, 3), .errors = Eigen::MatrixXd(kRows, 3 * kWindows)};
+  for (double& v : f.gap.reshaped()) v = sd_m * random.gaussian();
+  for (double& v : f.errors.reshaped()) v = sd_m * random.gaussian();
+  return f;
+}
+
+TEST(SimplexWeights, AreThoseOfInverseVariancesForIndependentErrors) {
+  const Eigen::Vector3d variance(1.0, 2.0, 4.0);
+  const Eigen::VectorXd w = simplex_weights(variance.asDiagonal());
+  EXPECT_NEAR(w(0), 4.0 / 7.0, 1e-12);
+  EXPECT_NEAR(w(1), 2.0 / 7.0, 1e-12);
+  EXPECT_NEAR(w(2), 1.0 / 7.0, 1e-12);
+}
+
+TEST(SimplexWeights, NoOtherConvexWeightsAreMuchBetter) {
+  Random random(3, 1);
+  for (int trial = 0; trial < 20; ++trial) {
+    Eigen::Matrix<double, 3, 6> A;
+    for (double& v : A.reshaped()) v = random.gaussian() + 0.7;
+    const Eigen::Matrix3d M = A * A.transpose();
+    const Eigen::Vector3d w = simplex_weights(M);
+    EXPECT_NEAR(w.sum(), 1.0, 1e-12);
+    EXPECT_GE(w.minCoeff(), 0.0);
+    for (int i = 0; i <= 20; ++i)
+      for (int k = 0; i + k <= 20; ++k) {
+        const Eigen::Vector3d v = Eigen::Vector3d(i, k, 20 - i - k) / 20.0;
+        EXPECT_LE(w.dot(M * w), v.dot(M * v) * (1.0 + 1e-9) + 1e-12);
+      }
+  }
+}
+
+TEST(Combine, IsBetterThanEveryCandidateAndKnowsHowGoodItIs) {
+  const std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.002, 1),
+                                   candidate(FillKind::regression_walk, 0.002, 2),
+                                   candidate(FillKind::pca_chord, 0.002, 3)};
+  const Combination c = combine(problem(), fills, false);
+  for (const double w : c.weights) EXPECT_NEAR(w, 1.0 / 3.0, 0.05);
+  const double rms = std::sqrt(c.gap.squaredNorm() / static_cast<double>(c.gap.size()));
+  EXPECT_NEAR(rms, 0.002 / std::sqrt(3.0), 0.0004);
+  EXPECT_NEAR(c.sd_m.mean(), rms, 0.3 * rms);
+}
+
+TEST(Combine, LeavesOutWhatIsFarWorse) {
+  const std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.001, 1),
+                                   candidate(FillKind::chord, 0.02, 2)};
+  const Combination c = combine(problem(), fills, false);
+  EXPECT_EQ(c.weights, (std::vector<double>{1.0, 0.0}));
+}
+
+TEST(Combine, GuardsAgainstACandidateThatStraysInThisGap) {
+  std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.002, 1),
+                             candidate(FillKind::regression_walk, 0.002, 2),
+                             candidate(FillKind::pca_untied, 0.002, 3)};
+  fills[2].gap.array() += 0.5;
+  const Combination c = combine(problem(), fills, false);
+  EXPECT_TRUE(c.guarded[2]);
+  EXPECT_EQ(c.weights[2], 0.0);
+  EXPECT_LT(c.gap.cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(Combine, GuardsAgainstAnUntiedCandidateThatMissesTheSamplesBesideTheGap) {
+  std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.002, 1),
+                             candidate(FillKind::regression_untied, 0.002, 2)};
+  fills[1].near_rms_m = 0.05;
+  EXPECT_TRUE(combine(problem(), fills, false).guarded[1]);
+  fills[1].near_rms_m = 0.003;
+  EXPECT_FALSE(combine(problem(), fills, false).guarded[1]);
+}
+
+TEST(Combine, SdFollowsDisagreementWhenThatTellsTheError) {
+  // Two candidates whose errors are large together in half of the windows.
+  std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.001, 1),
+                             candidate(FillKind::regression_walk, 0.001, 2)};
+  for (Fill& f : fills) f.errors.rightCols(3 * kWindows / 2) *= 8.0;
+  const double calm = combine(problem(), fills, false).sd_m.mean();
+  for (Fill& f : fills) f.gap *= 8.0;
+  EXPECT_GT(combine(problem(), fills, false).sd_m.mean(), 3.0 * calm);
+}
+
+TEST(Combine, WithoutWindowsTakesTheCautiousOneAndAdmitsThatItKnowsNothing) {
+  GapProblem p = problem();
+  p.starts.clear();
+  std::vector<Fill> fills = {candidate(FillKind::spline, 0.001, 1), candidate(FillKind::pchip, 0.001, 2)};
+  for (Fill& f : fills) f.errors.resize(kRows, 0);
+  const Combination c = combine(p, fills, false);
+  EXPECT_EQ(c.weights, (std::vector<double>{0.0, 1.0}));
+  EXPECT_TRUE(c.sd_m.array().isNaN().all());
+}
+
+TEST(Combine, ErrorsGrowFromShortWindowsToALongGap) {
+  GapProblem p = problem();
+  p.window.length = kRows / 2;
+  p.rows = Eigen::VectorX<Index>::LinSpaced(kRows / 2, 0, kRows / 2 - 1);
+  std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.001, 1)};
+  fills[0].errors = fills[0].errors.topRows(kRows / 2).eval();
+  EXPECT_NEAR(combine(p, fills, false).sd_m.mean(), 0.9 * 0.002,
+              0.0003);  // growth 1: twice the length, twice the error
+}
+
+}  // namespace
+}  // namespace kinemark::trajectory::internal

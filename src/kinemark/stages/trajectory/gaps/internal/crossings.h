@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kinemark/stages/trajectory/gaps/internal/recording.h"
+
+namespace kinemark::trajectory::internal {
+
+/// Two markers that sit in each other's place from frame `first` to before `end`.
+struct Swap {
+  Index first_marker = 0;
+  Index second_marker = 0;
+  Index first = 0;
+  Index end = 0;
+  double distance_m = 0.0;  ///< between them, median
+};
+
+/// True when the paths of two markers go on undisturbed across frame - 1 | frame only with their labels
+/// exchanged. All four samples there are usable.
+[[nodiscard]] bool paths_cross(const Recording& recording, Index a, Index b, Index frame);
+
+/// Median distance of two markers over the frames of [first, end) where both are usable.
+[[nodiscard]] double median_distance(const Recording& recording, Index a, Index b, Index first, Index end);
+
+/// Swaps that begin and end in plain sight: two markers leap into each other's paths, and back later, in a
+/// stretch that is complete and at most half of the recording. O(frames markers + leaps^2 per frame).
+[[nodiscard]] std::vector<Swap> find_crossings(const Recording& recording);
+
+}  // namespace kinemark::trajectory::internal
