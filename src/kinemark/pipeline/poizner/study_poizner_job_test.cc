@@ -48,8 +48,9 @@ TEST(StudyPoizner, OneRigMakesTheWholeTable) {
     EXPECT_TRUE(std::isfinite(row.ours)) << row.quantity;
     EXPECT_TRUE(row.at_least || row.at_most) << row.quantity;
     EXPECT_TRUE(names.insert(row.quantity).second) << row.quantity;
-    if (row.classic && row.at_most && row.quantity.find("ratio") == std::string::npos)
+    if (row.classic && row.at_most && row.quantity.find("ratio") == std::string::npos) {
       EXPECT_LT(row.ours, *row.classic + 0.6) << row.quantity;
+    }
   }
   const auto json = study_json(*study);
   EXPECT_EQ(json["rows"].size(), study->rows.size());
