@@ -78,15 +78,19 @@ Problem split(std::span<const PositionSight> sights, std::size_t max_sights) {
   return problem;
 }
 
+constexpr double kLongestGap = 4.5;  // intervals: what lies beyond says little of the bandwidth
+
 template <int kOrder>
 double risk(const Problem& problem, const Bandwidth& at) {
   internal::WienerFilter<kOrder, 1> filter(at.spectral_density, at.time_constant_s);
   double sum = 0.0;
   for (const auto& series : problem.series)
-    filter.smooth(series, true, [&](std::size_t k, const auto& x, const auto* p) {
-      const double h = series[k].information(0), r = series[k].value(0) - x(0);
-      if (h > 0.0) sum += h * r * r + 2.0 * h * (*p)(0, 0);
-    });
+    for (const auto& [first, count] : internal::runs_between_gaps(series, kLongestGap * problem.interval_s))
+      filter.smooth(
+          std::span(series).subspan(first, count), true, [&](std::size_t k, const auto& x, const auto* p) {
+            const double h = series[first + k].information(0), r = series[first + k].value(0) - x(0);
+            if (h > 0.0) sum += h * r * r + 2.0 * h * (*p)(0, 0);
+          });
   return sum;
 }
 

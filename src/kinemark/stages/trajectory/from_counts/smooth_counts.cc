@@ -216,6 +216,7 @@ Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig
             put(sample, out.points.index(f, led), out);
         }
       }
+      if (fit.sightings == 0) continue;
       out.derivatives.filters[static_cast<std::size_t>(led)] = {.method = "kalman",
                                                                 .order = fit.bandwidth.order,
                                                                 .cutoff_hz = fit.bandwidth.cutoff_hz,

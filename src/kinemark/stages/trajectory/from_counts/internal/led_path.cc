@@ -6,7 +6,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
 
 #include "kinemark/camera/noise.h"
 #include "kinemark/camera/response.h"
@@ -140,27 +142,40 @@ void LedPath::regress_flicker() {
   }
 }
 
+/// Time constants that a gap may last: beyond, its middle is known to metres only, and the filter's digits
+/// run out.
+constexpr double kLongestGap = 10.0;
+
 template <int kOrder>
 void LedPath::smooth_with(bool last) {
   std::vector<Sight<3>> sights(frames_);
   for (std::size_t k = 0; k < frames_; ++k)
     sights[k] = {sights_[k].time_s, sights_[k].information, sights_[k].position};
   WienerFilter<kOrder, 3> filter(bandwidth_.spectral_density, bandwidth_.time_constant_s);
-  if (last) result_.resize(frames_);
   const auto at_frame = filter.taylor_shift(-epoch_s_);
-  filter.smooth(sights, last, [&](std::size_t k, const auto& x, const auto* p) {
-    now_[k] = {filter.derivative(x, 0), filter.derivative(x, 1), filter.derivative(x, 2)};
-    if (!last) return;
-    // From where the states stand to the frame's own time.
-    const auto there = filter.shifted(x, at_frame);
-    const auto spread = filter.shifted(*p, at_frame);
-    Sample& s = result_[k];
-    s.motion = {filter.derivative(there, 0), filter.derivative(there, 1), filter.derivative(there, 2)};
-    s.covariance = filter.derivative_covariance(spread, 0);
-    s.sd = {s.covariance.diagonal().cwiseMax(0.0).cwiseSqrt(),
-            filter.derivative_covariance(spread, 1).diagonal().cwiseMax(0.0).cwiseSqrt(),
-            filter.derivative_covariance(spread, 2).diagonal().cwiseMax(0.0).cwiseSqrt()};
-  });
+  if (last) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    result_.assign(frames_,
+                   Sample{.motion = {}, .sd = {Vector3d::Constant(kUnknown), {}, {}}, .covariance = {}});
+  }
+  for (const auto& [first, count] :
+       internal::runs_between_gaps(sights, kLongestGap * bandwidth_.time_constant_s))
+    filter.smooth(std::span(sights).subspan(first, count), last,
+                  [&, first](std::size_t index, const auto& x, const auto* p) {
+                    const std::size_t k = first + index;
+                    now_[k] = {filter.derivative(x, 0), filter.derivative(x, 1), filter.derivative(x, 2)};
+                    if (!last) return;
+                    // From where the states stand to the frame's own time.
+                    const auto there = filter.shifted(x, at_frame);
+                    const auto spread = filter.shifted(*p, at_frame);
+                    Sample& s = result_[k];
+                    s.motion = {filter.derivative(there, 0), filter.derivative(there, 1),
+                                filter.derivative(there, 2)};
+                    s.covariance = filter.derivative_covariance(spread, 0);
+                    s.sd = {s.covariance.diagonal().cwiseMax(0.0).cwiseSqrt(),
+                            filter.derivative_covariance(spread, 1).diagonal().cwiseMax(0.0).cwiseSqrt(),
+                            filter.derivative_covariance(spread, 2).diagonal().cwiseMax(0.0).cwiseSqrt()};
+                  });
 }
 
 void LedPath::smooth(bool last) {

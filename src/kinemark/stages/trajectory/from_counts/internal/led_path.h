@@ -32,7 +32,7 @@ class LedPath {
   void run();
 
   struct Sample {
-    Motion motion, sd;
+    Motion motion, sd;  // sd infinite where nothing is known
     Eigen::Matrix3d covariance;
     bool seen = false;  // by one camera at least
   };

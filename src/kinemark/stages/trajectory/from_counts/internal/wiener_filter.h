@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace kinemark::trajectory::internal {
@@ -22,6 +23,23 @@ struct Sight {
   Eigen::Matrix<double, kAxes, kAxes> information = Eigen::Matrix<double, kAxes, kAxes>::Zero();
   Eigen::Matrix<double, kAxes, 1> value = Eigen::Matrix<double, kAxes, 1>::Zero();
 };
+
+/// Stretches (first index, count) of sights between gaps, runs without information that last longer than
+/// `longest_s`; each begins and ends with information. Order kept; none when there is no information at all.
+template <int kAxes>
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> runs_between_gaps(
+    const std::vector<Sight<kAxes>>& sights, double longest_s) {
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    if (!(sights[k].information.trace() > 0.0)) continue;
+    const bool goes_on =
+        !out.empty() &&
+        sights[k].time_s - sights[out.back().first + out.back().second - 1].time_s <= longest_s;
+    if (!goes_on) out.emplace_back(k, 0);
+    out.back().second = k + 1 - out.back().first;
+  }
+  return out;
+}
 
 /// The `kOrder`-times integrated Wiener process: its kOrder-th derivative is white with spectral density q on
 /// each axis. Kalman filter forwards, Bryson-Frazier adjoint backwards: neither inverts a covariance, so

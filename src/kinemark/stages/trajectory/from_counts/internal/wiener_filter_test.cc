@@ -142,6 +142,16 @@ TEST(WienerFilter, BlocksDoNotShow) {
   EXPECT_EQ(visited, sights.size());
 }
 
+TEST(WienerFilter, RunsEndAtLongGaps) {
+  auto sights = noisy_wave(60, 1e-3, true);  // nothing from 21 to 29
+  sights.front().information.setZero();
+  using Runs = std::vector<std::pair<std::size_t, std::size_t>>;
+  EXPECT_EQ(runs_between_gaps(sights, 0.05), (Runs{{1, 20}, {30, 30}}));
+  EXPECT_EQ(runs_between_gaps(sights, 0.5), (Runs{{1, 59}}));
+  for (auto& s : sights) s.information.setZero();
+  EXPECT_TRUE(runs_between_gaps(sights, 0.5).empty());
+}
+
 TEST(WienerFilter, AxesWithoutCorrelationAreSmoothedApart) {
   const auto one = noisy_wave(50, 1e-3, false);
   std::vector<Sight<3>> three(one.size());
