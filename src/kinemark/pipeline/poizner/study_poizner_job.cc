@@ -101,8 +101,12 @@ Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progre
   std::atomic<bool> stopped = false;
   parallel_for(count, 1, job.threads, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last && !stopped; ++i) {
+      if (progress && !progress(done, count)) {
+        stopped = true;
+        break;
+      }
       outcomes[static_cast<std::size_t>(i)] = study_seed(job.seeds[static_cast<std::size_t>(i)]);
-      if (progress && !progress(++done, count)) stopped = true;
+      ++done;
     }
   });
   if (stopped) return fail(Code::cancelled, "the study was stopped");
