@@ -78,7 +78,7 @@ Innovation untie(const Signal& s) {
   v.mean /= static_cast<double>(windows);
   v.rows = s.rows;
   for (Index w = 0; w < windows; ++w) v.rows.middleCols(w * s.width, s.width).rowwise() -= v.mean;
-  v.gap = s.gap.rowwise() - v.mean;
+  if (s.gap.rows() > 0) v.gap = s.gap.rowwise() - v.mean;
   v.gap_near = s.gap_near.rowwise() - v.mean;
   return v;
 }
