@@ -21,8 +21,8 @@ struct Response {
 /// Columns by the layout of data::ParameterLayout: 4 x count.
 using ResponseJacobian = Eigen::Ref<Eigen::Matrix<double, 4, Eigen::Dynamic>>;
 
-/// phi_k = gain_k * sum_j h_j(spot) (1 + crosstalk)_jk, spot = project(camera, point). No allocation; 0.2 us
-/// with a warp of degree 5, 0.4 us with degree 10.
+/// phi_k = gain_k * sum_j h_j(spot) (1 + crosstalk)_jk, spot = project(camera, point). No allocation; some
+/// 0.5 us with a warp of degree 5, 0.8 us with degree 10.
 [[nodiscard]] Response respond(const data::Camera& camera, const Eigen::Vector3d& x_in_world);
 
 /// The same, and the derivatives by the camera's parameters (overwritten; columns of offset are 0, because

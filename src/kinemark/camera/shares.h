@@ -17,7 +17,7 @@ struct Shares {
 };
 
 /// Tetra-lateral sheet, |x|, |y| < 1: harmonic measures of the four edges of a square, in closed form by the
-/// conformal map of the square to the disc. They sum to 1. Accurate to 1e-14; some 60 ns.
+/// conformal map of the square to the disc. They sum to 1. Accurate to 1e-14.
 [[nodiscard]] Shares tetra_lateral_shares(double x, double y);
 
 /// Duo-lateral sheets: (1 + x)/2, (1 - x)/2, (1 + y)/2, (1 - y)/2. Each pair carries the whole current.

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <iterator>
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/rig/rig_file.h"
@@ -21,8 +20,7 @@ class TomlText {
       if (c == '"' || c == '\\')
         out_.append({'\\', c});
       else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-        fmt::format_to(std::back_inserter(out_), "\\u{:04X}",
-                       static_cast<unsigned>(static_cast<unsigned char>(c)));
+        out_.append(fmt::format("\\u{:04X}", static_cast<unsigned>(static_cast<unsigned char>(c))));
       else
         out_.push_back(c);
     }
@@ -52,7 +50,7 @@ class TomlText {
  private:
   void add(double value) {
     const std::size_t begin = out_.size();
-    fmt::format_to(std::back_inserter(out_), "{}", value);
+    out_.append(fmt::format("{}", value));
     // TOML tells floats from integers by a point or an exponent.
     if (out_.find_first_of(".enai", begin) == std::string::npos) out_.append(".0");
   }

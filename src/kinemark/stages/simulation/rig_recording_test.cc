@@ -24,8 +24,8 @@ const PhysicalRig& rig(bool dark_slot = false) {
 
 TEST(Record, IsValidAndTheSameForAnyNumberOfThreads) {
   const auto scene = signing_arm();
-  const auto one = record(rig(true), scene, {.rate_hz = 150.0, .frames = 333, .threads = 1}).value();
-  const auto four = record(rig(true), scene, {.rate_hz = 150.0, .frames = 333, .threads = 4}).value();
+  const auto one = record(rig(true), scene, {.rate_hz = 150.0, .frames = 150, .threads = 1}).value();
+  const auto four = record(rig(true), scene, {.rate_hz = 150.0, .frames = 150, .threads = 4}).value();
   EXPECT_TRUE(one.counts.validate()) << one.counts.validate().error().message;
   EXPECT_TRUE(one.truth.validate());
   EXPECT_TRUE(one.when_lit.validate());
@@ -34,7 +34,7 @@ TEST(Record, IsValidAndTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.counts.dark, four.counts.dark);
   EXPECT_EQ(one.truth.x_in_world, four.truth.x_in_world);
   EXPECT_EQ(one.hidden, four.hidden);
-  const auto other = record(rig(true), scene, {.rate_hz = 150.0, .frames = 333, .seed = 2}).value();
+  const auto other = record(rig(true), scene, {.rate_hz = 150.0, .frames = 150, .seed = 2}).value();
   EXPECT_NE(one.counts.counts, other.counts.counts);
 }
 
@@ -95,19 +95,20 @@ TEST(Record, TruthIsWhereTheSceneSays) {
 }
 
 TEST(Record, NoiseHasItsVarianceAndFlickerItsAmplitude) {
-  const auto scene = still_tree({});
-  const auto out = record(rig(), scene, {.rate_hz = 100.0, .frames = 6000}).value();
+  auto scene = still_tree({});
+  scene.leds = {"one"};
+  const auto out = record(rig(), scene, {.rate_hz = 100.0, .frames = 3000}).value();
   const Vector4d expected = expected_counts(rig(), 0, scene.led(0, 0.0)).counts;
   Vector4d mean = Vector4d::Zero(), square = Vector4d::Zero();
-  for (std::int64_t f = 0; f < 6000; ++f) {
+  for (std::int64_t f = 0; f < 3000; ++f) {
     const Vector4d off = out.counts.at(f, 0, 0) - expected;
-    mean += off / 6000.0;
-    square += off.cwiseAbs2() / 6000.0;
+    mean += off / 3000.0;
+    square += off.cwiseAbs2() / 3000.0;
   }
-  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.08);
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.1);
   for (int k = 0; k < 4; ++k) {
     const double predicted = camera::conversion_variance(rig().rig.electronics, expected[k]) + 0.5;
-    EXPECT_NEAR(square[k] / predicted, 1.0, 0.06);
+    EXPECT_NEAR(square[k] / predicted, 1.0, 0.09);
   }
 }
 
