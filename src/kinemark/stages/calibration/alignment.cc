@@ -109,8 +109,7 @@ Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& fo
 Result<Alignment> align_by_tree(const data::Rig& wanted, const StillPoses& tree,
                                 const AlignmentOptions& options) {
   BundleOptions bundle;
-  bundle.warp_degree = 4;
-  bundle.crosstalk = bundle.escalate = false;
+  bundle.escalate = false;
   bundle.refuse_above = std::numeric_limits<double>::infinity();
   const auto found = calibrate_bundle(wanted, tree, {}, bundle);
   if (!found) return std::unexpected(found.error());

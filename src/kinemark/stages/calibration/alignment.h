@@ -42,8 +42,8 @@ struct Alignment {
 [[nodiscard]] Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& found,
                                                   const AlignmentOptions& options = {});
 
-/// The same from sightings of the tree, by a bundle with a small model of the detector: four poses will do,
-/// ten are better. Fails as calibrate_bundle(), but never refuses a misfit.
+/// The same from sightings of the tree, by calibrate_bundle() without its grid: four poses will do, some
+/// hundred tell turns to a tenth of a degree. Fails as calibrate_bundle(), but never refuses a misfit.
 [[nodiscard]] Result<Alignment> align_by_tree(const data::Rig& wanted, const StillPoses& tree,
                                               const AlignmentOptions& options = {});
 
