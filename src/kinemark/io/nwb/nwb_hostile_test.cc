@@ -188,6 +188,8 @@ TEST(HostileNwb, ShapesAndTypesThatDoNotFit) {
               HasSubstr("Position/_.: data"));
   EXPECT_THAT(message([](hid_t m) { replace(m, "markers/t0_s", {4}); }),
               HasSubstr("columns of different lengths"));
+  EXPECT_THAT(message([](hid_t m) { H5Ldelete(m, "markers", H5P_DEFAULT); }),
+              HasSubstr("table of markers is gone"));
   EXPECT_THAT(message([](hid_t m) { replace(m, "markers/rate_hz", {5}); }), HasSubstr("rate of 0 Hz"));
   EXPECT_THAT(message([](hid_t m) { replace(m, "markers/filter_order", {2}); }),
               HasSubstr("a filter for each"));

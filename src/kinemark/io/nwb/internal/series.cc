@@ -10,6 +10,7 @@
 
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/nwb/internal/names.h"
+#include "kinemark/io/nwb/metadata.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -218,11 +219,15 @@ Result<PositionGroup> find_positions(Input& in) {
   auto markers = text_column(in, table.id(), "marker");
   auto names = text_column(in, table.id(), "series");
   if (markers && names) return find_ours(in, table.id(), std::move(*markers), std::move(*names));
-  // A table of ours that damage made unreadable is no file of somebody else.
+  // A table of ours that damage took is no file of somebody else. HDF5 1.10 can lose links without an error,
+  // so the file is also asked, in another place, who wrote it.
+  const Handle generated = in.object(in.file(), "/general/was_generated_by");
+  const auto software = in.texts(generated.id());
+  const bool says_ours = software && !software->empty() && software->front() == NwbMetadata{}.software;
   // H5Lexists() is negative where the links themselves are damaged.
-  if (table && H5Lexists(table.id(), "series", H5P_DEFAULT) != 0)
+  if (says_ours || (table && H5Lexists(table.id(), "series", H5P_DEFAULT) != 0))
     return fail(Code::bad_input,
-                "its table of markers cannot be read; the file is broken. Nothing was read.");
+                "its table of markers is gone or cannot be read; the file is broken. Nothing was read.");
   return find_foreign(in);
 }
 
