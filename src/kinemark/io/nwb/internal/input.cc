@@ -65,10 +65,11 @@ std::optional<std::vector<std::string>> read_texts(hid_t file_type, hid_t space,
   out.reserve(count);
   if (H5Tis_variable_str(file_type) > 0) {
     std::vector<char*> pointers(count, nullptr);
-    const bool good = read(type.id(), pointers.data()) >= 0;
+    void* buffer = static_cast<void*>(pointers.data());
+    const bool good = read(type.id(), buffer) >= 0;
     if (good)
       for (const char* p : pointers) out.emplace_back(p == nullptr ? "" : p);
-    H5Dvlen_reclaim(type.id(), space, H5P_DEFAULT, pointers.data());
+    H5Dvlen_reclaim(type.id(), space, H5P_DEFAULT, buffer);
     return good ? std::optional(std::move(out)) : std::nullopt;
   }
   const std::size_t width = H5Tget_size(type.id());
