@@ -68,6 +68,13 @@ class CheckTidy(unittest.TestCase):
         self.assertIn("tidy: 2 files, 1 unchanged, 1 failed\n", self.said)
         self.assertEqual(self.run_tool(), (0, ["b.cc"]))
 
+    def test_passes_over_what_is_owed_and_says_how_much(self):
+        debt = self.root / "debt.txt"
+        debt.write_text("# why\nsrc/kinemark/core/b.cc\nsrc/gone.cc\n")
+        with mock.patch.object(check_tidy, "DEBT", debt):
+            self.assertEqual(self.run_tool(bad=["src/kinemark/core/b.cc"]), (0, ["c.cc"]))
+        self.assertIn("tidy: 1 files, 0 unchanged, 0 failed, 1 passed over (debt.txt)\n", self.said)
+
     def test_new_rules_and_new_flags_ask_for_another_look(self):
         self.run_tool()
         (self.root / ".clang-tidy").write_text("Checks: y\n")
