@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kinemark::data {
 
@@ -40,6 +41,10 @@ Status JointMotion::validate() const {
   if (is_rotation.size() != n) return wrong("is_rotation", is_rotation.size(), n);
   if (q.size() != F * n) return wrong("q", q.size(), F * n);
   if (!q_sd.empty() && q_sd.size() != F * n) return wrong("q_sd", q_sd.size(), F * n);
+  const std::pair<std::string_view, const Array<double>*> optional[] = {
+      {"v", &v}, {"a", &a}, {"tau", &tau}, {"tau_sd", &tau_sd}, {"q_bound", &q_bound}};
+  for (const auto& [name, numbers] : optional)
+    if (!numbers->empty() && numbers->size() != F * n) return wrong(name, numbers->size(), F * n);
   if (!determined.empty() && determined.size() != F * n) return wrong("determined", determined.size(), F * n);
   if (!marker_error.empty() && marker_error.size() != 3 * F * M)
     return wrong("marker_error", marker_error.size(), 3 * F * M);

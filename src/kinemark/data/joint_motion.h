@@ -33,8 +33,13 @@ struct JointMotion {
   Array<double> q;                 ///< F x n
   Array<double> q_sd;              ///< F x n, one standard deviation; NaN where not determined or unknown
   Array<std::uint8_t> determined;  ///< F x n; 0: the visible markers do not fix this coordinate
-  Array<double> marker_error;      ///< F x M x 3, measured minus model, m; NaN where not seen
-  Array<FrameStatus> status;       ///< F
+  Array<double> v, a;              ///< F x n, dq/dt and d2q/dt2; empty when not computed
+  Array<double> tau, tau_sd;  ///< F x n, generalised force of each coordinate, N m or N, and its SD; empty
+                              ///< when not computed, NaN where it is not known
+  Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN
+                          ///< where not determined
+  Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where not seen
+  Array<FrameStatus> status;   ///< F
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }
   [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(coordinates.size()); }

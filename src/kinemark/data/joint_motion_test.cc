@@ -42,7 +42,7 @@ TEST(JointMotion, ValidateNamesTheFieldAndThePlace) {
   m = small();
   m.q[3] = std::nan("");
   EXPECT_THAT(m.validate().error().message, HasSubstr("'knee' of frame 1"));
-  for (auto* field : {&m.q_sd, &m.marker_error}) {
+  for (auto* field : {&m.q_sd, &m.v, &m.a, &m.tau, &m.tau_sd, &m.q_bound, &m.marker_error}) {
     m = small();
     field->resize(1);
     EXPECT_FALSE(m.validate());

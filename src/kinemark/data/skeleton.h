@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+
+namespace kinemark::data {
+
+/// How the markers of a segment lie among themselves: on a line, in a plane, or neither.
+enum class SegmentKind : std::uint8_t { line, plane, solid };
+
+/// How two segments move against each other: about a point, or about an axis.
+enum class JointKind : std::uint8_t { ball, hinge };
+
+/// What is known of a joint centre in one frame.
+enum class CentreState : std::uint8_t {
+  undetermined,  ///< the visible markers leave a curve or more open: NaN
+  ambiguous,     ///< several places fit alike; the best one is given, its covariance is that place's own
+  bridged,       ///< chosen or found with the help of neighbouring frames
+  determined,    ///< one place fits, by the frame's own markers
+};
+
+[[nodiscard]] std::string_view to_string(SegmentKind kind);
+[[nodiscard]] std::string_view to_string(JointKind kind);
+[[nodiscard]] std::string_view to_string(CentreState state);
+
+/// Which markers ride on which segment and which segments meet in a joint: what every method of
+/// stages/skeleton needs to know beforehand.
+struct SegmentLayout {
+  struct Segment {
+    std::string name;
+    std::vector<int> markers;  ///< indices into the recording's markers
+  };
+  struct Joint {
+    std::string name;
+    int parent = 0, child = 0;  ///< indices of segments
+  };
+  std::vector<Segment> segments;
+  std::vector<Joint> joints;
+
+  /// Names are unique, no marker is on two segments, indices are in range (`markers` of the recording),
+  /// joints form no circle.
+  [[nodiscard]] Status validate(std::int64_t markers) const;
+};
+
+/// A rigid set of markers and their places in the segment's own axes.
+struct SkeletonSegment {
+  std::string name;
+  SegmentKind kind = SegmentKind::solid;
+  std::vector<int> markers;       ///< indices into Skeleton::markers
+  Eigen::Matrix3Xd x_in_segment;  ///< one column a marker, m; line: along z, plane: in x and z
+};
+
+/// A joint between two segments.
+struct SkeletonJoint {
+  std::string name;
+  JointKind kind = JointKind::ball;
+  int parent_segment = 0, child_segment = 0;
+  Eigen::Vector3d centre_in_parent = Eigen::Vector3d::Zero(),
+                  centre_in_child = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Matrix3d covariance_in_parent = Eigen::Matrix3d::Zero(),
+                  covariance_in_child = Eigen::Matrix3d::Zero();  ///< m^2; NaN when unknown
+  Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(),
+                  axis_in_child = Eigen::Vector3d::Zero();  ///< unit length; zero for a ball joint
+  double axis_sd_rad = 0.0;          ///< of each of the two tilts of the axis; NaN when unknown
+  double range_of_motion_rad = 0.0;  ///< largest turn of child against parent seen
+  std::string method;                ///< "SCoRE", "articulated", ...
+  std::string words;                 ///< what the motion shows of this joint and what it does not
+};
+
+/// Distance between two joint centres of one segment.
+struct SkeletonLength {
+  std::string name;
+  int joint_a = 0, joint_b = 0;
+  double length_m = 0.0, sd_m = 0.0;  ///< SD is NaN when unknown
+};
+
+/// Segments, joints and, frame by frame, the joints' places: F frames, J joints, metres.
+struct Skeleton {
+  std::vector<std::string> markers;  ///< M, as in the recording
+  std::vector<SkeletonSegment> segments;
+  std::vector<SkeletonJoint> joints;  ///< J
+  std::vector<SkeletonLength> lengths;
+  TimeBase time;
+  Array<double> centre_in_world;  ///< F x J x 3, m; NaN where undetermined
+  Array<double> covariance;       ///< F x J x 6 (xx xy xz yy yz zz), m^2; NaN where undetermined or unknown
+  Array<CentreState> state;       ///< F x J
+  double noise_sd_m = 0.0;        ///< of the markers, per axis, as given or found; NaN when unknown
+  std::vector<std::string> warnings;  ///< one sentence each
+
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }
+  [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t joint) const {
+    return static_cast<std::size_t>(frame) * joints.size() + static_cast<std::size_t>(joint);
+  }
+  [[nodiscard]] Eigen::Map<const Eigen::Vector3d> centre(std::int64_t frame, std::int64_t joint) const {
+    return Eigen::Map<const Eigen::Vector3d>(centre_in_world.data() + 3 * index(frame, joint));
+  }
+  /// Covariance of a centre, m^2.
+  [[nodiscard]] Eigen::Matrix3d centre_covariance(std::int64_t frame, std::int64_t joint) const;
+
+  /// J centres in F frames, all undetermined. Call once joints and time are set.
+  void allocate_centres();
+  /// Shapes agree, indices are in range, names are unique, centres are finite where they are not
+  /// undetermined and NaN where they are. O(F J).
+  [[nodiscard]] Status validate() const;
+};
+
+}  // namespace kinemark::data

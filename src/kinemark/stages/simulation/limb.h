@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Limbs made of straight segments with markers on them: the arm of Kirk et al. (2005) as the macaque report
+// simulated it, and chains of any length. For studying joint centres.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/skeleton.h"
+#include "kinemark/data/trajectories.h"
+
+namespace kinemark::simulation {
+
+/// A recording of a limb, and the truth.
+struct LimbRecording {
+  data::Trajectories markers;     ///< with noise and what is missing
+  data::SegmentLayout layout;     ///< segments root first; joint j joins segments j and j + 1
+  Array<double> x_true;           ///< F x M x 3, m: all markers, without noise
+  Array<double> centre_in_world;  ///< F x J x 3, m: the joints between the segments
+  /// S matrices 3 x (markers of the segment), m: their places in segment axes, z along the bone from its
+  /// upper joint.
+  std::vector<Eigen::Matrix3Xd> x_in_segment;
+};
+
+/// Options of simulate_chain(): every frame is a pose of its own, each segment pointing anywhere.
+struct ChainOptions {
+  std::int64_t frames = 400;                    ///< 1 to 10 million
+  double rate_hz = 60.0;                        ///< > 0; of the time base alone
+  std::vector<double> lengths_m{0.150, 0.160};  ///< 2 segments or more, > 0
+  int markers_per_segment = 3;                  ///< at even steps: length k / (n + 1)
+  double stagger_m = 0.0;                       ///< distance of the markers from the bone's axis, >= 0
+  bool planar = false;        ///< staggered to both sides in one plane, not all around the bone
+  double noise_sd_m = 0.001;  ///< per axis, >= 0
+  double missing = 0.0;       ///< 0 to 0.95, share of samples lost, each on its own
+  std::uint64_t seed = 1;
+
+  [[nodiscard]] Status check() const;
+};
+
+/// The chain starts at the origin. Markers are named "s0m0", ..., segments "s0", ..., joints "j0", ...
+[[nodiscard]] Result<LimbRecording> simulate_chain(const ChainOptions& options);
+
+/// Options of simulate_sleeve(): a macaque's arm, reaching for food and bringing it to the mouth at 60 Hz, 16
+/// LEDs on a sleeve, straight segments of 150 and 160 mm about a shoulder at the origin.
+struct SleeveOptions {
+  double duration_s = 30.0;   ///< > 0
+  double rate_hz = 60.0;      ///< > 0
+  int leds_per_segment = 8;   ///< 2 to 32, in two helices around the limb
+  double radius_m = 0.022;    ///< of the sleeve about the bone
+  double noise_sd_m = 0.001;  ///< per axis
+  bool line_of_sight = true;  ///< LEDs turned away from the cameras, or hidden by head and hand, are lost
+  double sight_cosine = 0.2;  ///< an LED is seen within this cosine of its normal; 0.5 is a hard case
+  double missing = 0.0;       ///< share of samples lost besides, each on its own
+  std::uint64_t seed = 1;
+
+  [[nodiscard]] Status check() const;
+};
+
+/// Segments "upper_arm" and "forearm", joint "elbow", markers "u0", ..., "f0", ...
+[[nodiscard]] Result<LimbRecording> simulate_sleeve(const SleeveOptions& options);
+
+}  // namespace kinemark::simulation
