@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// A model's geometry from a recording of motion: the segment sizes, joint places and marker places under
+// which inverse kinematics fits best, with their covariance, and with a plain "not determined" where the
+// motion cannot tell. Theory: docs/theory/scaling.md
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/model_description.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/motion/ik_options.h"
+#include "kinemark/stages/motion/scaling/geometry.h"
+
+namespace kinemark::motion {
+
+/// Options of adapt_model().
+struct AdaptOptions {
+  /// Marker weights, coordinate tasks (posture where the markers leave it open) and the time range. Its loss
+  /// must be square; limits are not kept: a wrong size would press coordinates against them.
+  IkOptions ik;
+  double marker_noise_sd_m = 0.0;  ///< per axis; 0: estimated from the residuals
+  bool soft_tissue = true;  ///< look for displacements that follow the posture, and widen the bars by them
+  double start_noise_sd_m =
+      0.02;                       ///< the first steps trust the model this much: a wrong start ends elsewhere
+  std::int64_t max_frames = 400;  ///< >= 2; of a longer range every k-th frame is taken
+  int max_iterations = 30;        ///< outer steps, >= 1
+  int threads = 1;                ///< 0: all cores. Any number gives the same bits.
+
+  [[nodiscard]] Status check() const;
+};
+
+struct AdaptedParameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::body_scale;
+  double initial = 0.0, value = 0.0;
+  double prior_sd = 0.0;
+  double sd = 0.0;       ///< from data and priors together
+  double data_sd = 0.0;  ///< without the prior of the marker places: what motion alone says of sizes
+  bool determined = false;
+  /// Half width of the interval to report: sd where determined, else the larger of sd and data_sd.
+  [[nodiscard]] double interval() const { return determined || data_sd < sd ? sd : data_sd; }
+};
+
+struct AdaptedLength {
+  std::string name;  ///< as SegmentLength
+  double initial_m = 0.0, length_m = 0.0, sd_m = 0.0;
+  bool determined = false;
+};
+
+struct AdaptResult {
+  data::ModelDescription model;
+  std::vector<AdaptedParameter> parameters;  ///< in the order given
+  Eigen::MatrixXd covariance;                ///< of all parameters, in their units
+  std::vector<AdaptedLength> lengths;
+  std::vector<std::string> not_determined;   ///< parameters and lengths' names that these data do not tell
+  std::vector<std::string> recommendations;  ///< one sentence each
+  std::int64_t frames = 0;                   ///< that took part
+  int iterations = 0;
+  bool converged = false;
+  double rms_before_m = 0.0, rms_after_m = 0.0;  ///< distance of measured and model markers on these frames
+  double noise_sd_m = 0.0;                       ///< per axis: from the residuals, or as given
+  double tissue_sd_m =
+      0.0;  ///< per axis: part of the residual that follows the posture, 0 when none is found
+};
+
+/// Adapt the geometry of a model until it tracks the markers best: the sum over frames of the weighted
+/// squared distances at the best pose of each frame, plus noise variance times the squared changes over their
+/// prior variances.
+///
+/// Variable projection: every frame is solved exactly by inverse kinematics, the outer Levenberg-Marquardt
+/// step uses the Schur complement  S = sum Jp'W Jp - Jp'W Jq (Jq'W Jq)^-1 Jq'W Jp.  Frames carry no prior of
+/// their own, so that none adds up. The covariance is the inverse Schur complement times the noise variance;
+/// with soft tissue a sandwich whose middle holds displacements that follow the joint angles next to each
+/// segment.
+///
+/// determined: without the marker places' prior the standard deviation stays below half the parameter's
+/// prior. End segments (head, hand, toes) and limbs that keep still are not. Fails for a model with point
+/// constraints, no parameters, terms that do not exist, or what solve_ik() refuses. About 1 ms per frame and
+/// step for a whole body with 140 parameters.
+[[nodiscard]] Result<AdaptResult> adapt_model(const data::ModelDescription& model,
+                                              const data::Trajectories& markers,
+                                              const std::vector<GeometryParameter>& parameters,
+                                              const AdaptOptions& options = {},
+                                              const Progress& progress = {});
+
+}  // namespace kinemark::motion
