@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Goals that are not points: orientation of a segment, value of a coordinate, distance of two markers.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/time_base.h"
+#include "kinemark/stages/motion/control/task.h"
+
+namespace kinemark::motion {
+
+/// Turn a body's axes to those of the goal: 3 rows, rotation vector in world axes.
+/// @param body         name in the model
+/// @param world_from_body  goals at the instants of `time` (as many), or one that stays
+/// @param lever_m      > 0; a turn of 1 rad counts like a marker this far away
+[[nodiscard]] std::shared_ptr<Task> orientation_task(std::string body,
+                                                     std::vector<Eigen::Quaterniond> world_from_body,
+                                                     const TimeBase& time, double lever_m = 0.1);
+
+/// Bring an independent coordinate (not one of a free root) to a value: 1 row, rad or m.
+[[nodiscard]] std::shared_ptr<Task> coordinate_task(std::string coordinate, std::vector<double> values,
+                                                    const TimeBase& time, double lever_m = 0.1);
+
+/// Keep two points of the body at a distance (m, > 0): 1 row.
+struct BodyPoint {
+  std::string body;  ///< "" or "ground": fixed in the world
+  Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();
+};
+[[nodiscard]] std::shared_ptr<Task> distance_task(BodyPoint a, BodyPoint b, std::vector<double> distances_m,
+                                                  const TimeBase& time, double weight = 1.0);
+
+}  // namespace kinemark::motion

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Direct marker control: a simulated body whose torques pull its markers along the measured ones, at any
+// number of priority levels, so that joint angles and torques come out together and without inverse
+// kinematics (Demircan, Sentis, De Sapio, Khatib 2008). Theory: docs/theory/direct-marker-control.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/control/track_options.h"
+#include "kinemark/stages/motion/ik.h"
+
+namespace kinemark::motion {
+
+struct TrackResult {
+  /// q, v, a, tau, marker_error (measured minus model), status; with error bars also q_sd, determined and
+  /// q_bound. Status not_converged: the frame was flagged (explosion, restart, goals out of reach).
+  data::JointMotion motion;
+  std::int64_t first_frame = 0;                       ///< index in the recording of motion's frame 0
+  std::vector<int> rank;                              ///< per frame: directions that the levels fix together
+  std::vector<double> smallest_singular;              ///< per frame, of the last level's directions, kg^-1/2
+  int free_speeds = 0;                                ///< directions there are: speeds that are not locked
+  std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
+  std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames
+  std::vector<MarkerSummary> markers;
+  std::vector<std::string> model_markers_without_data, data_markers_without_model;
+  std::vector<ExcludedMarker> excluded_markers;
+  std::vector<std::string> warnings;
+  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;  ///< measured to model, all frames and markers
+  Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();
+  double rms_goal_error_m = 0.0, max_goal_error_m = 0.0;  ///< goal (filtered) to model, gaps left out
+  std::int64_t flagged_frames = 0;
+  std::int64_t restarts = 0;
+  double step_s = 0.0;  ///< as used
+  std::int64_t steps = 0;
+  double solve_seconds = 0.0;  ///< wall time of the steps alone, without start and error bars
+};
+
+/// Track every frame of the time range.
+///
+/// Markers are matched by name as by solve_ik(). Errors (one sentence): options out of range, gains that are
+/// unstable for the step, no marker in common, a level without tasks, a marker named twice or fixed to the
+/// ground, coordinates without mass behind them. Goals that cannot be reached are not errors: the frames are
+/// flagged. About 100 us per step for a whole body with one level; nothing is allocated per step.
+[[nodiscard]] Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
+                                                const TrackOptions& options = {},
+                                                const Progress& progress = {});
+
+/// The goals that track_markers() pursues, at the frames of the recording: filtered, gaps left as they are.
+/// Covariances and methods are not carried over.
+[[nodiscard]] Result<data::Trajectories> control_goals(const data::Trajectories& markers,
+                                                       const TrackOptions& options = {});
+
+}  // namespace kinemark::motion

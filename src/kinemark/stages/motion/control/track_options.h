@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/derivatives.h"
+#include "kinemark/stages/motion/control/task.h"
+#include "kinemark/stages/motion/ik_options.h"
+
+namespace kinemark::motion {
+
+/// What is pursued at one level of priority. Levels come in order: a lower one never disturbs a higher one.
+struct TrackLevel {
+  std::vector<std::string> markers;          ///< names in the model; "*": all that no level names
+  std::vector<std::shared_ptr<Task>> tasks;  ///< goals that are not points, see tasks.h
+};
+
+/// What becomes of coordinates that no tracked marker moves by more than 1 cm per rad (per m: 1 cm).
+enum class LockMode : std::uint8_t {
+  automatic,  ///< they are held at the rest pose
+  off         ///< they are left to the posture task
+};
+
+/// Options of track_markers().
+struct TrackOptions {
+  std::vector<TrackLevel> levels;            ///< empty: one level of all markers
+  std::vector<MarkerWeight> marker_weights;  ///< within a level; markers not listed have 1, 0 leaves out
+
+  double omega_rad_s = 100.0;  ///< > 0; kp = omega^2, kd = 2 omega
+  double kp = 0.0, kd = 0.0;   ///< 1/s^2 and 1/s; both > 0: used in place of omega
+  double step_s =
+      0.0;  ///< largest step; a frame is cut into equal ones. 0: the largest with omega step <= 0.5
+  double damping = 0.1;      ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
+  double truncation = 1e-4;  ///< > 0, of a level's strongest direction: below, left to lower levels
+  bool feed_forward = true;  ///< velocity and acceleration of the goals are used
+  double cutoff_hz = 6.0;    ///< of the goals, zero phase, -3 dB; 0: goals are the samples
+  double lookahead_s = 0.0;  ///< half width of that filter; 0: 1.2 / cutoff. The live tracker lags by it
+  double fade_s = 0.1;       ///< > 0; a marker's weight grows and shrinks over this time beside its gaps
+  const data::Derivatives* derivatives = nullptr;  ///< velocity and acceleration of the samples, used in
+                                                   ///< place of the filter; not for the live tracker
+
+  double posture_kp = 100.0, posture_kd = 20.0;  ///< of what the levels leave open, root included; >= 0
+  std::vector<CoordinateTask> rest_pose;  ///< name and value; others: the model's default, roots: the start
+  bool limits = true;                     ///< clamped coordinates stay in their range
+  LockMode lock = LockMode::automatic;
+  std::vector<std::string> locked;  ///< coordinates held at the rest pose besides those the model locks
+
+  double first_time_s = -1e300;  ///< track only frames in [first_time_s, last_time_s]
+  double last_time_s = 1e300;
+  double max_error_m = 0.3;        ///< a frame with a larger RMS distance to its goals is flagged
+  double max_speed = 1e3;          ///< rad/s, norm of all speeds: beyond, flagged and started anew
+  bool error_bars = true;          ///< compute q_sd, determined and q_bound
+  double marker_noise_sd_m = 0.0;  ///< of a sample per axis; 0: estimated
+  std::uint64_t seed = 1;          ///< of the random starts of the first pose
+  int starts = 60;                 ///< poses tried for the first frame at most
+  int threads = 1;                 ///< for the error bars; 0: all cores. Any number gives the same bits
+
+  /// Ranges hold, no number is NaN, no level is empty.
+  [[nodiscard]] Status check() const;
+};
+
+}  // namespace kinemark::motion
