@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/internal/priority_solver.h"
+#include "kinemark/stages/motion/control/internal/priority_solver.h"
 
 #include <algorithm>
 #include <cmath>
