@@ -52,10 +52,15 @@ struct SleeveOptions {
   double radius_m = 0.022;    ///< of the sleeve about the bone
   double noise_sd_m = 0.001;  ///< per axis
   bool line_of_sight = true;  ///< LEDs turned away from the cameras, or hidden by head and hand, are lost
-  double sight_cosine = 0.2;  ///< an LED is seen within this cosine of its normal; 0.5 is a hard case
+  double sight_cosine = 0.2;  ///< a camera sees an LED within this cosine of its normal, -1 to 1
+  int sight_cameras = 2;      ///< of six that must see an LED, 1 to 6
+  double mouth_loss = 0.6;    ///< chance that an LED near the hand is hidden for a whole visit to the mouth
   double missing = 0.0;       ///< share of samples lost besides, each on its own
   std::uint64_t seed = 1;
 
+  /// Three cameras, a narrow beam, 0.9 hidden at the mouth and a fifth of the rest lost: about 30 % is seen.
+  [[nodiscard]] static SleeveOptions hard();
+  [[nodiscard]] std::int64_t frames() const;
   [[nodiscard]] Status check() const;
 };
 

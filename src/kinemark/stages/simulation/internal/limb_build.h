@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/stages/simulation/limb.h"
+
+namespace kinemark::simulation::internal {
+
+/// Streams of random numbers: noise and losses do not depend on each other, nor the motion on either.
+enum class LimbStream : std::uint64_t { motion = 700, noise = 701, loss = 702, sight = 703 };
+
+inline constexpr double kMostLimbFrames = 1e7;
+
+[[nodiscard]] Status in_range(const char* name, double value, double low, double high);
+
+/// A chain of segments with n markers each, all samples unset: segments and joints by these names, markers
+/// by the names of prefixes and their number in the segment.
+[[nodiscard]] LimbRecording empty_limb(const std::vector<std::string>& segments,
+                                       const std::vector<std::string>& joints,
+                                       const std::vector<std::string>& prefixes, int markers_per_segment,
+                                       const TimeBase& time);
+
+/// Recording from the truth: Gaussian noise on every coordinate, and a share of the samples lost.
+void record_limb(LimbRecording& limb, double noise_sd_m, double missing, std::uint64_t seed);
+
+}  // namespace kinemark::simulation::internal

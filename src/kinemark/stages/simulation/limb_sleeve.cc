@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinemark/core/random.h"
+#include "kinemark/stages/simulation/internal/limb_build.h"
+#include "kinemark/stages/simulation/internal/reach_path.h"
+#include "kinemark/stages/simulation/internal/sleeve_sight.h"
+#include "kinemark/stages/simulation/limb.h"
+
+namespace kinemark::simulation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+constexpr double kUpperArm_m = 0.150, kForearm_m = 0.160;
+constexpr double kNearest_m = 0.040, kStraight_m = 0.008;  // wrist from shoulder; reach left when straightest
+
+/// How the arm lies in one frame: segment axes have z along the bone, x along the elbow's hinge.
+struct ArmPose {
+  Vector3d elbow, wrist;
+  Matrix3d world_from_upper_arm, world_from_forearm;
+};
+
+Matrix3d axes(const Vector3d& along, const Vector3d& hinge, double roll) {
+  const Vector3d across = along.cross(hinge);
+  Matrix3d out;
+  out << std::cos(roll) * hinge + std::sin(roll) * across, std::cos(roll) * across - std::sin(roll) * hinge,
+      along;
+  return out;
+}
+
+/// The elbow lies on the circle that both lengths leave open, `swivel` rad from hanging straight down.
+ArmPose pose_arm(const Vector3d& goal, double swivel, double roll) {
+  const double far = std::clamp(goal.norm(), kNearest_m, kUpperArm_m + kForearm_m - kStraight_m);
+  const Vector3d n = goal.normalized();
+  const double along = (kUpperArm_m * kUpperArm_m - kForearm_m * kForearm_m + far * far) / (2.0 * far);
+  const double beside = std::sqrt(std::max(kUpperArm_m * kUpperArm_m - along * along, 0.0));
+  const Vector3d down = (-Vector3d::UnitZ() + n.z() * n).normalized();
+  ArmPose out;
+  out.wrist = far * n;
+  out.elbow = along * n + beside * (std::cos(swivel) * down + std::sin(swivel) * n.cross(down));
+  const Vector3d forearm = out.wrist - out.elbow;
+  const Vector3d hinge = out.elbow.cross(forearm).normalized();
+  out.world_from_upper_arm = axes(out.elbow / kUpperArm_m, hinge, 0.0);
+  out.world_from_forearm = axes(forearm / kForearm_m, hinge, roll);
+  return out;
+}
+
+/// Three turns about the limb over its LEDs: two helices, so that no neighbours look the same way.
+Eigen::Matrix3Xd led_places(const SleeveOptions& options, double length_m) {
+  const int n = options.leds_per_segment;
+  Eigen::Matrix3Xd out(3, n);
+  for (int k = 0; k < n; ++k) {
+    const double turn = 2.0 * pi * k * (n > 3 ? 3 : 1) / n;
+    out.col(k) << options.radius_m * std::cos(turn), options.radius_m * std::sin(turn),
+        length_m * (k + 1) / (n + 1);
+  }
+  return out;
+}
+
+}  // namespace
+
+SleeveOptions SleeveOptions::hard() {
+  SleeveOptions out;
+  out.sight_cosine = 0.35;
+  out.sight_cameras = 3;
+  out.mouth_loss = 0.9;
+  out.missing = 0.2;
+  return out;
+}
+
+std::int64_t SleeveOptions::frames() const { return std::llround(duration_s * rate_hz); }
+
+Status SleeveOptions::check() const {
+  using internal::in_range;
+  for (const auto& status :
+       {in_range("duration_s", duration_s, 1e-6, 1e9), in_range("rate_hz", rate_hz, 1e-3, 1e6),
+        in_range("duration_s x rate_hz", duration_s * rate_hz, 0.5, internal::kMostLimbFrames),
+        in_range("leds_per_segment", leds_per_segment, 2.0, 32.0),
+        in_range("frames x LEDs", duration_s * rate_hz * 2.0 * leds_per_segment, 1.0, 1e8),
+        in_range("radius_m", radius_m, 1e-4, 1.0), in_range("noise_sd_m", noise_sd_m, 0.0, 1.0),
+        in_range("sight_cosine", sight_cosine, -1.0, 1.0), in_range("sight_cameras", sight_cameras, 1.0, 6.0),
+        in_range("mouth_loss", mouth_loss, 0.0, 1.0), in_range("missing", missing, 0.0, 0.95)})
+    if (!status) return status;
+  return {};
+}
+
+Result<LimbRecording> simulate_sleeve(const SleeveOptions& options) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  const int n = options.leds_per_segment;
+  const TimeBase time{options.rate_hz, 0.0, options.frames()};
+  LimbRecording out = internal::empty_limb({"upper_arm", "forearm"}, {"elbow"}, {"u", "f"}, n, time);
+  out.x_in_segment[0] = led_places(options, kUpperArm_m);
+  out.x_in_segment[1] = led_places(options, kForearm_m);
+
+  internal::ReachPath path(options.seed, options.rate_hz);
+  internal::SleeveSight sight(options);
+  // Phases of the slow swivel about the line from shoulder to wrist; a stream of their own beside the path's.
+  Random phases(options.seed + 1, static_cast<std::uint64_t>(internal::LimbStream::sight) + 1);
+  const double phase_a = phases.uniform(0.0, 2.0 * pi);
+  const double phase_b = phases.uniform(0.0, 2.0 * pi);
+  std::vector<std::uint8_t> seen(out.markers.state.size(), 1);
+  for (std::int64_t f = 0; f < time.frames; ++f) {
+    const double t = time.time_s(f);
+    const double swivel =
+        0.5 + 0.35 * std::sin(2.0 * pi * 0.31 * t + phase_a) + 0.15 * std::sin(2.0 * pi * 0.83 * t + phase_b);
+    const ArmPose pose = pose_arm(path.next(), swivel, 0.4 * std::sin(2.0 * pi * 0.4 * t + 1.0));
+    sight.begin_frame(pose.wrist);
+    for (int led = 0; led < 2 * n; ++led) {
+      const bool forearm = led >= n;
+      const auto place = out.x_in_segment[forearm ? 1 : 0].col(forearm ? led - n : led);
+      const Matrix3d& turn = forearm ? pose.world_from_forearm : pose.world_from_upper_arm;
+      const Vector3d x = (forearm ? pose.elbow : Vector3d(Vector3d::Zero())) + turn * place;
+      const Vector3d normal = turn * Vector3d(place.x(), place.y(), 0.0).stableNormalized();
+      const std::size_t at = out.markers.index(f, led);
+      Eigen::Map<Vector3d>(out.x_true.data() + 3 * at) = x;
+      if (options.line_of_sight && !sight.sees(led, x, normal)) seen[at] = 0;
+    }
+    Eigen::Map<Vector3d>(out.centre_in_world.data() + 3 * f) = pose.elbow;
+  }
+  internal::record_limb(out, options.noise_sd_m, options.missing, options.seed);
+  for (std::int64_t f = 0; f < time.frames; ++f)
+    for (int led = 0; led < 2 * n; ++led)
+      if (seen[out.markers.index(f, led)] == 0) out.markers.set_missing(f, led);
+  return out;
+}
+
+}  // namespace kinemark::simulation
