@@ -106,6 +106,33 @@ void gravity_forces(const Model& model, Workspace& w, VectorXd& g) {
   internal::project_forces(model, w, g);
 }
 
+void inverse_dynamics(const Model& model, Workspace& w, const VectorXd& vdot, VectorXd& tau) {
+  body_inertias(model, w);
+  const auto bodies = model.bodies();
+  // Accelerations first (they stand where the forces will), parents before children; gravity is a ground that
+  // accelerates upward.
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    Spatial a =
+        bodies[b].parent >= 0 ? w.force[at(bodies[b].parent)] : Spatial{Vector3d::Zero(), -model.gravity()};
+    for (int c = bodies[b].first_column; c < bodies[b].last_column; ++c) {
+      const double rate = vdot[model.columns()[at(c)].speed];
+      a.w += rate * w.column[at(c)].w;
+      a.v += rate * w.column[at(c)].v;
+    }
+    w.force[b] = a;
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Spatial a = {w.force[b].w + w.body_bias[b].w, w.force[b].v + w.body_bias[b].v};
+    const Spatial& u = w.body_velocity[b];
+    const Spatial momentum = apply(w.inertia[b], u);
+    Spatial f = apply(w.inertia[b], a);
+    f.w += u.w.cross(momentum.w) + u.v.cross(momentum.v);
+    f.v += u.w.cross(momentum.v);
+    w.force[b] = f;
+  }
+  internal::project_forces(model, w, tau);
+}
+
 double kinetic_energy(const Model& model, const Workspace& w) {
   double energy = 0.0;
   const auto bodies = model.bodies();

@@ -20,6 +20,10 @@ void bias_forces(const Model& model, Workspace& w, VectorXd& b);
 /// Gravity forces g(x): the generalised forces that hold the body still. After kinematics().
 void gravity_forces(const Model& model, Workspace& w, VectorXd& g);
 
+/// Generalised forces tau = M vdot + b + g in one sweep, without forming M. After velocities(). Recursive
+/// Newton-Euler (Featherstone 2008, section 5.3).
+void inverse_dynamics(const Model& model, Workspace& w, const VectorXd& vdot, VectorXd& tau);
+
 /// Kinetic energy v'Mv/2, J. After velocities().
 [[nodiscard]] double kinetic_energy(const Model& model, const Workspace& w);
 

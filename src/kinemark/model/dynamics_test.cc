@@ -224,5 +224,26 @@ TEST(Dynamics, PendulumByHand) {
   EXPECT_NEAR(potential_energy(body.model, body.w), -2.0 * 9.80665 * 0.5 * std::cos(0.4), 1e-13);
 }
 
+TEST(InverseDynamics, IsTheSumOfItsParts) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+    for (const bool free_roots : {true, false}) {
+      const Model model = Model::compile(random_tree(seed), {.free_roots = free_roots}).value();
+      Workspace w(model);
+      Random random(seed, 91);
+      const VectorXd x = random_state(model, random), v = random_vector(model.speed_count(), 2.0, random),
+                     vdot = random_vector(model.speed_count(), 9.0, random);
+      kinematics(model, w, x);
+      velocities(model, w, v);
+      MatrixXd M;
+      VectorXd b, g, tau;
+      mass_matrix(model, w, M);
+      bias_forces(model, w, b);
+      gravity_forces(model, w, g);
+      inverse_dynamics(model, w, vdot, tau);
+      EXPECT_GT(tau.norm(), 1.0);
+      EXPECT_LT(relative_error(tau, M * vdot + b + g), 1e-12) << "seed " << seed;
+    }
+}
+
 }  // namespace
 }  // namespace kinemark::model

@@ -15,6 +15,7 @@
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/model/testing/mjcf.h"
 #include "kinemark/model/testing/random_tree.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
@@ -26,57 +27,6 @@ using Eigen::MatrixXd;
 using testing::random_vector;
 using testing::relative_error;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-std::string numbers(const Vector3d& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v.x(), v.y(), v.z()); }
-
-// The same tree as MJCF. Works where all axes are rotations and joint frames do not turn the body at zero: in
-// the child's frame the hinges then stand at one point, in the order of the description.
-class Mjcf {
- public:
-  explicit Mjcf(const Model& model) : model_(model) {}
-
-  std::string text() const {
-    return "<mujoco><compiler angle=\"radian\" balanceinertia=\"false\" boundmass=\"0\" boundinertia=\"0\"/>"
-           "<option gravity=\"" +
-           numbers(model_.gravity()) + "\"/><worldbody>" + children_of(data::kGround) +
-           "</worldbody></mujoco>";
-  }
-
- private:
-  std::string children_of(int parent) const {
-    std::string out;
-    for (int b = 0; b < static_cast<int>(model_.bodies().size()); ++b)
-      if (model_.bodies()[static_cast<std::size_t>(b)].parent == parent) out += body_text(b);
-    return out;
-  }
-
-  std::string body_text(int b) const {
-    const auto& body = model_.bodies()[static_cast<std::size_t>(b)];
-    const math::SE3 at_zero = body.parent_from_joint * body.body_from_joint.inverse();
-    EXPECT_LT((at_zero.rotation - Matrix3d::Identity()).norm(), 1e-12) << "this test writes no turned bodies";
-    const Matrix3d& I = body.inertia_about_com;
-    std::string out = fmt::format(
-        "<body pos=\"{}\"><inertial pos=\"{}\" mass=\"{:.17g}\" fullinertia=\"{} {:.17g} {:.17g} {:.17g}\"/>",
-        numbers(at_zero.translation), numbers(body.com_in_body), body.mass, numbers(I.diagonal()), I(0, 1),
-        I(0, 2), I(1, 2));
-    if (body.free_joint >= 0) out += "<freejoint/>";
-    for (int k = body.first_primitive; k < body.last_primitive; ++k) {
-      const auto& primitive = model_.primitives()[static_cast<std::size_t>(k)];
-      EXPECT_TRUE(primitive.is_rotation && primitive.is_identity);
-      out += fmt::format("<joint name=\"c{}\" type=\"hinge\" axis=\"{}\" pos=\"{}\"/>", primitive.coordinate,
-                         numbers(body.body_from_joint.rotation * primitive.axis),
-                         numbers(body.body_from_joint.translation));
-    }
-    for (int m = 0; m < model_.marker_count(); ++m) {
-      const auto& marker = model_.markers()[static_cast<std::size_t>(m)];
-      if (marker.body == b)
-        out += fmt::format("<site name=\"m{}\" pos=\"{}\"/>", m, numbers(marker.x_in_body));
-    }
-    return out + children_of(b) + "</body>";
-  }
-
-  const Model& model_;
-};
 
 class Judge : public ::testing::Test {
  protected:
@@ -91,7 +41,7 @@ class Judge : public ::testing::Test {
   void SetUp() override {
     const testing_support::ScratchFolder scratch;
     const std::string path = (scratch / "human.xml").string();
-    std::ofstream(path) << Mjcf(model).text();
+    std::ofstream(path) << testing::mjcf(model);
     std::array<char, 1000> error{};
     judge.reset(mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
     ASSERT_NE(judge, nullptr) << error.data();
