@@ -7,10 +7,17 @@
 #include <limits>
 
 namespace kinemark::motion::internal {
+namespace {
+
+// Singular values (kg^-1/2 per metre) around which the posture takes over from a level, smoothly: a direction
+// that hardly moves the goals, and that damping leaves almost free, would wind up otherwise.
+constexpr double kIdle = 0.005;
+constexpr double kBusy = 30.0 * kIdle;  // above it the posture's share is below 0.1 %
+
+}  // namespace
 
 PrioritySolver::PrioritySolver(int speeds)
-    : free_(static_cast<std::size_t>(speeds)),
-      M_(speeds, speeds),
+    : M_(speeds, speeds),
       H_(speeds, speeds),
       V_(speeds, speeds),
       llt_(speeds),
@@ -24,46 +31,44 @@ PrioritySolver::PrioritySolver(int speeds)
 
 bool PrioritySolver::begin(const Eigen::MatrixXd& M, const std::vector<std::uint8_t>& held,
                            const Eigen::VectorXd& held_a) {
-  free_count_ = 0;
-  for (std::size_t k = 0; k < held.size(); ++k)
-    if (held[k] == 0) free_[static_cast<std::size_t>(free_count_++)] = static_cast<int>(k);
-  any_held_ = free_count_ < M.rows();
+  held_ = held;
   held_a_ = held_a;
-  M_.resize(free_count_, free_count_);
-  for (int j = 0; j < free_count_; ++j)
-    for (int i = 0; i < free_count_; ++i) M_(i, j) = M(free_[i], free_[j]);
+  free_count_ = static_cast<int>(std::count(held.begin(), held.end(), 0));
+  any_held_ = free_count_ < M.rows();
+  M_ = M;
+  detach_held(M_);
   llt_.compute(M_);
-  z_.setZero(free_count_);
-  V_.resize(free_count_, free_count_);
+  z_.setZero();
   next_level_ = 0;
   used_ = 0;
+  for (auto& level : levels_) level.idle = false;
   smallest_ = std::numeric_limits<double>::infinity();
   return llt_.info() == Eigen::Success;
 }
 
-void PrioritySolver::gather(const Eigen::VectorXd& all) {
-  part_.resize(free_count_);
-  for (int i = 0; i < free_count_; ++i) part_[i] = all[free_[i]];
+void PrioritySolver::detach_held(Eigen::MatrixXd& S) const {
+  if (!any_held_) return;
+  for (Eigen::Index k = 0; k < S.rows(); ++k) {
+    if (held_[static_cast<std::size_t>(k)] == 0) continue;
+    S.row(k).setZero();
+    S.col(k).setZero();
+    S(k, k) = 1.0;
+  }
 }
 
 void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
                                const Eigen::Ref<const Eigen::VectorXd>& r, const PriorityDamping& damping) {
   if (next_level_ == levels_.size()) levels_.emplace_back();
   Level& level = levels_[next_level_++];
-  const int m = static_cast<int>(J.rows()), n = free_count_;
-  if (m == 0 || used_ == n) return;
+  const int m = static_cast<int>(J.rows()), n = static_cast<int>(J.cols());
+  if (m == 0 || used_ == free_count_) return;
   // A = J L^-T on the free speeds, and what the task still lacks.
-  level.A.resize(n, m);  // kept transposed: L A' = J'
-  for (int i = 0; i < n; ++i) level.A.row(i) = J.col(free_[i]).transpose();
+  level.A = J.transpose();  // kept transposed: L A' = J'
   level.r = r;
-  if (any_held_) {
-    std::size_t next = 0;
-    for (int k = 0; k < J.cols(); ++k) {
-      if (next < static_cast<std::size_t>(n) && free_[next] == k)
-        ++next;
-      else
-        level.r -= held_a_[k] * J.col(k);
-    }
+  for (int k = 0; any_held_ && k < n; ++k) {
+    if (held_[static_cast<std::size_t>(k)] == 0) continue;
+    level.r -= held_a_[k] * J.col(k);
+    level.A.row(k).setZero();
   }
   llt_.matrixL().solveInPlace(level.A);
   level.r.noalias() -= level.A.transpose() * z_;
@@ -74,7 +79,7 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
   }
   level.qr.compute(level.A);
   const auto& qr = level.qr.matrixQR();
-  const int most = std::min({m, n - used_, n});
+  const int most = std::min(m, free_count_ - used_);
   const double floor = std::max(damping.truncation * std::abs(qr(0, 0)), 1e-9);
   int count = 0;
   while (count < most && std::abs(qr(count, count)) > floor) ++count;
@@ -90,6 +95,12 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
   level.G.noalias() = level.R * level.R.transpose();
   level.G.diagonal().array() += damping.damping * damping.damping;
   level.llt.compute(level.G);
+  level.idle = damping.damping > 0.0 && std::abs(qr(count - 1, count - 1)) < kBusy;
+  if (level.idle) {
+    level.G.noalias() = level.R * level.R.transpose();
+    level.G.diagonal().array() += kIdle * kIdle;
+    level.idle_llt.compute(level.G);
+  }
   level.permuted.resize(m);
   for (int j = 0; j < m; ++j) level.permuted[j] = level.r[level.qr.colsPermutation().indices()[j]];
   level.along.resize(count);
@@ -102,51 +113,51 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
 
 bool PrioritySolver::add_full_level(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, double damping,
                                     double min_singular) {
-  const int n = free_count_;
-  H_.resize(n, n);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) H_(i, j) = H(free_[i], free_[j]);
+  H_ = H;
+  detach_held(H_);
   // All singular values of A above s: J'J - s^2 M is positive definite.
   H_.noalias() -= (min_singular * min_singular) * M_;
   normal_.compute(H_);
   if (normal_.info() != Eigen::Success) return false;
   H_.noalias() += (min_singular * min_singular + damping * damping) * M_;
   normal_.compute(H_);
-  gather(g);
-  if (any_held_) {
-    std::size_t next = 0;
-    for (int k = 0; k < H.cols(); ++k) {
-      if (next < static_cast<std::size_t>(n) && free_[next] == k) {
-        ++next;
-        continue;
-      }
-      for (int i = 0; i < n; ++i) part_[i] -= held_a_[k] * H(free_[i], k);
-    }
-  }
+  part_ = g;
+  for (Eigen::Index k = 0; any_held_ && k < H.cols(); ++k)
+    if (held_[static_cast<std::size_t>(k)] != 0) part_ -= held_a_[k] * H.col(k);
+  for (Eigen::Index k = 0; any_held_ && k < H.cols(); ++k)
+    if (held_[static_cast<std::size_t>(k)] != 0) part_[k] = 0.0;
   normal_.solveInPlace(part_);
   z_.noalias() = llt_.matrixL().transpose() * part_;
-  used_ = n;
+  used_ = free_count_;
   smallest_ = std::min(smallest_, min_singular);
   return true;
 }
 
 void PrioritySolver::add_posture(const Eigen::VectorXd& wished) {
+  bool any_idle = false;
+  for (std::size_t i = 0; i < next_level_; ++i) any_idle = any_idle || levels_[i].idle;
+  if (used_ == free_count_ && !any_idle) return;
+  projected_.noalias() = llt_.matrixL().transpose() * wished;
+  for (std::size_t i = 0; any_idle && i < next_level_; ++i) {
+    auto& level = levels_[i];
+    if (!level.idle) continue;
+    level.along.noalias() = level.B.transpose() * projected_;
+    level.idle_llt.solveInPlace(level.along);
+    z_.noalias() += (kIdle * kIdle) * (level.B * level.along);
+  }
   if (used_ == free_count_) return;
-  gather(wished);
-  projected_.resize(free_count_);
-  projected_.noalias() = llt_.matrixL().transpose() * part_;
   projected_ -= z_;  // towards the wish, from what the levels made
-  auto along = result_.head(used_);
+  auto along = part_.head(used_);
   along.noalias() = V_.leftCols(used_).transpose() * projected_;
   projected_.noalias() -= V_.leftCols(used_) * along;
   z_ += projected_;
 }
 
 const Eigen::VectorXd& PrioritySolver::acceleration() {
-  part_ = z_;
-  llt_.matrixL().transpose().solveInPlace(part_);
-  result_ = held_a_;
-  for (int i = 0; i < free_count_; ++i) result_[free_[i]] = part_[i];
+  result_ = z_;
+  llt_.matrixL().transpose().solveInPlace(result_);
+  for (Eigen::Index k = 0; any_held_ && k < result_.size(); ++k)
+    if (held_[static_cast<std::size_t>(k)] != 0) result_[k] = held_a_[k];
   return result_;
 }
 

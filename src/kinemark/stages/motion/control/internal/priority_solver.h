@@ -44,7 +44,9 @@ class PrioritySolver {
   bool add_full_level(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, double damping,
                       double min_singular);
 
-  /// Accelerations wished for in all that no level uses.
+  /// Accelerations wished for in all that no level uses; with damping, also in directions that move a level's
+  /// goals so little (s near 0.005 and below) that the damping leaves them to themselves: there the posture's
+  /// share is 0.005^2 / (s^2 + 0.005^2).
   void add_posture(const Eigen::VectorXd& wished);
 
   /// q'' of all speeds, held ones included.
@@ -61,11 +63,13 @@ class PrioritySolver {
     Eigen::MatrixXd A, B, R, G, shared;  ///< A transposed: speeds x rows
     Eigen::VectorXd r, permuted, along;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    Eigen::LLT<Eigen::MatrixXd> llt;
+    Eigen::LLT<Eigen::MatrixXd> llt, idle_llt;
+    bool idle = false;  ///< some direction is left to the posture, wholly or in part
   };
-  void gather(const Eigen::VectorXd& all);
+  /// Held rows and columns of a symmetric matrix become those of the identity: sizes stay as they are.
+  void detach_held(Eigen::MatrixXd& S) const;
 
-  std::vector<int> free_;  ///< speeds that are not held; the first free_count_ entries count
+  std::vector<std::uint8_t> held_;
   int free_count_ = 0;
   Eigen::MatrixXd M_, H_, V_;
   Eigen::LLT<Eigen::MatrixXd> llt_, normal_;

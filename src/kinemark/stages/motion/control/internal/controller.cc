@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/internal/controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/model/dynamics.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/model/weighted_normal.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+// Singular values (kg^-1/2) above which a single level needs no singular vectors: everything is fixed by it.
+constexpr double kFullRank = 0.03;
+constexpr double kStartDamping = 0.01;  // of the speeds at the start
+constexpr int kMostHolds = 8;           // rounds of adding coordinates that rest at a limit
+constexpr PriorityDamping kLoops{.damping = 0.0, .truncation = 1e-6};
+
+std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Controller::Controller(const Plan& plan)
+    : plan_(plan),
+      model_(plan.problem.model),
+      w_(model_),
+      solver_(model_.speed_count()),
+      one_level_(plan.levels.size() == 1 && model_.point_constraints().empty()) {
+  const int n = model_.speed_count(), M = model_.marker_count();
+  const auto K = 3 * static_cast<Eigen::Index>(model_.point_constraints().size());
+  x_ = model_.default_state();
+  for (auto* v : {&v_, &a_, &wished_, &normal_force_, &held_a_, &move_}) v->setZero(n);
+  bias_.setZero(3 * M);
+  command_.setZero(3, M);
+  for (auto* m : {&M_, &H_}) m->setZero(n, n);
+  J_.setZero(3 * M, n);
+  loop_J_.setZero(K, n);
+  loop_gap_.setZero(K);
+  loop_r_.setZero(K);
+  llt_ = Eigen::LLT<Eigen::MatrixXd>(n);
+  for (const auto& level : plan.levels) {
+    Gathered g;
+    g.J.setZero(level.rows(), n);
+    g.r.setZero(level.rows());
+    g.tasks.resize(level.tasks.size());
+    gathered_.push_back(std::move(g));
+  }
+  held_ = plan.problem.fixed_speed;
+}
+
+void Controller::start(const Eigen::VectorXd& x, const GoalValues& goal, double time_s) {
+  x_ = x;
+  v_.setZero();
+  model::kinematics(model_, w_, x_);
+  model::velocities(model_, w_, v_);
+  model::marker_normal_matrix(model_, w_, goal.weight, H_);
+  model::clear_forces(w_);
+  model::add_marker_forces(model_, w_, goal.weight, goal.v);
+  model::project_forces(model_, w_, normal_force_);
+  for (std::size_t i = 0; i < plan_.levels.size(); ++i)
+    for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
+      auto& rows = gathered_[i].tasks[t];
+      const auto& task = *plan_.levels[i].tasks[t];
+      rows.resize(task.rows(), model_.speed_count());
+      task.evaluate(model_, w_, time_s, rows);
+      H_ += rows.jacobian.transpose() * rows.weight.asDiagonal() * rows.jacobian;
+      normal_force_ += rows.jacobian.transpose() * rows.weight.cwiseProduct(rows.goal_velocity);
+    }
+  model::mass_matrix(model_, w_, M_);
+  H_ += kStartDamping * kStartDamping * M_;
+  for (Eigen::Index k = 0; k < v_.size(); ++k) {
+    if (plan_.problem.fixed_speed[at(k)] == 0) continue;
+    H_.row(k).setZero();
+    H_.col(k).setZero();
+    H_(k, k) = 1.0;
+    normal_force_[k] = 0.0;
+  }
+  llt_.compute(H_);
+  if (plan_.feed_forward && llt_.info() == Eigen::Success) v_ = llt_.solve(normal_force_);
+  if (!v_.allFinite()) v_.setZero();
+  a_.setZero();
+}
+
+void Controller::find_commands(const GoalValues& goal, double time_s) {
+  model::marker_bias_acceleration(model_, w_, bias_);
+  const double feed = plan_.feed_forward ? 1.0 : 0.0;
+  for (Eigen::Index m = 0; m < goal.weight.size(); ++m) {
+    if (goal.weight[m] == 0.0) {
+      command_.col(m).setZero();
+      continue;
+    }
+    const Eigen::Vector3d place = w_.marker.col(m);
+    const Eigen::Vector3d velocity = model::point_velocity(w_, model_.markers()[at(m)].body, place);
+    command_.col(m) = feed * goal.a.col(m) + plan_.kd * (feed * goal.v.col(m) - velocity) +
+                      plan_.kp * (goal.x.col(m) - place) - bias_.segment<3>(3 * m);
+  }
+  for (std::size_t i = 0; i < plan_.levels.size(); ++i)
+    for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
+      auto& rows = gathered_[i].tasks[t];
+      const auto& task = *plan_.levels[i].tasks[t];
+      rows.resize(task.rows(), model_.speed_count());
+      task.evaluate(model_, w_, time_s, rows);
+      // From here on `error` holds what is asked of the rows.
+      rows.error *= plan_.kp;
+      rows.error +=
+          plan_.kd * (feed * rows.goal_velocity - rows.velocity) + feed * rows.goal_acceleration - rows.bias;
+    }
+}
+
+void Controller::gather_level(const Plan::Level& level, std::size_t index, const Eigen::VectorXd& weight) {
+  auto& g = gathered_[index];
+  Eigen::Index row = 0;
+  for (const int m : level.markers) {
+    const double scale = std::sqrt(weight[m]);
+    g.J.middleRows<3>(row) = scale * J_.middleRows<3>(3 * static_cast<Eigen::Index>(m));
+    g.r.segment<3>(row) = scale * command_.col(m);
+    row += 3;
+  }
+  for (const auto& task : g.tasks)
+    for (Eigen::Index i = 0; i < task.error.size(); ++i, ++row) {
+      const double scale = std::sqrt(task.weight[i]);
+      g.J.row(row) = scale * task.jacobian.row(i);
+      g.r[row] = scale * task.error[i];
+    }
+}
+
+void Controller::close_loops() {
+  if (model_.point_constraints().empty()) return;
+  model::point_constraint_gaps(model_, w_, loop_gap_);
+  model::point_constraint_jacobian(model_, w_, loop_J_);
+  loop_r_.noalias() = loop_J_ * v_;
+  loop_r_ *= -plan_.kd;
+  loop_r_ -= plan_.kp * loop_gap_;
+  Eigen::Index row = 0;
+  for (const auto& c : model_.point_constraints()) {
+    const Eigen::Vector3d a = model::point_in_world(w_, c.body_a, c.point_in_a);
+    const Eigen::Vector3d b = model::point_in_world(w_, c.body_b, c.point_in_b);
+    loop_r_.segment<3>(row) -=
+        model::point_bias_acceleration(w_, c.body_a, a) - model::point_bias_acceleration(w_, c.body_b, b);
+    row += 3;
+  }
+  solver_.add_level(loop_J_, loop_r_, kLoops);
+}
+
+void Controller::solve(const Eigen::VectorXd& weight) {
+  if (one_level_) {
+    const auto& g = gathered_.front();
+    if (solver_.add_full_level(H_, normal_force_, plan_.damping.damping, kFullRank)) return;
+    if (!have_jacobian_) model::marker_jacobian(model_, w_, J_);
+    have_jacobian_ = true;
+    gather_level(plan_.levels.front(), 0, weight);
+    solver_.add_level(g.J, g.r, plan_.damping);
+    return;
+  }
+  close_loops();
+  for (const auto& g : gathered_) solver_.add_level(g.J, g.r, plan_.damping);
+}
+
+bool Controller::hold_at_limits() {
+  // A coordinate may approach its limit no faster than a critically damped spring would bring it there: it
+  // arrives without speed, and never beyond.
+  const double omega = 0.5 * plan_.kd;
+  bool more = false;
+  for (const auto& c : model_.coordinates()) {
+    const int k = c.speed_idx;
+    if (k < 0 || held_[at(k)] != 0) continue;
+    const double lowest = omega * (omega * (plan_.problem.lower[k] - x_[c.state_idx]) - 2.0 * v_[k]);
+    const double highest = omega * (omega * (plan_.problem.upper[k] - x_[c.state_idx]) - 2.0 * v_[k]);
+    const double bounded = std::min(std::max(a_[k], lowest), highest);
+    if (std::abs(bounded - a_[k]) <= 1e-9 * (1.0 + std::abs(a_[k]))) continue;
+    held_[at(k)] = 1;
+    held_a_[k] = bounded;
+    more = true;
+  }
+  return more;
+}
+
+bool Controller::evaluate(const GoalValues& goal, double time_s) {
+  ++steps_;
+  if (!v_.allFinite() || !x_.allFinite() || v_.norm() > plan_.max_speed) return false;
+  model::kinematics(model_, w_, x_);
+  model::velocities(model_, w_, v_);
+  model::mass_matrix(model_, w_, M_);
+  find_commands(goal, time_s);
+  model::difference(model_, x_, plan_.rest, wished_);
+  wished_ *= plan_.posture_kp;
+  wished_ -= plan_.posture_kd * v_;
+  have_jacobian_ = false;
+  if (one_level_) {
+    model::marker_normal_matrix(model_, w_, goal.weight, H_);
+    model::clear_forces(w_);
+    model::add_marker_forces(model_, w_, goal.weight, command_);
+    model::project_forces(model_, w_, normal_force_);
+    for (const auto& task : gathered_.front().tasks)
+      for (Eigen::Index i = 0; i < task.error.size(); ++i) {
+        H_.noalias() += task.weight[i] * task.jacobian.row(i).transpose() * task.jacobian.row(i);
+        normal_force_ += task.weight[i] * task.error[i] * task.jacobian.row(i).transpose();
+      }
+  } else {
+    model::marker_jacobian(model_, w_, J_);
+    for (std::size_t i = 0; i < plan_.levels.size(); ++i) gather_level(plan_.levels[i], i, goal.weight);
+  }
+  held_ = plan_.problem.fixed_speed;
+  held_a_.setZero();
+  for (int round = 0; round < kMostHolds; ++round) {
+    if (!solver_.begin(M_, held_, held_a_)) return false;
+    solve(goal.weight);
+    solver_.add_posture(wished_);
+    a_ = solver_.acceleration();
+    if (!hold_at_limits()) break;
+  }
+  rank_ = solver_.rank();
+  smallest_ = solver_.smallest_pivot();
+  return a_.allFinite();
+}
+
+void Controller::advance(double h) {
+  move_ = h * v_;
+  move_ += 0.5 * h * h * a_;
+  model::integrate(model_, x_, move_);
+  v_ += h * a_;
+  // What rounding, or a limit met at the start, left beyond.
+  for (const auto& c : model_.coordinates()) {
+    const int k = c.speed_idx;
+    if (k < 0) continue;
+    double& q = x_[c.state_idx];
+    if (q < plan_.problem.lower[k]) {
+      q = plan_.problem.lower[k];
+      v_[k] = std::max(v_[k], 0.0);
+    } else if (q > plan_.problem.upper[k]) {
+      q = plan_.problem.upper[k];
+      v_[k] = std::min(v_[k], 0.0);
+    }
+  }
+}
+
+}  // namespace kinemark::motion::internal

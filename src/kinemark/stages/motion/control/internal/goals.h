@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Goals between the frames of a recording: place, velocity and acceleration of every marker at any time, and
+// how much it counts.
+//
+// The goal is a cubic B-spline with knots at the frames, twice continuously differentiable. Its coefficients
+// are the samples under one symmetric kernel: the two-pass Butterworth low-pass and the inverse of the
+// B-spline's own smoothing (Unser 1999), cut at the lookahead and corrected so that parabolas pass unchanged.
+// The kernel is finite, so a live stream gets the same goals as a file, only later. Beside a gap, or the ends
+// of the recording, samples are mirrored through the last one.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/data/derivatives.h"
+
+namespace kinemark::motion::internal {
+
+/// The last `capacity` frames of a stream of markers, or all of them.
+class SampleWindow {
+ public:
+  SampleWindow(int markers, std::int64_t capacity);
+  /// Samples (3 x M) of the next frame; weight (M) is 0 where a marker is not seen.
+  void push(const Eigen::Matrix3Xd& x, const Eigen::VectorXd& weight);
+  /// No further frame will come.
+  void end() { ended_ = true; }
+
+  [[nodiscard]] bool ended() const { return ended_; }
+  [[nodiscard]] std::int64_t frames() const { return frames_; }  ///< pushed so far
+  [[nodiscard]] int markers() const { return static_cast<int>(weight_.rows()); }
+  /// Seen in a frame that is still kept; false for all others.
+  [[nodiscard]] bool present(std::int64_t frame, int marker) const { return weight(frame, marker) > 0.0; }
+  [[nodiscard]] double weight(std::int64_t frame, int marker) const;
+  [[nodiscard]] Eigen::Vector3d x(std::int64_t frame, int marker) const;
+
+ private:
+  Eigen::MatrixXd x_;       // 3M x capacity
+  Eigen::MatrixXd weight_;  // M x capacity
+  std::int64_t frames_ = 0;
+  bool ended_ = false;
+};
+
+struct GoalValues {
+  explicit GoalValues(int markers);
+  Eigen::Matrix3Xd x, v, a;  ///< 3 x M; 0 where the weight is 0
+  Eigen::VectorXd weight;    ///< M, >= 0
+};
+
+/// Goals from one frame to the next.
+class GoalCell {
+ public:
+  explicit GoalCell(int markers);
+  /// At `u` frames after the cell's first frame, in [0, 1].
+  void at(double u, GoalValues& out) const;
+
+ private:
+  friend class GoalFilter;
+  double rate_hz_ = 1.0, fade_frames_ = 1.0;
+  std::array<Eigen::Matrix3Xd, 6> power_;  // of u
+  Eigen::VectorXd weight_;                 // 0: not seen at both ends
+  Eigen::VectorXd since_, until_;          // frames to the nearer gap, from u = 0
+};
+
+class GoalFilter {
+ public:
+  /// cutoff_hz 0, or beyond 0.45 of the rate: no low-pass.
+  GoalFilter(double rate_hz, double cutoff_hz, double lookahead_s, double fade_s);
+
+  /// Frames after its own that frame f needs before the cell (f - 1, f) is known.
+  [[nodiscard]] std::int64_t delay_frames() const;
+  /// Frames that a window must keep so that the cell `delay_frames()` ago can be built.
+  [[nodiscard]] std::int64_t window_frames() const { return 2 * delay_frames() + 4; }
+  /// The cell between frames `first` and `first + 1`.
+  void build(const SampleWindow& samples, std::int64_t first, GoalCell& cell) const;
+  /// The same from samples whose derivatives are known: quintic through place, velocity and acceleration at
+  /// both ends. `marker[m]` and `first_frame` say where marker m and frame 0 of the window stand in `d`.
+  void build(const SampleWindow& samples, std::int64_t first, const data::Derivatives& d,
+             const std::vector<int>& marker, std::int64_t markers_in_d, std::int64_t first_frame,
+             GoalCell& cell) const;
+  [[nodiscard]] const std::vector<double>& kernel() const { return kernel_; }
+
+ private:
+  void find_gaps(const SampleWindow& samples, std::int64_t first, GoalCell& cell) const;
+
+  double rate_hz_, fade_frames_;
+  std::vector<double> kernel_;  // from the middle outwards
+};
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/internal/plan.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "kinemark/model/dynamics.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+constexpr double kRestPull = 1e-6;   // m^2/rad^2, on the first pose only: where markers leave a choice
+constexpr double kIdleLever = 0.01;  // m per rad
+constexpr double kIdleShare = 0.05;  // of the poses
+constexpr int kMostSteps = 100000;   // per frame
+constexpr double kNoMass = 1e-12;    // kg, kg m^2
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Level of every marker that some level names; "*" is left for later.
+Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model,
+                                                       const std::vector<TrackLevel>& levels) {
+  std::map<std::string, std::size_t> level_of;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    for (const auto& name : levels[i].markers) {
+      if (name != "*" && model.description().find_marker(name) < 0)
+        return fail(Code::bad_input,
+                    fmt::format("level {} names marker '{}', which the model does not have", i + 1, name));
+      const auto [other, fresh] = level_of.try_emplace(name, i);
+      if (!fresh)
+        return fail(Code::bad_input,
+                    fmt::format("marker '{}' is named in level {} and again in level {}; once is enough",
+                                name, other->second + 1, i + 1));
+    }
+  return level_of;
+}
+
+bool is_fixed(const model::Model& model, int marker) {
+  const int body = model.markers()[at(marker)].body;
+  return body == data::kGround || model.bodies()[at(body)].support.empty();
+}
+
+/// Which markers take part; the others get the weight 0.
+Status choose_markers(const model::Model& model, const std::map<std::string, std::size_t>& level_of,
+                      IkOptions& options, std::vector<std::string>& warnings) {
+  for (int m = 0; m < model.marker_count(); ++m) {
+    const auto& name = model.description().markers[at(m)].name;
+    const bool named = level_of.contains(name);
+    if (is_fixed(model, m)) {
+      if (named)
+        return fail(Code::bad_input,
+                    fmt::format("marker '{}' sits on a body that is welded to the ground; it cannot be moved "
+                                "to a goal",
+                                name));
+      warnings.push_back(
+          fmt::format("marker '{}' sits on a body that is welded to the ground and is left out", name));
+    } else if (named || level_of.contains("*")) {
+      continue;
+    }
+    std::erase_if(options.marker_weights, [&](const MarkerWeight& w) { return w.marker == name; });
+    options.marker_weights.push_back({name, 0.0});
+  }
+  return {};
+}
+
+Status place_levels(const std::map<std::string, std::size_t>& level_of, const std::vector<TrackLevel>& levels,
+                    Plan& plan) {
+  const auto& model = plan.problem.model;
+  plan.levels.resize(levels.size());
+  const auto rest = level_of.find("*");
+  for (int m = 0; m < model.marker_count(); ++m) {
+    const auto named = level_of.find(model.description().markers[at(m)].name);
+    plan.levels[named != level_of.end() ? named->second : rest->second].markers.push_back(m);
+  }
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    auto& level = plan.levels[i];
+    level.tasks = levels[i].tasks;
+    for (const auto& task : level.tasks) {
+      if (auto status = task->bind(model); !status) return fail_at(task->name(), status.error());
+      level.task_rows += task->rows();
+    }
+    if (level.rows() == 0)
+      return fail(Code::bad_input,
+                  fmt::format("level {} has no tasks: the recording holds none of its markers", i + 1));
+  }
+  for (const auto& [name, level] : level_of)
+    if (name != "*" && model.description().find_marker(name) < 0)
+      plan.problem.warnings.push_back(fmt::format(
+          "marker '{}' of level {} is not in the recording, never seen, or weighs 0", name, level + 1));
+  return {};
+}
+
+Status set_gains(const TrackOptions& options, Plan& plan) {
+  plan.kp = options.kp > 0.0 ? options.kp : options.omega_rad_s * options.omega_rad_s;
+  plan.kd = options.kd > 0.0 ? options.kd : 2.0 * options.omega_rad_s;
+  plan.posture_kp = options.posture_kp;
+  plan.posture_kd = options.posture_kd;
+  // Half of what the constant-acceleration update bears: kd h < 2, kp h < 2 kd. Critically damped: omega h
+  // <= 0.5.
+  const double longest = std::min(1.0 / plan.kd, plan.kd / plan.kp);
+  const double interval = 1.0 / plan.rate_hz;
+  const double wished = options.step_s > 0.0 ? options.step_s : longest;
+  const double count = std::ceil(interval / wished * (1.0 - 1e-9));
+  if (!(count <= kMostSteps))
+    return fail(Code::usage, fmt::format("a step of {:g} s cuts a frame of {:g} s into more than {} steps",
+                                         wished, interval, kMostSteps));
+  plan.steps_per_frame = std::max(1, static_cast<int>(count));
+  plan.step_s = interval / plan.steps_per_frame;
+  if (plan.step_s > longest * (1.0 + 1e-9))
+    return fail(
+        Code::usage,
+        fmt::format("the gains are unstable for the step: kp {:g} 1/s^2 and kd {:g} 1/s (omega {:g} "
+                    "rad/s) need a step of {:.4g} s at most (omega x step <= 0.5), and it is {:.4g} s",
+                    plan.kp, plan.kd, std::sqrt(plan.kp), longest, plan.step_s));
+  if (plan.posture_kd * plan.step_s > 1.0 || plan.posture_kp * plan.step_s > plan.posture_kd + 1e-12)
+    if (plan.posture_kp > 0.0 || plan.posture_kd > 0.0)
+      return fail(Code::usage,
+                  fmt::format("the posture's gains are unstable for the step of {:.4g} s: kp {:g} "
+                              "1/s^2 and kd {:g} 1/s; need kd x step <= 1 and kp x step <= kd",
+                              plan.step_s, plan.posture_kp, plan.posture_kd));
+  return {};
+}
+
+Status set_rest(const TrackOptions& options, Plan& plan) {
+  const auto& model = plan.problem.model;
+  Eigen::VectorXd q(model.coordinate_count());
+  for (int c = 0; c < q.size(); ++c) q[c] = model.description().coordinates[at(c)].default_value;
+  for (const auto& wish : options.rest_pose) {
+    const int c = model.description().find_coordinate(wish.coordinate);
+    if (c < 0)
+      return fail(Code::bad_input,
+                  fmt::format("the rest pose names coordinate '{}', which the model does not "
+                              "have",
+                              wish.coordinate));
+    if (!std::isfinite(wish.value))
+      return fail(Code::bad_input,
+                  fmt::format("the rest pose of coordinate '{}' is not a number", wish.coordinate));
+    q[c] = wish.value;
+  }
+  for (int c = 0; c < q.size(); ++c) {
+    const int speed = model.coordinates()[at(c)].speed_idx;
+    if (speed >= 0) q[c] = std::clamp(q[c], plan.problem.lower[speed], plan.problem.upper[speed]);
+  }
+  plan.rest = model::state_from_coordinates(model, q);
+  return {};
+}
+
+Status lock_named(const TrackOptions& options, Plan& plan) {
+  const auto& model = plan.problem.model;
+  for (const auto& name : options.locked) {
+    const int c = model.description().find_coordinate(name);
+    if (c < 0)
+      return fail(Code::bad_input,
+                  fmt::format("coordinate '{}' shall be locked, and the model does not have it", name));
+    const int speed = model.coordinates()[at(c)].speed_idx;
+    if (speed < 0)
+      return fail(
+          Code::not_supported,
+          fmt::format("coordinate '{}' cannot be locked: it belongs to a free root or follows another",
+                      name));
+    plan.problem.fixed_speed[at(speed)] = 1;
+    plan.locked.push_back(c);
+  }
+  return {};
+}
+
+}  // namespace
+
+void Plan::apply_locks(Eigen::VectorXd& x) const {
+  for (const int c : locked) {
+    const int place = problem.model.coordinates()[at(c)].state_idx;
+    x[place] = rest[place];
+  }
+}
+
+GoalFilter make_filter(double rate_hz, const TrackOptions& options) {
+  return {rate_hz, options.cutoff_hz, options.lookahead_s, options.fade_s};
+}
+
+Result<Plan> make_plan(const model::Model& model, const data::Trajectories& markers,
+                       const TrackOptions& options) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  Plan plan;
+  auto levels = options.levels;
+  if (levels.empty()) levels.push_back({.markers = {"*"}});
+  const auto level_of = name_levels(model, levels);
+  if (!level_of) return std::unexpected(level_of.error());
+
+  auto& ik = plan.start_options;
+  ik.marker_weights = options.marker_weights;
+  ik.limits = options.limits;
+  ik.first_time_s = options.first_time_s;
+  ik.last_time_s = options.last_time_s;
+  ik.seed = options.seed;
+  ik.starts = options.starts;
+  ik.threads = options.threads;
+  std::vector<std::string> warnings;
+  if (auto status = choose_markers(model, *level_of, ik, warnings); !status)
+    return std::unexpected(status.error());
+  for (int c = 0; c < model.coordinate_count(); ++c) {
+    if (model.coordinates()[at(c)].speed_idx < 0) continue;
+    const auto& described = model.description().coordinates[at(c)];
+    double value = described.default_value;
+    for (const auto& wish : options.rest_pose)
+      if (wish.coordinate == described.name) value = wish.value;
+    ik.coordinate_tasks.push_back({.coordinate = described.name, .weight = kRestPull, .value = value});
+  }
+  auto problem = make_problem(model, markers, ik);
+  if (!problem) return std::unexpected(problem.error());
+  plan.problem = std::move(*problem);
+  plan.problem.warnings.insert(plan.problem.warnings.end(), warnings.begin(), warnings.end());
+  plan.rate_hz = markers.time.rate_hz;
+  plan.damping = {.damping = options.damping, .truncation = options.truncation};
+  plan.feed_forward = options.feed_forward;
+  plan.max_speed = options.max_speed;
+  plan.max_error_m = options.max_error_m;
+  if (auto status = place_levels(*level_of, levels, plan); !status) return std::unexpected(status.error());
+  if (auto status = set_gains(options, plan); !status) return std::unexpected(status.error());
+  if (auto status = set_rest(options, plan); !status) return std::unexpected(status.error());
+  if (auto status = lock_named(options, plan); !status) return std::unexpected(status.error());
+  return plan;
+}
+
+void lock_idle(Plan& plan, const std::vector<Eigen::VectorXd>& poses) {
+  const auto& model = plan.problem.model;
+  model::Workspace w(model);
+  Eigen::MatrixXd J;
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(model.speed_count());
+  Eigen::VectorXi idle = Eigen::VectorXi::Zero(model.speed_count());
+  TaskRows rows;
+  for (const auto& x : poses) {
+    model::kinematics(model, w, x);
+    model::velocities(model, w, still);
+    model::marker_jacobian(model, w, J);
+    Eigen::VectorXd squares = J.colwise().squaredNorm().transpose();
+    for (const auto& level : plan.levels)
+      for (const auto& task : level.tasks) {
+        rows.resize(task->rows(), model.speed_count());
+        task->evaluate(model, w, 0.0, rows);
+        squares += (rows.weight.asDiagonal() * rows.jacobian.cwiseAbs2()).colwise().sum().transpose();
+      }
+    for (Eigen::Index k = 0; k < idle.size(); ++k) idle[k] += squares[k] < kIdleLever * kIdleLever;
+  }
+  for (int c = 0; c < model.coordinate_count(); ++c) {
+    const int speed = model.coordinates()[at(c)].speed_idx;
+    if (speed < 0 || plan.problem.fixed_speed[at(speed)] != 0) continue;
+    if (idle[speed] <= kIdleShare * static_cast<double>(poses.size())) continue;
+    plan.problem.fixed_speed[at(speed)] = 1;
+    plan.locked.push_back(c);
+  }
+}
+
+Status check_mass(const Plan& plan, const Eigen::VectorXd& x) {
+  const auto& model = plan.problem.model;
+  model::Workspace w(model);
+  Eigen::MatrixXd M;
+  model::kinematics(model, w, x);
+  model::mass_matrix(model, w, M);
+  const auto massless = [&](const std::string& what) {
+    return fail(Code::bad_input, fmt::format("model '{}' has no mass behind {}; direct marker control needs "
+                                             "masses and inertias",
+                                             model.description().name, what));
+  };
+  for (int c = 0; c < model.coordinate_count(); ++c) {
+    const int speed = model.coordinates()[at(c)].speed_idx;
+    if (speed >= 0 && plan.problem.fixed_speed[at(speed)] == 0 && M(speed, speed) < kNoMass)
+      return massless(fmt::format("coordinate '{}'", model.description().coordinates[at(c)].name));
+  }
+  for (const auto& free : model.free_joints())
+    if (M.diagonal().segment<6>(free.speed_idx).minCoeff() < kNoMass) return massless("its free root");
+  for (Eigen::Index k = 0; k < M.rows(); ++k)
+    if (plan.problem.fixed_speed[at(k)] != 0) {
+      M.row(k).setZero();
+      M.col(k).setZero();
+      M(k, k) = 1.0;
+    }
+  if (Eigen::LLT<Eigen::MatrixXd>(M).info() != Eigen::Success)
+    return massless("some combination of its coordinates");
+  return {};
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// A model, a recording and options brought together: who is tracked at which level, with which gains, what is
+// held.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinemark/stages/motion/control/internal/goals.h"
+#include "kinemark/stages/motion/control/internal/priority_solver.h"
+#include "kinemark/stages/motion/control/track_options.h"
+#include "kinemark/stages/motion/internal/problem.h"
+
+namespace kinemark::motion::internal {
+
+struct Plan {
+  Problem problem;          ///< the tracked markers only; limits; locked speeds, ours included
+  IkOptions start_options;  ///< how the first pose is found
+  struct Level {
+    std::vector<int> markers;  ///< indices in problem.model
+    std::vector<std::shared_ptr<Task>> tasks;
+    int task_rows = 0;
+    [[nodiscard]] int rows() const { return 3 * static_cast<int>(markers.size()) + task_rows; }
+  };
+  std::vector<Level> levels;
+  double rate_hz = 0.0;
+  double kp = 0.0, kd = 0.0;
+  double step_s = 0.0;
+  int steps_per_frame = 1;
+  PriorityDamping damping;
+  bool feed_forward = true;
+  double posture_kp = 0.0, posture_kd = 0.0;
+  double max_speed = 0.0, max_error_m = 0.0;
+  Eigen::VectorXd rest;     ///< state; free joints as the model's default until the start is known
+  std::vector<int> locked;  ///< coordinates that we lock, not the model
+
+  /// Put what is locked to the rest pose.
+  void apply_locks(Eigen::VectorXd& x) const;
+};
+
+[[nodiscard]] Result<Plan> make_plan(const model::Model& model, const data::Trajectories& markers,
+                                     const TrackOptions& options);
+
+/// The filter of the goals as the options ask for it.
+[[nodiscard]] GoalFilter make_filter(double rate_hz, const TrackOptions& options);
+
+/// Lock the coordinates of joints that move the goals by less than 1 cm per rad (or m) in 5 % of the poses or
+/// more.
+void lock_idle(Plan& plan, const std::vector<Eigen::VectorXd>& poses);
+
+/// Every speed that may move has mass behind it in pose x.
+[[nodiscard]] Status check_mass(const Plan& plan, const Eigen::VectorXd& x);
+
+}  // namespace kinemark::motion::internal
