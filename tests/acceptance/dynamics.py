@@ -13,6 +13,7 @@ BINARIES = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
 SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", "/tmp"))
 ROWS = (
     ("test_model_mujoco", "Judge.*", "dynamics against MuJoCo on human.osim's tree", 1e-5),
+    ("test_motion_dynamics_mujoco", "InverseDynamicsJudge.*", "torques of a motion against MuJoCo's inverse dynamics", 1e-5),
     ("test_model", "*MarkerJacobianIsTheSlope*:*JdotVIsTheAcceleration*", "Jacobian and Jdot v against finite differences", 1e-7),
     ("test_model", "*ForcesGiveThePower*", "power balance of M, b and g", 1e-8),
 )

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/stages/motion/dynamics/contacts.h"
+#include "kinemark/stages/motion/dynamics/internal/frame_dynamics.h"
+
+namespace kinemark::motion {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using internal::AppliedForce;
+using internal::FrameDynamics;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that nothing ever determined
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+Vector3d of_frame(const Array<double>& values, std::int64_t f) {
+  return Eigen::Map<const Vector3d>(values.data() + 3 * f);
+}
+
+Status check_input(const model::Model& model, const data::JointMotion& motion,
+                   const data::Wrenches* wrenches) {
+  if (auto status = motion.validate(); !status) return status;
+  if (motion.size() != model.coordinate_count())
+    return fail(Code::bad_input, fmt::format("the motion has {} coordinates, the model {}", motion.size(),
+                                             model.coordinate_count()));
+  if (!model.point_constraints().empty())
+    return fail(Code::not_supported,
+                "the model has closed loops, whose inner forces motion alone does not tell; inverse dynamics "
+                "needs a tree");
+  if (std::ranges::all_of(model.bodies(), [](const auto& body) { return body.mass == 0.0; }))
+    return fail(Code::bad_input, "no body of the model has a mass; torques need masses and inertias");
+  for (const auto* rates : {&motion.v, &motion.a})
+    if (std::ranges::any_of(*rates, [](double r) { return !std::isfinite(r); }))
+      return fail(Code::bad_input, "speeds or accelerations of the motion are not all finite numbers");
+  if (!wrenches) return {};
+  if (auto status = wrenches->validate(); !status) return status;
+  if (wrenches->frames() != motion.frames() ||
+      std::abs(wrenches->time.rate_hz - motion.time.rate_hz) > 1e-6 * motion.time.rate_hz)
+    return fail(
+        Code::bad_input,
+        fmt::format("wrenches have {} frames at {} Hz, the motion {} frames at {} Hz; need the same",
+                    wrenches->frames(), wrenches->time.rate_hz, motion.frames(), motion.time.rate_hz));
+  return {};
+}
+
+/// Everything one thread needs to do a frame.
+class Worker {
+ public:
+  Worker(const model::Model& model, const data::JointMotion& motion, const data::Wrenches* wrenches,
+         const ContactPlan& plan)
+      : model_(model), motion_(motion), wrenches_(wrenches), plan_(plan), frame_(model) {
+    for (auto* v : {&q_, &qd_, &qdd_}) v->setZero(model.coordinate_count());
+  }
+
+  /// False when something unknown acts in this frame.
+  bool visit(std::int64_t f) {
+    for (int c = 0; c < q_.size(); ++c) {
+      const auto i = motion_.index(f, c);
+      q_[c] = motion_.q[i];
+      qd_[c] = motion_.v[i];
+      qdd_[c] = motion_.a[i];
+    }
+    std::vector<AppliedForce> applied;
+    for (std::size_t k = 0; wrenches_ && k < wrenches_->items.size(); ++k) {
+      const auto& wrench = wrenches_->items[k];
+      const Vector3d force = of_frame(wrench.force, f), moment = of_frame(wrench.moment, f);
+      if (!force.allFinite() || !moment.allFinite()) return false;
+      if (plan_.body[k][at(f)] >= 0)
+        applied.push_back({plan_.body[k][at(f)], force, moment, of_frame(wrench.point, f)});
+    }
+    frame_.set(q_, qd_, qdd_, std::move(applied));
+    return true;
+  }
+
+  /// Variance of every coordinate's tau from the covariances (n x 6) of this frame.
+  void propagate(const double* covariance, const double* q_sd, VectorXd& variance) {
+    variance.setZero(q_.size());
+    for (int c = 0; c < q_.size(); ++c) {
+      const double* own = covariance + 6 * c;
+      const bool never = std::isnan(own[0]);
+      if (!never && std::all_of(own, own + 6, [](double x) { return x == 0.0; })) continue;
+      if (!frame_.derivatives(c, by_q_, by_v_, by_a_)) continue;
+      frame_.to_coordinates(by_q_, tau_by_q_);
+      frame_.to_coordinates(by_v_, tau_by_v_);
+      frame_.to_coordinates(by_a_, tau_by_a_);
+      double qq = never ? kGuessedSd * kGuessedSd : own[0];
+      if (q_sd && q_sd[c] * q_sd[c] > qq) qq = q_sd[c] * q_sd[c];
+      variance.array() += qq * tau_by_q_.array().square();
+      if (never) continue;
+      variance.array() +=
+          2.0 * tau_by_q_.array() * (own[1] * tau_by_v_.array() + own[2] * tau_by_a_.array()) +
+          own[3] * tau_by_v_.array().square() + 2.0 * own[4] * tau_by_v_.array() * tau_by_a_.array() +
+          own[5] * tau_by_a_.array().square();
+    }
+  }
+
+  [[nodiscard]] const FrameDynamics& frame() const { return frame_; }
+
+ private:
+  const model::Model& model_;
+  const data::JointMotion& motion_;
+  const data::Wrenches* wrenches_;
+  const ContactPlan& plan_;
+  FrameDynamics frame_;
+  VectorXd q_, qd_, qdd_, by_q_, by_v_, by_a_, tau_by_q_, tau_by_v_, tau_by_a_;
+};
+
+/// Sums over frames of what a root still needs.
+struct RootSums {
+  double force = 0.0, moment = 0.0;
+};
+
+void describe_roots(const model::Model& model, const std::vector<RootSums>& sums, std::int64_t frames,
+                    DynamicsSummary& summary) {
+  for (std::size_t r = 0; r < sums.size(); ++r) {
+    const auto count = static_cast<double>(std::max<std::int64_t>(1, frames));
+    summary.roots[r].force_rms_n = std::sqrt(sums[r].force / count);
+    summary.roots[r].moment_rms_nm = std::sqrt(sums[r].moment / count);
+  }
+  double mass = 0.0;
+  for (const auto& body : model.bodies()) mass += body.mass;
+  summary.body_weight_n = mass * model.gravity().norm();
+}
+
+}  // namespace
+
+Status DynamicsOptions::check() const {
+  if (!std::isfinite(contact_force_n) || contact_force_n < 0.0)
+    return fail(Code::usage, fmt::format("contact force is {} N; need 0 or more", contact_force_n));
+  if (threads < 0)
+    return fail(Code::usage, fmt::format("number of threads is {}; need 0 (all cores) or more", threads));
+  return {};
+}
+
+Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointMotion& motion,
+                                         const DynamicsOptions& options, const data::Wrenches* wrenches,
+                                         const RateErrors* errors) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  if (auto status = check_input(model, motion, wrenches); !status) return std::unexpected(status.error());
+  DynamicsSummary summary;
+  RateErrors estimated;
+  const bool bars = options.error_bars;
+  summary.rates_estimated = motion.v.empty() || motion.a.empty();
+  if (summary.rates_estimated || (bars && !errors)) {
+    auto rates = estimate_rates(model, motion);
+    if (!rates) return std::unexpected(rates.error());
+    estimated = std::move(*rates);
+    if (summary.rates_estimated || !errors) errors = &estimated;
+  }
+  kinemark::check(!bars || errors->covariance.size() == 6 * motion.q.size(),
+                  "errors must hold 6 numbers per coordinate and frame");
+  ContactPlan plan;
+  if (wrenches) {
+    auto planned = plan_contacts(model, motion, *wrenches, options);
+    if (!planned) return std::unexpected(planned.error());
+    plan = std::move(*planned);
+    summary.contacts = plan.contacts;
+  }
+
+  const std::int64_t F = motion.frames(), n = motion.size();
+  Array<double> tau(at(F * n), kNan), tau_sd(bars ? at(F * n) : 0, kNan);
+  const auto roots = model.free_joints();
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(F, static_cast<Eigen::Index>(2 * roots.size()));
+  std::vector<std::uint8_t> known(at(F), 0);
+  parallel_for(F, 16, options.threads, [&](std::int64_t begin, std::int64_t end) {
+    Worker worker(model, motion, wrenches, plan);
+    VectorXd out, variance;
+    for (std::int64_t f = begin; f < end; ++f) {
+      if (!worker.visit(f)) continue;
+      known[at(f)] = 1;
+      worker.frame().to_coordinates(worker.frame().tau(), out);
+      std::copy(out.data(), out.data() + n, tau.data() + motion.index(f, 0));
+      for (std::size_t r = 0; r < roots.size(); ++r) {
+        forces(f, static_cast<Eigen::Index>(2 * r)) = worker.frame().root_force(roots[r]).norm();
+        forces(f, static_cast<Eigen::Index>(2 * r + 1)) = worker.frame().root_moment(roots[r]).norm();
+      }
+      if (!bars) continue;
+      worker.propagate(errors->covariance.data() + 6 * motion.index(f, 0),
+                       motion.q_sd.empty() ? nullptr : motion.q_sd.data() + motion.index(f, 0), variance);
+      for (int c = 0; c < n; ++c)
+        if (!std::isnan(out[c]) && !std::isnan(errors->covariance[6 * motion.index(f, c)]))
+          tau_sd[motion.index(f, c)] = std::sqrt(std::max(0.0, variance[c]));
+    }
+  });
+  motion.tau = std::move(tau);
+  motion.tau_sd = std::move(tau_sd);
+
+  std::vector<RootSums> sums(roots.size());
+  for (const auto& root : roots)
+    summary.roots.push_back(
+        {.body = model.description().bodies[at(model.bodies()[at(root.body)].description_idx)].name});
+  for (std::int64_t f = 0; f < F; ++f)
+    for (std::size_t r = 0; r < roots.size(); ++r) {
+      const double force = forces(f, static_cast<Eigen::Index>(2 * r)),
+                   moment = forces(f, static_cast<Eigen::Index>(2 * r + 1));
+      sums[r].force += force * force;
+      sums[r].moment += moment * moment;
+      summary.roots[r].force_max_n = std::max(summary.roots[r].force_max_n, force);
+      summary.roots[r].moment_max_nm = std::max(summary.roots[r].moment_max_nm, moment);
+    }
+  const auto counted = std::ranges::count(known, std::uint8_t{1});
+  describe_roots(model, sums, counted, summary);
+  if (counted < F)
+    summary.warnings.push_back(
+        fmt::format("{} of {} frames have no torques: a force was not measured there", F - counted, F));
+  return summary;
+}
+
+}  // namespace kinemark::motion

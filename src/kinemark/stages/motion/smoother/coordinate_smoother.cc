@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/smoother/coordinate_smoother.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kinemark/core/check.h"
+
+namespace kinemark::motion {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr std::array<double, 4> kThirdDifference = {-1.0, 3.0, -3.0, 1.0};
+// Ratio of the variance of a step to that of the noise. Below the first the bandwidth is a 600th of the rate
+// and the matrix loses its digits; above the second nothing is smoothed any more.
+constexpr double kSmallestRatio = 1e-12, kLargestRatio = 1e4;
+constexpr Index kBlock = 1500, kBlocks = 4;  // what the ratio is estimated on in long recordings
+constexpr double kWidestSpread = 30.0;       // relative SDs beyond it count as this much
+
+/// A = D'D / ratio + diag(weight) as L diag(d) L', and what follows from it.
+class Band {
+ public:
+  Band(const VectorXd& weight, double ratio) : d_(weight), l_(3, weight.size()) {
+    const Index F = weight.size();
+    l_.setZero();
+    for (Index k = 0; k + 3 < F; ++k)
+      for (Index i = 0; i < 4; ++i) {
+        d_[k + i] += term(i, i) / ratio;
+        for (Index j = i + 1; j < 4; ++j) l_(j - i - 1, k + i) += term(i, j) / ratio;
+      }
+    for (Index k = 0; k < F; ++k) {  // column k below the diagonal, then what it takes from the next three
+      const std::array<double, 3> column = {l_(0, k), l_(1, k), l_(2, k)};
+      log_determinant_ += std::log(d_[k]);
+      for (Index i = 1; i <= 3 && k + i < F; ++i) {
+        const double share = column[static_cast<std::size_t>(i - 1)] / d_[k];
+        l_(i - 1, k) = share;
+        d_[k + i] -= share * column[static_cast<std::size_t>(i - 1)];
+        for (Index j = i + 1; j <= 3 && k + j < F; ++j)
+          l_(j - i - 1, k + i) -= share * column[static_cast<std::size_t>(j - 1)];
+      }
+    }
+  }
+
+  [[nodiscard]] double log_determinant() const { return log_determinant_; }
+
+  void solve_in_place(VectorXd& x) const {
+    const Index F = x.size();
+    for (Index k = 0; k < F; ++k)
+      for (Index i = 1; i <= 3 && k + i < F; ++i) x[k + i] -= l_(i - 1, k) * x[k];
+    x.array() /= d_.array();
+    for (Index k = F - 1; k >= 0; --k)
+      for (Index i = 1; i <= 3 && k + i < F; ++i) x[k] -= l_(i - 1, k) * x[k + i];
+  }
+
+  /// Inverse within the band: column k holds the covariances of frame k with itself and the next three.
+  [[nodiscard]] Eigen::Matrix4Xd inverse_band() const {
+    const Index F = d_.size();
+    Eigen::Matrix4Xd C = Eigen::Matrix4Xd::Zero(4, F);
+    const auto entry = [&C](Index a, Index b) { return a <= b ? C(b - a, a) : C(a - b, b); };
+    for (Index k = F - 1; k >= 0; --k) {
+      for (Index j = 1; j <= 3 && k + j < F; ++j)
+        for (Index i = 1; i <= 3 && k + i < F; ++i) C(j, k) -= l_(i - 1, k) * entry(k + i, k + j);
+      C(0, k) = 1.0 / d_[k];
+      for (Index i = 1; i <= 3 && k + i < F; ++i) C(0, k) -= l_(i - 1, k) * C(i, k);
+    }
+    return C;
+  }
+
+ private:
+  static double term(Index i, Index j) {
+    return kThirdDifference[static_cast<std::size_t>(i)] * kThirdDifference[static_cast<std::size_t>(j)];
+  }
+
+  VectorXd d_;
+  Eigen::Matrix3Xd l_;
+  double log_determinant_ = 0.0;
+};
+
+/// Misfit and roughness of the best curve, as the noise variance would have them.
+double squares_of(const VectorXd& y, const VectorXd& weight, const VectorXd& x, double ratio) {
+  double squares = (weight.array() * (y - x).array().square()).sum();
+  for (Index k = 0; k + 3 < x.size(); ++k) {
+    const double step = x[k + 3] - 3.0 * x[k + 2] + 3.0 * x[k + 1] - x[k];
+    squares += step * step / ratio;
+  }
+  return squares;
+}
+
+/// The stretches of a recording on which the ratio is estimated.
+std::vector<Index> stretches(Index frames) {
+  if (frames <= kBlock * kBlocks) return {0};
+  std::vector<Index> first;
+  for (Index b = 0; b < kBlocks; ++b) first.push_back(b * (frames - kBlock) / (kBlocks - 1));
+  return first;
+}
+
+/// -2 log of the marginal likelihood of a ratio, the noise variance profiled out.
+double misfit(const VectorXd& y, const VectorXd& weight, double ratio) {
+  const auto first = stretches(y.size());
+  const Index length = first.size() == 1 ? y.size() : kBlock;
+  double squares = 0.0, determinants = 0.0, freedom = 0.0;
+  for (const Index f : first) {
+    const VectorXd w = weight.segment(f, length), values = y.segment(f, length);
+    const auto seen = static_cast<double>((w.array() > 0.0).count());
+    if (seen < kFewestSamples) continue;
+    const Band band(w, ratio);
+    VectorXd x = w.cwiseProduct(values);
+    band.solve_in_place(x);
+    squares += squares_of(values, w, x, ratio);
+    determinants += band.log_determinant() + static_cast<double>(length - 3) * std::log(ratio);
+    freedom += seen - 3.0;
+  }
+  return freedom * std::log(squares + 1e-30) + determinants;
+}
+
+double best_ratio(const VectorXd& y, const VectorXd& weight) {
+  const auto at_log = [&](double log_ratio) { return misfit(y, weight, std::exp(log_ratio)); };
+  const double low = std::log(kSmallestRatio), high = std::log(kLargestRatio);
+  constexpr int kGrid = 13;
+  const double spacing = (high - low) / (kGrid - 1);
+  double best = low, best_misfit = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kGrid; ++i) {
+    const double here = at_log(low + i * spacing);
+    if (here < best_misfit) best_misfit = here, best = low + i * spacing;
+  }
+  // Golden section between the neighbours of the best grid point, to 2 % of the ratio.
+  constexpr double kGolden = 0.6180339887498949;
+  double a = std::max(low, best - spacing), b = std::min(high, best + spacing);
+  double c = b - kGolden * (b - a), d = a + kGolden * (b - a), at_c = at_log(c), at_d = at_log(d);
+  while (b - a > 0.05) {
+    if (at_c < at_d) {
+      b = d, d = c, at_d = at_c;
+      at_c = at_log(c = b - kGolden * (b - a));
+    } else {
+      a = c, c = d, at_c = at_d;
+      at_d = at_log(d = a + kGolden * (b - a));
+    }
+  }
+  return std::exp(0.5 * (a + b));
+}
+
+VectorXd weights_of(std::span<const double> sd, Index frames) {
+  if (sd.empty()) return VectorXd::Ones(frames);
+  std::vector<double> seen;
+  for (const double s : sd)
+    if (s >= 0.0) seen.push_back(s);
+  VectorXd weight = VectorXd::Zero(frames);
+  if (seen.empty()) return weight;
+  std::ranges::nth_element(seen, seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2));
+  const double usual = seen[seen.size() / 2];
+  for (Index f = 0; f < frames; ++f) {
+    const double s = sd[static_cast<std::size_t>(f)];
+    if (!(s >= 0.0)) continue;
+    const double relative = usual > 0.0 ? std::clamp(s / usual, 1.0 / kWidestSpread, kWidestSpread) : 1.0;
+    weight[f] = 1.0 / (relative * relative);
+  }
+  return weight;
+}
+
+/// Covariance of value, rate and acceleration from that of three neighbouring frames.
+void fill_covariance(const Eigen::Matrix4Xd& band, double variance, double rate_hz, Eigen::MatrixXd& out) {
+  const Index F = band.cols();
+  out.resize(6, F);
+  const double r = rate_hz;
+  for (Index f = 0; f < F; ++f) {
+    const Index first = std::clamp<Index>(f - 1, 0, F - 3);
+    Eigen::Matrix3d window, T;
+    for (Index i = 0; i < 3; ++i)
+      for (Index j = i; j < 3; ++j) window(i, j) = window(j, i) = band(j - i, first + i);
+    T.setZero();
+    T(0, f - first) = 1.0;
+    if (f == 0)
+      T.row(1) << -1.5 * r, 2.0 * r, -0.5 * r;
+    else if (f == F - 1)
+      T.row(1) << 0.5 * r, -2.0 * r, 1.5 * r;
+    else
+      T.row(1) << -0.5 * r, 0.0, 0.5 * r;
+    T.row(2) << r * r, -2.0 * r * r, r * r;
+    const Eigen::Matrix3d C = variance * (T * window * T.transpose());
+    out.col(f) << C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2);
+  }
+}
+
+}  // namespace
+
+void five_point_rates(const VectorXd& y, double rate_hz, VectorXd& rate, VectorXd& acceleration) {
+  const Index F = y.size();
+  check(F >= 3, "five_point_rates() needs three samples or more");
+  rate.resize(F);
+  acceleration.resize(F);
+  const auto value = [&](Index f) {
+    const auto beyond = static_cast<double>(f < 0 ? -f : f - F + 1);
+    if (f >= 0 && f < F) return y[f];
+    // A parabola through the last three samples.
+    const double y0 = f < 0 ? y[0] : y[F - 1], y1 = f < 0 ? y[1] : y[F - 2], y2 = f < 0 ? y[2] : y[F - 3];
+    return y0 + beyond * (y0 - y1) + 0.5 * beyond * (beyond + 1.0) * (y0 - 2.0 * y1 + y2);
+  };
+  for (Index f = 0; f < F; ++f) {
+    const double far_back = value(f - 2), back = value(f - 1), next = value(f + 1), far_next = value(f + 2);
+    rate[f] = rate_hz * (8.0 * (next - back) - (far_next - far_back)) / 12.0;
+    acceleration[f] = rate_hz * rate_hz * (16.0 * (next + back) - (far_next + far_back) - 30.0 * y[f]) / 12.0;
+  }
+}
+
+SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const double> sd, double rate_hz) {
+  const auto F = static_cast<Index>(y.size());
+  check(sd.empty() || sd.size() == y.size(), "sd must be empty or as long as y");
+  SmoothedCoordinate out;
+  out.value = Eigen::Map<const VectorXd>(y.data(), F);
+  out.rate.setZero(F);
+  out.acceleration.setZero(F);
+  out.covariance.setConstant(6, F, std::numeric_limits<double>::quiet_NaN());
+  const VectorXd weight = weights_of(sd, F);
+  const auto seen = (weight.array() > 0.0).count();
+  if (seen < kFewestSamples) return out;
+  // About the mean: large offsets cost digits.
+  const double mean = weight.dot(out.value) / weight.sum();
+  const VectorXd values = out.value.array() - mean;
+  const double ratio = best_ratio(values, weight);
+  const Band band(weight, ratio);
+  VectorXd x = weight.cwiseProduct(values);
+  band.solve_in_place(x);
+  const double variance = squares_of(values, weight, x, ratio) / static_cast<double>(seen - 3);
+  double usual = 1.0;
+  if (!sd.empty()) {
+    std::vector<double> all;
+    for (const double s : sd)
+      if (s >= 0.0) all.push_back(s);
+    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
+    if (all[all.size() / 2] > 0.0) usual = all[all.size() / 2];
+  }
+  out.known = true;
+  out.noise_scale = std::sqrt(variance) / usual;
+  out.step_sd = std::sqrt(variance * ratio);
+  fill_covariance(band.inverse_band(), variance, rate_hz, out.covariance);
+  five_point_rates(x, rate_hz, out.rate, out.acceleration);
+  out.value = x.array() + mean;
+  return out;
+}
+
+}  // namespace kinemark::motion

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/smoother/coordinate_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::motion {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRate = 100.0;
+
+struct Wave {
+  [[nodiscard]] double value(double t) const {
+    return 0.4 * std::sin(3.0 * t) + 0.1 * std::cos(9.0 * t + 1.0);
+  }
+  [[nodiscard]] double rate(double t) const {
+    return 1.2 * std::cos(3.0 * t) - 0.9 * std::sin(9.0 * t + 1.0);
+  }
+  [[nodiscard]] double acceleration(double t) const {
+    return -3.6 * std::sin(3.0 * t) - 8.1 * std::cos(9.0 * t + 1.0);
+  }
+};
+
+std::vector<double> sampled(int frames, double noise_sd, std::uint64_t seed) {
+  std::vector<double> y;
+  Random random(seed, 9);
+  for (int f = 0; f < frames; ++f) y.push_back(Wave{}.value(f / kRate) + noise_sd * random.gaussian());
+  return y;
+}
+
+TEST(CoordinateSmoother, FivePointRatesAreExactOnAParabola) {
+  Eigen::VectorXd y(7), rate, acceleration;
+  for (int f = 0; f < 7; ++f) y[f] = 1.0 + 2.0 * (f / kRate) - 3.0 * (f / kRate) * (f / kRate);
+  five_point_rates(y, kRate, rate, acceleration);
+  for (int f = 0; f < 7; ++f) {
+    EXPECT_NEAR(rate[f], 2.0 - 6.0 * f / kRate, 1e-11);
+    EXPECT_NEAR(acceleration[f], -6.0, 1e-9);
+  }
+}
+
+// The same estimate by dense matrices: posterior mean, and the covariance of three-point rates.
+TEST(CoordinateSmoother, IsTheDensePosterior) {
+  constexpr int kFrames = 40;
+  const auto y = sampled(kFrames, 0.01, 1);
+  std::vector<double> sd(kFrames, 0.01);
+  for (int f = 12; f < 20; ++f) sd[static_cast<std::size_t>(f)] = kNan;
+  for (int f = 25; f < 30; ++f) sd[static_cast<std::size_t>(f)] = 0.02;
+  const auto smooth = smooth_coordinate(y, sd, kRate);
+  ASSERT_TRUE(smooth.known);
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(kFrames - 3, kFrames);
+  for (int k = 0; k + 3 < kFrames; ++k) D.block<1, 4>(k, k) << -1.0, 3.0, -3.0, 1.0;
+  Eigen::MatrixXd A = D.transpose() * D / (smooth.step_sd * smooth.step_sd);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(kFrames);
+  for (int f = 0; f < kFrames; ++f) {
+    const double s = smooth.noise_scale * sd[static_cast<std::size_t>(f)];
+    if (std::isnan(s)) continue;
+    A(f, f) += 1.0 / (s * s);
+    b[f] += y[static_cast<std::size_t>(f)] / (s * s);
+  }
+  const Eigen::MatrixXd C = A.inverse();
+  EXPECT_LT((C * b - smooth.value).cwiseAbs().maxCoeff(), 1e-8);
+  Eigen::RowVectorXd turn = Eigen::RowVectorXd::Zero(kFrames);
+  for (const int f : {1, 15, 27, 38}) {
+    turn.setZero();
+    turn[f - 1] = turn[f + 1] = kRate * kRate;
+    turn[f] = -2.0 * kRate * kRate;
+    const double expected = turn * C * turn.transpose();
+    EXPECT_NEAR(smooth.covariance(5, f), expected, 1e-5 * expected);
+    EXPECT_NEAR(smooth.covariance(0, f), C(f, f), 1e-7 * C(f, f));
+    EXPECT_NEAR(smooth.covariance(2, f), turn.dot(C.col(f)), 1e-5 * std::sqrt(expected * C(f, f)));
+  }
+}
+
+TEST(CoordinateSmoother, FindsTheNoiseAndItsBarsCover) {
+  double noise = 0.0;
+  std::vector<int> inside(3, 0);
+  int all = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const auto smooth = smooth_coordinate(sampled(500, 0.01, seed), {}, kRate);
+    noise += smooth.noise_scale / 8.0;
+    for (int f = 0; f < 500; ++f, ++all) {
+      const double t = f / kRate;
+      inside[0] += std::abs(smooth.value[f] - Wave{}.value(t)) < std::sqrt(smooth.covariance(0, f));
+      inside[1] += std::abs(smooth.rate[f] - Wave{}.rate(t)) < std::sqrt(smooth.covariance(3, f));
+      inside[2] +=
+          std::abs(smooth.acceleration[f] - Wave{}.acceleration(t)) < std::sqrt(smooth.covariance(5, f));
+    }
+  }
+  EXPECT_NEAR(noise, 0.01, 4e-4);
+  // A wave is smoother than the prior believes: the bars of its acceleration are wide, never narrow.
+  for (const int count : inside) EXPECT_GT(count, 0.60 * all);
+  EXPECT_LT(inside[0], 0.82 * all);
+  EXPECT_LT(inside[1], 0.92 * all);
+  EXPECT_LT(inside[2], 0.99 * all);
+}
+
+TEST(CoordinateSmoother, ExactDataPassThrough) {
+  const auto y = sampled(300, 0.0, 1);
+  const auto smooth = smooth_coordinate(y, {}, kRate);
+  for (int f = 5; f < 295; ++f) {
+    EXPECT_NEAR(smooth.value[f], y[static_cast<std::size_t>(f)], 1e-6);
+    EXPECT_NEAR(smooth.rate[f], Wave{}.rate(f / kRate), 1e-3);
+    EXPECT_NEAR(smooth.acceleration[f], Wave{}.acceleration(f / kRate), 5e-2);
+  }
+}
+
+TEST(CoordinateSmoother, BridgesGapsWithGrowingBars) {
+  auto y = sampled(400, 0.005, 3);
+  std::vector<double> sd(400, 0.005);
+  for (std::size_t f = 150; f < 190; ++f) {
+    y[f] = 100.0;  // never looked at
+    sd[f] = kNan;
+  }
+  const auto smooth = smooth_coordinate(y, sd, kRate);
+  EXPECT_GT(smooth.covariance(0, 170), 9.0 * smooth.covariance(0, 100));
+  EXPECT_GT(smooth.covariance(0, 170), smooth.covariance(0, 155));
+  for (int f = 150; f < 190; ++f)
+    EXPECT_LT(std::abs(smooth.value[f] - Wave{}.value(f / kRate)), 4.0 * std::sqrt(smooth.covariance(0, f)));
+}
+
+TEST(CoordinateSmoother, TooFewSamplesAreLeftAlone) {
+  const std::vector<double> y = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+  const auto smooth = smooth_coordinate(y, {}, kRate);
+  EXPECT_FALSE(smooth.known);
+  EXPECT_EQ(smooth.value[3], 4.0);
+  EXPECT_EQ(smooth.rate[3], 0.0);
+  EXPECT_TRUE(std::isnan(smooth.covariance(0, 3)));
+}
+
+TEST(CoordinateSmoother, ANumberThatNeverMovesStaysFinite) {
+  const std::vector<double> y(50, 0.7);
+  const auto smooth = smooth_coordinate(y, {}, kRate);
+  EXPECT_NEAR(smooth.value[20], 0.7, 1e-12);
+  EXPECT_NEAR(smooth.rate[20], 0.0, 1e-9);
+  EXPECT_TRUE(smooth.covariance.allFinite());
+}
+
+TEST(CoordinateSmoother, LongRecordingsAreLearntOnStretches) {
+  const auto smooth = smooth_coordinate(sampled(20000, 0.01, 5), {}, kRate);
+  EXPECT_NEAR(smooth.noise_scale, 0.01, 4e-4);
+  EXPECT_LT(std::sqrt(smooth.covariance(0, 10000)), 0.004);
+}
+
+}  // namespace
+}  // namespace kinemark::motion

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/model/model.h"
+
+namespace kinemark::motion {
+
+/// How sure a motion is of its coordinates and their rates, each coordinate by itself (errors of different
+/// coordinates are taken as independent).
+struct RateErrors {
+  /// F x n x 6: covariance of q, v, a as qq qv qa vv va aa. Zero where locked; NaN where a coordinate was
+  /// never determined and for coupled coordinates.
+  Array<double> covariance;
+};
+
+/// Estimate dq/dt, d2q/dt2 and their covariance from the coordinates alone.
+///
+/// Every independent coordinate is smoothed by itself (coordinate_smoother.h), weighted by q_sd and left open
+/// where it is not determined; bandwidth and noise follow from its own likelihood. q stays as it is. v and a
+/// are filled only where they are empty. The angles of a free root are smoothed as angles: near the attitude
+/// where the middle one is 90 deg prefer the smoother on the whole body. Fails below 8 frames.
+[[nodiscard]] Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& motion);
+
+}  // namespace kinemark::motion
