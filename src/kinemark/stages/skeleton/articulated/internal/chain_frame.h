@@ -89,11 +89,14 @@ class FrameInformation {
   [[nodiscard]] int rank() const { return rank_; }
   /// A joint is held when its row space does not touch what the frame leaves open.
   [[nodiscard]] bool holds(const Eigen::Matrix3Xd& by_frame) const;
-  /// log det of H / sigma^2, where turns the data do not fix count as free by a half turn.
-  static double log_det(const Chain& chain, const Eigen::MatrixXd& H, double sigma_m);
+  /// Information on a joint with everything else of the frame eliminated, for unit noise; of any rank.
+  [[nodiscard]] Matrix3d joint_information(const Eigen::Matrix3Xd& by_frame) const;
+  /// log det of H / sigma^2, where a turn that the data do not fix counts as free by half a turn.
+  [[nodiscard]] static double log_det(const Chain& chain, const Eigen::MatrixXd& H, double sigma_m,
+                                      Eigen::MatrixXd& scratch);
 
  private:
-  Eigen::MatrixXd inverse_, open_;
+  Eigen::MatrixXd inverse_, open_, factor_, scaled_;
   Eigen::VectorXd scale_;
   int rank_ = 0;
 };

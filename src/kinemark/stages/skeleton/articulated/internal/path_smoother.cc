@@ -147,7 +147,8 @@ void store(SmoothedPath& path, std::size_t frame, const Vector3d& place, const M
     for (int j = i; j < 3; ++j) *c++ = 0.5 * (C(i, j) + C(j, i));
 }
 
-void smooth_piece(std::span<const PathPoint> points, const Piece& piece, const Walk& walk, SmoothedPath& path) {
+void smooth_piece(std::span<const PathPoint> points, const Piece& piece, const Walk& walk,
+                  SmoothedPath& path) {
   // Forwards once, storing a state every kBlock frames; backwards block by block, forwards again in each.
   std::vector<Belief> starts;
   Belief b = Walk::begin(piece.first_place);
@@ -248,8 +249,7 @@ PathPrior find_path_prior(std::span<const PathPoint> points, double rate_hz, std
                                      static_cast<std::size_t>(max_frames / 4)));
   const auto total = [&](double exponent) {
     double sum = 0.0;
-    for (const auto& window : windows)
-      sum += calc_path_likelihood(window, rate_hz, std::pow(10.0, exponent));
+    for (const auto& window : windows) sum += calc_path_likelihood(window, rate_hz, std::pow(10.0, exponent));
     return sum;
   };
   double best = -4.0, best_value = total(best);

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/internal/chain_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace kinemark::skeleton {
+
+namespace {
+
+constexpr double kSame = 2e-5;  // m: joints nearer than this (and a fifth of the noise) are one minimum
+constexpr double kLeastRise = 0.35;
+constexpr double kMostRise = 2.5;
+constexpr double kHold = 1e3;        // weight of the direction that is held, in markers
+constexpr double kFarthestSd = 0.3;  // m
+
+double distance(const ChainMode& a, const ChainMode& b) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < a.centre.size(); ++j) most = std::max(most, (a.centre[j] - b.centre[j]).norm());
+  return most;
+}
+
+}  // namespace
+
+ModeFinder::ModeFinder(const Chain& chain) : starts_(chain) {}
+
+void ModeFinder::refine(FrameSolver& solver, const ChainPose& start, double same_m, int iterations,
+                        std::vector<ChainMode>& modes) {
+  const Chain& chain = solver.chain();
+  if (count_ == static_cast<int>(modes.size())) modes.emplace_back();
+  ChainMode& mode = modes[count_];
+  mode.pose.joint0 = start.joint0;
+  mode.pose.rotation = start.rotation;
+  mode.cost = solver.refine(mode.pose, {}, iterations);
+  mode.centre.resize(chain.joints());
+  for (int j = 0; j < chain.joints(); ++j) mode.centre[j] = chain.joint_centre(mode.pose, j);
+  for (int other = 0; other < count_; ++other) {
+    if (distance(mode, modes[other]) >= same_m) continue;
+    if (mode.cost < modes[other].cost) std::swap(modes[other], modes[count_]);
+    return;
+  }
+  ++count_;
+}
+
+int ModeFinder::find(FrameSolver& solver, const double* x, double sigma_m, const ChainPose* extra,
+                     int iterations, std::vector<ChainMode>& modes) {
+  count_ = 0;
+  const double same_m = 0.2 * sigma_m + kSame;
+  starts_.find(solver, x);
+  if (extra != nullptr) refine(solver, *extra, same_m, iterations, modes);
+  for (const ChainPose& start : starts_.poses()) refine(solver, start, same_m, iterations, modes);
+  if (count_ == 0) return 0;
+  std::sort(modes.begin(), modes.begin() + count_,
+            [](const ChainMode& a, const ChainMode& b) { return a.cost < b.cost; });
+  if (count_ == 1) {
+    modes[0].weight = 1.0;
+    return 1;
+  }
+  log_weight_.resize(count_);
+  for (int i = 0; i < count_; ++i) {
+    solver.normal(modes[i].pose, {}, false, H_, b_);
+    log_weight_[i] = -0.5 * (modes[i].cost - modes[0].cost) / (sigma_m * sigma_m) -
+                     0.5 * FrameInformation::log_det(solver.chain(), H_, sigma_m, scratch_);
+  }
+  const double top = *std::max_element(log_weight_.begin(), log_weight_.end());
+  double sum = 0.0;
+  for (int i = 0; i < count_; ++i) sum += modes[i].weight = std::exp(log_weight_[i] - top);
+  for (int i = 0; i < count_; ++i) modes[i].weight /= sum;
+  return count_;
+}
+
+bool profile_is_gaussian(FrameSolver& solver, const ChainPose& best, double cost, int joint,
+                         const Matrix3d& covariance, double sigma_m) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
+  const Vector3d weakest = eigen.eigenvectors().col(2);
+  const double sd = std::min(std::sqrt(std::max(eigen.eigenvalues()[2], 0.0)), kFarthestSd);
+  const Vector3d centre = solver.chain().joint_centre(best, joint);
+  ChainPose pose;
+  for (const double z : {4.0, 2.0}) {
+    for (const double side : {1.0, -1.0}) {
+      const Vector3d off = side * z * sd * weakest;
+      const JointPrior hold{joint, centre + off, kHold * weakest * weakest.transpose()};
+      pose.joint0 = best.joint0 + off;
+      pose.rotation = best.rotation;
+      const double held = solver.refine(pose, {&hold, 1}, 25, 1e-7);
+      const double rise = (held - cost) / (sigma_m * sigma_m * z * z);
+      if (!(rise > kLeastRise && rise < kMostRise)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace kinemark::skeleton

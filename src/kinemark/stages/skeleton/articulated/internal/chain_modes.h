@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// All minima of a frame, and whether the likelihood around the best one is what its covariance says.
+#pragma once
+
+#include <vector>
+
+#include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
+#include "kinemark/stages/skeleton/articulated/internal/chain_starts.h"
+
+namespace kinemark::skeleton {
+
+/// Minima of a frame from all starts; owns its memory.
+class ModeFinder {
+ public:
+  explicit ModeFinder(const Chain& chain);
+
+  /// `solver` was given the frame `x`. Fills `modes` with the distinct minima (joints farther apart than the
+  /// noise's fifth), least cost first, and their weights ~ exp(-cost / 2 sigma^2) |H|^-1/2; returns how many.
+  /// `extra`: one more start, or null.
+  int find(FrameSolver& solver, const double* x, double sigma_m, const ChainPose* extra, int iterations,
+           std::vector<ChainMode>& modes);
+  [[nodiscard]] ChainStarts& starts() { return starts_; }
+
+ private:
+  void refine(FrameSolver& solver, const ChainPose& start, double same_m, int iterations,
+              std::vector<ChainMode>& modes);
+
+  ChainStarts starts_;
+  std::vector<double> log_weight_;
+  Eigen::MatrixXd H_, scratch_;
+  Eigen::VectorXd b_;
+  int count_ = 0;
+};
+
+/// Profile likelihood of a joint along the weakest direction of its covariance: held at +-2 and +-4 SD, all
+/// else refitted. The rise of chi-square over the Gaussian's tells a fold (two minima grown together) or a
+/// curved valley, where the covariance does not describe the likelihood: false when it lies outside
+/// (0.35, 2.5).
+[[nodiscard]] bool profile_is_gaussian(FrameSolver& solver, const ChainPose& best, double cost, int joint,
+                                       const Matrix3d& covariance, double sigma_m);
+
+}  // namespace kinemark::skeleton
