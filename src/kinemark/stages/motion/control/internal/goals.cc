@@ -114,6 +114,22 @@ std::int64_t GoalFilter::delay_frames() const {
                   static_cast<std::int64_t>(std::ceil(fade_frames_)) + 1);
 }
 
+double GoalFilter::response(std::int64_t k) const {
+  const auto coefficient = [&](std::int64_t j) {
+    return at(std::abs(j)) < kernel_.size() ? kernel_[at(std::abs(j))] : 0.0;
+  };
+  return (coefficient(k - 1) + 4.0 * coefficient(k) + coefficient(k + 1)) / 6.0;
+}
+
+double GoalFilter::noise_in_goal() const {
+  double sum = 0.0;
+  for (std::int64_t k = 0; k <= static_cast<std::int64_t>(kernel_.size()); ++k)
+    sum += (k == 0 ? 1.0 : 2.0) * response(k) * response(k);
+  return sum;
+}
+
+double GoalFilter::noise_in_rest() const { return 1.0 - 2.0 * response(0) + noise_in_goal(); }
+
 void GoalFilter::find_gaps(const SampleWindow& samples, std::int64_t first, GoalCell& cell) const {
   cell.rate_hz_ = rate_hz_;
   cell.fade_frames_ = fade_frames_;

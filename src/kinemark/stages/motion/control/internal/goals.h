@@ -81,9 +81,14 @@ class GoalFilter {
              const std::vector<int>& marker, std::int64_t markers_in_d, std::int64_t first_frame,
              GoalCell& cell) const;
   [[nodiscard]] const std::vector<double>& kernel() const { return kernel_; }
+  /// Variance of white noise of variance 1 in a goal at a frame, and in sample minus goal.
+  [[nodiscard]] double noise_in_goal() const;
+  [[nodiscard]] double noise_in_rest() const;
 
  private:
   void find_gaps(const SampleWindow& samples, std::int64_t first, GoalCell& cell) const;
+  /// Weight of the sample k frames away in a goal at a frame.
+  [[nodiscard]] double response(std::int64_t k) const;
 
   double rate_hz_, fade_frames_;
   std::vector<double> kernel_;  // from the middle outwards

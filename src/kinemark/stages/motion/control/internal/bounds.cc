@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/internal/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinemark/model/dynamics.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+constexpr double kBlindRotation = 1.0 / 0.003;  // rad per m of goal error, as for inverse kinematics
+constexpr double kBlindTranslation = 20.0;      // m per m
+constexpr double kNullShare = 1e-4;             // of a coordinate's square that no level fixes
+constexpr double kLargestSd = 0.5;              // rad or m
+
+std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Bounds::Bounds(const Plan& plan)
+    : plan_(plan),
+      w_(plan.problem.model),
+      levels_(plan.levels.size()),
+      determined_(at(plan.problem.model.coordinate_count()), 0) {
+  const int n = plan.problem.model.speed_count();
+  Eigen::Index columns = 0;
+  for (const auto& level : plan.levels) {
+    first_column_.push_back(columns);
+    columns += level.rows();
+  }
+  first_column_.push_back(columns);
+  explained_.setZero(n, columns);
+  V_.setZero(n, n);
+  z_.setZero(n);
+  still_.setZero(n);
+  sd_.setZero(plan.problem.model.coordinate_count());
+  bound_ = sd_;
+}
+
+void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise) {
+  const auto& level = plan_.levels[index];
+  const auto& model = plan_.problem.model;
+  Level& out = levels_[index];
+  out.A.resize(J_.cols(), level.rows());
+  for (auto* column : {&out.dx, &out.scale, &out.variance}) column->setZero(level.rows());
+  Eigen::Index row = 0;
+  for (const int m : level.markers) {
+    const double scale = std::sqrt(goal.weight[m]);
+    out.A.middleCols<3>(row) = scale * J_.middleRows<3>(3 * static_cast<Eigen::Index>(m)).transpose();
+    if (scale > 0.0) out.dx.segment<3>(row) = scale * (goal.x.col(m) - w_.marker.col(m));
+    out.scale.segment<3>(row).setConstant(scale);
+    out.variance.segment<3>(row).setConstant(noise.own[m]);
+    row += 3;
+  }
+  for (const auto& task : level.tasks) {
+    rows_.resize(task->rows(), model.speed_count());
+    task->evaluate(model, w_, time_s, rows_);
+    for (Eigen::Index i = 0; i < rows_.error.size(); ++i, ++row) {
+      const double scale = std::sqrt(rows_.weight[i]);
+      out.A.col(row) = scale * rows_.jacobian.row(i).transpose();
+      out.dx[row] = scale * rows_.error[i];
+      out.scale[row] = scale;
+      out.variance[row] = rows_.sd[i] * rows_.sd[i];
+    }
+  }
+  for (Eigen::Index k = 0; k < J_.cols(); ++k)
+    if (plan_.problem.fixed_speed[at(k)] != 0) out.A.row(k).setZero();
+  llt_.matrixL().solveInPlace(out.A);
+}
+
+void Bounds::add_level(std::size_t index) {
+  Level& level = levels_[index];
+  const Eigen::Index n = level.A.rows(), m = level.A.cols();
+  level.dx.noalias() -= level.A.transpose() * z_;  // what the levels above do not explain
+  level.inverse.setZero(n, m);
+  if (m == 0) return;
+  level.projected = level.A;
+  if (rank_ > 0) {
+    const auto V = V_.leftCols(rank_);
+    level.projected.noalias() -= V * (V.transpose() * level.A).eval();
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(level.projected);
+  const auto& upper = qr.matrixQR();
+  const Eigen::Index most = std::min(m, n - rank_);
+  const double floor = std::max(plan_.damping.truncation * std::abs(upper(0, 0)), 1e-9);
+  Eigen::Index count = 0;
+  while (count < most && std::abs(upper(count, count)) > floor) ++count;
+  if (count > 0) {
+    smallest_ = std::min(smallest_, std::abs(upper(count - 1, count - 1)));
+    level.B.setIdentity(n, count);
+    level.B.applyOnTheLeft(qr.householderQ());
+    // A' = B R P': the pseudo-inverse of A is B (R R')^-1 R P'.
+    level.R = upper.topRows(count).triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd G = level.R * level.R.transpose();
+    level.inverse.noalias() = level.B * G.llt().solve(level.R);
+    level.inverse = level.inverse * qr.colsPermutation().transpose();
+    V_.middleCols(rank_, count) = level.B;
+    rank_ += static_cast<int>(count);
+  }
+  // How errors of all goals so far come out: A_i^+ (own rows - A_i times what is explained above).
+  const Eigen::Index begin = first_column_[index];
+  if (begin > 0)
+    explained_.leftCols(begin) -= level.inverse * (level.A.transpose() * explained_.leftCols(begin)).eval();
+  explained_.middleCols(begin, m) = level.inverse;
+  z_.noalias() += level.inverse * level.dx;
+}
+
+void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
+  const auto& model = plan_.problem.model;
+  model::coordinate_jacobian(model, w_, q, E_);
+  for (Eigen::Index k = 0; k < E_.cols(); ++k)
+    if (plan_.problem.fixed_speed[at(k)] != 0) E_.col(k).setZero();
+  C_ = E_.transpose();
+  llt_.matrixL().solveInPlace(C_);  // columns: coordinates in whitened space
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    for (Eigen::Index row = 0; row < levels_[i].scale.size(); ++row)
+      explained_.col(first_column_[i] + row) *= levels_[i].scale[row];
+  G_.noalias() = C_.transpose() * explained_;
+  const auto V = V_.leftCols(rank_);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (Eigen::Index c = 0; c < G_.rows(); ++c) {
+    const double whole = C_.col(c).squaredNorm();
+    const double fixed = (V.transpose() * C_.col(c)).squaredNorm();
+    const bool rotation = model.description().coordinates[at(c)].is_rotation;
+    bool sure = whole - fixed <= kNullShare * whole &&
+                G_.row(c).norm() <= (rotation ? kBlindRotation : kBlindTranslation);
+    double variance = 0.0, bound = 0.0;
+    Eigen::RowVectorXd common = Eigen::RowVectorXd::Zero(3 * noise.common.size());
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const auto part = G_.row(c).segment(first_column_[i], levels_[i].variance.size());
+      variance += part.cwiseAbs2() * levels_[i].variance;
+      for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j) {
+        const int body = model.markers()[at(plan_.levels[i].markers[j])].body;
+        if (body >= 0) common.segment<3>(3 * body) += part.segment<3>(3 * static_cast<Eigen::Index>(j));
+      }
+      bound += (C_.col(c).transpose() * levels_[i].inverse).norm() * levels_[i].dx.norm();
+    }
+    for (Eigen::Index b = 0; b < noise.common.size(); ++b)
+      variance += noise.common[b] * common.segment<3>(3 * b).squaredNorm();
+    sd_[c] = std::sqrt(variance);
+    sure = sure && sd_[c] <= kLargestSd;
+    bound_[c] = sure ? bound + kNoiseSds * sd_[c] : nan;
+    if (!sure) sd_[c] = nan;
+    determined_[at(c)] = sure ? 1 : 0;
+  }
+  for (const int c : plan_.locked) {  // held by us: nothing is known
+    determined_[at(c)] = 0;
+    sd_[c] = bound_[c] = nan;
+  }
+}
+
+void Bounds::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
+                  const MarkerVariances& noise) {
+  const auto& model = plan_.problem.model;
+  model::kinematics(model, w_, x);
+  model::velocities(model, w_, still_);
+  model::mass_matrix(model, w_, M_);
+  model::marker_jacobian(model, w_, J_);
+  for (Eigen::Index k = 0; k < M_.rows(); ++k) {
+    if (plan_.problem.fixed_speed[at(k)] == 0) continue;
+    M_.row(k).setZero();
+    M_.col(k).setZero();
+    M_(k, k) = 1.0;
+  }
+  llt_.compute(M_);
+  rank_ = 0;
+  smallest_ = std::numeric_limits<double>::infinity();
+  z_.setZero();
+  explained_.setZero();
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    gather(i, goal, time_s, noise);
+    add_level(i);
+  }
+  if (rank_ == 0) smallest_ = 0.0;
+  judge(q, noise);
+}
+
+}  // namespace kinemark::motion::internal

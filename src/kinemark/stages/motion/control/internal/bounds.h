@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What the goals of one frame fix, and how far the angles can be off (equations 14 to 17 of Demircan et al.).
+//
+// Markers that miss their goals by dx come from angles that miss theirs by dq with J dq = dx, whatever the
+// controller did. Level by level, in z = L'dq: the first level explains z_1 = A_1^+ dx_1, the next what is
+// left of its own error, z_2 = A_2|1^+ (dx_2 - A_2 z_1), and so on; when all levels together have full
+// column rank, z is their sum, and so
+//     |dq_c| <= sum over levels of |row c of L^-T A_i|..^+| |dx_i - A_i (z_1 + ... )|.
+// The same matrices turn the covariance of the goals into that of the angles.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/model/workspace.h"
+#include "kinemark/stages/motion/control/internal/goals.h"
+#include "kinemark/stages/motion/control/internal/plan.h"
+#include "kinemark/stages/motion/error_bars.h"
+
+namespace kinemark::motion::internal {
+
+class Bounds {
+ public:
+  explicit Bounds(const Plan& plan);
+
+  /// The bound counts this many standard deviations of the goals' own noise on top of equation 16, which
+  /// takes goals for exact.
+  static constexpr double kNoiseSds = 5.0;
+
+  /// For pose x with coordinates q and the goals that it follows.
+  void find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
+            const MarkerVariances& noise);
+
+  [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }        ///< NaN where not determined
+  [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }  ///< likewise
+  [[nodiscard]] const std::vector<std::uint8_t>& determined() const { return determined_; }
+  [[nodiscard]] int rank() const { return rank_; }
+  [[nodiscard]] double smallest_singular() const { return smallest_; }
+
+ private:
+  struct Level {
+    Eigen::MatrixXd A, projected, inverse, R, B;
+    Eigen::VectorXd dx, scale, variance;
+  };
+  void gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise);
+  void add_level(std::size_t index);
+  void judge(const Eigen::VectorXd& q, const MarkerVariances& noise);
+
+  const Plan& plan_;
+  model::Workspace w_;
+  std::vector<Level> levels_;
+  std::vector<Eigen::Index> first_column_;
+  TaskRows rows_;
+  Eigen::MatrixXd M_, J_, V_, E_, C_, explained_, G_;
+  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Eigen::VectorXd z_, still_, sd_, bound_;
+  std::vector<std::uint8_t> determined_;
+  int rank_ = 0;
+  double smallest_ = 0.0;
+};
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/internal/first_pose.h"
+
+#include <algorithm>
+
+#include "kinemark/core/random.h"
+#include "kinemark/stages/motion/internal/frame_solver.h"
+#include "kinemark/stages/motion/internal/start.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+constexpr std::int64_t kLookedAt = 100;  // poses, for what no goal moves
+constexpr int kPosesAround = 20;
+constexpr double kAround = 0.5;  // rad
+constexpr std::uint64_t kStream = 0x706f7365;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// First frame with at least 95 % as many goals as the best one.
+std::int64_t find_anchor(const Problem& p, const data::Trajectories& goals) {
+  std::vector<int> seen(at(p.frames), 0);
+  for (std::int64_t f = 0; f < p.frames; ++f)
+    for (const int m : p.data_marker) seen[at(f)] += goals.present(p.first_frame + f, m);
+  const int best = *std::max_element(seen.begin(), seen.end());
+  return std::find_if(seen.begin(), seen.end(), [&](int n) { return 20 * n >= 19 * best; }) - seen.begin();
+}
+
+/// Free roots rest where the body starts.
+void rest_roots(Plan& plan, const Eigen::VectorXd& x) {
+  for (const auto& free : plan.problem.model.free_joints())
+    plan.rest.segment<7>(free.state_idx) = x.segment<7>(free.state_idx);
+}
+
+}  // namespace
+
+Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, LockMode lock) {
+  const auto& p = plan.problem;
+  Eigen::Matrix3Xd y(3, p.model.marker_count());
+  Eigen::VectorXd weight(p.model.marker_count());
+  const std::int64_t anchor = find_anchor(p, goals);
+  p.observe(goals, anchor, y, weight);
+  Eigen::VectorXd x = plan.rest;
+  {
+    FrameSolver solver(p, plan.start_options);
+    if (weight.sum() > 0.0)
+      find_start(p, plan.start_options, solver, y, weight, 0, plan.start_options.starts, x);
+    if (lock == LockMode::automatic) {
+      std::vector<Eigen::VectorXd> poses;
+      Eigen::VectorXd pose = x;
+      const std::int64_t stride = std::max<std::int64_t>(1, p.frames / kLookedAt);
+      for (std::int64_t f = anchor; f < p.frames; f += stride) {
+        p.observe(goals, f, y, weight);
+        if (weight.sum() > 0.0) solver.solve(y, weight, 0, pose);
+        poses.push_back(pose);
+      }
+      lock_idle(plan, poses);
+    }
+  }
+  plan.apply_locks(x);
+  FrameSolver solver(p, plan.start_options);  // knows the locks
+  for (std::int64_t f = anchor; f >= 0; --f) {
+    p.observe(goals, f, y, weight);
+    if (weight.sum() > 0.0) solver.solve(y, weight, 0, x);
+  }
+  rest_roots(plan, x);
+  return x;
+}
+
+Eigen::VectorXd find_first_pose(Plan& plan, const Eigen::Matrix3Xd& goal, const Eigen::VectorXd& weight,
+                                LockMode lock) {
+  const auto& p = plan.problem;
+  Eigen::VectorXd x = plan.rest;
+  {
+    FrameSolver solver(p, plan.start_options);
+    find_start(p, plan.start_options, solver, goal, weight, 0, plan.start_options.starts, x);
+  }
+  if (lock == LockMode::automatic) {
+    std::vector<Eigen::VectorXd> poses{x};
+    Random random(plan.start_options.seed, kStream);
+    for (int i = 0; i < kPosesAround; ++i) {
+      Eigen::VectorXd pose = x;
+      for (const auto& c : p.model.coordinates()) {
+        const double u = random.uniform(-kAround, kAround);
+        if (c.speed_idx < 0 || p.fixed_speed[at(c.speed_idx)] != 0) continue;
+        pose[c.state_idx] = std::clamp(pose[c.state_idx] + u, p.lower[c.speed_idx], p.upper[c.speed_idx]);
+      }
+      poses.push_back(std::move(pose));
+    }
+    lock_idle(plan, poses);
+  }
+  plan.apply_locks(x);
+  FrameSolver solver(p, plan.start_options);
+  solver.solve(goal, weight, 0, x);
+  rest_roots(plan, x);
+  return x;
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kinemark/data/derivatives.h"
+#include "kinemark/stages/motion/control/internal/controller.h"
+#include "kinemark/stages/motion/control/internal/goals.h"
+#include "kinemark/stages/motion/control/internal/plan.h"
+#include "kinemark/stages/motion/internal/frame_solver.h"
+
+namespace kinemark::motion::internal {
+
+/// Takes the body from frame to frame, over files and live streams alike.
+class Walker {
+ public:
+  /// The plan must outlive the walker and stay as it is.
+  Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity, double t0_s);
+  /// Use the derivatives of a recording in place of the filter; `d` must outlive the walker.
+  void use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d);
+
+  [[nodiscard]] SampleWindow& samples() { return samples_; }
+
+  /// Put the body to pose x at frame `first`. Needs the cell that begins there.
+  void begin(const Eigen::VectorXd& x, std::int64_t first);
+  /// Go on to the next frame. Needs the cell that ends there.
+  void next();
+
+  [[nodiscard]] std::int64_t frame() const { return frame_; }
+  [[nodiscard]] double time_s() const { return t0_s_ + static_cast<double>(frame_) / plan_.rate_hz; }
+  [[nodiscard]] Controller& controller() { return controller_; }
+  [[nodiscard]] const GoalValues& goal() const { return goal_; }
+  [[nodiscard]] bool any_goal() const { return goal_.weight.maxCoeff() > 0.0; }
+  /// The body ran away on the way here, or is farther from its goals than the plan allows.
+  [[nodiscard]] bool flagged() const { return flagged_; }
+  [[nodiscard]] std::int64_t restarts() const { return restarts_; }
+
+ private:
+  void build_cell(std::int64_t first);
+  void restart();
+  void judge();
+
+  const Plan& plan_;
+  GoalFilter filter_;
+  SampleWindow samples_;
+  Controller controller_;
+  FrameSolver solver_;
+  GoalCell cell_;
+  GoalValues goal_;
+  const data::Derivatives* derivatives_ = nullptr;
+  std::int64_t markers_in_derivatives_ = 0;
+  Eigen::VectorXd last_good_;
+  double t0_s_ = 0.0;
+  std::int64_t frame_ = 0, restarts_ = 0;
+  bool flagged_ = false;
+};
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/track.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "kinemark/core/parallel.h"
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/control/internal/bounds.h"
+#include "kinemark/stages/motion/control/internal/first_pose.h"
+#include "kinemark/stages/motion/control/internal/readout.h"
+#include "kinemark/stages/motion/control/internal/walker.h"
+
+namespace kinemark::motion {
+namespace {
+
+using data::FrameStatus;
+using internal::GoalFilter;
+using internal::Plan;
+using internal::Walker;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kProgressEvery = 100;  // frames
+constexpr double kDeterminedShare = 0.95;     // of the frames
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Everything about the frames that the error bars need once the body has been through.
+struct Track {
+  Eigen::MatrixXd states;    // one column per frame
+  data::Trajectories goals;  // laid out like the recording
+  Eigen::MatrixXd weights;   // M x F, faded
+};
+
+void fill_window(const Plan& plan, const data::Trajectories& markers, internal::SampleWindow& samples) {
+  const int M = plan.problem.model.marker_count();
+  Eigen::Matrix3Xd y(3, M);
+  Eigen::VectorXd weight(M);
+  for (std::int64_t f = 0; f < plan.problem.frames; ++f) {
+    plan.problem.observe(markers, f, y, weight);
+    samples.push(y, weight);
+  }
+  samples.end();
+}
+
+/// Goals at the frames, so that the first pose, the noise and the caller see what the controller sees.
+void fill_goals(const Plan& plan, const data::Trajectories& markers, const GoalFilter& filter,
+                const internal::SampleWindow& samples, const data::Derivatives* derivatives, Track& track) {
+  const auto& p = plan.problem;
+  const int M = p.model.marker_count();
+  internal::GoalCell cell(M);
+  internal::GoalValues goal(M);
+  track.goals = data::Trajectories::all_missing(markers.names, markers.time);
+  track.weights.setZero(M, p.frames);
+  for (std::int64_t f = 0; f < p.frames; ++f) {
+    const std::int64_t first = std::min(f, std::max<std::int64_t>(0, p.frames - 2));
+    if (derivatives != nullptr)
+      filter.build(samples, first, *derivatives, p.data_marker, markers.markers(), p.first_frame, cell);
+    else
+      filter.build(samples, first, cell);
+    cell.at(static_cast<double>(f - first), goal);
+    track.weights.col(f) = goal.weight;
+    for (int m = 0; m < M; ++m) {
+      if (goal.weight[m] <= 0.0) continue;
+      track.goals.x(p.first_frame + f, p.data_marker[at(m)]) = goal.x.col(m);
+      track.goals.state[track.goals.index(p.first_frame + f, p.data_marker[at(m)])] =
+          data::SampleState::measured;
+    }
+  }
+}
+
+/// Runs the body through the recording and keeps what it does.
+class Recorder {
+ public:
+  Recorder(const Plan& plan, const data::Trajectories& markers, Walker& walker, Track& track,
+           TrackResult& result)
+      : plan_(plan),
+        markers_(markers),
+        walker_(walker),
+        track_(track),
+        result_(result),
+        readout_(plan.problem.model) {
+    auto& motion = result.motion;
+    const auto F = plan.problem.frames;
+    const auto n = static_cast<std::int64_t>(motion.coordinates.size());
+    for (auto* column : {&motion.q, &motion.v, &motion.a, &motion.tau}) column->assign(at(F * n), 0.0);
+    motion.marker_error.assign(at(3 * F * plan.problem.model.marker_count()), kNaN);
+    motion.status.assign(at(F), FrameStatus::no_markers);
+    track.states.resize(plan.problem.model.state_count(), F);
+    result.rank.assign(at(F), 0);
+    result.smallest_singular.assign(at(F), 0.0);
+  }
+
+  /// False when the caller stopped it.
+  bool run(const Eigen::VectorXd& x, const Progress& progress) {
+    walker_.begin(x, 0);
+    store();
+    for (std::int64_t f = 1; f < plan_.problem.frames; ++f) {
+      if (progress && f % kProgressEvery == 0 && !progress(f, plan_.problem.frames)) return false;
+      walker_.next();
+      store();
+    }
+    result_.restarts = walker_.restarts();
+    result_.steps = walker_.controller().steps();
+    return true;
+  }
+
+ private:
+  void store() {
+    auto& motion = result_.motion;
+    const std::int64_t f = walker_.frame();
+    auto& body = walker_.controller();
+    readout_.find(body.x(), body.v(), body.a());
+    const auto keep = [&](Array<double>& to, const Eigen::VectorXd& from) {
+      std::copy(from.data(), from.data() + from.size(), to.data() + motion.index(f, 0));
+    };
+    keep(motion.q, readout_.q());
+    keep(motion.v, readout_.rate());
+    keep(motion.a, readout_.acceleration());
+    keep(motion.tau, readout_.tau());
+    track_.states.col(f) = body.x();
+    result_.rank[at(f)] = body.rank();
+    result_.smallest_singular[at(f)] = body.smallest_singular();
+    const auto M = static_cast<std::int64_t>(plan_.problem.model.marker_count());
+    const auto& place = body.workspace().marker;
+    for (std::int64_t m = 0; m < M; ++m) {
+      const auto in_data = plan_.problem.data_marker[at(m)];
+      if (!markers_.present(plan_.problem.first_frame + f, in_data)) continue;
+      const Eigen::Vector3d error = markers_.x(plan_.problem.first_frame + f, in_data) - place.col(m);
+      std::copy(error.data(), error.data() + 3, motion.marker_error.data() + (f * M + m) * 3);
+      if (walker_.goal().weight[m] <= 0.0) continue;
+      const double miss = (walker_.goal().x.col(m) - place.col(m)).norm();
+      goal_squares_ += miss * miss;
+      ++goals_;
+      result_.max_goal_error_m = std::max(result_.max_goal_error_m, miss);
+      result_.rms_goal_error_m = std::sqrt(goal_squares_ / static_cast<double>(goals_));
+    }
+    if (walker_.flagged()) {
+      motion.status[at(f)] = FrameStatus::not_converged;
+      ++result_.flagged_frames;
+    } else if (walker_.any_goal()) {
+      motion.status[at(f)] =
+          body.rank() < result_.free_speeds ? FrameStatus::underdetermined : FrameStatus::converged;
+    }
+  }
+
+  const Plan& plan_;
+  const data::Trajectories& markers_;
+  Walker& walker_;
+  Track& track_;
+  TrackResult& result_;
+  internal::Readout readout_;
+  double goal_squares_ = 0.0;
+  std::int64_t goals_ = 0;
+};
+
+/// Noise of the goals: from what the filter removed, and from how the markers of a segment disagree with the
+/// body; the larger of both.
+MarkerVariances goal_noise(const Plan& plan, const data::Trajectories& markers, const Track& track,
+                           const GoalFilter& filter, const TrackOptions& options) {
+  const auto& p = plan.problem;
+  const Eigen::Index M = p.model.marker_count();
+  MarkerVariances noise;
+  if (options.marker_noise_sd_m > 0.0) {
+    const double gain = options.derivatives != nullptr ? 1.0 : filter.noise_in_goal();
+    noise.own.setConstant(M, gain * options.marker_noise_sd_m * options.marker_noise_sd_m);
+    noise.common.setZero(static_cast<Eigen::Index>(p.model.bodies().size()));
+    return noise;
+  }
+  noise = estimate_variances(p, track.goals, track.states, options.threads);
+  if (options.derivatives != nullptr || filter.noise_in_rest() < 1e-3) return noise;
+  for (Eigen::Index m = 0; m < M; ++m) {
+    double squares = 0.0;
+    std::int64_t count = 0;
+    for (std::int64_t f = 0; f < p.frames; ++f) {
+      if (track.weights(m, f) < p.weight[m]) continue;
+      const auto frame = p.first_frame + f;
+      squares +=
+          (markers.x(frame, p.data_marker[at(m)]) - track.goals.x(frame, p.data_marker[at(m)])).squaredNorm();
+      ++count;
+    }
+    if (count == 0) continue;
+    const double white = squares / (3.0 * static_cast<double>(count) * filter.noise_in_rest());
+    noise.own[m] = std::max(noise.own[m], white * filter.noise_in_goal());
+  }
+  return noise;
+}
+
+void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances& noise, int threads,
+                    TrackResult& result) {
+  auto& motion = result.motion;
+  const auto& p = plan.problem;
+  const auto n = static_cast<std::int64_t>(motion.coordinates.size());
+  motion.q_sd.assign(motion.q.size(), kNaN);
+  motion.q_bound.assign(motion.q.size(), kNaN);
+  motion.determined.assign(motion.q.size(), 0);
+  parallel_for(p.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
+    internal::Bounds bounds(plan);
+    internal::GoalValues goal(p.model.marker_count());
+    for (std::int64_t f = begin; f < end; ++f) {
+      goal.weight = track.weights.col(f);
+      for (Eigen::Index m = 0; m < goal.weight.size(); ++m)
+        if (goal.weight[m] > 0.0) goal.x.col(m) = track.goals.x(p.first_frame + f, p.data_marker[at(m)]);
+      const Eigen::Map<const Eigen::VectorXd> q(motion.q.data() + motion.index(f, 0), n);
+      bounds.find(track.states.col(f), q, goal, motion.time.time_s(f), noise);
+      result.rank[at(f)] = bounds.rank();
+      result.smallest_singular[at(f)] = bounds.smallest_singular();
+      for (std::int64_t c = 0; c < n; ++c) {
+        motion.q_sd[motion.index(f, c)] = bounds.sd()[c];
+        motion.q_bound[motion.index(f, c)] = bounds.bound()[c];
+        motion.determined[motion.index(f, c)] = bounds.determined()[at(c)];
+      }
+    }
+  });
+  for (std::int64_t c = 0; c < n; ++c) {
+    std::int64_t fixed = 0;
+    for (std::int64_t f = 0; f < p.frames; ++f) fixed += motion.determined[motion.index(f, c)];
+    if (static_cast<double>(fixed) < kDeterminedShare * static_cast<double>(p.frames))
+      result.undetermined_coordinates.push_back(motion.coordinates[at(c)]);
+  }
+  for (std::int64_t f = 0; f < p.frames; ++f) {
+    const auto* row = motion.determined.data() + motion.index(f, 0);
+    auto& status = motion.status[at(f)];
+    if (status == FrameStatus::converged && std::any_of(row, row + n, [](auto d) { return d == 0; }))
+      status = FrameStatus::underdetermined;
+  }
+}
+
+void summarise(const Plan& plan, const data::Trajectories& markers, const MarkerVariances* noise,
+               TrackResult& result) {
+  const auto& p = plan.problem;
+  const auto& motion = result.motion;
+  const auto M = static_cast<std::int64_t>(p.model.marker_count());
+  double squares = 0.0;
+  std::int64_t count = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::int64_t m = 0; m < M; ++m) {
+    const int body = p.model.markers()[at(m)].body;
+    MarkerSummary s;
+    s.name = motion.markers[at(m)];
+    s.name_in_data = markers.names[at(p.data_marker[at(m)])];
+    s.body = p.model.description().bodies[at(p.model.bodies()[at(body)].description_idx)].name;
+    s.weight = p.weight[m];
+    double own = 0.0;
+    std::int64_t seen = 0;
+    for (std::int64_t f = 0; f < p.frames; ++f) {
+      const Eigen::Map<const Eigen::Vector3d> error(motion.marker_error.data() + (f * M + m) * 3);
+      if (std::isnan(error.x())) continue;
+      ++seen;
+      own += error.squaredNorm();
+      sum += error;
+      s.max_m = std::max(s.max_m, error.norm());
+    }
+    squares += own;
+    count += seen;
+    s.seen = static_cast<double>(seen) / static_cast<double>(p.frames);
+    s.rms_m = seen > 0 ? std::sqrt(own / static_cast<double>(seen)) : kNaN;
+    s.noise_sd_m = noise != nullptr ? std::sqrt(noise->own[m]) : kNaN;
+    s.common_sd_m = noise != nullptr ? std::sqrt(noise->common[body]) : kNaN;
+    result.max_marker_error_m = std::max(result.max_marker_error_m, s.max_m);
+    result.markers.push_back(std::move(s));
+  }
+  if (count == 0) return;
+  result.rms_marker_error_m = std::sqrt(squares / static_cast<double>(count));
+  result.mean_marker_error_m = sum / static_cast<double>(count);
+}
+
+void describe(const Plan& plan, const data::Trajectories& markers, TrackResult& result) {
+  const auto& p = plan.problem;
+  result.model_markers_without_data = p.model_only;
+  result.data_markers_without_model = p.data_only;
+  result.excluded_markers = p.excluded;
+  result.warnings = p.warnings;
+  result.first_frame = p.first_frame;
+  result.step_s = plan.step_s;
+  result.free_speeds =
+      static_cast<int>(std::count(p.fixed_speed.begin(), p.fixed_speed.end(), std::uint8_t{0}));
+  auto& motion = result.motion;
+  for (const auto& coordinate : p.model.description().coordinates) {
+    motion.coordinates.push_back(coordinate.name);
+    motion.is_rotation.push_back(coordinate.is_rotation);
+  }
+  for (const auto& marker : p.model.description().markers) motion.markers.push_back(marker.name);
+  motion.time = {
+      .rate_hz = markers.time.rate_hz, .t0_s = markers.time.time_s(p.first_frame), .frames = p.frames};
+  for (const int c : plan.locked) result.locked_coordinates.push_back(motion.coordinates[at(c)]);
+}
+
+Status check_derivatives(const data::Trajectories& markers, const TrackOptions& options) {
+  if (options.derivatives == nullptr) return {};
+  if (auto status = options.derivatives->validate(markers); !status) return status;
+  if (options.derivatives->velocity.empty() || options.derivatives->acceleration.empty())
+    return fail(Code::bad_input, "the derivatives given lack velocity or acceleration; need both");
+  return {};
+}
+
+}  // namespace
+
+Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
+                                  const TrackOptions& options, const Progress& progress) {
+  auto plan = internal::make_plan(model, markers, options);
+  if (!plan) return std::unexpected(plan.error());
+  if (auto status = check_derivatives(markers, options); !status) return std::unexpected(status.error());
+  if (plan->problem.frames < 2)
+    return fail(Code::bad_input, "the time range holds one frame; direct marker control needs two at least");
+
+  const GoalFilter filter = internal::make_filter(plan->rate_hz, options);
+  Track track;
+  {
+    internal::SampleWindow samples(plan->problem.model.marker_count(), plan->problem.frames);
+    fill_window(*plan, markers, samples);
+    fill_goals(*plan, markers, filter, samples, options.derivatives, track);
+  }
+  const Eigen::VectorXd start = internal::find_first_pose(*plan, track.goals, options.lock);
+  if (auto status = internal::check_mass(*plan, start); !status) return std::unexpected(status.error());
+
+  TrackResult result;
+  describe(*plan, markers, result);
+  Walker walker(*plan, filter, plan->problem.frames, result.motion.time.t0_s);
+  if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, markers.markers());
+  fill_window(*plan, markers, walker.samples());
+  Recorder recorder(*plan, markers, walker, track, result);
+  const auto begin = std::chrono::steady_clock::now();
+  if (!recorder.run(start, progress)) return fail(Code::cancelled, "direct marker control was stopped");
+  result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  if (options.error_bars) {
+    const auto noise = goal_noise(*plan, markers, track, filter, options);
+    add_error_bars(*plan, track, noise, options.threads, result);
+    summarise(*plan, markers, &noise, result);
+  } else {
+    summarise(*plan, markers, nullptr, result);
+  }
+  if (result.flagged_frames > 0)
+    result.warnings.push_back(
+        fmt::format("{} of {} frames are flagged: the goals were out of reach, or the body ran away and was "
+                    "started anew ({} times)",
+                    result.flagged_frames, result.motion.frames(), result.restarts));
+  return result;
+}
+
+Result<data::Trajectories> control_goals(const data::Trajectories& markers, const TrackOptions& options) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  if (auto status = markers.validate(); !status) return std::unexpected(status.error());
+  const GoalFilter filter = internal::make_filter(markers.time.rate_hz, options);
+  const int M = static_cast<int>(markers.markers());
+  const auto F = markers.frames();
+  auto goals = data::Trajectories::all_missing(markers.names, markers.time);
+  if (F < 2) return goals;
+  internal::SampleWindow samples(M, F);
+  Eigen::Matrix3Xd y(3, M);
+  Eigen::VectorXd weight(M);
+  for (std::int64_t f = 0; f < F; ++f) {
+    for (int m = 0; m < M; ++m) {
+      weight[m] = markers.present(f, m) ? 1.0 : 0.0;
+      if (weight[m] > 0.0) y.col(m) = markers.x(f, m);
+    }
+    samples.push(y, weight);
+  }
+  samples.end();
+  internal::GoalCell cell(M);
+  internal::GoalValues goal(M);
+  for (std::int64_t f = 0; f < F; ++f) {
+    const std::int64_t first = std::min(f, F - 2);
+    filter.build(samples, first, cell);
+    cell.at(static_cast<double>(f - first), goal);
+    for (int m = 0; m < M; ++m) {
+      if (goal.weight[m] <= 0.0) continue;
+      goals.x(f, m) = goal.x.col(m);
+      goals.state[goals.index(f, m)] = data::SampleState::measured;
+    }
+  }
+  return goals;
+}
+
+}  // namespace kinemark::motion
