@@ -102,7 +102,10 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
   auto& job = arguments->job;
   auto& options = job.options;
   command->add_option("-m,--model", job.model, "Body model, .osim")->group("Input");
-  command->add_option("-t,--markers", job.markers, "Marker file, .c3d or .trc")->group("Input");
+  command->add_option("-t,--markers", job.markers, "Marker file, .c3d, .trc, .nwb, .csv or .v3d")
+      ->group("Input");
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
+      ->group("Input");
   command->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options win over it")
       ->group("Input");
   command->add_option("--tasks", job.tasks, "OpenSim IKTaskSet: marker and coordinate weights")

@@ -10,11 +10,17 @@ namespace kinemark::cli {
 
 void add_info(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("info", "What a marker, motion, model or recording file holds");
-  const auto path = std::make_shared<std::string>();
-  command->add_option("FILE", *path, ".c3d, .trc, .mot, .sto, .osim or .mcap")->required();
-  command->callback([&globals, path, &run] {
-    run = [&globals, path] {
-      const auto facts = pipeline::describe_file(*path);
+  struct Arguments {
+    std::string path;
+    double rate_hz = 0.0;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("FILE", arguments->path, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
+      ->required();
+  command->add_option("--rate", arguments->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] {
+      const auto facts = pipeline::describe_file(arguments->path, arguments->rate_hz);
       if (!facts) return report_error(facts.error());
       if (globals.json)
         fmt::print("{}\n", facts->dump(2));

@@ -48,7 +48,8 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
 
 }  // namespace
 
-Result<std::vector<std::string>> convert_file(const fs::path& in, const fs::path& out, bool force) {
+Result<std::vector<std::string>> convert_file(const fs::path& in, const fs::path& out, bool force,
+                                              double rate_hz) {
   const std::string from = ending_of(in), to = ending_of(out);
   if (kind_of(from) != kind_of(to))
     return fail(Code::usage,
@@ -70,7 +71,7 @@ Result<std::vector<std::string>> convert_file(const fs::path& in, const fs::path
     case Kind::markers:
       break;
   }
-  const auto trial = io::read_markers(in);
+  const auto trial = io::read_markers(in, {.rate_hz = rate_hz});
   if (!trial) return std::unexpected(trial.error());
   if (auto s = io::write_markers(out, *trial, force); !s) return std::unexpected(s.error());
   return losses(*trial, to);

@@ -12,7 +12,9 @@ namespace kinemark::pipeline {
 
 /// Read one file and write it in the format that `out` ends in; both must be of one kind (markers, tables or
 /// models). Returns what was odd about the input and what the new format cannot hold, one sentence each.
+/// rate_hz: of marker files that tell none (.v3d), else 0.
 [[nodiscard]] Result<std::vector<std::string>> convert_file(const std::filesystem::path& in,
-                                                            const std::filesystem::path& out, bool force);
+                                                            const std::filesystem::path& out, bool force,
+                                                            double rate_hz = 0.0);
 
 }  // namespace kinemark::pipeline

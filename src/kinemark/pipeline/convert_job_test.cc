@@ -74,6 +74,14 @@ TEST_F(ConvertFile, TablesAndModelsComeThroughUnchanged) {
 }
 
 TEST_F(ConvertFile, DifferentKindsAreAMisuse) {
+  ASSERT_TRUE(io::write_text(at("a.v3d"),
+                             "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
+                             "ITEM\tX\tY\tZ\n1\t1\t2\t3\n2\t1\t2\t3\n",
+                             false));
+  const auto no_rate = convert_file(at("a.v3d"), at("a.trc"), false);
+  ASSERT_FALSE(no_rate);
+  EXPECT_EQ(no_rate.error().code, Code::usage);
+  EXPECT_TRUE(convert_file(at("a.v3d"), at("a.trc"), false, 179.0));
   const auto mixed = convert_file(at("in/markers.c3d"), at("x.mot"), false);
   ASSERT_FALSE(mixed);
   EXPECT_EQ(mixed.error().code, Code::usage);

@@ -18,8 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Result<Json> describe_markers(const std::filesystem::path& path) {
-  const auto trial = io::read_markers(path);
+Result<Json> describe_markers(const std::filesystem::path& path, double rate_hz) {
+  const bool no_rate = io::needs_rate(path) && rate_hz == 0.0;
+  const auto trial = io::read_markers(path, {.rate_hz = no_rate ? 1.0 : rate_hz});
   if (!trial) return std::unexpected(trial.error());
   const auto& markers = trial->markers;
   return Json{{"file", path.string()},
@@ -27,7 +28,7 @@ Result<Json> describe_markers(const std::filesystem::path& path) {
               {"format", trial->format},
               {"points", markers.markers()},
               {"frames", markers.frames()},
-              {"rate_hz", markers.time.rate_hz},
+              {"rate_hz", no_rate ? Json() : Json(markers.time.rate_hz)},
               {"first_frame", trial->first_frame},
               {"last_frame", trial->last_frame()},
               {"units", trial->units_in_file},
@@ -115,14 +116,14 @@ Result<Json> describe_recording(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<Json> describe_file(const std::filesystem::path& path) {
+Result<Json> describe_file(const std::filesystem::path& path, double rate_hz) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".osim") return describe_model(path);
   if (ending == ".mot" || ending == ".sto") return describe_table(path);
   if (ending == ".mcap") return describe_recording(path);
-  return describe_markers(path);
+  return describe_markers(path, rate_hz);
 }
 
 std::string facts_text(const Json& facts) {

@@ -55,6 +55,12 @@ TEST(DescribeFile, AnEmptyTableHasNoTimes) {
 
 TEST(DescribeFile, SaysWhatIsWrongWithAFile) {
   const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "a.v3d",
+                             "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
+                             "ITEM\tX\tY\tZ\n1\t1\t2\t3\n",
+                             false));
+  EXPECT_TRUE(describe_file(scratch / "a.v3d").value()["rate_hz"].is_null()) << "the file tells none";
+  EXPECT_EQ(describe_file(scratch / "a.v3d", 179.0).value()["rate_hz"], 179.0);
   EXPECT_EQ(describe_file(scratch / "absent.c3d").error().code, Code::io);
   ASSERT_TRUE(io::write_text(scratch / "broken.osim", "<OpenSimDocument", false));
   EXPECT_EQ(describe_file(scratch / "broken.osim").error().code, Code::bad_input);

@@ -182,7 +182,7 @@ Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
   if (description->markers.empty())
     return fail(Code::bad_input, fmt::format("{}: model '{}' has no markers; need at least one",
                                              job.model.string(), description->name));
-  const auto trial = io::read_markers(job.markers);
+  const auto trial = io::read_markers(job.markers, {.rate_hz = job.rate_hz});
   if (!trial) return std::unexpected(trial.error());
   const auto model = model::Model::compile(std::move(*description));
   if (!model) return fail_at(job.model.string(), model.error());

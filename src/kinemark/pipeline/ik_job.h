@@ -20,6 +20,7 @@ struct IkJob {
   std::filesystem::path tasks;   ///< OpenSim IKTaskSet file
   std::filesystem::path output;  ///< Q.mot; Q_sd.sto, Q_marker_errors.sto and Q_report.json go beside it
   std::filesystem::path report;  ///< page to write as well
+  double rate_hz = 0.0;        ///< of a marker file that tells none (.v3d); 0: not given
   motion::IkOptions options;
   double max_rms_m = 0.05;     ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;  ///< quality gate: length of the mean distance vector

@@ -19,6 +19,7 @@
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
+#include "kinemark/io/text/v3d.h"
 
 namespace kinemark::io {
 namespace {
@@ -61,7 +62,9 @@ Result<data::Trial> read_nwb_trial(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<data::Trial> read_markers(const std::filesystem::path& path) {
+bool needs_rate(const std::filesystem::path& path) { return lower_extension(path) == ".v3d"; }
+
+Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
   std::array<char, 512> begin{};
@@ -70,14 +73,23 @@ Result<data::Trial> read_markers(const std::filesystem::path& path) {
   std::string format(format_of({begin.data(), *size}));
   const std::string extension = lower_extension(path);
   if (format.empty()) format = extension;
+  if (format == ".v3d") {
+    auto text = read_v3d(path, {.rate_hz = options.rate_hz});
+    if (!text) return std::unexpected(text.error());
+    return std::move(text->trial);
+  }
+  if (options.rate_hz != 0.0)
+    return fail(Code::usage,
+                fmt::format("{}: the file tells its own rate; one is given only for Visual3D text (.v3d)",
+                            path.string()));
   if (format == ".c3d") return read_c3d(path);
   if (format == ".trc") return read_trc(path);
   if (format == ".nwb") return read_nwb_trial(path);
   if (format == ".csv") return read_trajectories_csv(path);
   return fail(
       Code::not_supported,
-      fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB (.nwb) "
-                  "and CSV (.csv)",
+      fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB (.nwb), "
+                  "CSV (.csv) and Visual3D text (.v3d)",
                   path.string(), named(extension)));
 }
 

@@ -79,6 +79,28 @@ TEST(MarkerFile, OtherFilesAreToldWhatIsSupported) {
   EXPECT_THAT(status.error().message, HasSubstr("supported are .c3d, .trc, .nwb and .csv"));
 }
 
+TEST(MarkerFile, Visual3dTextNeedsARateAndOthersRefuseOne) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_text(scratch / "a.V3D",
+                         "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
+                         "ITEM\tX\tY\tZ\n5\t1\t2\t3\n",
+                         false));
+  EXPECT_TRUE(needs_rate(scratch / "a.V3D"));
+  EXPECT_FALSE(needs_rate(scratch / "a.c3d"));
+  const auto without = read_markers(scratch / "a.V3D");
+  ASSERT_FALSE(without);
+  EXPECT_EQ(without.error().code, Code::usage);
+  const auto with = read_markers(scratch / "a.V3D", {.rate_hz = 179.0});
+  ASSERT_TRUE(with) << with.error().message;
+  EXPECT_EQ(with->markers.time, (TimeBase{179.0, 0.0, 1}));
+  EXPECT_EQ(with->first_frame, 5);
+  ASSERT_TRUE(write_markers(scratch / "a.trc", small(), false));
+  const auto twice = read_markers(scratch / "a.trc", {.rate_hz = 100.0});
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().code, Code::usage);
+  EXPECT_THAT(twice.error().message, HasSubstr("the file tells its own rate"));
+}
+
 TEST(MarkerFile, ProvenanceSurvivesEveryFormatThatCanHoldIt) {
   const testing_support::ScratchFolder scratch;
   data::Trial trial = small();
