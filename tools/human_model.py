@@ -308,13 +308,8 @@ def joint_xml(j):
     return '\n'.join(lines)
 
 
-def document():
-    build_arms(build_trunk())
-    build_legs()
-    build_markers()
-    assert len(joints) == 26 and len(markers) == 40 and sum(len(j['axes']) for j in joints) == 40
-    assert abs(sum(b['mass'] for b in bodies) - MASS_KG) < 1e-9
-
+def osim_document(name, credit, gravity, script):
+    """What was added so far as an OpenSim document."""
     def body_xml(b):
         return f'''        <Body name="{b['name']}">
           <mass>{number(b['mass'])}</mass>
@@ -333,13 +328,13 @@ def document():
     return f'''<?xml version="1.0" encoding="UTF-8" ?>
 <!-- SPDX-FileCopyrightText: 2026 The kinemark authors -->
 <!-- SPDX-License-Identifier: Apache-2.0 -->
-<!-- Written by tools/human_model.py; edit that, not this. -->
+<!-- Written by tools/{script}; edit that, not this. -->
 <OpenSimDocument Version="40000">
-  <Model name="kinemark_human">
-    <credits>The kinemark authors. Whole body, {number(MASS_KG)} kg, {number(HEIGHT_M)} m. Masses, mass centres and radii of gyration: Winter (2009), table 4.1, after Dempster (1955). Segment lengths: Drillis and Contini (1966). Coordinate names as in Hamner et al. (2010) and Rajagopal et al. (2016).</credits>
+  <Model name="{name}">
+    <credits>{credit}</credits>
     <length_units>meters</length_units>
     <force_units>N</force_units>
-    <gravity>0 -9.80665 0</gravity>
+    <gravity>{numbers(gravity)}</gravity>
     <Ground name="ground" />
     <BodySet name="bodyset">
       <objects>
@@ -362,6 +357,20 @@ def document():
   </Model>
 </OpenSimDocument>
 '''
+
+
+def document():
+    build_arms(build_trunk())
+    build_legs()
+    build_markers()
+    assert len(joints) == 26 and len(markers) == 40 and sum(len(j['axes']) for j in joints) == 40
+    assert abs(sum(b['mass'] for b in bodies) - MASS_KG) < 1e-9
+    return osim_document('kinemark_human',
+                         f'The kinemark authors. Whole body, {number(MASS_KG)} kg, {number(HEIGHT_M)} m.'
+                         ' Masses, mass centres and radii of gyration: Winter (2009), table 4.1, after Dempster (1955).'
+                         ' Segment lengths: Drillis and Contini (1966).'
+                         ' Coordinate names as in Hamner et al. (2010) and Rajagopal et al. (2016).',
+                         (0.0, -9.80665, 0.0), 'human_model.py')
 
 
 def main():

@@ -44,7 +44,8 @@ struct ChainOptions {
 [[nodiscard]] Result<LimbRecording> simulate_chain(const ChainOptions& options);
 
 /// Options of simulate_sleeve(): a macaque's arm, reaching for food and bringing it to the mouth at 60 Hz, 16
-/// LEDs on a sleeve, straight segments of 150 and 160 mm about a shoulder at the origin.
+/// LEDs on a sleeve, straight segments of 150 and 160 mm about a right shoulder at the origin; x forward, y
+/// to the left, z up.
 struct SleeveOptions {
   double duration_s = 30.0;   ///< > 0
   double rate_hz = 60.0;      ///< > 0
@@ -55,7 +56,8 @@ struct SleeveOptions {
   double sight_cosine = 0.2;  ///< a camera sees an LED within this cosine of its normal, -1 to 1
   int sight_cameras = 2;      ///< of six that must see an LED, 1 to 6
   double mouth_loss = 0.6;    ///< chance that an LED near the hand is hidden for a whole visit to the mouth
-  double missing = 0.0;       ///< share of samples lost besides, each on its own
+  bool obstacles = false;  ///< head, trunk and the cage's front bars stand between LEDs and cameras as well
+  double missing = 0.0;    ///< share of samples lost besides, each on its own
   std::uint64_t seed = 1;
 
   /// Three cameras, a narrow beam, 0.9 hidden at the mouth and a fifth of the rest lost: about 30 % is seen.

@@ -100,6 +100,21 @@ TEST(SimulateSleeve, MoreIsLostNearTheMouth) {
   EXPECT_LT(near_seen / near_all, 0.7 * far_seen / far_all);
 }
 
+TEST(SimulateSleeve, ObstaclesHideMore) {
+  SleeveOptions options;
+  options.duration_s = 30.0;
+  const auto open = simulate_sleeve(options).value();
+  options.obstacles = true;
+  const auto caged = simulate_sleeve(options).value();
+  EXPECT_EQ(open.x_true, caged.x_true);
+  EXPECT_LT(seen_share(caged), seen_share(open) - 0.05);
+  EXPECT_GT(seen_share(caged), 0.2);
+  for (std::size_t i = 0; i < open.markers.state.size(); ++i)
+    if (open.markers.state[i] == data::SampleState::missing) {
+      EXPECT_EQ(caged.markers.state[i], data::SampleState::missing);
+    }
+}
+
 TEST(SimulateSleeve, SameSeedSameBits) {
   SleeveOptions options;
   options.duration_s = 3.0;

@@ -9,7 +9,7 @@
 
 namespace kinemark::simulation::internal {
 
-/// Where the mouth is from the shoulder: x away from the trunk, y forwards, z up; m.
+/// Where the mouth is from the right shoulder: x forward, y to the left, z up; m.
 [[nodiscard]] Eigen::Vector3d mouth_in_world();
 
 /// The wrist of an animal that reaches for food and brings it to its mouth, over and over: one frame after

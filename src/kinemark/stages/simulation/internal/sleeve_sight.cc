@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "kinemark/stages/simulation/internal/limb_build.h"
 #include "kinemark/stages/simulation/internal/reach_path.h"
 
 namespace kinemark::simulation::internal {
 namespace {
+
+using Eigen::Vector3d;
 
 constexpr std::array<std::array<double, 3>, 6> kCameras_m{{{0.7, 0.5, 0.5},
                                                            {0.8, -0.3, 0.4},
@@ -19,16 +22,38 @@ constexpr std::array<std::array<double, 3>, 6> kCameras_m{{{0.7, 0.5, 0.5},
                                                            {0.9, 0.2, -0.2}}};
 constexpr double kNear_m = 0.055;  // from the wrist to the mouth, while head and hand hide LEDs
 
+/// Does the line from x along `to_camera` run into a ball about `centre`?
+bool meets_ball(const Vector3d& x, const Vector3d& to_camera, const Vector3d& centre, double radius_m) {
+  const double along = std::clamp((centre - x).dot(to_camera) / to_camera.squaredNorm(), 0.0, 1.0);
+  return (x + along * to_camera - centre).norm() < radius_m;
+}
+
+/// Upright bars of the cage, in front of the animal.
+bool meets_bar(const Vector3d& x, const Vector3d& to_camera) {
+  constexpr double kFront_m = 0.34, kSpacing_m = 0.06, kRadius_m = 0.004;
+  const double along = (kFront_m - x.x()) / to_camera.x();
+  if (!(along > 0.0 && along < 1.0)) return false;
+  const double y = x.y() + along * to_camera.y();
+  return std::abs(y - kSpacing_m * std::round(y / kSpacing_m)) < kRadius_m;
+}
+
+bool blocked(const Vector3d& x, const Vector3d& to_camera) {
+  const Vector3d head = mouth_in_world() + Vector3d(-0.050, 0.0, 0.015), trunk(-0.060, 0.110, -0.140);
+  return meets_ball(x, to_camera, head, 0.045) || meets_ball(x, to_camera, trunk, 0.090) ||
+         meets_bar(x, to_camera);
+}
+
 }  // namespace
 
 SleeveSight::SleeveSight(const SleeveOptions& options)
     : cosine_(options.sight_cosine),
       mouth_loss_(options.mouth_loss),
       cameras_(options.sight_cameras),
+      obstacles_(options.obstacles),
       hidden_(2 * static_cast<std::size_t>(options.leds_per_segment), 0),
       random_(options.seed, static_cast<std::uint64_t>(LimbStream::sight)) {}
 
-void SleeveSight::begin_frame(const Eigen::Vector3d& wrist) {
+void SleeveSight::begin_frame(const Vector3d& wrist) {
   const bool near = (wrist - mouth_in_world()).norm() < kNear_m;
   if (near && !at_mouth_) {
     // The far half of the forearm is what dips behind the jaw.
@@ -39,12 +64,13 @@ void SleeveSight::begin_frame(const Eigen::Vector3d& wrist) {
   at_mouth_ = near;
 }
 
-bool SleeveSight::sees(int led, const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const {
+bool SleeveSight::sees(int led, const Vector3d& x, const Vector3d& normal) const {
   if (hidden_[static_cast<std::size_t>(led)] != 0) return false;
   int seen = 0;
   for (const auto& camera : kCameras_m) {
-    const Eigen::Vector3d to_camera = Eigen::Map<const Eigen::Vector3d>(camera.data()) - x;
-    if (to_camera.dot(normal) > cosine_ * to_camera.norm()) ++seen;
+    const Vector3d to_camera = Eigen::Map<const Vector3d>(camera.data()) - x;
+    if (!(to_camera.dot(normal) > cosine_ * to_camera.norm())) continue;
+    if (!obstacles_ || !blocked(x, to_camera)) ++seen;
   }
   return seen >= cameras_;
 }

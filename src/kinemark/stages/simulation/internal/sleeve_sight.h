@@ -24,6 +24,7 @@ class SleeveSight {
  private:
   double cosine_, mouth_loss_;
   int cameras_;
+  bool obstacles_;
   std::vector<std::uint8_t> hidden_;  // per LED, by the visit that goes on
   bool at_mouth_ = false;
   Random random_;

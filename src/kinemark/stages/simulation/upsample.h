@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+
+namespace kinemark::simulation {
+
+/// How a recorder fills in between the samples that its cameras gave.
+enum class Upsampling : std::uint8_t { linear, cubic };
+
+struct UpsampleOptions {
+  int factor = 4;  ///< 1 to 100; 4 makes 240 Hz of 60
+  Upsampling how = Upsampling::linear;
+  /// Samples that were made are called `upsampled`; without it `measured`, as a stream that tells nothing.
+  bool tell = false;
+};
+
+/// The recording as a recorder hands it on that promises a higher rate than its cameras have: F frames become
+/// (F - 1) factor + 1, every factor-th the camera's own. Between two samples that are there, `linear` draws a
+/// line and `cubic` the cubic of Catmull & Rom (1974) through the four around (the neighbour's line continued
+/// where one is missing); next to a missing sample nothing is made. Covariances are left out. O(F M).
+[[nodiscard]] Result<data::Trajectories> upsample(const data::Trajectories& recorded,
+                                                  const UpsampleOptions& options = {});
+
+}  // namespace kinemark::simulation
