@@ -6,8 +6,8 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/poizner/study_figures.h"
 #include "kinemark/pipeline/poizner/study_poizner_job.h"
-#include "kinemark/pipeline/study_page_job.h"
 
 namespace kinemark::cli {
 namespace {
@@ -25,13 +25,13 @@ int run_poizner(const Globals& globals, const std::string& seeds, const std::str
   const auto study = pipeline::study_poizner(job, show_progress(globals, "rigs"));
   if (!study) return report_error(study.error());
   if (!figures.empty()) {
-    if (auto s = pipeline::write_study_page(*study, figures, globals.force); !s)
+    if (auto s = pipeline::write_study_page(pipeline::study_page(*study), figures, globals.force); !s)
       return report_error(s.error());
     say(globals, "wrote " + figures);
   }
-  say(globals, pipeline::study_table(*study));
-  if (globals.json) fmt::print("{}\n", pipeline::study_json(*study).dump(2));
-  return study->pass() ? 0 : 1;
+  say(globals, pipeline::study_text(study->table));
+  if (globals.json) fmt::print("{}\n", pipeline::study_json(study->table).dump(2));
+  return study->table.pass() ? 0 : 1;
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ void study(int last) {
   pipeline::PoiznerJob job;
   job.seeds = pipeline::parse_seeds(fmt::format("1-{}", last)).value();
   const auto done = pipeline::study_poizner(job).value();
-  for (const auto& row : done.rows) {
+  for (const auto& row : done.table.rows) {
     std::string asked;
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
     if (row.at_most) asked += fmt::format("<= {:.4g} ", *row.at_most);

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "kinemark/core/check.h"
-#include "kinemark/pipeline/poizner/svg_plot.h"
 #include "kinemark/pipeline/poizner/wheel_measures.h"
+#include "kinemark/pipeline/study/svg_plot.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -83,56 +83,31 @@ std::string hand_curve(const char* title, const char* unit, const Matrix3Xd& tru
   return plot.svg();
 }
 
-std::string table(const PoiznerStudy& study) {
-  const auto cell = [](const std::optional<double>& v) {
-    return v ? fmt::format("<td>{:.4g}</td>", *v) : std::string("<td></td>");
-  };
-  std::string out =
-      "<table><tr><th></th><th>unit</th><th>paper</th><th>1986 method</th><th>ours</th><th>limit</th><th>at "
-      "least</th><th>at most</th></tr>";
-  for (const auto& row : study.rows)
-    out += fmt::format("<tr{}><th>{}</th><td>{}</td>", row.pass() ? "" : " class=\"fails\"", row.quantity,
-                       row.unit) +
-           cell(row.paper) + cell(row.classic) + cell(row.ours) + cell(row.limit) + cell(row.at_least) +
-           cell(row.at_most) + "</tr>";
-  return out + "</table>";
-}
-
-constexpr const char* kHead =
-    "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Study: Poizner, Wooten and Salot "
-    "1986</title><style>"
-    "body{font:14px sans-serif;max-width:1340px;margin:2em auto;padding:0 1em}svg{font:11px "
-    "sans-serif}figure{display:inline-block;margin:0 1em 1em 0}"
-    ".grid{stroke:#ddd}.box{fill:none;stroke:#333;stroke-dasharray:5 "
-    "4}table{border-collapse:collapse}td,th{padding:2px 8px;text-align:right;"
-    "border-bottom:1px solid "
-    "#ddd;font-weight:normal}th:first-child{text-align:left}.fails{background:#f6d5d5}</style></head><body>";
-
 }  // namespace
 
-std::string study_page(const PoiznerStudy& study) {
+StudyPage study_page(const PoiznerStudy& study) {
   check(!study.seeds.empty(), "the page shows the first seed");
   const PoiznerSeed& seed = study.seeds.front();
   const ArmOutcome& arm = seed.arm;
   const std::size_t hand = arm.our_paths.size() - 1;
-  const auto figure = [](const std::string& title, const std::string& body) {
-    return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", title, body);
-  };
   const Matrix3Xd classic_velocity = rates(arm.classic_paths[hand]);
-  std::string out = kHead;
-  out += fmt::format("<h1>The rig of 1986</h1><p>Figures: rig {}. Table: {} rigs.</p>", seed.seed,
-                     study.seeds.size());
+  StudyPage out{.title = "Study: Poizner, Wooten and Salot 1986",
+                .heading = "The rig of 1986",
+                .words = fmt::format("Figures: rig {}. Table: {} rigs.", seed.seed, study.seeds.size()),
+                .classic = "1986 method",
+                .figures = {},
+                .table = study.table};
   for (int wheel = 0; wheel < 2; ++wheel)
-    out += figure(fmt::format("{}, best-fit plane", wheel_name(wheel)),
-                  wheel_plane(seed.wheels[static_cast<std::size_t>(wheel)]));
-  out += figure("Wheel at 8 deg, displacement", wheel_displacement(seed.wheels.front()));
-  out += figure("Arm signing LOOK-AT[Continuative]", arm_paths(arm));
-  out += figure("Speed of the hand", hand_curve("Speed of the hand", "m/s", arm.true_velocity[hand],
-                                                arm.our_paths[hand].velocity, classic_velocity));
-  out += figure("Acceleration of the hand",
-                hand_curve("Acceleration of the hand", "m/s^2", arm.true_acceleration[hand],
-                           arm.our_paths[hand].acceleration, rates(classic_velocity)));
-  return out + table(study) + "</body></html>\n";
+    out.figures.push_back({fmt::format("{}, best-fit plane", wheel_name(wheel)),
+                           wheel_plane(seed.wheels[static_cast<std::size_t>(wheel)])});
+  out.figures.push_back({"Wheel at 8 deg, displacement", wheel_displacement(seed.wheels.front())});
+  out.figures.push_back({"Arm signing LOOK-AT[Continuative]", arm_paths(arm)});
+  out.figures.push_back({"Speed of the hand", hand_curve("Speed of the hand", "m/s", arm.true_velocity[hand],
+                                                         arm.our_paths[hand].velocity, classic_velocity)});
+  out.figures.push_back({"Acceleration of the hand",
+                         hand_curve("Acceleration of the hand", "m/s^2", arm.true_acceleration[hand],
+                                    arm.our_paths[hand].acceleration, rates(classic_velocity))});
+  return out;
 }
 
 }  // namespace kinemark::pipeline

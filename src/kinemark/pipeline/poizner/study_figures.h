@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "kinemark/pipeline/poizner/study_poizner_job.h"
+#include "kinemark/pipeline/study/study_page.h"
 
 namespace kinemark::pipeline {
 
 /// One self-contained page: the table, and for the first seed the wheel in its best-fit plane with its box,
 /// its displacement through time, the arm's four paths, speed and acceleration of the hand. The study needs
 /// one seed or more.
-[[nodiscard]] std::string study_page(const PoiznerStudy& study);
+[[nodiscard]] StudyPage study_page(const PoiznerStudy& study);
 
 }  // namespace kinemark::pipeline

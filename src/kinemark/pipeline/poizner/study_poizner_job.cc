@@ -4,24 +4,14 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
-#include <nlohmann/json.hpp>
 
 #include "kinemark/core/parallel.h"
 #include "kinemark/pipeline/poizner/study_rows.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-std::optional<std::uint64_t> number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 Result<PoiznerSeed> study_seed(std::uint64_t seed) {
   auto rig = calibrate_rig(seed);
@@ -42,39 +32,7 @@ Result<PoiznerSeed> study_seed(std::uint64_t seed) {
   return out;
 }
 
-std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
-
-std::string bound(const StudyRow& row) {
-  if (row.at_least && row.at_most) return fmt::format("{:.4g} to {:.4g}", *row.at_least, *row.at_most);
-  if (row.at_least) return fmt::format(">= {:.4g}", *row.at_least);
-  return row.at_most ? fmt::format("<= {:.4g}", *row.at_most) : "-";
-}
-
 }  // namespace
-
-Result<std::vector<std::uint64_t>> parse_seeds(std::string_view text) {
-  constexpr std::size_t kMost = 1000;
-  std::vector<std::uint64_t> out;
-  const auto wrong = [&] {
-    return fail(
-        Code::usage,
-        fmt::format("--seeds: '{}'; numbers and ranges such as 1-10 or 1,4,7-9 were expected, {} at most",
-                    text, kMost));
-  };
-  for (std::size_t at = 0; at <= text.size();) {
-    const auto comma = std::min(text.find(',', at), text.size());
-    const auto part = text.substr(at, comma - at);
-    const auto dash = part.find('-');
-    const auto first = number(part.substr(0, dash));
-    const auto last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
-    if (!first || !last || *last < *first || *last - *first >= kMost ||
-        out.size() + (*last - *first) >= kMost)
-      return wrong();
-    for (std::uint64_t seed = *first; seed <= *last; ++seed) out.push_back(seed);
-    at = comma + 1;
-  }
-  return out;
-}
 
 simulation::WheelOptions study_wheel_options(int wheel) {
   simulation::WheelOptions out;
@@ -87,10 +45,6 @@ std::string_view wheel_name(int wheel) {
   constexpr std::array<std::string_view, kWheels> kNames{"wheel at 8 deg", "wheel at 35 deg",
                                                          "wheel at 8 deg, glint", "wheel at 35 deg, glint"};
   return kNames[static_cast<std::size_t>(wheel)];
-}
-
-bool PoiznerStudy::pass() const {
-  return std::ranges::all_of(rows, [](const StudyRow& row) { return row.pass(); });
 }
 
 Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progress) {
@@ -115,38 +69,7 @@ Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progre
     if (!outcome) return std::unexpected(outcome.error());
     out.seeds.push_back(std::move(*outcome));
   }
-  out.rows = study_rows(out.seeds);
-  return out;
-}
-
-nlohmann::ordered_json study_json(const PoiznerStudy& study) {
-  using Json = nlohmann::ordered_json;
-  const auto value = [](const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); };
-  Json rows = Json::array();
-  for (const auto& row : study.rows) {
-    const Json limits =
-        row.at_least ? Json::array({value(row.at_least), value(row.at_most)}) : value(row.at_most);
-    rows.push_back({{"quantity", row.quantity},
-                    {"unit", row.unit},
-                    {"paper", value(row.paper)},
-                    {"classic", value(row.classic)},
-                    {"ours", row.ours},
-                    {"limit", value(row.limit)},
-                    {"bound", limits},
-                    {"pass", row.pass()}});
-  }
-  Json seeds = Json::array();
-  for (const auto& seed : study.seeds) seeds.push_back(seed.seed);
-  return {{"seeds", seeds}, {"rows", rows}, {"pass", study.pass()}};
-}
-
-std::string study_table(const PoiznerStudy& study) {
-  std::string out = fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12}\n", "", "unit", "paper",
-                                "classic", "ours", "limit", "bound");
-  for (const auto& row : study.rows)
-    out += fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12} {}\n", row.quantity, row.unit,
-                       cell(row.paper), cell(row.classic), cell(row.ours), cell(row.limit), bound(row),
-                       row.pass() ? "" : "FAILS");
+  out.table = {job.seeds, study_rows(out.seeds)};
   return out;
 }
 

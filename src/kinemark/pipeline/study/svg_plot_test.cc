@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/poizner/svg_plot.h"
+#include "kinemark/pipeline/study/svg_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

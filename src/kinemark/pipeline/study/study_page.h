@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/pipeline/study/study_table.h"
+
+namespace kinemark::pipeline {
+
+/// A picture of a study's page.
+struct StudyFigure {
+  std::string caption;  ///< plain text
+  std::string body;     ///< HTML, such as SvgPlot::svg() and a paragraph
+};
+
+/// A study as one page. Words are plain text: `<` and `&` mean themselves.
+struct StudyPage {
+  std::string title;                ///< of the window
+  std::string heading, words;       ///< on top of the page
+  std::string classic = "classic";  ///< name of that column
+  std::vector<StudyFigure> figures;
+  StudyTable table;
+};
+
+/// Text whose `&`, `<`, `>` and `"` HTML shows as they are.
+[[nodiscard]] std::string html_text(std::string_view text);
+
+/// The table alone, an HTML element: rows that fail have the class "fails".
+[[nodiscard]] std::string study_table_html(const StudyTable& table, std::string_view classic);
+
+/// One self-contained page: heading, figures, table. Nothing is fetched.
+[[nodiscard]] std::string study_html(const StudyPage& page);
+
+/// Write study_html(): the file appears whole or not at all, and replaces another only with `force`.
+[[nodiscard]] Status write_study_page(const StudyPage& page, const std::filesystem::path& path, bool force);
+
+}  // namespace kinemark::pipeline

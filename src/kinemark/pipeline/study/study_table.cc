@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/study/study_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+namespace kinemark::pipeline {
+namespace {
+
+std::optional<std::uint64_t> number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
+
+std::string bound(const StudyRow& row) {
+  if (row.at_least && row.at_most) return fmt::format("{:.4g} to {:.4g}", *row.at_least, *row.at_most);
+  if (row.at_least) return fmt::format(">= {:.4g}", *row.at_least);
+  return row.at_most ? fmt::format("<= {:.4g}", *row.at_most) : "-";
+}
+
+}  // namespace
+
+bool StudyTable::pass() const {
+  return std::ranges::all_of(rows, [](const StudyRow& row) { return row.pass(); });
+}
+
+Result<std::vector<std::uint64_t>> parse_seeds(std::string_view text) {
+  constexpr std::size_t kMost = 1000;
+  std::vector<std::uint64_t> out;
+  const auto wrong = [&] {
+    return fail(
+        Code::usage,
+        fmt::format("--seeds: '{}'; numbers and ranges such as 1-10 or 1,4,7-9 were expected, {} at most",
+                    text, kMost));
+  };
+  for (std::size_t at = 0; at <= text.size();) {
+    const auto comma = std::min(text.find(',', at), text.size());
+    const auto part = text.substr(at, comma - at);
+    const auto dash = part.find('-');
+    const auto first = number(part.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
+    if (!first || !last || *last < *first || *last - *first >= kMost ||
+        out.size() + (*last - *first) >= kMost)
+      return wrong();
+    for (std::uint64_t seed = *first; seed <= *last; ++seed) out.push_back(seed);
+    at = comma + 1;
+  }
+  return out;
+}
+
+nlohmann::ordered_json study_json(const StudyTable& table) {
+  using Json = nlohmann::ordered_json;
+  const auto value = [](const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); };
+  Json rows = Json::array();
+  for (const auto& row : table.rows) {
+    const Json limits =
+        row.at_least ? Json::array({value(row.at_least), value(row.at_most)}) : value(row.at_most);
+    rows.push_back({{"quantity", row.quantity},
+                    {"unit", row.unit},
+                    {"paper", value(row.paper)},
+                    {"classic", value(row.classic)},
+                    {"ours", row.ours},
+                    {"limit", value(row.limit)},
+                    {"bound", limits},
+                    {"pass", row.pass()}});
+  }
+  return {{"seeds", table.seeds}, {"rows", rows}, {"pass", table.pass()}};
+}
+
+std::string study_text(const StudyTable& table) {
+  std::string out = fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12}\n", "", "unit", "paper",
+                                "classic", "ours", "limit", "bound");
+  for (const auto& row : table.rows)
+    out += fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12} {}\n", row.quantity, row.unit,
+                       cell(row.paper), cell(row.classic), cell(row.ours), cell(row.limit), bound(row),
+                       row.pass() ? "" : "FAILS");
+  return out;
+}
+
+}  // namespace kinemark::pipeline
