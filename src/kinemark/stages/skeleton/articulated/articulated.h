@@ -29,7 +29,6 @@ struct ArticulatedOptions {
   int max_fit_frames = 1500;      ///< 20 or more; frames, spread over the recording, for the geometry
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
-  std::uint64_t seed = 1;         ///< of the choice of frames
 
   [[nodiscard]] Status check() const;
 };

@@ -1,0 +1,336 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/articulated.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/units.h"
+#include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
+#include "kinemark/stages/skeleton/articulated/internal/continuity.h"
+#include "kinemark/stages/skeleton/articulated/internal/findings.h"
+#include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
+#include "kinemark/stages/skeleton/articulated/internal/recording_pass.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+using data::CentreState;
+
+constexpr double kRobustDof = 8.0;    // of Student's t: costs 2 % of precision where errors are normal
+constexpr double kStill_rad = 0.02;   // a joint that turns less did not move
+constexpr double kTwinMargin = 10.0;  // chi-square that separates a geometry from its mirror image
+constexpr double kMm = 1e3;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Everything that is known on the way, in the chain's order of segments and joints.
+struct Work {
+  const data::Trajectories& markers;
+  const data::SegmentLayout& layout;
+  const ArticulatedOptions& options;
+  internal::JointTree tree;
+  internal::ChainInput input;
+  ChainFit fit;
+  internal::RecordingPass pass;
+  internal::Continuity continuity;
+};
+
+Status check_input(const data::Trajectories& markers, const data::SegmentLayout& layout,
+                   const ArticulatedOptions& options) {
+  if (auto s = options.check(); !s) return s;
+  if (auto s = layout.validate(markers.markers()); !s) return s;
+  if (auto s = internal::check_tree(layout); !s) return s;
+  if (!options.kinds.empty() && options.kinds.size() != layout.segments.size())
+    return fail(Code::usage, fmt::format("{} kinds for {} segments; need one each", options.kinds.size(),
+                                         layout.segments.size()));
+  std::size_t count = 0;
+  for (const auto& s : layout.segments) count += s.markers.size();
+  if (count < 3)
+    return fail(Code::bad_input,
+                fmt::format("{} markers in all; a joint between two segments needs three or more", count));
+  return {};
+}
+
+ChainFitOptions fit_options(const Work& w) {
+  ChainFitOptions out;
+  out.noise_sd_m = w.options.noise_sd_m;
+  out.robust_dof = w.options.robust ? kRobustDof : 0.0;
+  out.frames_max = w.options.max_fit_frames;
+  if (!w.options.kinds.empty())
+    for (const int s : w.tree.segment_order) out.kind.push_back(w.options.kinds[at(s)]);
+  return out;
+}
+
+data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
+  const int s = w.tree.segment_order[at(chain_segment)];
+  data::SkeletonSegment out{.name = w.layout.segments[at(s)].name,
+                            .kind = w.fit.chain.kind[at(chain_segment)]};
+  const auto markers = w.fit.chain.layout.markers_of(chain_segment);
+  out.x_in_segment.resize(3, static_cast<Eigen::Index>(markers.size()));
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    out.markers.push_back(w.input.marker[at(markers[i])]);
+    out.x_in_segment.col(static_cast<Eigen::Index>(i)) = w.fit.chain.marker.col(markers[i]);
+  }
+  return out;
+}
+
+/// What the motion shows of a joint.
+std::string words(const internal::JointMotionSeen& seen, bool hinge, double common_sd_m) {
+  const double deg = seen.range_rad * kDegPerRad;
+  if (seen.frames == 0) return "no frame determines it by its own markers";
+  if (seen.range_rad < kStill_rad)
+    return fmt::format("{:.1f} deg of motion: neither axis nor centre known", deg);
+  if (hinge && seen.one_axis)
+    return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
+                       seen.axis_sd_rad * kDegPerRad);
+  return fmt::format("{:.0f} deg of motion: centre known to {:.1f} mm in its segments", deg,
+                     kMm * common_sd_m);
+}
+
+data::SkeletonJoint describe_joint(const Work& w, int j, const internal::JointMotionSeen& seen,
+                                   double common_sd_m) {
+  const int layout_joint = w.tree.joint_order[at(j)];
+  const auto& named = w.layout.joints[at(layout_joint)];
+  data::SkeletonJoint out{.name = named.name, .parent_segment = named.parent, .child_segment = named.child};
+  const bool hinge =
+      w.options.joint == JointChoice::hinge || (w.options.joint == JointChoice::automatic && seen.one_axis);
+  out.kind = hinge ? data::JointKind::hinge : data::JointKind::ball;
+  out.range_of_motion_rad = seen.range_rad;
+  out.method = "articulated";
+  out.words = words(seen, hinge, common_sd_m);
+  // The chain may see the joint from its other side.
+  const bool turned = w.tree.holder[at(layout_joint)] != named.parent;
+  Vector3d above = w.fit.chain.joint.col(j), below = Vector3d::Zero();
+  Matrix3d above_C = w.fit.joint_covariance(j, true), below_C = w.fit.joint_covariance(j, false);
+  Vector3d above_axis = seen.axis_in_parent, below_axis = seen.axis_in_child;
+  if (turned) {
+    std::swap(above, below);
+    std::swap(above_C, below_C);
+    std::swap(above_axis, below_axis);
+  }
+  out.centre_in_parent = above;
+  out.centre_in_child = below;
+  out.covariance_in_parent = above_C;
+  out.covariance_in_child = below_C;
+  if (hinge) {
+    out.axis_in_parent = above_axis;
+    out.axis_in_child = below_axis;
+    out.axis_sd_rad = seen.axis_sd_rad;
+  }
+  return out;
+}
+
+/// Mean over determined frames of the error that all of them share, m^2 (trace).
+double common_variance(const Work& w, int j) {
+  double sum = 0.0, n = 0.0;
+  for (std::size_t f = 0; f < w.pass.state[at(j)].size(); ++f) {
+    if (w.pass.state[at(j)][f] != CentreState::determined) continue;
+    const double* c = w.pass.common[at(j)].data() + 6 * f;
+    sum += c[0] + c[3] + c[5];
+    n += 1.0;
+  }
+  return n > 0.0 ? sum / n : 0.0;
+}
+
+/// Along a hinge's axis nothing is known: add there, in the world, what the segments' size allows.
+void widen_along_axis(const Work& w, data::Skeleton& skeleton, int layout_joint, double size_m) {
+  const data::SkeletonJoint& joint = skeleton.joints[at(layout_joint)];
+  const auto chain_joint =
+      static_cast<int>(std::ranges::find(w.tree.joint_order, layout_joint) - w.tree.joint_order.begin());
+  const int segment = w.fit.chain.layout.parent[at(chain_joint)];
+  const bool turned = w.tree.holder[at(layout_joint)] != joint.parent_segment;
+  const Vector3d axis = turned ? joint.axis_in_child : joint.axis_in_parent;
+  // Between sampled poses the axis is that of the last one: it points where the width goes, not where the
+  // joint is.
+  std::size_t next = 0;
+  const auto& sampled = w.pass.sampled;
+  for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
+    while (next + 1 < sampled.size() && sampled[next + 1].frame <= f) ++next;
+    if (next >= sampled.size() ||
+        skeleton.state[skeleton.index(f, layout_joint)] == CentreState::undetermined)
+      continue;
+    const Vector3d in_world = sampled[next].pose.rotation[at(segment)] * axis;
+    const Matrix3d C = skeleton.centre_covariance(f, layout_joint);
+    const double more = size_m * size_m - in_world.dot(C * in_world);
+    if (more > 0.0)
+      internal::store_symmetric(skeleton.covariance.data() + 6 * skeleton.index(f, layout_joint),
+                                C + more * in_world * in_world.transpose());
+  }
+  const auto widen = [&](Matrix3d& C, const Vector3d& a) {
+    if (const double more = size_m * size_m - a.dot(C * a); more > 0.0) C += more * a * a.transpose();
+  };
+  auto& changed = skeleton.joints[at(layout_joint)];
+  widen(changed.covariance_in_parent, changed.axis_in_parent);
+  widen(changed.covariance_in_child, changed.axis_in_child);
+}
+
+/// One joint's centres, by its own frames or by its path.
+void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary& summary) {
+  const int layout_joint = w.tree.joint_order[at(j)];
+  const internal::SmoothedPath& path = w.continuity.path[at(j)];
+  const double shared = common_variance(w, j) / 3.0;
+  const double widest = w.options.max_bridge_sd_m * w.options.max_bridge_sd_m;
+  for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
+    const auto k = static_cast<std::size_t>(f);
+    const std::size_t to = skeleton.index(f, layout_joint);
+    CentreState state = w.pass.state[at(j)][k];
+    Vector3d centre = w.pass.points[at(j)][k].place;
+    const bool alone = state == CentreState::determined;
+    Matrix3d C = state == CentreState::undetermined
+                     ? Matrix3d::Zero()
+                     : internal::load_symmetric(w.pass.covariance[at(j)].data() + 6 * k);
+    if (!path.place.empty() && path.known(k)) {
+      const Matrix3d own = path.covariance_at(k);
+      if (alone || own.trace() < widest) {
+        state = alone ? CentreState::determined : CentreState::bridged;
+        centre = path.place[k];
+        C = own + (alone ? internal::load_symmetric(w.pass.common[at(j)].data() + 6 * k)
+                         : Matrix3d(shared * Matrix3d::Identity()));
+      }
+    }
+    switch (state) {
+      case CentreState::determined:
+        ++summary.determined;
+        break;
+      case CentreState::bridged:
+        ++summary.bridged;
+        break;
+      case CentreState::ambiguous:
+        ++summary.ambiguous;
+        break;
+      case CentreState::undetermined:
+        ++summary.undetermined;
+        break;
+    }
+    skeleton.state[to] = state;
+    if (state == CentreState::undetermined) continue;
+    std::copy_n(centre.data(), 3, skeleton.centre_in_world.data() + 3 * to);
+    internal::store_symmetric(skeleton.covariance.data() + 6 * to, C);
+  }
+  summary.common_sd_m = std::sqrt(3.0 * shared);
+  summary.white_jerk = path.place.empty() ? 0.0 : w.continuity.prior[at(j)].white_jerk;
+}
+
+void write_lengths(const Work& w, data::Skeleton& skeleton) {
+  for (const auto& l : w.fit.lengths()) {
+    int a = w.tree.joint_order[at(l.joint_a)], b = w.tree.joint_order[at(l.joint_b)];
+    if (a > b) std::swap(a, b);
+    const int segment = w.tree.segment_order[at(l.segment)];
+    skeleton.lengths.push_back({.name = w.layout.segments[at(segment)].name,
+                                .joint_a = a,
+                                .joint_b = b,
+                                .length_m = l.length_m,
+                                .sd_m = l.sd_m});
+  }
+}
+
+void write_warnings(const Work& w, data::Skeleton& skeleton) {
+  auto& warnings = skeleton.warnings;
+  warnings = w.fit.warnings;
+  const auto name = [&](int chain_marker) { return w.markers.names[at(w.input.marker[at(chain_marker)])]; };
+  if (w.fit.twin_margin < kTwinMargin)
+    warnings.push_back(
+        fmt::format("the geometry has a mirror twin that fits nearly as well (chi-square {:.1f} apart): the "
+                    "centres may be "
+                    "on the wrong side of their markers",
+                    w.fit.twin_margin));
+  const auto slips = internal::find_slips(w.fit, w.input.samples, w.pass);
+  for (const auto& slip : slips)
+    warnings.push_back(
+        fmt::format("marker '{}' sits {:.1f} mm elsewhere on its segment from {:.2f} s on: "
+                    "did it slip?",
+                    name(slip.marker), kMm * slip.distance_m, w.markers.time.time_s(slip.frame)));
+  for (const auto& swap : internal::find_swaps(w.fit, w.input.samples, w.pass))
+    warnings.push_back(fmt::format(
+        "markers '{}' and '{}' have exchanged names in {} frames, the first at {:.2f} s", name(swap.marker_a),
+        name(swap.marker_b), swap.frames, w.markers.time.time_s(swap.first_frame)));
+  for (const auto& loose : internal::find_loose_markers(w.fit, w.input.samples, w.pass)) {
+    const bool slipped = std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; });
+    if (!slipped)
+      warnings.push_back(
+          fmt::format("marker '{}' moves on its segment by {:.1f} mm beside a noise of {:.1f} mm",
+                      name(loose.marker), kMm * loose.rms_m, kMm * w.fit.noise_sd_m));
+  }
+  for (std::size_t j = 0; j < w.continuity.prior.size() && w.options.continuity; ++j)
+    if (w.continuity.path[j].place.empty())
+      warnings.push_back(
+          fmt::format("joint '{}': nothing was smoothed, for the determined frames do not follow "
+                      "each other in time",
+                      w.layout.joints[at(w.tree.joint_order[j])].name));
+  if (!w.pass.misfits.empty())
+    warnings.push_back(
+        fmt::format("{} of {} frames are not explained by rigid segments and noise of {:.2f} mm",
+                    w.pass.misfits.size(), w.markers.frames(), kMm * w.fit.noise_sd_m));
+}
+
+ArticulatedFit assemble(const Work& w) {
+  ArticulatedFit out;
+  data::Skeleton& skeleton = out.skeleton;
+  const auto J = static_cast<int>(w.layout.joints.size());
+  skeleton.markers = w.markers.names;
+  skeleton.time = w.markers.time;
+  skeleton.noise_sd_m = w.fit.noise_sd_m;
+  skeleton.segments.resize(w.layout.segments.size());
+  for (int s = 0; s < w.fit.chain.segments(); ++s)
+    skeleton.segments[at(w.tree.segment_order[at(s)])] = describe_segment(w, s);
+  skeleton.joints.resize(w.layout.joints.size());
+  out.joints.resize(w.layout.joints.size());
+  std::vector<internal::JointMotionSeen> seen;
+  for (int j = 0; j < J; ++j) {
+    seen.push_back(internal::look_at_joint(w.fit, w.pass, j));
+    skeleton.joints[at(w.tree.joint_order[at(j)])] =
+        describe_joint(w, j, seen.back(), std::sqrt(common_variance(w, j)));
+  }
+  skeleton.allocate_centres();
+  for (int j = 0; j < J; ++j) write_centres(w, j, skeleton, out.joints[at(w.tree.joint_order[at(j)])]);
+  for (const auto& flagged : w.pass.flagged)
+    for (int j = 0; j < J; ++j)
+      if (w.pass.state[at(j)][static_cast<std::size_t>(flagged.frame)] != CentreState::determined)
+        out.joints[at(w.tree.joint_order[at(j)])].modes += static_cast<std::int64_t>(flagged.modes.size());
+  for (int j = 0; j < J; ++j)
+    if (seen[at(j)].one_axis && skeleton.joints[at(w.tree.joint_order[at(j)])].kind == data::JointKind::hinge)
+      widen_along_axis(w, skeleton, w.tree.joint_order[at(j)], w.fit.chain.scale());
+  write_lengths(w, skeleton);
+  write_warnings(w, skeleton);
+  return out;
+}
+
+}  // namespace
+
+Status ArticulatedOptions::check() const {
+  if (!std::isfinite(noise_sd_m) || noise_sd_m < 0.0)
+    return fail(Code::usage, fmt::format("noise is {} m; need 0 (estimated) or more", noise_sd_m));
+  if (max_fit_frames < 20)
+    return fail(Code::usage, fmt::format("{} frames for the geometry; need 20 or more", max_fit_frames));
+  if (!std::isfinite(max_bridge_sd_m) || max_bridge_sd_m <= 0.0)
+    return fail(Code::usage, fmt::format("largest bridged SD is {} m; need more than 0", max_bridge_sd_m));
+  if (threads < 0) return fail(Code::usage, fmt::format("{} threads; need 0 (all cores) or more", threads));
+  return {};
+}
+
+Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const data::SegmentLayout& layout,
+                                       const ArticulatedOptions& options, const Progress& progress) {
+  if (auto s = check_input(markers, layout, options); !s) return std::unexpected(s.error());
+  Work w{.markers = markers, .layout = layout, .options = options, .tree = internal::JointTree(layout)};
+  w.input = internal::arrange(markers, layout, w.tree);
+  auto fit = fit_chain(w.input.samples, w.input.layout, fit_options(w));
+  if (!fit) return std::unexpected(fit.error());
+  w.fit = std::move(*fit);
+  auto pass = internal::pass_over(w.fit, w.input.samples, options.threads, progress);
+  if (!pass) return std::unexpected(pass.error());
+  w.pass = std::move(*pass);
+  const std::size_t J = layout.joints.size();
+  if (options.continuity)
+    w.continuity =
+        internal::follow_paths(w.fit, w.input.samples, markers.time.rate_hz, options.threads, w.pass);
+  else
+    w.continuity = {.prior = std::vector<internal::PathPrior>(J),
+                    .path = std::vector<internal::SmoothedPath>(J)};
+  return assemble(w);
+}
+
+}  // namespace kinemark::skeleton
