@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/scaling/internal/projection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kinemark/core/parallel.h"
+#include "kinemark/stages/motion/internal/frame_solver.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+constexpr std::int64_t kGrain = 32;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// The same parameters for a description that holds some of the markers only.
+std::vector<GeometryParameter> rename_markers(const data::ModelDescription& full,
+                                              const data::ModelDescription& base,
+                                              std::vector<GeometryParameter> parameters) {
+  for (auto& parameter : parameters) {
+    for (auto& term : parameter.terms)
+      if (term.moves == GeometryTerm::Moves::marker)
+        term.idx = base.find_marker(full.markers[at(term.idx)].name);
+    std::erase_if(parameter.terms, [](const GeometryTerm& term) { return term.idx < 0; });
+  }
+  return parameters;
+}
+
+}  // namespace
+
+Projection::Projection(const data::ModelDescription& full, const std::vector<GeometryParameter>& parameters,
+                       Problem problem, const IkOptions& options, const data::Trajectories& markers,
+                       int threads)
+    : problem_(std::move(problem)),
+      layout_(problem_, full, parameters),
+      base_(problem_.model.description()),
+      parameters_(rename_markers(full, base_, parameters)),
+      options_(options),
+      markers_(markers),
+      threads_(threads) {}
+
+ProjectedSums Projection::solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states) {
+  // Places and offsets stay finite, so what compiled once compiles again.
+  problem_.model = model::Model::compile(apply_geometry(base_, parameters_, x),
+                                         {.free_roots = !problem_.model.free_joints().empty()})
+                       .value();
+  const std::int64_t visited = (problem_.frames + stride_ - 1) / stride_;
+  std::vector<ProjectedSums> partial(at((visited + kGrain - 1) / kGrain), ProjectedSums(layout_.columns));
+  parallel_for(visited, kGrain, threads_, [&](std::int64_t begin, std::int64_t end) {
+    ProjectedSums& sums = partial[at(begin / kGrain)];
+    FrameSolver solver(problem_, options_);
+    FrameEquations equations(problem_, layout_);
+    Eigen::Matrix3Xd y(3, problem_.model.marker_count());
+    Eigen::VectorXd weight(problem_.model.marker_count()), state;
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t f = i * stride_;
+      problem_.observe(markers_, f, y, weight);
+      const auto visible = (weight.array() > 0.0).count();
+      if (visible == 0) continue;
+      state = states.col(f);
+      sums.cost += solver.solve(y, weight, f, state).cost * weight.sum();
+      states.col(f) = state;
+      equations.visit(y, weight, state);
+      equations.add_to(sums.normal);
+      const auto free_speeds = std::count(problem_.fixed_speed.begin(), problem_.fixed_speed.end(), 0);
+      sums.moved_speeds += std::min<std::int64_t>(free_speeds, 3 * visible);
+    }
+  });
+  ProjectedSums total(layout_.columns);
+  for (const auto& part : partial) {
+    total.normal.S += part.normal.S;
+    total.normal.g += part.normal.g;
+    total.normal.weighted_squares += part.normal.weighted_squares;
+    total.normal.squares += part.normal.squares;
+    total.normal.seen += part.normal.seen;
+    total.cost += part.cost;
+    total.moved_speeds += part.moved_speeds;
+  }
+  return total;
+}
+
+}  // namespace kinemark::motion::internal

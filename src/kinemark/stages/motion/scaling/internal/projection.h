@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/scaling/internal/schur.h"
+
+namespace kinemark::motion::internal {
+
+/// Sums at one geometry with every posture at its best.
+struct ProjectedSums {
+  explicit ProjectedSums(int columns) : normal(columns) {}
+  NormalSums normal;
+  double cost = 0.0;              ///< weighted squares and tasks
+  std::int64_t moved_speeds = 0;  ///< speeds that the frames had to themselves, summed
+  [[nodiscard]] double rms() const {
+    return normal.seen > 0 ? std::sqrt(normal.squares / static_cast<double>(normal.seen)) : 0.0;
+  }
+};
+
+/// Geometry in, best postures and the normal equations of the geometry out.
+class Projection {
+ public:
+  Projection(const data::ModelDescription& full, const std::vector<GeometryParameter>& parameters,
+             Problem problem, const IkOptions& options, const data::Trajectories& markers, int threads);
+
+  /// Visit every stride-th frame only.
+  void set_frames(std::int64_t stride) { stride_ = stride; }
+
+  /// Solve all frames with the geometry changed by x, from `states` (columns are frames), which improve.
+  ProjectedSums solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states);
+
+  /// With the geometry of the last solve().
+  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] const GeometryLayout& layout() const { return layout_; }
+
+ private:
+  Problem problem_;
+  GeometryLayout layout_;
+  data::ModelDescription base_;                ///< as given, used markers only
+  std::vector<GeometryParameter> parameters_;  ///< by the indices of base_
+  IkOptions options_;
+  const data::Trajectories& markers_;
+  int threads_;
+  std::int64_t stride_ = 1;
+};
+
+}  // namespace kinemark::motion::internal
