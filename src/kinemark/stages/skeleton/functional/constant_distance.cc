@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/constant_distance.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinemark/stages/skeleton/functional/internal/lbfgs.h"
+#include "kinemark/stages/skeleton/functional/joint_fit.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+/// The report's numbers are in millimetres; tolerances of the search are absolute, so it is done in them too.
+constexpr double kPerMetre = 1e3;
+constexpr int kRegressionSteps = 200;
+/// Above this condition the visible markers lie in a plane with the joint's place: a mirror twin fits alike.
+constexpr double kFlat = 1e3;
+
+std::vector<std::int64_t> complete_frames(const Samples& samples, const std::vector<int>& markers, int most) {
+  std::vector<std::int64_t> chosen;
+  for (std::int64_t f = 0; f < samples.trajectories.frames() && static_cast<int>(chosen.size()) < most; ++f)
+    if (std::ranges::all_of(markers, [&](int m) { return samples.seen(f, m); })) chosen.push_back(f);
+  return chosen;
+}
+
+/// Step (1), in millimetres; `x` holds 3 K rows, one column a frame.
+void place_in_chosen(const Eigen::MatrixXd& x, double penalty, ConstantDistanceFit& fit) {
+  const Eigen::Index K = x.rows() / 3, F = x.cols();
+  Eigen::VectorXd joints(3 * F);
+  for (Eigen::Index f = 0; f < F; ++f) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (Eigen::Index k = 0; k < K; ++k) mean += x.block<3, 1>(3 * k, f);
+    joints.segment<3>(3 * f) = mean / static_cast<double>(K);
+  }
+  Eigen::MatrixXd r(K, F);
+  const auto measure = [&](const Eigen::VectorXd& at) {
+    for (Eigen::Index f = 0; f < F; ++f)
+      for (Eigen::Index k = 0; k < K; ++k) r(k, f) = (x.block<3, 1>(3 * k, f) - at.segment<3>(3 * f)).norm();
+  };
+  const auto n = static_cast<double>(F);
+  const auto cost = [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
+    measure(at);
+    gradient.setZero(at.size());
+    double value = 0.0;
+    for (Eigen::Index k = 0; k < K; ++k) {
+      const double mean = r.row(k).mean();
+      value += (r.row(k).array() - mean).square().sum() / n + penalty * mean;
+      for (Eigen::Index f = 0; f < F; ++f) {
+        if (r(k, f) == 0.0) continue;
+        const double slope = (2.0 * (r(k, f) - mean) + penalty) / (n * r(k, f));
+        gradient.segment<3>(3 * f) -= slope * (x.block<3, 1>(3 * k, f) - at.segment<3>(3 * f));
+      }
+    }
+    return value;
+  };
+  internal::minimise_lbfgs(cost, joints);
+  measure(joints);
+  fit.distances_m = r.rowwise().mean() / kPerMetre;
+  const double variance = (r.colwise() - r.rowwise().mean()).squaredNorm() / (n * static_cast<double>(K));
+  fit.distance_sd_m = std::sqrt(variance) / kPerMetre;
+  fit.centre_in_chosen = Eigen::Map<const Eigen::Matrix3Xd>(joints.data(), 3, F) / kPerMetre;
+}
+
+struct Seen {
+  Eigen::Vector3d x;
+  double distance;
+};
+
+/// Sum of squares of the distances' errors; normal matrix and right-hand side as well.
+double linearise(const std::vector<Seen>& seen, const Eigen::Vector3d& at, Eigen::Matrix3d& normal,
+                 Eigen::Vector3d& right) {
+  normal.setZero();
+  right.setZero();
+  double cost = 0.0;
+  for (const Seen& s : seen) {
+    const Eigen::Vector3d d = at - s.x;
+    const double r = d.norm(), error = r - s.distance;
+    cost += error * error;
+    if (r == 0.0) continue;
+    const Eigen::Vector3d slope = d / r;
+    normal += slope * slope.transpose();
+    right -= error * slope;
+  }
+  return cost;
+}
+
+/// Step (2): Levenberg-Marquardt from the mean of the markers. Returns the normal matrix at the end.
+Eigen::Matrix3d regress(const std::vector<Seen>& seen, Eigen::Vector3d& at) {
+  at.setZero();
+  for (const Seen& s : seen) at += s.x;
+  at /= static_cast<double>(seen.size());
+  Eigen::Matrix3d normal, next_normal;
+  Eigen::Vector3d right, next_right;
+  double cost = linearise(seen, at, normal, right), damping = 1e-3;
+  for (int i = 0; i < kRegressionSteps && damping < 1e12; ++i) {
+    Eigen::Matrix3d damped = normal;
+    damped.diagonal() += damping * (normal.diagonal().array() + 1e-9).matrix();
+    const Eigen::Vector3d step = damped.ldlt().solve(right), next = at + step;
+    const double now = linearise(seen, next, next_normal, next_right);
+    if (!(now <= cost)) {
+      damping *= 4.0;
+      continue;
+    }
+    const bool settled = cost - now <= 1e-12 * cost || step.norm() < 1e-12;
+    at = next;
+    normal = next_normal;
+    right = next_right;
+    cost = now;
+    damping = std::max(1e-12, 0.2 * damping);
+    if (settled) break;
+  }
+  return normal;
+}
+
+}  // namespace
+
+Status ConstantDistanceOptions::check() const {
+  if (complete_frames < 2)
+    return fail(Code::usage, fmt::format("{} complete frames; need 2 or more", complete_frames));
+  if (!(penalty_m >= 0.0) || !std::isfinite(penalty_m))
+    return fail(Code::usage, fmt::format("a distance penalty of {}; need 0 or more", penalty_m));
+  return {};
+}
+
+Result<ConstantDistanceFit> fit_constant_distance(const Samples& samples, const std::vector<int>& parent,
+                                                  const std::vector<int>& child,
+                                                  const ConstantDistanceOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  ConstantDistanceFit fit;
+  fit.markers = parent;
+  fit.markers.insert(fit.markers.end(), child.begin(), child.end());
+  fit.chosen = complete_frames(samples, fit.markers, options.complete_frames);
+  if (fit.chosen.size() < 2)
+    return fail(
+        Code::bad_input,
+        fmt::format("{} show all {} markers of its two segments; constant-distance needs 2 or more, the "
+                    "other methods do not",
+                    fit.chosen.empty() ? "no frames" : "only one frame does", fit.markers.size()));
+  const auto K = fit.markers.size();
+  Eigen::MatrixXd x(3 * static_cast<Eigen::Index>(K), static_cast<Eigen::Index>(fit.chosen.size()));
+  for (std::size_t f = 0; f < fit.chosen.size(); ++f)
+    for (std::size_t k = 0; k < K; ++k)
+      x.block<3, 1>(3 * static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(f)) =
+          kPerMetre * samples.x(fit.chosen[f], fit.markers[k]);
+  place_in_chosen(x, kPerMetre * options.penalty_m, fit);
+
+  const auto frames = static_cast<std::size_t>(samples.trajectories.frames());
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  fit.centre_in_world.assign(frames, Eigen::Vector3d::Constant(kNone));
+  fit.covariance.assign(frames, Eigen::Matrix3d::Constant(kNone));
+  fit.state.assign(frames, data::CentreState::undetermined);
+  std::vector<Seen> seen;
+  for (std::size_t f = 0; f < frames; ++f) {
+    seen.clear();
+    std::size_t on_parent = 0;
+    for (std::size_t k = 0; k < K; ++k) {
+      if (!samples.seen(static_cast<std::int64_t>(f), fit.markers[k])) continue;
+      on_parent += k < parent.size();
+      seen.push_back({samples.x(static_cast<std::int64_t>(f), fit.markers[k]),
+                      fit.distances_m(static_cast<Eigen::Index>(k))});
+    }
+    if (seen.size() < 3 || on_parent == 0 || on_parent == seen.size()) continue;
+    const Eigen::Matrix3d normal = regress(seen, fit.centre_in_world[f]);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal);
+    const bool unique = seen.size() > 3 && eigen.eigenvalues()(2) < kFlat * eigen.eigenvalues()(0);
+    fit.state[f] = unique ? data::CentreState::determined : data::CentreState::ambiguous;
+    const double variance = fit.distance_sd_m * fit.distance_sd_m;
+    const Eigen::Vector3d values =
+        eigen.eigenvalues().cwiseMax(0.0).array() + variance / (kPriorSd_m * kPriorSd_m) + 1e-15;
+    fit.covariance[f] = variance * eigen.eigenvectors() * values.cwiseInverse().asDiagonal() *
+                        eigen.eigenvectors().transpose();
+  }
+  return fit;
+}
+
+}  // namespace kinemark::skeleton

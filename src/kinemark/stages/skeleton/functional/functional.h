@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The field's methods for joint centres and axes, one interface.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/skeleton.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/skeleton/functional/constant_distance.h"
+
+namespace kinemark::skeleton {
+
+enum class FunctionalMethod : std::uint8_t {
+  score,              ///< SCoRE for ball joints, SARA for hinges
+  sara,               ///< SARA: every joint is a hinge
+  gamage,             ///< spheres about a centre, bias corrected
+  gamage_plain,       ///< the same without the correction
+  cylinder,           ///< circles about an axis
+  constant_distance,  ///< the macaque report's
+};
+
+/// "score", "sara", "gamage", "gamage-plain", "cylinder", "constant-distance".
+[[nodiscard]] std::string_view to_string(FunctionalMethod method);
+/// The method of that name; the failure lists all names.
+[[nodiscard]] Result<FunctionalMethod> parse_functional_method(std::string_view name);
+
+/// In which segments' axes the centre is held still. Sphere fits hold one and look at the other's markers.
+enum class Sides : std::uint8_t { both, parent, child };
+[[nodiscard]] std::string_view to_string(Sides sides);  ///< "both", "parent", "child"
+[[nodiscard]] Result<Sides> parse_sides(std::string_view name);
+
+/// Ball or hinge: given, or by RelativeMotion::kind().
+enum class KindChoice : std::uint8_t { automatic, ball, hinge };
+
+struct FunctionalOptions {
+  FunctionalMethod method = FunctionalMethod::score;
+  Sides sides = Sides::both;
+  KindChoice kind = KindChoice::automatic;
+  double noise_sd_m = 0.0;  ///< of the markers, per axis; 0: found from how they keep their shape
+  ConstantDistanceOptions constant_distance;
+  Array<std::uint8_t> mask;  ///< F x M, 0: the sample is not used (made by the recorder); empty: all are
+
+  [[nodiscard]] Status check() const;
+};
+
+/// Centres of all joints of a layout, in their segments and in every frame, each with its covariance.
+///
+/// A segment's pose comes from three of its markers or more that are not on a line; frames without are left
+/// out. Where a method cannot be used (two markers on a segment), the nearest one that can is, and the
+/// joint's `method` and a warning say so; a joint of which nothing can be known stays undetermined, with a
+/// warning. A centre's covariance holds the place's own (residuals, blocks of frames left out), what the
+/// motion leaves open, and the frame's noise scaled by what the gap between the segments shows.
+///
+/// Code::bad_input with one sentence when the layout does not fit, has no joint, or not one joint can be
+/// placed. O(F M).
+[[nodiscard]] Result<data::Skeleton> find_joints(const data::Trajectories& trajectories,
+                                                 const data::SegmentLayout& layout,
+                                                 const FunctionalOptions& options = {});
+
+}  // namespace kinemark::skeleton

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/functional.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "kinemark/stages/skeleton/functional/testing/random_chain.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+using testing::centre_error;
+using testing::make_chain;
+using testing::Turns;
+
+constexpr FunctionalMethod kAll[] = {FunctionalMethod::score,    FunctionalMethod::sara,
+                                     FunctionalMethod::gamage,   FunctionalMethod::gamage_plain,
+                                     FunctionalMethod::cylinder, FunctionalMethod::constant_distance};
+
+TEST(Functional, NamesReadBack) {
+  for (const auto method : kAll) EXPECT_EQ(parse_functional_method(to_string(method)).value(), method);
+  EXPECT_EQ(parse_functional_method("best").error().code, Code::usage);
+  for (const auto sides : {Sides::both, Sides::parent, Sides::child})
+    EXPECT_EQ(parse_sides(to_string(sides)).value(), sides);
+  EXPECT_FALSE(parse_sides("left"));
+}
+
+TEST(Functional, EveryMethodPlacesTheJointsOfAChain) {
+  const auto chain = make_chain(
+      {.lengths_m = {0.12, 0.15, 0.16, 0.08}, .per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005});
+  for (const auto method :
+       {FunctionalMethod::score, FunctionalMethod::gamage, FunctionalMethod::gamage_plain}) {
+    const auto skeleton = find_joints(chain.markers, chain.layout, {.method = method});
+    ASSERT_TRUE(skeleton) << skeleton.error().message;
+    EXPECT_TRUE(skeleton->validate()) << skeleton->validate().error().message;
+    ASSERT_EQ(skeleton->joints.size(), 3U);
+    EXPECT_TRUE(skeleton->warnings.empty());
+    for (std::int64_t j = 0; j < 3; ++j) {
+      EXPECT_LT(centre_error(*skeleton, chain, j).rms_m, 0.0015) << to_string(method);
+      EXPECT_EQ(centre_error(*skeleton, chain, j).share, 1.0);
+      EXPECT_EQ(skeleton->joints[static_cast<std::size_t>(j)].kind, data::JointKind::ball);
+    }
+    ASSERT_EQ(skeleton->lengths.size(), 2U);
+    EXPECT_NEAR(skeleton->lengths[0].length_m, 0.15, 4.0 * skeleton->lengths[0].sd_m + 1e-4);
+    EXPECT_LT(skeleton->lengths[0].sd_m, 1e-3);
+    EXPECT_NEAR(skeleton->noise_sd_m, 0.0005, 5e-5);
+  }
+}
+
+TEST(Functional, SidesAgreeOnExactData) {
+  const auto chain = make_chain({.per_segment = 4, .turns = Turns::cone});
+  for (const auto method : {FunctionalMethod::score, FunctionalMethod::gamage})
+    for (const auto sides : {Sides::both, Sides::parent, Sides::child}) {
+      const auto skeleton = find_joints(chain.markers, chain.layout, {.method = method, .sides = sides});
+      ASSERT_TRUE(skeleton);
+      EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 1e-6);
+      EXPECT_EQ(skeleton->joints[0].covariance_in_parent.allFinite(), sides != Sides::child);
+      EXPECT_EQ(skeleton->joints[0].covariance_in_child.allFinite(), sides != Sides::parent);
+    }
+}
+
+TEST(Functional, TheDataChooseTheHinge) {
+  const auto chain = make_chain(
+      {.per_segment = 4, .stagger_m = 0.03, .turns = Turns::hinge, .range_rad = 1.0, .noise_sd_m = 0.0005});
+  for (const auto method : {FunctionalMethod::score, FunctionalMethod::sara, FunctionalMethod::cylinder}) {
+    const auto skeleton = find_joints(chain.markers, chain.layout, {.method = method});
+    ASSERT_TRUE(skeleton);
+    const auto& joint = skeleton->joints[0];
+    EXPECT_EQ(joint.kind, data::JointKind::hinge);
+    EXPECT_NEAR(joint.axis_in_parent.norm(), 1.0, 1e-9);
+    EXPECT_NE(joint.words.find("axis direction known"), std::string::npos) << joint.words;
+    EXPECT_NE(joint.words.find("position along it not"), std::string::npos) << joint.words;
+    EXPECT_NEAR(joint.range_of_motion_rad, 1.0, 0.05);
+  }
+  const auto forced = find_joints(chain.markers, chain.layout, {.kind = KindChoice::ball});
+  EXPECT_EQ(forced->joints[0].kind, data::JointKind::ball);
+}
+
+TEST(Functional, CovarianceOfEveryFrameIsHonest) {
+  double squares = 0.0;
+  int inside = 0, count = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const auto chain =
+        make_chain({.frames = 200, .per_segment = 5, .noise_sd_m = 0.001, .missing = 0.15, .seed = seed});
+    const auto skeleton = find_joints(chain.markers, chain.layout);
+    ASSERT_TRUE(skeleton);
+    for (std::int64_t f = 0; f < 200; ++f) {
+      if (skeleton->state[skeleton->index(f, 0)] == data::CentreState::undetermined) continue;
+      const Eigen::Vector3d d = skeleton->centre(f, 0) - chain.centres[0].col(f);
+      const double z2 = d.x() * d.x() / skeleton->centre_covariance(f, 0)(0, 0);
+      squares += z2;
+      inside += z2 < 3.841;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / count, 0.95, 0.03);
+  EXPECT_NEAR(squares / count, 1.0, 0.25);
+}
+
+TEST(Functional, TwoMarkersOnOneSideAreEnoughForASphere) {
+  auto chain = make_chain({.per_segment = 4});
+  chain.layout.segments[1].markers.resize(2);
+  const auto skeleton = find_joints(chain.markers, chain.layout);
+  ASSERT_TRUE(skeleton) << skeleton.error().message;
+  EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 1e-6);
+  ASSERT_EQ(skeleton->warnings.size(), 1U);
+  EXPECT_NE(skeleton->warnings[0].find("'s1' shows no pose"), std::string::npos) << skeleton->warnings[0];
+  EXPECT_EQ(skeleton->joints[0].method, "Gamage-Lasenby");
+}
+
+TEST(Functional, ConstantDistanceIsSelectable) {
+  const auto chain = make_chain({.stagger_m = 0.03, .noise_sd_m = 0.0005, .missing = 0.1});
+  const auto skeleton =
+      find_joints(chain.markers, chain.layout, {.method = FunctionalMethod::constant_distance});
+  ASSERT_TRUE(skeleton);
+  EXPECT_TRUE(skeleton->validate());
+  EXPECT_EQ(skeleton->joints[0].method, "constant distance");
+  int ambiguous = 0;
+  for (const auto state : skeleton->state) ambiguous += state == data::CentreState::ambiguous;
+  EXPECT_GT(ambiguous, 0);
+}
+
+std::string message_of(const Result<data::Skeleton>& skeleton) {
+  return skeleton ? std::string() : skeleton.error().message;
+}
+
+TEST(Functional, OneSentenceForWhatCannotBe) {
+  auto chain = make_chain({.frames = 50, .stagger_m = 0.0});
+  EXPECT_NE(message_of(find_joints(chain.markers, chain.layout)).find("not on a line"), std::string::npos);
+  auto two = make_chain({.frames = 50, .per_segment = 1});
+  EXPECT_NE(message_of(find_joints(two.markers, two.layout)).find("three markers"), std::string::npos);
+  auto one = chain.layout;
+  one.segments.resize(1);
+  one.joints.clear();
+  EXPECT_NE(message_of(find_joints(chain.markers, one)).find("on one segment"), std::string::npos);
+  auto none = chain.layout;
+  none.joints.clear();
+  EXPECT_NE(message_of(find_joints(chain.markers, none)).find("no joint"), std::string::npos);
+  FunctionalOptions options;
+  options.noise_sd_m = -1.0;
+  EXPECT_EQ(find_joints(chain.markers, chain.layout, options).error().code, Code::usage);
+  options.noise_sd_m = 0.0;
+  options.mask.assign(3, 1);
+  EXPECT_EQ(find_joints(chain.markers, chain.layout, options).error().code, Code::usage);
+}
+
+TEST(Functional, AJointThatNeverMovesIsReturnedWide) {
+  const auto chain = make_chain(
+      {.per_segment = 4, .stagger_m = 0.03, .turns = Turns::cone, .range_rad = 0.0, .noise_sd_m = 0.001});
+  const auto skeleton = find_joints(chain.markers, chain.layout);
+  ASSERT_TRUE(skeleton);
+  EXPECT_GT(skeleton->joints[0].covariance_in_parent.trace(), 0.05 * 0.05);
+  EXPECT_EQ(skeleton->joints[0].words.find("centre known"), std::string::npos) << skeleton->joints[0].words;
+}
+
+TEST(Functional, SwappedLabelsAreToldAndLeftOut) {
+  auto chain = make_chain({.per_segment = 4, .noise_sd_m = 0.0005});
+  for (std::int64_t f = 60; f < 70; ++f) {
+    const Eigen::Vector3d x = chain.markers.x(f, 0);
+    chain.markers.x(f, 0) = chain.markers.x(f, 5);
+    chain.markers.x(f, 5) = x;
+  }
+  const auto skeleton = find_joints(chain.markers, chain.layout);
+  ASSERT_TRUE(skeleton);
+  ASSERT_EQ(skeleton->warnings.size(), 2U);
+  EXPECT_NE(skeleton->warnings[0].find("10 frames, first at 1.000 s"), std::string::npos)
+      << skeleton->warnings[0];
+  EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 0.003);
+}
+
+}  // namespace
+}  // namespace kinemark::skeleton

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/relative_motion.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace kinemark::skeleton {
+namespace {
+
+constexpr double kHingeRatio = 0.25;
+constexpr double kHingeNoise = 3.0;  ///< turns below so many SDs of the noise are none
+
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return rotation_vector(a.transpose() * b).norm();
+}
+
+}  // namespace
+
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+data::JointKind RelativeMotion::kind(double noise_rad) const {
+  const double bound = std::max(kHingeRatio * sd_rad(0), kHingeNoise * noise_rad);
+  return sd_rad(0) > bound && sd_rad(1) <= bound ? data::JointKind::hinge : data::JointKind::ball;
+}
+
+RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& child) {
+  RelativeMotion motion;
+  std::vector<Eigen::Matrix3d> turns;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t f = 0; f < parent.known.size(); ++f) {
+    if (!parent.known[f] || !child.known[f]) continue;
+    motion.frames.push_back(static_cast<std::int64_t>(f));
+    turns.emplace_back(parent.world_from_segment[f].transpose() * child.world_from_segment[f]);
+    sum += turns.back();
+  }
+  if (turns.empty()) return motion;
+  const Eigen::Matrix3d mean = kabsch(sum);
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3d& turn : turns) {
+    const Eigen::Vector3d v = rotation_vector(mean.transpose() * turn);
+    squares += v * v.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / static_cast<double>(turns.size()));
+  motion.sd_rad = solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  motion.axes = solver.eigenvectors().rowwise().reverse();
+  // The frame farthest from the mean, the one farthest from that, and once more.
+  Eigen::Matrix3d from = mean;
+  for (int step = 0; step < 4; ++step) {
+    const auto far =
+        std::ranges::max_element(turns, {}, [&](const Eigen::Matrix3d& t) { return angle_between(from, t); });
+    if (step > 0) motion.range_rad = std::max(motion.range_rad, angle_between(from, *far));
+    from = *far;
+  }
+  return motion;
+}
+
+}  // namespace kinemark::skeleton

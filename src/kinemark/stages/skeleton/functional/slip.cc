@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/slip.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "kinemark/stages/skeleton/functional/relative_motion.h"
+#include "kinemark/stages/skeleton/functional/score.h"
+#include "kinemark/stages/skeleton/functional/segment_poses.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+constexpr std::int64_t kLeastFrames = 64;
+constexpr std::int64_t kBlocksASide = 8;
+constexpr double kEdge = 0.1;  ///< of the frames at either end in which no slip is looked for
+/// What noise of the poses does to a joint's place it does alike in both halves; so much of it is taken off.
+constexpr double kOpenDiffers = 0.99;
+constexpr double kAlsoShare =
+    0.5;  ///< a slipped marker drags the pose: others that move less than this share do not count
+
+struct Path {
+  std::vector<std::int64_t> frames;
+  Eigen::Matrix3Xd x;  ///< in the segment, m
+};
+
+Path path_in_segment(const Samples& samples, const SegmentPoses& poses, int marker) {
+  Path path;
+  for (std::size_t f = 0; f < poses.known.size(); ++f)
+    if (poses.known[f] && samples.seen(static_cast<std::int64_t>(f), marker))
+      path.frames.push_back(static_cast<std::int64_t>(f));
+  path.x.resize(3, static_cast<Eigen::Index>(path.frames.size()));
+  for (std::size_t i = 0; i < path.frames.size(); ++i)
+    path.x.col(static_cast<Eigen::Index>(i)) =
+        poses.to_segment(path.frames[i], samples.x(path.frames[i], marker));
+  return path;
+}
+
+/// Where the running sum of the departure from the mean is longest.
+Eigen::Index change_point(const Path& path) {
+  const Eigen::Vector3d mean = path.x.rowwise().mean();
+  const auto n = path.x.cols();
+  const auto edge = static_cast<Eigen::Index>(kEdge * static_cast<double>(n));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Index best = n / 2;
+  double longest = -1.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    sum += path.x.col(i) - mean;
+    if (i < edge || i >= n - edge || sum.norm() <= longest) continue;
+    longest = sum.norm();
+    best = i + 1;
+  }
+  return best;
+}
+
+/// Mean of some columns and the variance of that mean (sum over axes), from blocks.
+struct Part {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double variance = 0.0;
+};
+Part summarise(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+  Part part;
+  part.mean = x.rowwise().mean();
+  const auto n = x.cols();
+  for (std::int64_t b = 0; b < kBlocksASide; ++b) {
+    const auto from = n * b / kBlocksASide, to = n * (b + 1) / kBlocksASide;
+    part.variance += (x.middleCols(from, to - from).rowwise().mean() - part.mean).squaredNorm();
+  }
+  part.variance /= static_cast<double>(kBlocksASide * (kBlocksASide - 1));
+  return part;
+}
+
+std::optional<Slip> compare_marker(const Path& path, const SlipOptions& options) {
+  if (path.x.cols() < kLeastFrames) return std::nullopt;
+  const Eigen::Index at = change_point(path);
+  const Part before = summarise(path.x.leftCols(at)), after = summarise(path.x.rightCols(path.x.cols() - at));
+  Slip slip;
+  slip.shift_m = (after.mean - before.mean).norm();
+  slip.sd_m = std::sqrt(before.variance + after.variance);
+  slip.frame = path.frames[static_cast<std::size_t>(at)];
+  if (slip.shift_m < options.least_m || slip.shift_m < options.sure_sd * slip.sd_m) return std::nullopt;
+  return slip;
+}
+
+void find_marker_slips(const Samples& samples, const SegmentPoses& poses, int segment,
+                       const SlipOptions& options, std::vector<Slip>& slips) {
+  std::vector<Slip> found;
+  double largest = 0.0;
+  for (const int marker : poses.markers) {
+    auto slip = compare_marker(path_in_segment(samples, poses, marker), options);
+    if (!slip) continue;
+    slip->segment = segment;
+    slip->marker = marker;
+    largest = std::max(largest, slip->shift_m);
+    found.push_back(std::move(*slip));
+  }
+  for (Slip& slip : found) {
+    if (slip.shift_m < kAlsoShare * largest) continue;
+    slip.sentence =
+        fmt::format("Marker '{}' moved {:.1f} mm (SD {:.1f}) on '{}' at about {:.2f} s",
+                    samples.trajectories.names[static_cast<std::size_t>(slip.marker)], 1e3 * slip.shift_m,
+                    1e3 * slip.sd_m, poses.name, samples.trajectories.time.time_s(slip.frame));
+    slips.push_back(std::move(slip));
+  }
+}
+
+/// The joint's place in each segment, first half against second.
+void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout, int joint,
+                      const std::vector<SegmentPoses>& poses, const SlipOptions& options,
+                      std::vector<Slip>& slips) {
+  const auto& j = layout.joints[static_cast<std::size_t>(joint)];
+  const SegmentPoses& a = poses[static_cast<std::size_t>(j.parent)];
+  const SegmentPoses& b = poses[static_cast<std::size_t>(j.child)];
+  const RelativeMotion motion = measure_motion(a, b);
+  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastFrames) return;
+  std::array<RelativeMotion, 2> halves = {motion, motion};
+  const auto middle = motion.frames.begin() + static_cast<std::ptrdiff_t>(motion.frames.size() / 2);
+  halves[0].frames.assign(motion.frames.begin(), middle);
+  halves[1].frames.assign(middle, motion.frames.end());
+  const JointFit first = fit_score(samples, a, b, halves[0], data::JointKind::ball),
+                 second = fit_score(samples, a, b, halves[1], data::JointKind::ball);
+  for (const int side : {0, 1}) {
+    const Eigen::Vector3d shift = second.centre.segment<3>(3 * side) - first.centre.segment<3>(3 * side);
+    const auto chance = [&](const JointFit& fit) -> Matrix6 {
+      return fit.covariance - kOpenDiffers * fit.open;
+    };
+    const Matrix6 both = chance(first) + chance(second);
+    const Eigen::Matrix3d covariance = both.block<3, 3>(3 * side, 3 * side);
+    const double far = std::sqrt(shift.dot(covariance.ldlt().solve(shift)));
+    if (shift.norm() < options.least_m || far < options.sure_sd) continue;
+    const Eigen::Vector3d along = shift.normalized();
+    const int segment = side == 0 ? j.parent : j.child;
+    Slip slip{.segment = segment, .joint = joint, .shift_m = shift.norm(), .frame = *middle};
+    slip.sd_m = std::sqrt(along.dot(covariance * along));
+    slip.sentence = fmt::format(
+        "Joint '{}' lies {:.1f} mm (SD {:.1f}) elsewhere in '{}' in the second half than in the first: did "
+        "its "
+        "markers slip together?",
+        j.name, 1e3 * slip.shift_m, 1e3 * slip.sd_m, layout.segments[static_cast<std::size_t>(segment)].name);
+    slips.push_back(std::move(slip));
+  }
+}
+
+}  // namespace
+
+Status SlipOptions::check() const {
+  if (!(sure_sd > 0.0))
+    return fail(Code::usage, fmt::format("slips sure at {} SD; need more than 0", sure_sd));
+  if (!(least_m >= 0.0)) return fail(Code::usage, fmt::format("least slip of {} m; need 0 or more", least_m));
+  return {};
+}
+
+Result<std::vector<Slip>> find_slips(const data::Trajectories& trajectories,
+                                     const data::SegmentLayout& layout, const SlipOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (auto s = layout.validate(trajectories.markers()); !s) return std::unexpected(s.error());
+  const Samples samples{trajectories, {}};
+  std::vector<SegmentPoses> poses;
+  std::vector<Slip> slips;
+  for (const auto& segment : layout.segments) {
+    poses.push_back(find_segment_poses(samples, segment.name, segment.markers));
+    find_marker_slips(samples, poses.back(), static_cast<int>(poses.size()) - 1, options, slips);
+  }
+  for (int j = 0; j < static_cast<int>(layout.joints.size()); ++j)
+    find_joint_slips(samples, layout, j, poses, options, slips);
+  return slips;
+}
+
+}  // namespace kinemark::skeleton

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/slip.h"
+
+#include <gtest/gtest.h>
+
+#include "kinemark/stages/skeleton/functional/testing/random_chain.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+using testing::Turns;
+
+testing::ChainSetup setup() {
+  return {.frames = 600,
+          .per_segment = 5,
+          .stagger_m = 0.03,
+          .turns = Turns::cone,
+          .range_rad = 1.2,
+          .noise_sd_m = 0.001};
+}
+
+/// Move markers of the second segment along the bone from a frame on.
+void slide(testing::TestChain& chain, std::int64_t from, const std::vector<int>& markers, double shift_m) {
+  for (std::int64_t f = from; f < chain.markers.frames(); ++f)
+    for (const int m : markers)
+      chain.markers.x(f, m) += shift_m * chain.world_from_segment[1][static_cast<std::size_t>(f)].col(2);
+}
+
+TEST(Slip, NothingSlipsWhereNothingDoes) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    auto s = setup();
+    s.seed = seed;
+    s.missing = 0.1;
+    const auto chain = testing::make_chain(s);
+    const auto slips = find_slips(chain.markers, chain.layout);
+    ASSERT_TRUE(slips);
+    EXPECT_TRUE(slips->empty()) << slips->front().sentence;
+  }
+}
+
+TEST(Slip, OneMarkerIsFoundWithItsFrame) {
+  auto chain = testing::make_chain(setup());
+  slide(chain, 350, {6}, 0.012);
+  const auto slips = find_slips(chain.markers, chain.layout);
+  ASSERT_TRUE(slips);
+  ASSERT_FALSE(slips->empty());
+  EXPECT_EQ(slips->front().marker, 6);
+  EXPECT_EQ(slips->front().segment, 1);
+  EXPECT_NEAR(static_cast<double>(slips->front().frame), 350.0, 5.0);
+  EXPECT_NEAR(slips->front().shift_m, 0.012, 0.006) << "the pose gives way to it by its share";
+  EXPECT_NE(slips->front().sentence.find("'s1m1'"), std::string::npos);
+  EXPECT_NE(slips->front().sentence.find("at about 5.8"), std::string::npos) << slips->front().sentence;
+}
+
+TEST(Slip, AWholeSleeveIsSeenByItsJoint) {
+  auto chain = testing::make_chain(setup());
+  slide(chain, 300, chain.layout.segments[1].markers, 0.010);
+  const auto slips = find_slips(chain.markers, chain.layout);
+  ASSERT_TRUE(slips);
+  ASSERT_EQ(slips->size(), 1U);
+  EXPECT_EQ(slips->front().marker, -1);
+  EXPECT_EQ(slips->front().joint, 0);
+  EXPECT_EQ(slips->front().segment, 1);
+  EXPECT_NEAR(slips->front().shift_m, 0.010, 0.003);
+}
+
+TEST(Slip, RefusesWhatDoesNotFit) {
+  auto chain = testing::make_chain({.frames = 100});
+  EXPECT_FALSE(find_slips(chain.markers, chain.layout, {.sure_sd = 0.0}));
+  EXPECT_FALSE(find_slips(chain.markers, chain.layout, {.least_m = -1.0}));
+  chain.layout.segments[0].markers.push_back(99);
+  EXPECT_FALSE(find_slips(chain.markers, chain.layout));
+}
+
+}  // namespace
+}  // namespace kinemark::skeleton

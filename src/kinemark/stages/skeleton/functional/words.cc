@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/words.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/core/units.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+constexpr double kKnown_m = 0.01;     ///< a place known worse is called not known
+constexpr double kKnown_rad = 0.175;  ///< ten degrees
+constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
+
+std::string millimetres(double m) { return fmt::format("{:.1f} mm", 1e3 * m); }
+
+std::string describe_hinge(const data::SkeletonJoint& joint, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d axis = joint.axis_in_parent.norm() > 0.5 ? joint.axis_in_parent : joint.axis_in_child;
+  const Eigen::Matrix3d off = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+  const double across = std::sqrt(std::max(0.0, 0.5 * (off * covariance * off).trace()));
+  const bool direction = joint.axis_sd_rad < kKnown_rad;
+  std::string text = direction
+                         ? fmt::format("axis direction known to {:.1f} deg", joint.axis_sd_rad * kDegPerRad)
+                         : std::string("axis direction not known");
+  text += across < kKnown_m ? fmt::format(", its place to {}", millimetres(across)) : ", its place not";
+  return text + ", position along it not";
+}
+
+std::string describe_ball(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d sd = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (sd(2) < kKnown_m) return fmt::format("centre known to {}", millimetres(sd(2)));
+  if (sd(1) < kKnown_m)
+    return fmt::format("centre known to {} across one direction, to {} along it", millimetres(sd(1)),
+                       millimetres(sd(2)));
+  if (sd(0) < kKnown_m)
+    return fmt::format("centre known to {} in one direction only, to {} in the others", millimetres(sd(0)),
+                       millimetres(sd(2)));
+  return fmt::format("centre not known ({})", millimetres(sd(2)));
+}
+
+}  // namespace
+
+std::string describe_joint(const data::SkeletonJoint& joint) {
+  const bool in_parent = joint.covariance_in_parent.allFinite();
+  const Eigen::Matrix3d& covariance = in_parent ? joint.covariance_in_parent : joint.covariance_in_child;
+  const std::string motion =
+      std::isnan(joint.range_of_motion_rad)
+          ? std::string("motion not seen as an angle")
+          : fmt::format("{:.0f} deg of motion", joint.range_of_motion_rad * kDegPerRad);
+  if (!covariance.allFinite()) return motion + ": centre not known";
+  if (joint.range_of_motion_rad < kStill_rad)
+    return motion + ": the joint hardly moves, neither centre nor axis can be known";
+  return motion + ": " +
+         (joint.kind == data::JointKind::hinge ? describe_hinge(joint, covariance)
+                                               : describe_ball(covariance));
+}
+
+}  // namespace kinemark::skeleton
