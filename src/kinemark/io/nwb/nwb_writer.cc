@@ -62,11 +62,11 @@ struct NwbWriter::Open {
     int width = 1;
   };
 
-  Open(OutputFile target, std::string name, NwbOutline promised, const NwbMetadata& told, int level)
+  Open(OutputFile target, std::string name, NwbOutline promised, NwbMetadata told, int level)
       : file(std::move(target)),
         path(std::move(name)),
         outline(std::move(promised)),
-        metadata(told),
+        metadata(std::move(told)),
         compression(level),
         out(file.temporary().string(), internal::identity_of(metadata, outline)) {}
 

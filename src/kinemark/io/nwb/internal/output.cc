@@ -79,7 +79,7 @@ void Output::attribute(hid_t object, const char* name, std::string_view text) {
   const Handle space = keep(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle made =
       keep(H5Acreate2(object, name, text_type_.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  note(H5Awrite(made.id(), text_type_.id(), &pointer));
+  note(H5Awrite(made.id(), text_type_.id(), static_cast<const void*>(&pointer)));
 }
 
 void Output::attribute(hid_t object, const char* name, double number, hid_t file_type) {
@@ -94,7 +94,7 @@ void Output::attribute(hid_t object, const char* name, const std::vector<std::st
   const Handle space = simple_space({texts.size()});
   const Handle made =
       keep(H5Acreate2(object, name, text_type_.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  note(H5Awrite(made.id(), text_type_.id(), pointers.data()));
+  note(H5Awrite(made.id(), text_type_.id(), static_cast<const void*>(pointers.data())));
 }
 
 Handle Output::small_data(std::size_t bytes, const std::vector<hsize_t>& dims) {
@@ -116,7 +116,8 @@ Handle Output::text(hid_t parent, const char* name, std::string_view text) {
   const Handle create = small_data(0, {});
   Handle made = keep(
       H5Dcreate2(parent, name, text_type_.id(), space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT), H5Dclose);
-  note(H5Dwrite(made.id(), text_type_.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &pointer));
+  note(H5Dwrite(made.id(), text_type_.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                static_cast<const void*>(&pointer)));
   return made;
 }
 
@@ -130,7 +131,8 @@ Handle Output::texts(hid_t parent, const char* name, const std::vector<std::stri
   Handle made = keep(
       H5Dcreate2(parent, name, text_type_.id(), space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT), H5Dclose);
   if (!texts.empty())
-    note(H5Dwrite(made.id(), text_type_.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()));
+    note(H5Dwrite(made.id(), text_type_.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                  static_cast<const void*>(pointers.data())));
   return made;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "kinemark/core/random.h"
@@ -16,10 +17,8 @@ namespace {
 bool is_date(std::string_view text) {
   const auto take = [&](std::string_view pattern) {
     if (text.size() < pattern.size()) return false;
-    for (std::size_t i = 0; i < pattern.size(); ++i) {
-      const bool digit = text[i] >= '0' && text[i] <= '9';
-      if (pattern[i] == '0' ? !digit : text[i] != pattern[i]) return false;
-    }
+    const auto fits = [](char wanted, char c) { return wanted == '0' ? c >= '0' && c <= '9' : c == wanted; };
+    if (!std::ranges::equal(pattern, text.substr(0, pattern.size()), fits)) return false;
     text.remove_prefix(pattern.size());
     return true;
   };
