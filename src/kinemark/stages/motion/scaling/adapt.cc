@@ -100,14 +100,14 @@ class Adaptation {
     if (auto s = iterate(kStartIterations, result); !s) return s;
     projection_.set_frames(1);
     sums_ = projection_.solve(x_, states_);
+    if (projection_.free_caught_frames(states_) > 0) sums_ = projection_.solve(x_, states_);
     noise_m_ = options_.marker_noise_sd_m > 0.0 ? options_.marker_noise_sd_m : residual_noise();
     for (int round = 0; round < kNoiseRounds; ++round) {
       if (auto s = iterate(options_.max_iterations, result); !s) return s;
-      if (options_.marker_noise_sd_m > 0.0) break;
-      const double seen = residual_noise();
+      const double seen = options_.marker_noise_sd_m > 0.0 ? noise_m_ : residual_noise();
       const bool same = std::abs(seen - noise_m_) < kSameNoise * noise_m_;
       noise_m_ = seen;
-      if (same) break;
+      if (projection_.free_caught_frames(states_) == 0 && same) break;
     }
     result.noise_sd_m = noise_m_;
     if (auto s = find_covariance(result); !s) return s;
@@ -321,7 +321,10 @@ Result<AdaptResult> adapt_model(const data::ModelDescription& model, const data:
   options.ik.last_time_s = 1e300;
   auto problem = internal::make_problem(*compiled, *picked, options.ik);
   if (!problem) return std::unexpected(problem.error());
-  const auto start = solve_ik(*compiled, *picked, options.ik);
+  // Limits help to find the first postures; afterwards they would only hide a wrong size.
+  IkOptions first = options.ik;
+  first.limits = given.ik.limits;
+  const auto start = solve_ik(*compiled, *picked, first);
   if (!start) return std::unexpected(start.error());
   MatrixXd states(compiled->state_count(), picked->frames());
   const auto n = static_cast<std::int64_t>(compiled->coordinate_count());

@@ -12,6 +12,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr std::int64_t kGrain = 32;
+constexpr double kClearlyBetter = 0.98;  // cost that makes another posture worth having
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -79,6 +80,33 @@ ProjectedSums Projection::solve(const Eigen::VectorXd& x, Eigen::MatrixXd& state
     total.moved_speeds += part.moved_speeds;
   }
   return total;
+}
+
+std::int64_t Projection::free_caught_frames(Eigen::MatrixXd& states) const {
+  FrameSolver solver(problem_, options_);
+  Eigen::Matrix3Xd y(3, problem_.model.marker_count());
+  Eigen::VectorXd weight(problem_.model.marker_count()), state;
+  std::vector<double> cost(at(problem_.frames), -1.0);
+  std::vector<bool> freed(at(problem_.frames), false);
+  const auto visit = [&](std::int64_t f, std::int64_t neighbour) {
+    problem_.observe(markers_, f, y, weight);
+    if (weight.sum() == 0.0) return;
+    if (cost[at(f)] < 0.0) {
+      state = states.col(f);
+      cost[at(f)] = solver.solve(y, weight, f, state).cost;
+      states.col(f) = state;
+    }
+    if (neighbour < 0 || neighbour >= problem_.frames) return;
+    state = states.col(neighbour);
+    const double other = solver.solve(y, weight, f, state).cost;
+    if (!(other < kClearlyBetter * cost[at(f)])) return;
+    cost[at(f)] = other;
+    states.col(f) = state;
+    freed[at(f)] = true;
+  };
+  for (std::int64_t f = 0; f < problem_.frames; ++f) visit(f, f - 1);
+  for (std::int64_t f = problem_.frames - 1; f >= 0; --f) visit(f, f + 1);
+  return std::count(freed.begin(), freed.end(), true);
 }
 
 }  // namespace kinemark::motion::internal

@@ -34,6 +34,10 @@ class Projection {
   /// Solve all frames with the geometry changed by x, from `states` (columns are frames), which improve.
   ProjectedSums solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states);
 
+  /// Start every frame from its neighbours' postures as well, with the geometry of the last solve(), and keep
+  /// what is clearly better. Returns how many frames had been caught in a false minimum.
+  std::int64_t free_caught_frames(Eigen::MatrixXd& states) const;
+
   /// With the geometry of the last solve().
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] const GeometryLayout& layout() const { return layout_; }

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/scale_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+std::string join(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+void print_adapted(const Globals& globals, const motion::AdaptResult& result, const char* what) {
+  say(globals,
+      fmt::format("{}: {} frames, {} steps; marker error {:.2f} mm RMS, {:.2f} mm before.", what,
+                  result.frames, result.iterations, 1e3 * result.rms_after_m, 1e3 * result.rms_before_m));
+  if (!result.converged)
+    say(globals, "attention: the adaptation did not converge; its numbers are a step on the way");
+  if (result.tissue_sd_m > 0.0)
+    say(globals,
+        fmt::format("Markers slide on the body with the posture, {:.1f} mm per axis; deviations include it.",
+                    1e3 * result.tissue_sd_m));
+  for (const auto& p : result.parameters)
+    if (p.kind == motion::ParameterKind::body_scale && p.determined)
+      say(globals, fmt::format("  {:16} x {:.4f} +- {:.4f}", p.name, p.value, p.sd));
+  std::vector<std::string> open;
+  for (const auto& p : result.parameters)
+    if (p.kind != motion::ParameterKind::marker_place && !p.determined) open.push_back(p.name);
+  if (!open.empty()) say(globals, fmt::format("note: Not determined by these data: {}", join(open)));
+  for (const auto& sentence : result.recommendations) say(globals, fmt::format("attention: {}", sentence));
+}
+
+void print_outcome(const Globals& globals, const pipeline::ScaleOutcome& outcome) {
+  if (!outcome.clavicles.empty()) say(globals, fmt::format("Set free: {}.", join(outcome.clavicles)));
+  if (outcome.scaled)
+    for (const auto& m : outcome.scaled->measurements)
+      say(globals, fmt::format("measured {:16} x {:.4f}", m.name, m.factor));
+  if (outcome.from_static) print_adapted(globals, *outcome.from_static, "Static trial");
+  if (outcome.placed)
+    say(globals, fmt::format("{} markers placed; the pose fitted the model's markers to {:.1f} mm RMS.",
+                             outcome.placed->markers.size(), 1e3 * outcome.placed->rms_m));
+  if (outcome.from_motion) print_adapted(globals, *outcome.from_motion, "Motion");
+  for (const auto& note : outcome.notes) say(globals, fmt::format("attention: {}", note));
+  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  if (globals.json) fmt::print("{}\n", outcome.report);
+}
+
+struct ScaleArguments {
+  pipeline::ScaleJob job;
+  double noise_mm = 0.0, place_prior_mm = 10.0, size_prior_percent = 10.0, max_rms_mm = 50.0;
+  bool no_soft_tissue = false;
+};
+
+int run_command(const Globals& globals, ScaleArguments& arguments) {
+  auto& job = arguments.job;
+  job.adapt.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.adapt.soft_tissue = !arguments.no_soft_tissue;
+  job.adapt.threads = globals.threads;
+  job.adapt.ik.seed = globals.seed;
+  job.place_prior_sd_m = 1e-3 * arguments.place_prior_mm;
+  job.size_prior_sd = 1e-2 * arguments.size_prior_percent;
+  job.max_rms_m = 1e-3 * arguments.max_rms_mm;
+  job.force = globals.force;
+  job.command_line = globals.command_line;
+  const auto outcome = pipeline::run_scale(job, show_progress(globals, "steps"));
+  if (!outcome) return report_error(outcome.error());
+  print_outcome(globals, *outcome);
+  return outcome->exit_status;
+}
+
+}  // namespace
+
+void add_scale(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command =
+      app.add_subcommand("scale", "A model made to fit a subject, with the uncertainty of every size");
+  command->footer(
+      "Writes M.osim and beside it M_report.json: factors, lengths and marker places with standard "
+      "deviations, and "
+      "what\n"
+      "the data do not determine. Exit status 1: the files are there, but the markers fit worse than "
+      "--max-rms.");
+  const auto arguments = std::make_shared<ScaleArguments>();
+  auto& job = arguments->job;
+  command->add_option("-m,--model", job.model, "General body model, .osim")->group("Input");
+  command->add_option("--static", job.static_trial, "Marker file of a static trial; wins over the setup's")
+      ->group("Input");
+  command->add_option("--setup", job.setup, "OpenSim ScaleTool setup; other options win over it")
+      ->group("Input");
+  command
+      ->add_option("-t,--markers", job.markers,
+                   "Marker file of a motion that sizes and places are adapted to")
+      ->group("Input");
+  command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
+      ->group("Input");
+  command->add_option("--end", job.adapt.ik.last_time_s, "Last time of the motion to use, s")->group("Input");
+  command->add_option("-o,--output", job.output, "Model to write, M.osim")->group("Output");
+  command->add_option("--mass", job.mass_kg, "Mass of the subject, kg")->group("Model");
+  command
+      ->add_flag("--dempster", job.dempster, "Distribute the mass over the segments by Dempster's fractions")
+      ->group("Model");
+  command->add_flag("--clavicles", job.clavicles, "Let the clavicles move")->group("Model");
+  command->add_flag("--symmetric", job.symmetric, "One size for both sides")->group("Model");
+  command
+      ->add_option("--size-prior", arguments->size_prior_percent,
+                   "How far a segment's size may be from the model so far, % (1 SD)")
+      ->capture_default_str()
+      ->group("Estimate");
+  command
+      ->add_option("--place-prior", arguments->place_prior_mm,
+                   "How far a marker may be from its place in the model so far, mm per axis (1 SD)")
+      ->capture_default_str()
+      ->group("Estimate");
+  command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 estimates it")
+      ->capture_default_str()
+      ->group("Estimate");
+  command
+      ->add_flag("--no-soft-tissue", arguments->no_soft_tissue,
+                 "Do not look for markers that slide on the body")
+      ->group("Estimate");
+  command->add_option("--frames", job.adapt.max_frames, "Frames of the motion to use at most")
+      ->capture_default_str()
+      ->group("Estimate");
+  command->add_option("--max-rms", arguments->max_rms_mm, "Gate: RMS marker error, mm")
+      ->capture_default_str()
+      ->group("Quality gates");
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_command(globals, *arguments); };
+  });
+}
+
+}  // namespace kinemark::cli
