@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/check.h"
+
 namespace kinemark::skeleton {
 namespace {
 
@@ -198,6 +200,7 @@ class Shape {
   }
 
   [[nodiscard]] const Eigen::Matrix3Xd& places() const { return places_; }
+  void set_places(const Eigen::Matrix3Xd& places) { places_ = places; }
 
  private:
   static Eigen::Index at(std::size_t k) { return static_cast<Eigen::Index>(k); }
@@ -271,6 +274,19 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
+}
+
+SegmentPoses without_poses(const Samples& samples, const std::string& name, const std::vector<int>& markers) {
+  const auto n = static_cast<std::size_t>(samples.trajectories.frames());
+  SegmentPoses out;
+  out.name = name;
+  out.markers = markers;
+  out.noise_sd_m = kNone;
+  out.x_in_segment = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
+  out.known.assign(n, 0);
+  out.world_from_segment.assign(n, Eigen::Matrix3d::Identity());
+  out.origin.assign(n, Eigen::Vector3d::Zero());
+  return out;
 }
 
 /// Poses of all frames, noise, and the frames that do not fit.
@@ -363,18 +379,10 @@ PoseNoise pose_noise(const Samples& samples, const SegmentPoses& poses, std::int
 
 SegmentPoses find_segment_poses(const Samples& samples, const std::string& name,
                                 const std::vector<int>& markers, const SegmentPoseOptions& options) {
-  const std::int64_t frames = samples.trajectories.frames();
-  const auto n = static_cast<std::size_t>(frames);
-  SegmentPoses out;
-  out.name = name;
-  out.markers = markers;
-  out.noise_sd_m = kNone;
-  out.x_in_segment = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
-  out.known.assign(n, 0);
-  out.world_from_segment.assign(n, Eigen::Matrix3d::Identity());
-  out.origin.assign(n, Eigen::Vector3d::Zero());
+  SegmentPoses out = without_poses(samples, name, markers);
   Shape shape(samples, markers);
-  const auto drawn = markers.size() < 3 ? std::vector<std::int64_t>{} : shape_frames(shape, frames);
+  const auto drawn =
+      markers.size() < 3 ? std::vector<std::int64_t>{} : shape_frames(shape, samples.trajectories.frames());
   if (drawn.empty()) {
     lay_on_line(samples, out);
     return out;
@@ -391,6 +399,19 @@ SegmentPoses find_segment_poses(const Samples& samples, const std::string& name,
   out.kind = data::SegmentKind::solid;
   pose_all_frames(shape, options, out);
   if (out.known_frames == 0) lay_on_line(samples, out);
+  return out;
+}
+
+SegmentPoses pose_known_shape(const Samples& samples, const std::string& name,
+                              const std::vector<int>& markers, const Eigen::Matrix3Xd& x_in_segment,
+                              const SegmentPoseOptions& options) {
+  check(x_in_segment.cols() == static_cast<Eigen::Index>(markers.size()), "one place a marker");
+  SegmentPoses out = without_poses(samples, name, markers);
+  Shape shape(samples, markers);
+  shape.set_places(x_in_segment);
+  out.x_in_segment = x_in_segment;
+  out.kind = data::SegmentKind::solid;
+  pose_all_frames(shape, options, out);
   return out;
 }
 

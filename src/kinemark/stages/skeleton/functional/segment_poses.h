@@ -69,6 +69,12 @@ struct SegmentPoseOptions {
                                               const std::vector<int>& markers,
                                               const SegmentPoseOptions& options = {});
 
+/// Poses of a shape that is known already (one column a marker, NaN: not used).
+[[nodiscard]] SegmentPoses pose_known_shape(const Samples& samples, const std::string& name,
+                                            const std::vector<int>& markers,
+                                            const Eigen::Matrix3Xd& x_in_segment,
+                                            const SegmentPoseOptions& options = {});
+
 /// What noise of the markers (none where it is unknown) makes of a segment's pose in a frame where it is
 /// known.
 struct PoseNoise {

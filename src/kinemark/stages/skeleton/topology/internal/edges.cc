@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/topology/internal/edges.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "kinemark/stages/skeleton/functional/score.h"
+#include "kinemark/stages/skeleton/functional/sphere.h"
+
+namespace kinemark::skeleton::internal {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kRounds = 3;
+constexpr std::size_t kLeastFrames = 8;
+constexpr double kSteadyShare = 0.1;
+
+int find_root(const std::vector<int>& root, int s) {
+  while (root[static_cast<std::size_t>(s)] != s) s = root[static_cast<std::size_t>(s)];
+  return s;
+}
+
+/// SD of the steadiest distance between markers of two segments; NaN when no pair was seen together.
+double steadiest(const std::vector<int>& segment, const PairSpread& pairs, int a, int b) {
+  double least = kNone;
+  for (std::size_t i = 0; i < segment.size(); ++i)
+    for (std::size_t j = 0; j < segment.size(); ++j) {
+      if (segment[i] != a || segment[j] != b) continue;
+      const double v = pairs.variance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (!std::isnan(v) && !(v >= least)) least = v;
+    }
+  return std::sqrt(least);
+}
+
+/// Of a segment without poses that moves about a point held still by one with poses.
+double sphere_residual(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b) {
+  const bool a_still = a.known_frames > 0;
+  if (!a_still && b.known_frames == 0) return kNone;
+  const SphereFit fit = a_still ? fit_spheres(samples, a, b.markers) : fit_spheres(samples, b, a.markers);
+  return fit.found && fit.frames >= static_cast<std::int64_t>(kLeastFrames) ? fit.residual_rms_m : kNone;
+}
+
+}  // namespace
+
+double shared_point_residual(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b) {
+  const RelativeMotion motion = measure_motion(a, b);
+  if (motion.frames.size() < kLeastFrames) return kNone;
+  double noise =
+      std::max(std::isnan(a.noise_sd_m) ? 0.0 : a.noise_sd_m, std::isnan(b.noise_sd_m) ? 0.0 : b.noise_sd_m);
+  noise = std::max(noise, 1e-6);
+  Vector6 p = Vector6::Zero();
+  double left = 0.0;
+  for (int round = 0; round <= kRounds; ++round) {
+    ScoreSums sums;
+    for (const std::int64_t f : motion.frames) {
+      const auto i = static_cast<std::size_t>(f);
+      const Eigen::Matrix3d spread = pose_noise(samples, a, f).at(a.world_from_segment[i], p.head<3>()) +
+                                     pose_noise(samples, b, f).at(b.world_from_segment[i], p.tail<3>()) +
+                                     1e-12 * Eigen::Matrix3d::Identity();
+      sums.add(a, b, f, spread.inverse());
+    }
+    left = std::sqrt(sums.cost(p) / (3.0 * sums.frames));
+    if (round == kRounds) break;
+    Matrix6 normal = sums.normal;
+    normal.diagonal().array() += 1e-6 * normal.diagonal().maxCoeff();
+    p = normal.ldlt().solve(sums.right);
+  }
+  return left * noise;
+}
+
+std::vector<Edge> find_edges(const Samples& samples, const std::vector<SegmentPoses>& poses,
+                             const std::vector<int>& segment, const PairSpread& pairs) {
+  std::vector<Edge> edges;
+  for (int a = 0; a < static_cast<int>(poses.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(poses.size()); ++b) {
+      const double steady = steadiest(segment, pairs, a, b);
+      if (std::isnan(steady)) continue;
+      const SegmentPoses& pa = poses[static_cast<std::size_t>(a)];
+      const SegmentPoses& pb = poses[static_cast<std::size_t>(b)];
+      Edge edge{.a = a, .b = b, .residual_m = kNone, .cost_m = steady};
+      edge.residual_m = pa.known_frames > 0 && pb.known_frames > 0 ? shared_point_residual(samples, pa, pb)
+                                                                   : sphere_residual(samples, pa, pb);
+      if (!std::isnan(edge.residual_m)) edge.cost_m = std::hypot(edge.residual_m, kSteadyShare * steady);
+      edges.push_back(edge);
+    }
+  return edges;
+}
+
+std::vector<TreeEdge> spanning_tree(std::vector<Edge> edges, int segments) {
+  std::ranges::stable_sort(edges, {}, &Edge::cost_m);
+  std::vector<int> all(static_cast<std::size_t>(segments));
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> root = all;
+  const auto join = [](std::vector<int>& roots, const Edge& e) {
+    const int a = find_root(roots, e.a), b = find_root(roots, e.b);
+    roots[static_cast<std::size_t>(a)] = b;
+    return a != b;
+  };
+  std::vector<TreeEdge> tree;
+  for (const Edge& e : edges)
+    if (join(root, e)) tree.push_back({e, std::numeric_limits<double>::infinity()});
+  for (TreeEdge& t : tree) {
+    std::vector<int> parts = all;
+    for (const TreeEdge& other : tree)
+      if (&other != &t) join(parts, other.edge);
+    for (const Edge& e : edges) {
+      if ((e.a == t.edge.a && e.b == t.edge.b) || find_root(parts, e.a) == find_root(parts, e.b)) continue;
+      t.margin = e.cost_m / std::max(t.edge.cost_m, 1e-9);
+      break;
+    }
+  }
+  return tree;
+}
+
+}  // namespace kinemark::skeleton::internal

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/stages/skeleton/functional/segment_poses.h"
+
+namespace kinemark::skeleton::internal {
+
+/// How the distance of every pair of markers varies.
+struct PairSpread {
+  Eigen::MatrixXd variance;     ///< M x M, m^2; NaN for pairs seen together in too few frames
+  Eigen::MatrixXd frames;       ///< M x M, seen together
+  Eigen::MatrixXd correlation;  ///< M x M, of a distance with its next; NaN as variance
+};
+
+/// Over the given frames, in order.
+[[nodiscard]] PairSpread measure_pairs(const Samples& samples, const std::vector<int>& markers,
+                                       const std::vector<std::int64_t>& frames, std::int64_t least_frames);
+
+/// What pairs of one segment have in common, from each marker's steadiest pairs.
+struct SameSegment {
+  double noise_variance = 0.0;  ///< of a marker, per axis, m^2
+  double soft_sd_m = 0.0;
+  double independent = 1.0;  ///< independent frames per frame
+};
+[[nodiscard]] SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m);
+
+struct OddsOptions {
+  double least_motion_m = 0.002, most_motion_m = 0.1;
+};
+/// Log odds of sharing a segment, M x M, within +-50; 0 for pairs never seen together.
+[[nodiscard]] Eigen::MatrixXd log_odds(const PairSpread& pairs, const SameSegment& same,
+                                       const OddsOptions& options);
+
+/// Segment of each marker, numbered by first marker: average linkage over seen pairs while it is positive,
+/// then single markers move to where they fit better.
+[[nodiscard]] std::vector<int> cluster(const Eigen::MatrixXd& odds, const PairSpread& pairs);
+
+/// Mean odds of marker i to the others of segment s; NaN when it was seen with none of them.
+[[nodiscard]] double mean_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs,
+                               const std::vector<int>& segment, std::size_t i, int s);
+
+}  // namespace kinemark::skeleton::internal
