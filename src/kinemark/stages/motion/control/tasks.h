@@ -22,7 +22,7 @@ namespace kinemark::motion {
                                                      const TimeBase& time, double lever_m = 0.1);
 
 /// Bring an independent coordinate (not one of a free root) to a value: 1 row, rad or m.
-[[nodiscard]] std::shared_ptr<Task> coordinate_task(std::string coordinate, std::vector<double> values,
+[[nodiscard]] std::shared_ptr<Task> coordinate_task(std::string coordinate, const std::vector<double>& values,
                                                     const TimeBase& time, double lever_m = 0.1);
 
 /// Keep two points of the body at a distance (m, > 0): 1 row.
@@ -30,7 +30,8 @@ struct BodyPoint {
   std::string body;  ///< "" or "ground": fixed in the world
   Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();
 };
-[[nodiscard]] std::shared_ptr<Task> distance_task(BodyPoint a, BodyPoint b, std::vector<double> distances_m,
+[[nodiscard]] std::shared_ptr<Task> distance_task(BodyPoint a, BodyPoint b,
+                                                  const std::vector<double>& distances_m,
                                                   const TimeBase& time, double weight = 1.0);
 
 }  // namespace kinemark::motion

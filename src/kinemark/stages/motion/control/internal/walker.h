@@ -19,6 +19,7 @@ class Walker {
   void use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d);
 
   [[nodiscard]] SampleWindow& samples() { return samples_; }
+  [[nodiscard]] const SampleWindow& samples() const { return samples_; }
 
   /// Put the body to pose x at frame `first`. Needs the cell that begins there.
   void begin(const Eigen::VectorXd& x, std::int64_t first);

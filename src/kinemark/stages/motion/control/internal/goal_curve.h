@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+
+namespace kinemark::motion::internal {
+
+/// Natural cubic spline through evenly spaced values; one value stays for ever, and before the first and
+/// after the last frame the nearest stays.
+class GoalCurve {
+ public:
+  GoalCurve() = default;
+  /// `values`: one column per frame of `time`, or a single one. Fails when the count is wrong or a value is
+  /// not finite.
+  static Result<GoalCurve> through(const Eigen::MatrixXd& values, const TimeBase& time);
+
+  /// Values, rates and second derivatives: 3 times as many numbers as a column has. Allocates nothing.
+  void at(double time_s, std::span<double> out) const;
+
+ private:
+  TimeBase time_;
+  Eigen::MatrixXd values_, bend_;  // bend: second derivative per frame^2
+};
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/online_tracker.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "kinemark/model/kinematics.h"
+#include "kinemark/stages/motion/control/internal/bounds.h"
+#include "kinemark/stages/motion/control/internal/first_pose.h"
+#include "kinemark/stages/motion/control/internal/readout.h"
+#include "kinemark/stages/motion/control/internal/walker.h"
+
+namespace kinemark::motion {
+namespace {
+
+using data::FrameStatus;
+
+constexpr double kFastest_hz = 10000.0;
+constexpr double kLongestGap_s = 2.0;
+constexpr double kPatience_s = 1.0;  // then a start with fewer markers is good enough
+constexpr double kEnough = 0.95;     // of the markers
+constexpr std::int64_t kFewest = 3;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// A recording of two frames that shows all markers in the model's default pose: what make_plan() needs to
+/// bring names together.
+data::Trajectories pretend(const model::Model& model, const std::vector<std::string>& names, double rate_hz) {
+  auto markers = data::Trajectories::all_missing(names, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = 2});
+  model::Workspace w(model);
+  model::kinematics(model, w, model.default_state());
+  for (std::int64_t m = 0; m < markers.markers(); ++m) {
+    const auto& name = names[at(m)];
+    const auto colon = name.rfind(':');
+    auto idx = model.description().find_marker(name);
+    if (idx < 0 && colon != std::string::npos) idx = model.description().find_marker(name.substr(colon + 1));
+    for (std::int64_t f = 0; f < 2; ++f) {
+      markers.x(f, m) =
+          idx < 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(w.marker.col(idx));
+      markers.state[markers.index(f, m)] = data::SampleState::measured;
+    }
+  }
+  return markers;
+}
+
+}  // namespace
+
+struct OnlineTracker::Impl {
+  Impl(internal::Plan given, const TrackOptions& opts, std::int64_t names)
+      : plan(std::move(given)),
+        options(opts),
+        filter(internal::make_filter(plan.rate_hz, opts)),
+        // Frames that the stream skips come in at once.
+        capacity(filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
+        samples(plan.problem.model.marker_count(), capacity),
+        readout(plan.problem.model),
+        y(3, plan.problem.model.marker_count()),
+        weight(plan.problem.model.marker_count()),
+        rest_squares(Eigen::VectorXd::Zero(weight.size())),
+        rest_count(rest_squares),
+        columns(names) {
+    y.setZero();
+  }
+
+  /// A frame in the order of the model's markers.
+  void take(const Eigen::Matrix3Xd* x) {
+    for (Eigen::Index m = 0; m < weight.size(); ++m) {
+      const int column = plan.problem.data_marker[at(m)];
+      const bool seen = x != nullptr && x->col(column).allFinite();
+      weight[m] = seen ? plan.problem.weight[m] : 0.0;
+      y.col(m) = seen ? Eigen::Vector3d(x->col(column)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    }
+    (walker ? walker->samples() : samples).push(y, weight);
+  }
+
+  [[nodiscard]] const internal::SampleWindow& window() const {
+    return walker ? std::as_const(*walker).samples() : samples;
+  }
+
+  /// Whether the cell from frame `first` on can be built.
+  [[nodiscard]] bool ready(std::int64_t first) const {
+    const auto& w = window();
+    return w.ended() ? first + 1 < w.frames() : first + 1 + filter.delay_frames() < w.frames();
+  }
+
+  /// Try to start at frame `f`; false: too few markers yet.
+  Result<bool> try_start(std::int64_t f) {
+    internal::GoalCell cell(static_cast<int>(weight.size()));
+    internal::GoalValues goal(static_cast<int>(weight.size()));
+    filter.build(samples, f, cell);
+    cell.at(0.0, goal);
+    const auto seen = (goal.weight.array() > 0.0).count();
+    const bool patient = static_cast<double>(f) < kPatience_s * plan.rate_hz;
+    if (static_cast<double>(seen) < kEnough * static_cast<double>(weight.size()) &&
+        (patient || seen < kFewest))
+      return false;
+    const Eigen::VectorXd x = internal::find_first_pose(plan, goal.x, goal.weight, options.lock);
+    if (auto status = internal::check_mass(plan, x); !status) return std::unexpected(status.error());
+    walker.emplace(plan, filter, capacity, t0_s);
+    walker->samples() = samples;
+    if (options.error_bars) bounds.emplace(plan);
+    walker->begin(x, f);
+    return true;
+  }
+
+  void read(const Eigen::VectorXd& x, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+    readout.find(x, v, a);
+    pose.q = readout.q();
+    pose.v = readout.rate();
+    pose.a = readout.acceleration();
+    pose.tau = readout.tau();
+  }
+
+  void describe() {
+    auto& body = walker->controller();
+    read(body.x(), body.v(), body.a());
+    pose.rank = body.rank();
+    pose.smallest_singular = body.smallest_singular();
+    const auto held = std::count(plan.problem.fixed_speed.begin(), plan.problem.fixed_speed.end(), 1);
+    bool fixed = pose.rank == plan.problem.model.speed_count() - held;
+    if (bounds) {
+      bounds->find(body.x(), pose.q, walker->goal(), walker->time_s(), noise());
+      pose.q_sd = bounds->sd();
+      pose.q_bound = bounds->bound();
+      pose.determined = bounds->determined();
+      pose.rank = bounds->rank();
+      pose.smallest_singular = bounds->smallest_singular();
+      fixed = std::all_of(pose.determined.begin(), pose.determined.end(), [](auto d) { return d != 0; });
+    }
+    if (walker->flagged())
+      pose.status = FrameStatus::not_converged;
+    else if (!walker->any_goal())
+      pose.status = FrameStatus::no_markers;
+    else
+      pose.status = fixed ? FrameStatus::converged : FrameStatus::underdetermined;
+  }
+
+  /// Of the goals: as given, or from what the filter has removed so far.
+  const MarkerVariances& noise() {
+    const double gain = filter.noise_in_goal();
+    variances.common.setZero(static_cast<Eigen::Index>(plan.problem.model.bodies().size()));
+    if (options.marker_noise_sd_m > 0.0) {
+      variances.own.setConstant(weight.size(), gain * options.marker_noise_sd_m * options.marker_noise_sd_m);
+      return variances;
+    }
+    const auto& goal = walker->goal();
+    variances.own.setZero(weight.size());
+    for (int m = 0; m < static_cast<int>(weight.size()); ++m) {
+      const auto f = walker->frame();
+      if (window().present(f, m) && goal.weight[m] >= plan.problem.weight[m]) {
+        rest_squares[m] += (window().x(f, m) - goal.x.col(m)).squaredNorm();
+        rest_count[m] += 3.0;
+      }
+      if (rest_count[m] > 0.0 && filter.noise_in_rest() > 1e-3)
+        variances.own[m] = gain * rest_squares[m] / (rest_count[m] * filter.noise_in_rest());
+    }
+    return variances;
+  }
+
+  internal::Plan plan;
+  TrackOptions options;
+  internal::GoalFilter filter;
+  std::int64_t capacity;
+  internal::SampleWindow samples;  // until the walker has its own
+  std::optional<internal::Walker> walker;
+  internal::Readout readout;
+  std::optional<internal::Bounds> bounds;
+  Eigen::Matrix3Xd y;
+  Eigen::VectorXd weight, rest_squares, rest_count;
+  MarkerVariances variances;
+  std::int64_t columns;
+  LivePose pose;
+  std::int64_t next_frame = 0;
+  double t0_s = 0.0, last_time_s = 0.0;
+};
+
+Result<OnlineTracker> OnlineTracker::create(const model::Model& model,
+                                            const std::vector<std::string>& markers, double rate_hz,
+                                            const TrackOptions& options) {
+  if (!(rate_hz > 0.0 && rate_hz <= kFastest_hz))
+    return fail(Code::usage, fmt::format("the rate is {} Hz; it must lie in (0, {}]", rate_hz, kFastest_hz));
+  if (options.derivatives != nullptr)
+    return fail(Code::usage, "a live stream cannot come with the derivatives of a recording");
+  TrackOptions whole = options;
+  whole.first_time_s = -1e300;
+  whole.last_time_s = 1e300;
+  auto plan = internal::make_plan(model, pretend(model, markers, rate_hz), whole);
+  if (!plan) return std::unexpected(plan.error());
+  return OnlineTracker(
+      std::make_unique<Impl>(std::move(*plan), whole, static_cast<std::int64_t>(markers.size())));
+}
+
+OnlineTracker::OnlineTracker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+OnlineTracker::OnlineTracker(OnlineTracker&&) noexcept = default;
+OnlineTracker& OnlineTracker::operator=(OnlineTracker&&) noexcept = default;
+OnlineTracker::~OnlineTracker() = default;
+
+std::int64_t OnlineTracker::delay_frames() const { return impl_->filter.delay_frames(); }
+
+Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
+  auto& s = *impl_;
+  if (x.cols() != s.columns)
+    return fail(Code::bad_input, fmt::format("a frame has {} markers; need {}", x.cols(), s.columns));
+  if (!std::isfinite(time_s)) return fail(Code::bad_input, "the time of a frame is not a number");
+  if (s.window().ended()) return fail(Code::usage, "a frame came after the end of the stream");
+  if (s.window().frames() - s.next_frame > s.filter.window_frames())
+    return fail(Code::usage,
+                "poses are ready that nobody fetched; call next() after every frame until it has none");
+  if (s.window().frames() == 0) {
+    s.t0_s = time_s;
+  } else {
+    const double wait = time_s - s.last_time_s;
+    if (wait <= 0.0)
+      return fail(Code::bad_input, fmt::format("time runs backwards: a frame at {} s came after one at {} s",
+                                               time_s, s.last_time_s));
+    if (wait > kLongestGap_s)
+      return fail(Code::bad_input,
+                  fmt::format("no frame for {:.1f} s; after more than {:g} s begin a new stream", wait,
+                              kLongestGap_s));
+    for (auto missed = std::llround(wait * s.plan.rate_hz) - 1; missed > 0; --missed) s.take(nullptr);
+  }
+  s.last_time_s = time_s;
+  s.take(&x);
+  return {};
+}
+
+void OnlineTracker::finish() { (impl_->walker ? impl_->walker->samples() : impl_->samples).end(); }
+
+Result<const LivePose*> OnlineTracker::next() {
+  auto& s = *impl_;
+  const std::int64_t f = s.next_frame;
+  s.pose.frame = f;
+  s.pose.time_s = s.t0_s + static_cast<double>(f) / s.plan.rate_hz;
+  if (!s.walker) {
+    if (!s.ready(f)) return nullptr;
+    const auto started = s.try_start(f);
+    if (!started) return std::unexpected(started.error());
+    ++s.next_frame;
+    if (*started) {
+      s.describe();
+    } else {
+      const Eigen::VectorXd still = Eigen::VectorXd::Zero(s.plan.problem.model.speed_count());
+      s.read(s.plan.rest, still, still);
+    }
+    return &s.pose;
+  }
+  if (!s.ready(f - 1)) return nullptr;
+  s.walker->next();
+  ++s.next_frame;
+  s.describe();
+  return &s.pose;
+}
+
+std::vector<std::string> OnlineTracker::locked_coordinates() const {
+  std::vector<std::string> names;
+  for (const int c : impl_->plan.locked)
+    names.push_back(impl_->plan.problem.model.description().coordinates[at(c)].name);
+  return names;
+}
+
+std::int64_t OnlineTracker::restarts() const { return impl_->walker ? impl_->walker->restarts() : 0; }
+
+}  // namespace kinemark::motion

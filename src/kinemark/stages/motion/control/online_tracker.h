@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/control/track_options.h"
+
+namespace kinemark::motion {
+
+/// One frame of a live stream; numbers as in data::JointMotion, n coordinates each.
+struct LivePose {
+  std::int64_t frame = 0;
+  double time_s = 0.0;
+  Eigen::VectorXd q, v, a, tau;
+  Eigen::VectorXd q_sd, q_bound;         ///< NaN where not determined; empty without error bars
+  std::vector<std::uint8_t> determined;  ///< empty without error bars
+  int rank = 0;
+  double smallest_singular = 0.0;
+  data::FrameStatus status = data::FrameStatus::no_markers;
+};
+
+/// track_markers() on a stream: frames go in, poses come out `delay_frames()` later, with the same numbers
+/// (q, v, a, tau) as from a file, provided that the first frame shows 95 % of the markers and that the same
+/// coordinates are locked. Standard deviations and bounds are the same when the marker noise is given;
+/// otherwise it is estimated from the frames so far.
+///
+/// The delay is the lookahead of the goals' filter, TrackOptions::lookahead_s, or the fading time where that
+/// is longer; a shorter lookahead answers sooner and filters less well. Memory does not grow.
+class OnlineTracker {
+ public:
+  /// @param markers  names in the order in which frames will come
+  /// @param rate_hz  of the stream, in (0, 10000]
+  static Result<OnlineTracker> create(const model::Model& model, const std::vector<std::string>& markers,
+                                      double rate_hz, const TrackOptions& options = {});
+  OnlineTracker(OnlineTracker&&) noexcept;
+  OnlineTracker& operator=(OnlineTracker&&) noexcept;
+  OnlineTracker(const OnlineTracker&) = delete;
+  OnlineTracker& operator=(const OnlineTracker&) = delete;
+  ~OnlineTracker();
+
+  [[nodiscard]] std::int64_t delay_frames() const;
+
+  /// One frame: x (3 x markers, m, NaN where not seen) at a time in s. Frames that the stream skipped count
+  /// as not seen. Fails, and takes nothing in, when time does not advance, jumps by more than 2 s, x has the
+  /// wrong size, or poses wait to be fetched.
+  [[nodiscard]] Status push(double time_s, const Eigen::Matrix3Xd& x);
+  /// No more frames will come: what is on the way comes out.
+  void finish();
+  /// The next pose that is ready, valid until the next call, or nullptr: call it after every frame until
+  /// then. Before enough markers were seen, poses are the rest pose with status no_markers. Fails when the
+  /// first pose shows that the model cannot be controlled (no mass behind a coordinate).
+  [[nodiscard]] Result<const LivePose*> next();
+
+  [[nodiscard]] std::vector<std::string> locked_coordinates() const;
+  [[nodiscard]] std::int64_t restarts() const;
+
+ private:
+  struct Impl;
+  explicit OnlineTracker(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kinemark::motion

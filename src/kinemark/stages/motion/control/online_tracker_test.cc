@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/online_tracker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "kinemark/stages/motion/control/track.h"
+#include "kinemark/stages/motion/test_body.h"
+
+namespace kinemark::motion {
+namespace {
+
+using ::testing::HasSubstr;
+using testing_body::record;
+
+model::Model body() { return model::Model::compile(testing_body::description()).value(); }
+
+Eigen::Matrix3Xd frame_of(const data::Trajectories& markers, std::int64_t f) {
+  Eigen::Matrix3Xd x(3, markers.markers());
+  for (std::int64_t m = 0; m < markers.markers(); ++m) x.col(m) = markers.x(f, m);
+  return x;
+}
+
+/// All poses of a recording pushed frame by frame.
+std::vector<LivePose> stream(OnlineTracker& tracker, const data::Trajectories& markers) {
+  std::vector<LivePose> poses;
+  const auto fetch = [&] {
+    for (;;) {
+      const auto pose = tracker.next();
+      if (!pose || *pose == nullptr) break;
+      poses.push_back(**pose);
+    }
+  };
+  for (std::int64_t f = 0; f < markers.frames(); ++f) {
+    EXPECT_TRUE(tracker.push(markers.time.time_s(f), frame_of(markers, f)));
+    fetch();
+  }
+  tracker.finish();
+  fetch();
+  return poses;
+}
+
+TEST(OnlineTracker, GivesTheSameNumbersAsAFile) {
+  const auto model = body();
+  auto markers = record(model, 120, 1e-3, 6);
+  for (std::int64_t f = 40; f < 70; ++f) markers.set_missing(f, 7);
+  const TrackOptions options{.marker_noise_sd_m = 1e-3};
+  const auto file = track_markers(model, markers, options).value();
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0, options);
+  ASSERT_TRUE(tracker) << tracker.error().message;
+  const auto live = stream(*tracker, markers);
+  ASSERT_EQ(live.size(), 120u);
+  EXPECT_EQ(tracker->locked_coordinates(), file.locked_coordinates);
+  for (std::int64_t f = 0; f < 120; ++f) {
+    const auto& pose = live[static_cast<std::size_t>(f)];
+    EXPECT_EQ(pose.frame, f);
+    EXPECT_NEAR(pose.time_s, file.motion.time.time_s(f), 1e-12);
+    EXPECT_EQ(pose.status, file.motion.status[static_cast<std::size_t>(f)]) << f;
+    EXPECT_EQ(pose.rank, file.rank[static_cast<std::size_t>(f)]);
+    for (std::int64_t c = 0; c < file.motion.size(); ++c) {
+      const auto i = file.motion.index(f, c);
+      ASSERT_EQ(pose.q[c], file.motion.q[i]) << f << ' ' << c;
+      ASSERT_EQ(pose.v[c], file.motion.v[i]);
+      ASSERT_EQ(pose.a[c], file.motion.a[i]);
+      if (!std::isnan(pose.tau[c])) ASSERT_EQ(pose.tau[c], file.motion.tau[i]);
+      if (!std::isnan(pose.q_sd[c])) ASSERT_EQ(pose.q_sd[c], file.motion.q_sd[i]);
+      if (!std::isnan(pose.q_bound[c])) ASSERT_EQ(pose.q_bound[c], file.motion.q_bound[i]);
+    }
+  }
+}
+
+TEST(OnlineTracker, AnswersAfterTheDelayThatItNames) {
+  const auto model = body();
+  const auto markers = record(model, 80);
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0, {.lookahead_s = 0.15}).value();
+  EXPECT_EQ(tracker.delay_frames(), 16);
+  std::int64_t fetched = 0;
+  for (std::int64_t f = 0; f < 80; ++f) {
+    ASSERT_TRUE(tracker.push(markers.time.time_s(f), frame_of(markers, f)));
+    while (*tracker.next() != nullptr) ++fetched;
+    EXPECT_EQ(fetched, f <= 16 ? 0 : f - 16 + 1) << f;
+  }
+}
+
+TEST(OnlineTracker, RefusesTimesThatDoNotAdvance) {
+  const auto model = body();
+  const auto markers = record(model, 4);
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0).value();
+  ASSERT_TRUE(tracker.push(1.0, frame_of(markers, 0)));
+  const auto back = tracker.push(0.99, frame_of(markers, 1));
+  ASSERT_FALSE(back);
+  EXPECT_THAT(back.error().message,
+              HasSubstr("time runs backwards: a frame at 0.99 s came after one at 1 s"));
+  EXPECT_FALSE(tracker.push(1.0, frame_of(markers, 1)));
+  EXPECT_FALSE(tracker.push(std::numeric_limits<double>::quiet_NaN(), frame_of(markers, 1)));
+  EXPECT_THAT(tracker.push(9.0, frame_of(markers, 1)).error().message, HasSubstr("begin a new stream"));
+  EXPECT_THAT(tracker.push(1.01, Eigen::Matrix3Xd::Zero(3, 2)).error().message,
+              HasSubstr("2 markers; need 14"));
+  EXPECT_TRUE(tracker.push(1.01, frame_of(markers, 1)));
+  tracker.finish();
+  EXPECT_THAT(tracker.push(1.02, frame_of(markers, 2)).error().message, HasSubstr("after the end"));
+}
+
+TEST(OnlineTracker, FramesThatTheStreamSkippedAreGaps) {
+  const auto model = body();
+  auto markers = record(model, 100);
+  auto gappy = markers;
+  for (std::int64_t f = 50; f < 60; ++f)
+    for (std::int64_t m = 0; m < 14; ++m) gappy.set_missing(f, m);
+  auto whole = OnlineTracker::create(model, markers.names, 100.0).value();
+  const auto expected = stream(whole, gappy);
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0).value();
+  std::vector<LivePose> poses;
+  for (std::int64_t f = 0; f < 100; ++f) {
+    if (f >= 50 && f < 60) continue;
+    ASSERT_TRUE(tracker.push(markers.time.time_s(f), frame_of(markers, f)));
+    while (const auto* pose = *tracker.next()) poses.push_back(*pose);
+  }
+  tracker.finish();
+  while (const auto* pose = *tracker.next()) poses.push_back(*pose);
+  ASSERT_EQ(poses.size(), expected.size());
+  for (std::size_t f = 0; f < poses.size(); ++f) EXPECT_EQ(poses[f].q, expected[f].q) << f;
+  EXPECT_EQ(poses[55].status, data::FrameStatus::no_markers);
+}
+
+TEST(OnlineTracker, WaitsForEnoughMarkers) {
+  const auto model = body();
+  auto markers = record(model, 120);
+  for (std::int64_t f = 0; f < 20; ++f)
+    for (std::int64_t m = 0; m < 10; ++m) markers.set_missing(f, m);
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0).value();
+  const auto poses = stream(tracker, markers);
+  ASSERT_EQ(poses.size(), 120u);
+  EXPECT_EQ(poses[10].status, data::FrameStatus::no_markers);
+  EXPECT_EQ(poses[10].q.size(), 13);
+  EXPECT_EQ(poses[60].status, data::FrameStatus::converged);
+  EXPECT_NEAR(poses[60].q[9], testing_body::coordinates(model, 60)[9], 2e-3);
+}
+
+TEST(OnlineTracker, SaysWhatItCannotDo) {
+  const auto model = body();
+  const std::vector<std::string> names{"T1", "T2"};
+  EXPECT_THAT(OnlineTracker::create(model, names, 0.0).error().message, HasSubstr("rate"));
+  EXPECT_THAT(OnlineTracker::create(model, {"nose"}, 100.0).error().message,
+              HasSubstr("no marker in common"));
+  const data::Derivatives none;
+  EXPECT_THAT(OnlineTracker::create(model, names, 100.0, {.derivatives = &none}).error().message,
+              HasSubstr("derivatives"));
+  auto tracker = OnlineTracker::create(model, names, 100.0).value();
+  Status status;
+  for (int f = 0; f < 300 && status; ++f) status = tracker.push(0.01 * f, Eigen::Matrix3Xd::Zero(3, 2));
+  ASSERT_FALSE(status);
+  EXPECT_THAT(status.error().message, HasSubstr("call next()"));
+}
+
+}  // namespace
+}  // namespace kinemark::motion

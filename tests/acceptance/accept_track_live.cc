@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Direct marker control on a live stream of 240 Hz: how late an answer comes, and whether it drifts.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "acceptance/track_subject.h"
+#include "kinemark/stages/motion/control/online_tracker.h"
+#include "support/acceptance.h"
+
+namespace {
+
+using namespace kinemark;
+using namespace kinemark::track_subject;
+using testing_support::print_row;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kRate_hz = 240.0;
+
+}  // namespace
+
+/// accept_track_live [MINUTES]
+int main(int argc, char** argv) {
+  const double minutes = argc > 1 ? std::atof(argv[1]) : 10.0;
+  const auto model = human();
+  const auto s = subject(model, 1e-3, kRate_hz, 60.0 * minutes, 1);
+  const motion::TrackOptions options{.marker_noise_sd_m = 1e-3};
+  auto tracker = motion::OnlineTracker::create(model, s.markers.names, kRate_hz, options).value();
+  const auto list = joints(model);
+  const auto F = s.markers.frames();
+  std::vector<double> wait, squares(static_cast<std::size_t>(std::ceil(minutes)), 0.0);
+  std::vector<Eigen::VectorXd> first;  // poses of the first half minute
+  const auto compared = std::min<std::int64_t>(F, static_cast<std::int64_t>(30.0 * kRate_hz));
+  std::int64_t flagged = 0;
+  Eigen::Matrix3Xd x(3, s.markers.markers());
+  for (std::int64_t f = 0; f < F; ++f) {
+    for (std::int64_t m = 0; m < s.markers.markers(); ++m) x.col(m) = s.markers.x(f, m);
+    const auto begin = Clock::now();
+    tracker.push(s.markers.time.time_s(f), x).value();
+    while (const auto* pose = tracker.next().value()) {
+      flagged += pose->status == data::FrameStatus::not_converged;
+      if (pose->frame < compared) first.push_back(pose->q);
+      const auto minute = static_cast<std::size_t>(pose->time_s / 60.0);
+      for (const auto c : list)
+        squares[minute] += std::pow(pose->q[c] - s.truth.q[s.truth.index(pose->frame, c)], 2);
+    }
+    wait.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  const auto rank = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(wait.size()));
+  std::nth_element(wait.begin(), wait.begin() + rank, wait.end());
+  print_row(wait[static_cast<std::size_t>(rank)] < 2e-3,
+            fmt::format("{} frames at 240 Hz with bounds and deviations: 99 % of the answers within", F),
+            "2 ms",
+            fmt::format("{:.3f} ms; {} frames behind by design", 1e3 * wait[static_cast<std::size_t>(rank)],
+                        tracker.delay_frames()));
+  const double per_minute = 60.0 * kRate_hz * static_cast<double>(list.size());
+  const double begin = kDegPerRad * std::sqrt(squares.front() / per_minute);
+  const double end = kDegPerRad * std::sqrt(squares.back() / per_minute);
+  print_row(flagged == 0 && end < 1.1 * begin, "drift",
+            "last minute within 10 % of the first, no frame flagged",
+            fmt::format("{:.4f} deg, then {:.4f} deg; {} flagged", begin, end, flagged));
+
+  motion::TrackOptions offline = options;
+  offline.last_time_s = 30.0;
+  offline.error_bars = false;
+  const auto file = motion::track_markers(model, s.markers, offline).value().motion;
+  const auto common = std::min<std::int64_t>(static_cast<std::int64_t>(first.size()),
+                                             file.frames() - 2 * tracker.delay_frames());
+  double differ = 0.0;
+  for (std::int64_t f = 0; f < common; ++f)
+    for (std::int64_t c = 0; c < file.size(); ++c)
+      differ = std::max(differ, std::abs(first[static_cast<std::size_t>(f)][c] - file.q[file.index(f, c)]));
+  print_row(differ == 0.0, "same numbers as offline", "no difference",
+            fmt::format("{:.1e} in {} frames", differ, common));
+  return testing_support::exit_status();
+}
