@@ -1,13 +1,190 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/scaling/geometry.h"
+#include "kinemark/stages/motion/scaling/scale.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/stages/motion/scaling/testing/small_leg.h"
 
 namespace kinemark::motion {
 namespace {
 
-TEST(Geometry, empty) { EXPECT_TRUE(default_scale_groups({}).empty()); }
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using testing_leg::leg;
+
+std::vector<Vector3d> all(const data::ModelDescription& model, const Vector3d& factors) {
+  return std::vector<Vector3d>(model.bodies.size(), factors);
+}
+
+/// A static recording of a leg that is bigger by known factors.
+data::Trajectories static_trial(const data::ModelDescription& model) {
+  testing_leg::Recording how;
+  how.frames = 20;
+  how.amplitude = 0.0;
+  return testing_leg::record(model, how);
+}
+
+Measurement thigh_measurement() {
+  return {.name = "thigh", .pairs = {{"THI", "KNM"}, {"THA", "KNE"}}, .bodies = {{.body = "femur_r"}}};
+}
+
+TEST(ApplyFactors, a_uniform_factor_scales_every_length) {
+  auto model = leg();
+  const auto before = model;
+  apply_factors(model, all(model, Vector3d::Constant(1.2)), true);
+  EXPECT_TRUE(model.joints[2].parent_from_joint.translation.isApprox(Vector3d(0, -0.48, 0)));
+  EXPECT_TRUE(model.joints[0].child_from_joint.translation.isApprox(Vector3d(0.06, 0, 0)));
+  EXPECT_TRUE(model.markers[4].x_in_body.isApprox(1.2 * before.markers[4].x_in_body));
+  EXPECT_NEAR(model.joints[2].axes[1].function(0.3).f, 1.2 * before.joints[2].axes[1].function(0.3).f, 1e-15);
+  EXPECT_NEAR(model.bodies[1].mass, before.bodies[1].mass * std::pow(1.2, 3), 1e-12);
+  EXPECT_TRUE(model.bodies[1].inertia_about_com.isApprox(
+      std::pow(1.2, 5) * before.bodies[1].inertia_about_com, 1e-12));
+  // Translations of the root are coordinates in metres, not shape.
+  EXPECT_TRUE(model.joints[0].axes[3].function.is_identity());
+}
+
+TEST(ApplyFactors, masses_can_stay) {
+  auto model = leg();
+  const auto before = model;
+  apply_factors(model, all(model, Vector3d::Constant(1.2)), false);
+  EXPECT_EQ(model.bodies[1].mass, before.bodies[1].mass);
+  EXPECT_TRUE(model.bodies[1].inertia_about_com.isApprox(
+      std::pow(1.2, 2) * before.bodies[1].inertia_about_com, 1e-12));
+}
+
+TEST(ApplyFactors, a_body_stretched_along_one_axis_has_the_inertia_of_its_points) {
+  // Six equal point masses on the axes.
+  const double m = 0.5;
+  const Vector3d half(0.1, 0.2, 0.3);
+  const auto inertia = [&](const Vector3d& h) {
+    return Eigen::Matrix3d(
+        2.0 * m *
+        Vector3d(h.y() * h.y() + h.z() * h.z(), h.x() * h.x() + h.z() * h.z(), h.x() * h.x() + h.y() * h.y())
+            .asDiagonal());
+  };
+  auto model = leg();
+  model.bodies[2].inertia_about_com = inertia(half);
+  auto factors = all(model, Vector3d::Ones());
+  factors[2] = Vector3d(1.0, 1.5, 0.8);
+  apply_factors(model, factors, false);
+  EXPECT_TRUE(model.bodies[2].inertia_about_com.isApprox(inertia(half.cwiseProduct(factors[2])), 1e-12));
+}
+
+TEST(ApplyFactors, parent_and_child_scale_their_own_side_of_a_joint) {
+  auto model = leg();
+  const auto before = model;
+  auto factors = all(model, Vector3d::Ones());
+  factors[1] = Vector3d(1.0, 2.0, 1.0);
+  apply_factors(model, factors, false);
+  EXPECT_EQ(model.joints[1].parent_from_joint.translation, before.joints[1].parent_from_joint.translation);
+  EXPECT_TRUE(model.joints[1].child_from_joint.translation.isApprox(Vector3d(0, 0.02, 0)));
+  EXPECT_TRUE(model.joints[2].parent_from_joint.translation.isApprox(Vector3d(0, -0.8, 0)));
+  // The knee slides along x: a thigh that grows in y leaves it alone.
+  EXPECT_NEAR(model.joints[2].axes[1].function(0.3).f, before.joints[2].axes[1].function(0.3).f, 1e-15);
+}
+
+TEST(ScaleModel, measured_over_model_distance_averaged_over_pairs) {
+  const auto model = leg();
+  auto subject = model;
+  auto factors = all(model, Vector3d::Ones());
+  factors[1] = Vector3d::Constant(1.1);
+  apply_factors(subject, factors, false);
+  const auto recording = static_trial(subject);
+  ScaleOptions options;
+  options.measurements = {thigh_measurement()};
+  const auto result = scale_model(model, &recording, options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(result->factors[1].factors.isApprox(Vector3d::Constant(1.1), 1e-9));
+  EXPECT_EQ(result->factors[2].factors, Vector3d::Ones());
+  ASSERT_EQ(result->measurements.size(), 1U);
+  EXPECT_EQ(result->measurements[0].pairs.size(), 2U);
+  EXPECT_NEAR(result->measurements[0].pairs[0].measured_m, 1.1 * result->measurements[0].pairs[0].model_m,
+              1e-9);
+  EXPECT_NEAR(result->measurements[0].pairs[0].measured_sd_m, 0.0, 1e-7);
+  EXPECT_TRUE(result->model.joints[2].parent_from_joint.translation.isApprox(Vector3d(0, -0.44, 0), 1e-9));
+}
+
+TEST(ScaleModel, later_steps_win_and_axes_are_kept_apart) {
+  const auto model = leg();
+  const auto recording = static_trial(model);
+  ScaleOptions options;
+  options.measurements = {thigh_measurement()};
+  options.manual = {{.body = "femur_r", .factors = Vector3d(1.3, 1.4, 1.5)}};
+  EXPECT_TRUE(scale_model(model, &recording, options)->factors[1].factors.isApprox(Vector3d(1.3, 1.4, 1.5)));
+  options.order = {ScaleStep::manual, ScaleStep::measurements};
+  options.measurements[0].bodies[0].axes = Vector3d(0, 1, 0);
+  EXPECT_TRUE(
+      scale_model(model, &recording, options)->factors[1].factors.isApprox(Vector3d(1.3, 1.0, 1.5), 1e-9));
+}
+
+TEST(ScaleModel, the_mass_is_that_of_the_subject) {
+  const auto model = leg();
+  ScaleOptions options;
+  options.manual = {{.body = "femur_r", .factors = Vector3d::Constant(1.2)}};
+  options.mass_kg = 50.0;
+  const auto mass = [](const data::ModelDescription& m) {
+    double sum = 0.0;
+    for (const auto& body : m.bodies) sum += body.mass;
+    return sum;
+  };
+  const auto by_volume = scale_model(model, nullptr, options)->model;
+  EXPECT_NEAR(mass(by_volume), 50.0, 1e-12);
+  EXPECT_NEAR(by_volume.bodies[1].mass / by_volume.bodies[2].mass, 9.0 * std::pow(1.2, 3) / 3.7, 1e-12);
+  options.preserve_mass_distribution = true;
+  const auto preserved = scale_model(model, nullptr, options)->model;
+  EXPECT_NEAR(mass(preserved), 50.0, 1e-12);
+  EXPECT_NEAR(preserved.bodies[1].mass / preserved.bodies[2].mass, 9.0 / 3.7, 1e-12);
+}
+
+TEST(ScaleModel, finds_markers_behind_a_subject_prefix) {
+  const auto model = leg();
+  auto recording = static_trial(model);
+  for (auto& name : recording.names) name = "Ann:" + name;
+  ScaleOptions options;
+  options.measurements = {thigh_measurement()};
+  EXPECT_TRUE(scale_model(model, &recording, options));
+  EXPECT_EQ(find_recorded(recording, "THI"), 3);
+  recording.names[4] = "Bob:THI";
+  EXPECT_EQ(find_recorded(recording, "THI"), -1);
+}
+
+TEST(ScaleModel, says_what_is_wrong) {
+  const auto model = leg();
+  auto recording = static_trial(model);
+  ScaleOptions options;
+  options.measurements = {thigh_measurement()};
+  const auto message = [&](const data::Trajectories* r) {
+    const auto result = scale_model(model, r, options);
+    return result ? std::string("it ran") : result.error().message;
+  };
+  EXPECT_THAT(message(nullptr), HasSubstr("need a static trial"));
+  options.first_time_s = 50.0;
+  EXPECT_THAT(message(&recording), HasSubstr("no frame of the time range shows both 'THI' and 'KNM'"));
+  options.first_time_s = -1e300;
+  options.measurements[0].pairs[1].second = "GONE";
+  EXPECT_THAT(message(&recording), HasSubstr("needs marker 'GONE', which the model does not have"));
+  options.measurements[0].pairs.clear();
+  EXPECT_THAT(message(&recording), HasSubstr("has no marker pair"));
+  options.measurements[0] = thigh_measurement();
+  options.measurements[0].bodies[0].body = "tail";
+  EXPECT_THAT(message(&recording), HasSubstr("names body 'tail'"));
+  options.measurements.clear();
+  options.manual = {{.body = "femur_r", .factors = Vector3d::Constant(1000.0)}};
+  EXPECT_THAT(message(&recording), HasSubstr("wrong unit"));
+  options.manual.clear();
+  options.mass_kg = -3.0;
+  EXPECT_THAT(message(&recording), HasSubstr("mass of -3 kg"));
+}
+
+TEST(SetTotalMass, refuses_a_massless_model) {
+  auto model = leg();
+  for (auto& body : model.bodies) body.mass = 0.0;
+  EXPECT_THAT(set_total_mass(model, 70.0).error().message, HasSubstr("no mass"));
+}
 
 }  // namespace
 }  // namespace kinemark::motion

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// OpenSim's Gait2354 example: its Scale setup against the models that OpenSim made of it.
+#include <fmt/core.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/scale_job.h"
+#include "support/acceptance.h"
+#include "support/test_data.h"
+
+namespace {
+
+using namespace kinemark;
+using testing_support::print_row;
+namespace fs = std::filesystem;
+
+struct Worst {
+  double value = 0.0;
+  std::string where;
+  void see(double v, const std::string& name) {
+    if (v > value || where.empty()) {
+      value = v;
+      where = name;
+    }
+  }
+};
+
+/// Largest distance of joint frames in both bodies, m.
+Worst compare_joints(const data::ModelDescription& ours, const data::ModelDescription& theirs) {
+  Worst worst;
+  for (const auto& joint : theirs.joints)
+    for (const auto& mine : ours.joints) {
+      if (mine.name != joint.name) continue;
+      worst.see((mine.parent_from_joint.translation - joint.parent_from_joint.translation).norm(),
+                joint.name);
+      worst.see((mine.child_from_joint.translation - joint.child_from_joint.translation).norm(), joint.name);
+    }
+  return worst;
+}
+
+/// Largest difference of the translations that the knees make of their angle, m.
+double compare_knees(const data::ModelDescription& ours, const data::ModelDescription& theirs) {
+  double worst = 0.0;
+  for (const auto& joint : theirs.joints)
+    for (const auto& mine : ours.joints) {
+      if (mine.name != joint.name || !joint.name.starts_with("knee")) continue;
+      for (std::size_t a = 0; a < joint.axes.size(); ++a)
+        for (double angle = -2.0; angle <= 0.2; angle += 0.1)
+          if (!joint.axes[a].is_rotation)
+            worst =
+                std::max(worst, std::abs(mine.axes[a].function(angle).f - joint.axes[a].function(angle).f));
+    }
+  return worst;
+}
+
+}  // namespace
+
+int main() {
+  const auto data = testing_support::test_data_folder();
+  if (!data) return testing_support::skip_all("opensim-gait2354 with its Scale setup");
+  const fs::path folder = *data / "opensim-gait2354";
+  const testing_support::ScratchSpace scratch("accept_scaling_gait");
+  pipeline::ScaleJob job;
+  job.setup = folder / "subject01_Setup_Scale.xml";
+  job.output = scratch.path() / "subject01.osim";
+  const auto outcome = pipeline::run_scale(job).value();
+  const auto scaled = io::read_osim(folder / "subject01_scaledOnly.osim").value();
+  const auto placed = io::read_osim(folder / "subject01_simbody.osim").value();
+  const auto ours = io::read_osim(job.output).value();
+
+  Worst factors;
+  for (const auto& scale : io::read_scale_set(folder / "subject01_scaleSet_applied.xml").value())
+    for (const auto& mine : outcome.factors)
+      if (mine.body == scale.body)
+        factors.see((mine.factors.array() / scale.factors.array() - 1.0).abs().maxCoeff(), scale.body);
+  print_row(factors.value <= 1e-3, "opensim-gait2354: scale factors of all 12 bodies", "within 0.1 %",
+            fmt::format("{:.5f} % ({})", 100.0 * factors.value, factors.where));
+
+  const Worst joints = compare_joints(ours, scaled);
+  print_row(joints.value <= 1e-6, "opensim-gait2354: joint places of the scaled model", "within 0.001 mm",
+            fmt::format("{:.2g} mm ({})", 1e3 * joints.value, joints.where));
+  const double knees = compare_knees(ours, scaled);
+  print_row(knees <= 1e-6, "opensim-gait2354: knee translations of the scaled model", "within 0.001 mm",
+            fmt::format("{:.2g} mm", 1e3 * knees));
+
+  Worst masses, centres;
+  for (const auto& body : scaled.bodies) {
+    const auto& mine = ours.bodies[static_cast<std::size_t>(ours.find_body(body.name))];
+    masses.see(std::abs(mine.mass / body.mass - 1.0), body.name);
+    centres.see((mine.com_in_body - body.com_in_body).norm(), body.name);
+  }
+  print_row(masses.value <= 1e-5 && centres.value <= 1e-6, "opensim-gait2354: masses and mass centres",
+            "within 1e-5 relative, 0.001 mm",
+            fmt::format("{:.2g} ({}), {:.2g} mm", masses.value, masses.where, 1e3 * centres.value));
+
+  Worst places;
+  std::size_t compared = 0;
+  for (const auto& marker : placed.markers) {
+    const int m = ours.find_marker(marker.name);
+    if (m < 0) continue;
+    ++compared;
+    places.see((ours.markers[static_cast<std::size_t>(m)].x_in_body - marker.x_in_body).norm(), marker.name);
+  }
+  print_row(places.value <= 5e-4 && compared == placed.markers.size(),
+            fmt::format("opensim-gait2354: places of {} markers", placed.markers.size()),
+            "within 0.5 mm of OpenSim's",
+            fmt::format("{:.3f} mm ({}), {} compared", 1e3 * places.value, places.where, compared));
+  return testing_support::exit_status();
+}
