@@ -31,9 +31,13 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run);
 void add_convert(CLI::App& app, const Globals& globals, Run& run);
 void add_validate(CLI::App& app, const Globals& globals, Run& run);
 void add_simulate(CLI::App& app, const Globals& globals, Run& run);
+void add_simulate_limb(CLI::App& simulate, const Globals& globals, Run& run);
 void add_simulate_rig(CLI::App& simulate, const Globals& globals, Run& run);
 void add_ik(CLI::App& app, const Globals& globals, Run& run);
+void add_track(CLI::App& app, const Globals& globals, Run& run);
+void add_joints(CLI::App& app, const Globals& globals, Run& run);
 void add_recover(CLI::App& app, const Globals& globals, Run& run);
 void add_report(CLI::App& app, const Globals& globals, Run& run);
+void add_scale(CLI::App& app, const Globals& globals, Run& run);
 
 }  // namespace kinemark::cli

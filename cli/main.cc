@@ -59,7 +59,10 @@ int run_program(int argc, char** argv) {
   kinemark::cli::add_calibrate(app, globals, run);
   kinemark::cli::add_reconstruct(app, globals, run);
   kinemark::cli::add_clean(app, globals, run);
+  kinemark::cli::add_joints(app, globals, run);
+  kinemark::cli::add_scale(app, globals, run);
   kinemark::cli::add_ik(app, globals, run);
+  kinemark::cli::add_track(app, globals, run);
   kinemark::cli::add_report(app, globals, run);
   kinemark::cli::add_study(app, globals, run);
   kinemark::cli::add_info(app, globals, run);

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/io/number.h"
+#include "kinemark/pipeline/track_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct TrackArguments {
+  pipeline::TrackJob job;
+  std::vector<std::string> levels, weights, rest, posture;
+  double step_ms = 0.0, noise_mm = 0.0, max_rms_mm = 50.0, max_offset_mm = 50.0;
+  bool no_limits = false, no_error_bars = false, no_feed_forward = false, no_lock = false;
+};
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// "NAME=NUMBER".
+Result<std::pair<std::string, double>> parse_pair(const std::string& text, const char* what) {
+  const auto equals = text.rfind('=');
+  const auto number = equals == std::string::npos ? std::nullopt : io::parse_number(text.substr(equals + 1));
+  if (!number || equals == 0) return fail(Code::usage, fmt::format("'{}' is not NAME={}", text, what));
+  return std::pair{text.substr(0, equals), *number};
+}
+
+Status apply(const Globals& globals, const TrackArguments& arguments, pipeline::TrackJob& job) {
+  auto& options = job.options;
+  for (const auto& text : arguments.levels) {
+    motion::TrackLevel level;
+    for (const auto& name : split(text, ',')) {
+      if (name.empty())
+        return fail(Code::usage, fmt::format("level '{}' has an empty name; need MARKER,MARKER,...", text));
+      level.markers.push_back(name);
+    }
+    options.levels.push_back(std::move(level));
+  }
+  for (const auto& text : arguments.weights) {
+    const auto weight = parse_pair(text, "WEIGHT");
+    if (!weight) return std::unexpected(weight.error());
+    options.marker_weights.push_back({weight->first, weight->second});
+  }
+  for (const auto& text : arguments.rest) {
+    const auto value = parse_pair(text, "VALUE");
+    if (!value) return std::unexpected(value.error());
+    options.rest_pose.push_back({.coordinate = value->first, .value = value->second});
+  }
+  if (!arguments.posture.empty()) {
+    const auto parts = split(arguments.posture.front(), ',');
+    const auto kp = io::parse_number(parts.front());
+    const auto kd = parts.size() == 2 ? io::parse_number(parts.back()) : std::nullopt;
+    if (!kp || !kd) return fail(Code::usage, fmt::format("'{}' is not KP,KD", arguments.posture.front()));
+    options.posture_kp = *kp;
+    options.posture_kd = *kd;
+  }
+  options.step_s = 1e-3 * arguments.step_ms;
+  options.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
+  options.limits = !arguments.no_limits;
+  options.error_bars = !arguments.no_error_bars;
+  options.feed_forward = !arguments.no_feed_forward;
+  options.lock = arguments.no_lock ? motion::LockMode::off : motion::LockMode::automatic;
+  options.threads = globals.threads;
+  options.seed = globals.seed;
+  job.max_rms_m = 1e-3 * arguments.max_rms_mm;
+  job.max_offset_m = 1e-3 * arguments.max_offset_mm;
+  job.force = globals.force;
+  job.command_line = globals.command_line;
+  return {};
+}
+
+std::string names(const std::vector<std::string>& list) {
+  std::string text;
+  for (const auto& name : list) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome) {
+  const auto& result = outcome.result;
+  const auto& motion = result.motion;
+  say(globals,
+      fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; {} steps of {:.3g} ms in {:.3f} s.",
+                  motion.frames(), motion.time.rate_hz, result.markers.size(), motion.size(), result.steps,
+                  1e3 * result.step_s, result.solve_seconds));
+  say(globals,
+      fmt::format("Marker error {:.2f} mm RMS against the recording, {:.2f} mm against the goals; rank "
+                  "{} to {} of {}.",
+                  1e3 * result.rms_marker_error_m, 1e3 * result.rms_goal_error_m,
+                  *std::min_element(result.rank.begin(), result.rank.end()),
+                  *std::max_element(result.rank.begin(), result.rank.end()), result.free_speeds));
+  if (!result.locked_coordinates.empty())
+    say(globals, fmt::format("note: Held at rest because no tracked marker moves them: {}",
+                             names(result.locked_coordinates)));
+  if (!result.undetermined_coordinates.empty())
+    say(globals, fmt::format("note: Not determined in 95 % of the frames: {}",
+                             names(result.undetermined_coordinates)));
+  for (const auto& finding : outcome.summary.findings) {
+    const bool note = finding.level == report::Verdict::good;
+    if (note && finding.about == "coordinate") continue;
+    say(globals, fmt::format("{}: {}", note ? "note" : "attention", finding.text));
+  }
+  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  if (globals.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
+}
+
+int run_command(const Globals& globals, const TrackArguments& arguments) {
+  pipeline::TrackJob job = arguments.job;
+  if (auto status = apply(globals, arguments, job); !status) return report_error(status.error());
+  const auto outcome = pipeline::run_track(job, show_progress(globals, "frames"));
+  if (!outcome) return report_error(outcome.error());
+  print_outcome(globals, *outcome);
+  return outcome->exit_status;
+}
+
+}  // namespace
+
+void add_track(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command = app.add_subcommand(
+      "track", "Joint angles and torques from markers by direct marker control, with bounds");
+  command->footer(
+      "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (what the "
+      "error "
+      "cannot exceed,\nNaN where the markers do not determine the coordinate), Q_tau.sto (N m, N), "
+      "Q_marker_errors.sto and Q_report.json.\nExit status 1: the files are there, but a quality gate was "
+      "missed.");
+  const auto arguments = std::make_shared<TrackArguments>();
+  auto& a = *arguments;
+  auto& options = a.job.options;
+  command->add_option("-m,--model", a.job.model, "Body model with masses, .osim")->group("Input");
+  command->add_option("-t,--markers", a.job.markers, "Marker file")->group("Input");
+  command->add_option("--rate", a.job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
+      ->group("Input");
+  command->add_option("--start", options.first_time_s, "First time to track, s")->group("Input");
+  command->add_option("--end", options.last_time_s, "Last time to track, s")->group("Input");
+  command->add_option("-o,--output", a.job.output, "Motion file to write, Q.mot")->group("Output");
+  command
+      ->add_option(
+          "--level", a.levels,
+          "Markers of one level of priority, A,B,...; '*' takes the rest. Repeat from the highest to the "
+          "lowest. None: one level of all markers")
+      ->group("Tasks");
+  command->add_option("--weight", a.weights, "Marker weight within its level NAME=W. Repeatable.")
+      ->group("Tasks");
+  command->add_option("--lock", options.locked, "Coordinate to hold at the rest pose. Repeatable.")
+      ->group("Tasks");
+  command->add_option("--rest", a.rest, "Rest pose of a coordinate NAME=VALUE (rad, m). Repeatable.")
+      ->group("Tasks");
+  command->add_flag("--no-lock", a.no_lock, "Leave coordinates that no marker moves to the posture task")
+      ->group("Tasks");
+  command->add_option("--omega", options.omega_rad_s, "Stiffness of the pull, rad/s")
+      ->capture_default_str()
+      ->group("Control");
+  command->add_option("--step", a.step_ms, "Largest step, ms; 0: omega x step = 0.5 or less")
+      ->capture_default_str()
+      ->group("Control");
+  command->add_option("--damping", options.damping, "Of directions that hardly move the markers, kg^-1/2")
+      ->capture_default_str()
+      ->group("Control");
+  command->add_option("--posture", a.posture, "Gains of the posture task KP,KD, 1/s^2 and 1/s (100,20)")
+      ->expected(1)
+      ->group("Control");
+  command->add_option("--cutoff", options.cutoff_hz, "Low-pass of the goals, Hz; 0: none")
+      ->capture_default_str()
+      ->group("Control");
+  command->add_flag("--no-feed-forward", a.no_feed_forward, "Use places only, not their rates")
+      ->group("Control");
+  command->add_flag("--no-limits", a.no_limits, "Let clamped coordinates leave their range")
+      ->group("Control");
+  command->add_option("--noise", a.noise_mm, "Marker noise per axis, mm; 0 estimates it")
+      ->capture_default_str()
+      ->group("Error bars");
+  command->add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations and bounds")
+      ->group("Error bars");
+  command->add_option("--max-rms", a.max_rms_mm, "Gate: RMS marker error, mm")
+      ->capture_default_str()
+      ->group("Quality gates");
+  command->add_option("--max-offset", a.max_offset_mm, "Gate: mean marker offset, mm")
+      ->capture_default_str()
+      ->group("Quality gates");
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_command(globals, *arguments); };
+  });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/track_job.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/testing/test_files.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class RunTrack : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new testing_support::ScratchFolder;
+    testing::simulate_into(*scratch_ / "in");
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static fs::path at(const std::string& name) { return *scratch_ / name; }
+  static TrackJob job(const std::string& output) {
+    TrackJob j;
+    j.model = at("in/model.osim");
+    j.markers = at("in/truth.trc");  // no gaps, no noise: half a second is short
+    j.output = at(output);
+    return j;
+  }
+  static testing_support::ScratchFolder* scratch_;
+};
+testing_support::ScratchFolder* RunTrack::scratch_ = nullptr;
+
+TEST_F(RunTrack, WritesAnglesTorquesBoundsAndTheAccount) {
+  const auto outcome = run_track(job("Q.mot"));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->written.size(), 6U);
+  for (const auto& path : outcome->written) EXPECT_TRUE(fs::exists(path)) << path;
+  const auto q = io::read_table(at("Q.mot")).value();
+  const auto bound = io::read_table(at("Q_bound.sto")).value();
+  const auto tau = io::read_table(at("Q_tau.sto")).value();
+  const auto truth = io::read_table(at("in/truth.mot")).value();
+  ASSERT_EQ(q.columns, bound.columns);
+  EXPECT_EQ(tau.columns.size(), q.columns.size());
+  for (std::int64_t r = 0; r < q.rows(); ++r)
+    for (std::size_t k = 6; k < q.columns.size(); ++k) {
+      const auto column = static_cast<std::int64_t>(k);
+      EXPECT_NEAR(q(r, column), truth(r, truth.find(q.columns[k])), 2.0) << q.columns[k] << ' ' << r;
+      EXPECT_TRUE(std::isfinite(tau(r, column)));
+    }
+  const auto report = nlohmann::json::parse(io::read_text(at("Q_report.json")).value());
+  EXPECT_THAT(report.dump(), HasSubstr("direct marker control"));
+}
+
+TEST_F(RunTrack, SaysWhatIsMissingAndWritesNothing) {
+  auto j = job("none.mot");
+  j.model.clear();
+  EXPECT_THAT(run_track(j).error().message, HasSubstr("no model"));
+  j = job("none.mot");
+  j.markers.clear();
+  EXPECT_THAT(run_track(j).error().message, HasSubstr("no marker file"));
+  j = job("");
+  j.output.clear();
+  EXPECT_THAT(run_track(j).error().message, HasSubstr("no output"));
+  j = job("none.mot");
+  j.options.levels = {{.markers = {"NOSE"}}};
+  const auto unknown = run_track(j);
+  EXPECT_THAT(unknown.error().message, HasSubstr("level 1 names marker 'NOSE'"));
+  EXPECT_EQ(unknown.error().code, Code::bad_input);
+  j = job("none.mot");
+  j.options.step_s = 1.0 / 60.0;
+  EXPECT_EQ(run_track(j).error().code, Code::usage);
+  EXPECT_FALSE(fs::exists(at("none.mot")));
+}
+
+TEST_F(RunTrack, AMissedGateIsAnExitStatusAndTheFilesAreThere) {
+  auto j = job("gate.mot");
+  j.max_rms_m = 1e-9;
+  j.options.error_bars = false;
+  const auto outcome = run_track(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 1);
+  EXPECT_EQ(outcome->written.size(), 4U);
+  EXPECT_TRUE(fs::exists(at("gate.mot")));
+  EXPECT_FALSE(fs::exists(at("gate_bound.sto")));
+}
+
+TEST_F(RunTrack, StopsWhenAsked) {
+  const auto outcome = run_track(job("stopped.mot"), [](std::int64_t, std::int64_t) { return false; });
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, Code::cancelled);
+  EXPECT_FALSE(fs::exists(at("stopped.mot")));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
