@@ -57,5 +57,203 @@ TEST(Track, WithNoiseItIsAsGoodAsLeastSquaresOnTheSameGoals) {
   EXPECT_LT(track.rms_goal_error_m, 0.7e-3);
 }
 
+/// Sentence of the failure, or "" when there was none.
+std::string refusal(const model::Model& model, const data::Trajectories& markers,
+                    const TrackOptions& options) {
+  const auto result = track_markers(model, markers, options);
+  return result ? std::string() : result.error().message;
+}
+
+TEST(Track, BoundsHoldWhereTheyAreGivenAndNoneIsGivenElsewhere) {
+  const auto model = body();
+  const auto markers = record(model, 200, 1e-3, 9);
+  const std::vector<std::vector<TrackLevel>> cases{
+      {},
+      {{.markers = {"T1", "T2", "T3", "T4"}}, {.markers = {"*"}}},
+      {{.markers = {"T1", "F2"}}, {.markers = {"S2"}}}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto track =
+        track_markers(model, markers, {.levels = cases[i], .step_s = 2e-3, .lock = LockMode::off}).value();
+    const auto& motion = track.motion;
+    std::int64_t bounded = 0;
+    for (std::int64_t f = 20; f < 180; ++f) {
+      const Eigen::VectorXd q = testing_body::coordinates(model, f);
+      for (std::int64_t c = 6; c < motion.size(); ++c) {
+        const auto at = motion.index(f, c);
+        EXPECT_EQ(std::isnan(motion.q_bound[at]), motion.determined[at] == 0);
+        EXPECT_EQ(std::isnan(motion.q_sd[at]), motion.determined[at] == 0);
+        if (std::isnan(motion.q_bound[at])) continue;
+        ++bounded;
+        EXPECT_LE(std::abs(motion.q[at] - q[c]), motion.q_bound[at]) << i << ' ' << f << ' ' << c;
+      }
+    }
+    if (i < 2) {
+      EXPECT_EQ(bounded, 160 * 7);
+      EXPECT_EQ(track.rank[100], 12);
+    } else {
+      EXPECT_EQ(track.rank[100], 9);
+      EXPECT_EQ(bounded, 0);  // three markers fix nothing of this body
+      EXPECT_EQ(track.undetermined_coordinates.size(), 13U);
+      EXPECT_EQ(motion.status[100], data::FrameStatus::underdetermined);
+    }
+  }
+}
+
+TEST(Track, DeviationsCoverTheTruth) {
+  const auto model = body();
+  const auto track = track_markers(model, record(model, 400, 1e-3, 3), {.step_s = 2e-3}).value();
+  const auto& motion = track.motion;
+  std::int64_t inside = 0, all = 0;
+  for (std::int64_t f = 30; f < 370; ++f) {
+    const Eigen::VectorXd q = testing_body::coordinates(model, f);
+    for (std::int64_t c = 6; c < motion.size(); ++c, ++all)
+      inside += std::abs(motion.q[motion.index(f, c)] - q[c]) <= 2.0 * motion.q_sd[motion.index(f, c)];
+  }
+  const double share = static_cast<double>(inside) / static_cast<double>(all);
+  EXPECT_GT(share, 0.90);
+  EXPECT_LT(share, 0.995);
+}
+
+TEST(Track, AMarkerThatVanishesAndReturnsLeavesNoJump) {
+  const auto model = body();
+  const auto markers = record(model, 200, 1e-3, 5);
+  const auto whole = track_markers(model, markers, {.step_s = 2e-3}).value().motion;
+  for (const std::int64_t m : {3, 7, 12}) {
+    auto gappy = markers;
+    for (std::int64_t f = 80; f < 130; ++f) gappy.set_missing(f, m);
+    const auto track = track_markers(model, gappy, {.step_s = 2e-3}).value().motion;
+    for (std::int64_t f = 60; f < 150; ++f)
+      for (std::int64_t c = 6; c < track.size(); ++c) {
+        const double jump = (track.q[track.index(f, c)] - track.q[track.index(f - 1, c)]) -
+                            (whole.q[whole.index(f, c)] - whole.q[whole.index(f - 1, c)]);
+        EXPECT_LT(std::abs(jump), 0.5 * 0.01745) << m << ' ' << f << ' ' << c;
+      }
+  }
+}
+
+TEST(Track, HoldsWhatNoMarkerMoves) {
+  const auto model = body();
+  auto description = testing_body::description();
+  std::erase_if(description.markers, [](const auto& m) { return m.name[0] == 'F'; });  // none on the forearm
+  const auto less = model::Model::compile(std::move(description)).value();
+  const auto track = track_markers(less, record(model, 100), {.step_s = 2e-3}).value();
+  EXPECT_EQ(track.locked_coordinates, std::vector<std::string>{"elbow"});
+  EXPECT_EQ(track.free_speeds, 11);
+  const auto elbow = track.motion.find("elbow");
+  for (std::int64_t f = 0; f < 100; ++f) {
+    EXPECT_EQ(track.motion.q[track.motion.index(f, elbow)], 0.0);
+    EXPECT_EQ(track.motion.determined[track.motion.index(f, elbow)], 0);
+  }
+}
+
+TEST(Track, TorquesDoTheWork) {
+  const auto model = body();
+  const auto motion = track_markers(model, record(model, 100), {.step_s = 2e-3}).value().motion;
+  // Rates belong to the coordinates: v by central differences of q, a of v.
+  for (std::int64_t f = 20; f < 80; ++f)
+    for (std::int64_t c = 0; c < motion.size(); ++c) {
+      const auto rate = [&](const Array<double>& x) {
+        return 50.0 * (x[motion.index(f + 1, c)] - x[motion.index(f - 1, c)]);
+      };
+      EXPECT_NEAR(rate(motion.q), motion.v[motion.index(f, c)], 0.01) << c;
+      EXPECT_NEAR(rate(motion.v), motion.a[motion.index(f, c)], 0.15) << c;
+    }
+  // The vertical force of the root carries the weight on average.
+  const auto ty = motion.find("ty");
+  double sum = 0.0;
+  for (std::int64_t f = 0; f < 100; ++f) sum += motion.tau[motion.index(f, ty)];
+  EXPECT_NEAR(sum / 100.0, 6.0 * 9.81, 20.0);
+  EXPECT_TRUE(std::isnan(motion.tau[motion.index(5, motion.find("kneecap_angle"))]));
+}
+
+TEST(Track, TheTimeRangeIsKept) {
+  const auto model = body();
+  const auto markers = record(model, 200);
+  const auto track = track_markers(model, markers, {.first_time_s = 0.5, .last_time_s = 1.2}).value();
+  EXPECT_EQ(track.first_frame, 50);
+  EXPECT_EQ(track.motion.frames(), 71);
+  EXPECT_NEAR(track.motion.q[track.motion.index(30, 9)], testing_body::coordinates(model, 80)[9], 2e-3);
+}
+
+TEST(Track, StopsWhenAsked) {
+  const auto model = body();
+  const auto stopped = track_markers(model, record(model, 300), {}, [](auto, auto) { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, Code::cancelled);
+}
+
+TEST(Track, FrameWithoutMarkersAreMarkedAndTheBodyStaysSane) {
+  const auto model = body();
+  auto markers = record(model, 200);
+  for (std::int64_t f = 80; f < 120; ++f)
+    for (std::int64_t m = 0; m < 14; ++m) markers.set_missing(f, m);
+  const auto track = track_markers(model, markers, {.step_s = 2e-3}).value();
+  EXPECT_EQ(track.motion.status[100], data::FrameStatus::no_markers);
+  EXPECT_EQ(track.rank[100], 0);
+  EXPECT_EQ(track.restarts, 0);
+  EXPECT_NEAR(track.motion.q[track.motion.index(180, 9)], testing_body::coordinates(model, 180)[9], 2e-3);
+}
+
+TEST(Track, GoalsOutOfReachAreFlaggedAndNeverAnExplosion) {
+  const auto model = body();
+  auto markers = record(model, 120);
+  for (std::int64_t f = 50; f < 60; ++f)
+    for (std::int64_t m = 0; m < 7; ++m) markers.x(f, m) += Eigen::Vector3d(40.0, -30.0, 5.0);
+  const auto track = track_markers(model, markers, {.step_s = 2e-3}).value();
+  EXPECT_GT(track.flagged_frames, 5);
+  EXPECT_EQ(track.motion.status[55], data::FrameStatus::not_converged);
+  EXPECT_EQ(track.motion.status[110], data::FrameStatus::converged);
+  EXPECT_FALSE(track.warnings.empty());
+  for (const double v : track.motion.v) ASSERT_LT(std::abs(v), 2e3);
+  EXPECT_NEAR(track.motion.q[track.motion.index(115, 9)], testing_body::coordinates(model, 115)[9], 5e-3);
+}
+
+TEST(Track, SaysWhatIsWrong) {
+  const auto model = body();
+  const auto markers = record(model, 5);
+  auto strangers = markers;
+  for (auto& name : strangers.names) name = "X" + name;
+  EXPECT_THAT(refusal(model, strangers, {}), HasSubstr("no marker in common"));
+  EXPECT_THAT(refusal(model, markers, {.levels = {{.markers = {"T1"}}, {}}}),
+              HasSubstr("level 2 has no tasks"));
+  EXPECT_THAT(refusal(model, markers, {.levels = {{.markers = {"T1"}}, {.markers = {"T1"}}}}),
+              HasSubstr("'T1' is named in level 1 and again in level 2"));
+  EXPECT_THAT(refusal(model, markers, {.levels = {{.markers = {"nose"}}}}),
+              HasSubstr("level 1 names marker 'nose', which the model does not have"));
+  EXPECT_THAT(refusal(model, markers, {.step_s = 0.01}), HasSubstr("unstable for the step"));
+  EXPECT_THAT(refusal(model, markers, {.step_s = 1e-9}), HasSubstr("more than 100000 steps"));
+  EXPECT_THAT(refusal(model, markers, {.kp = 100.0}), HasSubstr("give both"));
+  EXPECT_THAT(refusal(model, markers, {.omega_rad_s = -1.0}), HasSubstr("omega is -1"));
+  EXPECT_THAT(refusal(model, markers, {.damping = std::nan("")}), HasSubstr("damping is nan"));
+  EXPECT_THAT(refusal(model, markers, {.posture_kp = 1e9}), HasSubstr("posture's gains are unstable"));
+  EXPECT_THAT(refusal(model, markers, {.rest_pose = {{.coordinate = "wing"}}}), HasSubstr("'wing'"));
+  EXPECT_THAT(refusal(model, markers, {.locked = {"wing"}}), HasSubstr("'wing'"));
+  EXPECT_THAT(refusal(model, markers, {.locked = {"tx"}}), HasSubstr("cannot be locked"));
+  EXPECT_THAT(refusal(model, markers, {.first_time_s = 0.04}), HasSubstr("one frame"));
+}
+
+TEST(Track, NeedsMassesAndMarkersThatCanMove) {
+  auto massless = testing_body::description();
+  for (auto& b : massless.bodies) {
+    b.mass = 0.0;
+    b.inertia_about_com.setZero();
+  }
+  const auto markers = record(body(), 5);
+  EXPECT_THAT(refusal(model::Model::compile(std::move(massless)).value(), markers, {}),
+              HasSubstr("no mass behind"));
+
+  auto welded = testing_body::description();
+  welded.bodies.push_back({.name = "plate", .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity()});
+  welded.joints.push_back({.name = "bolt", .child_body_idx = 6});
+  welded.markers[0].body_idx = 6;
+  const auto model = model::Model::compile(std::move(welded)).value();
+  EXPECT_THAT(refusal(model, markers, {.levels = {{.markers = {"T1"}}, {.markers = {"*"}}}}),
+              HasSubstr("marker 'T1' sits on a body that is welded to the ground"));
+  const auto track = track_markers(model, markers, {.error_bars = false});
+  ASSERT_TRUE(track) << track.error().message;
+  EXPECT_EQ(track->markers.size(), 13U);
+  EXPECT_THAT(track->warnings, ::testing::Contains(HasSubstr("'T1'")));
+}
+
 }  // namespace
 }  // namespace kinemark::motion

@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""kinemark track: options, files, sentences and exit statuses."""
+
+import json
+import unittest
+
+from support import CommandTest, run
+
+
+class Track(CommandTest):
+    def track(self, **options):
+        words = ["track", "-m", self.model, "-t", self.c3d, "-o", "q.mot"]
+        for name, value in options.items():
+            words += [f"--{name.replace('_', '-')}", value]
+        return words
+
+    def test_it_writes_its_files_and_says_so(self):
+        ran = self.good(*self.track(), "--json")
+        for name in ("q.mot", "q_sd.sto", "q_bound.sto", "q_tau.sto", "q_marker_errors.sto", "q_report.json"):
+            self.assertTrue((self.folder / name).is_file(), name)
+        self.assertIn("rank", ran.err)
+        self.assertIn("direct marker control", json.dumps(json.loads(ran.out)))
+        self.refused(4, ["q.mot", "use --force"], *self.track())
+        self.good(*self.track(), "--force", "--no-error-bars")
+
+    def test_levels_of_priority(self):
+        ran = self.good(*self.track(), "--level", "LASI,RASI,LPSI,RPSI", "--level", "*")
+        self.assertIn("rank", ran.err)
+        report = json.loads((self.folder / "q_report.json").read_text())
+        self.assertIn("LASI, RASI, LPSI, RPSI", json.dumps(report))
+
+    def test_what_cannot_be_is_refused_in_a_sentence(self):
+        self.refused(2, "no model", "track", "-t", self.c3d, "-o", "q.mot")
+        self.refused(2, "unstable for the step", *self.track(step=16.7))
+        self.refused(2, "is not KP,KD", *self.track(posture="fast"))
+        self.refused(2, "is not NAME=WEIGHT", *self.track(weight="LASI"))
+        self.refused(2, "empty name", *self.track(level="LASI,,RASI"))
+        self.refused(3, "level 1 names marker 'NOSE'", *self.track(level="NOSE"))
+        self.refused(3, "named in level 1 and again", *self.track(level="LASI"), "--level", "LASI")
+        self.refused(2, "omega", *self.track(omega=-3))
+
+    def test_a_missed_gate_is_status_1(self):
+        self.good(*self.track(max_rms=0.0001), status=1)
+        self.assertTrue((self.folder / "q.mot").is_file())
+
+    def test_help_names_what_it_writes(self):
+        ran = run("track", "--help", cwd=self.folder)
+        self.assertEqual(ran.status, 0)
+        for word in ("--level", "--omega", "--step", "--posture", "Q_bound.sto"):
+            self.assertIn(word, ran.out)
+
+
+if __name__ == "__main__":
+    unittest.main()
