@@ -20,9 +20,8 @@ namespace {
 
 using data::CentreState;
 
-constexpr double kRobustDof = 8.0;    // of Student's t: costs 2 % of precision where errors are normal
-constexpr double kStill_rad = 0.02;   // a joint that turns less did not move
-constexpr double kTwinMargin = 10.0;  // chi-square that separates a geometry from its mirror image
+constexpr double kRobustDof = 30.0;  // of Student's t: bends at some five SDs and costs nothing below
+constexpr double kStill_rad = 0.02;  // a joint that turns less did not move
 constexpr double kMm = 1e3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -232,12 +231,6 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
   auto& warnings = skeleton.warnings;
   warnings = w.fit.warnings;
   const auto name = [&](int chain_marker) { return w.markers.names[at(w.input.marker[at(chain_marker)])]; };
-  if (w.fit.twin_margin < kTwinMargin)
-    warnings.push_back(
-        fmt::format("the geometry has a mirror twin that fits nearly as well (chi-square {:.1f} apart): the "
-                    "centres may be "
-                    "on the wrong side of their markers",
-                    w.fit.twin_margin));
   const auto slips = internal::find_slips(w.fit, w.input.samples, w.pass);
   for (const auto& slip : slips)
     warnings.push_back(
