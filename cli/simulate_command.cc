@@ -61,6 +61,7 @@ void add_simulate(CLI::App& app, const Globals& globals, Run& run) {
   subject->callback([&globals, arguments, &run] {
     run = [&globals, arguments] { return run_subject(globals, *arguments); };
   });
+  add_simulate_limb(*command, globals, run);
   add_simulate_rig(*command, globals, run);
 }
 

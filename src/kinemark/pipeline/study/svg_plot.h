@@ -8,7 +8,7 @@
 
 namespace kinemark::pipeline {
 
-/// A line plot as an SVG element: axes with round ticks, lines with a legend, boxes.
+/// A line plot as an SVG element: axes with round ticks, lines with a legend, dots, boxes.
 class SvgPlot {
  public:
   /// @param equal  one unit is as long on both axes
@@ -16,7 +16,11 @@ class SvgPlot {
 
   /// A line through the finite ones of these points; it is broken where one is not. Sizes agree.
   void line(std::string name, std::string colour, const Eigen::VectorXd& x, const Eigen::VectorXd& y,
-            double width = 1.2);
+            double width = 1.2, bool dashed = false);
+  /// The finite ones of these points as dots, without a name. Sizes agree.
+  void dots(std::string colour, const Eigen::VectorXd& x, const Eigen::VectorXd& y, double radius = 3.0);
+  /// From here on y is shown by its logarithm; what is not positive is left out.
+  void logarithmic_y() { log_y_ = true; }
   /// A dashed rectangle.
   void box(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
@@ -28,10 +32,17 @@ class SvgPlot {
     std::string name, colour;
     Eigen::VectorXd x, y;
     double width;
+    bool dashed;
+  };
+  struct Dots {
+    std::string colour;
+    Eigen::VectorXd x, y;
+    double radius;
   };
   std::string title_, x_label_, y_label_;
-  bool equal_;
+  bool equal_, log_y_ = false;
   std::vector<Line> lines_;
+  std::vector<Dots> dots_;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> boxes_;
 };
 

@@ -51,6 +51,35 @@ TEST(SvgPlot, EmptyPlotsAndSinglePointsAreFrames) {
   EXPECT_THROW(one.line("", "red", Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(3)), ContractError);
 }
 
+TEST(SvgPlot, LogarithmicAxesLeaveOutWhatIsNotPositive) {
+  SvgPlot plot("", "", "mm");
+  plot.logarithmic_y();
+  Eigen::VectorXd x(4), y(4);
+  x << 0, 1, 2, 3;
+  y << 0.0, 1.0, 10.0, 100.0;
+  plot.line("ours", "blue", x, y, 1.2, true);
+  plot.dots("red", x, y);
+  const auto svg = plot.svg();
+  EXPECT_EQ(count(svg, "<circle"), 3U);
+  EXPECT_EQ(count(svg, "L"), 2U);
+  EXPECT_EQ(count(svg, "stroke-dasharray"), 2U);  // the line and its name
+  for (const char* tick : {">1<", ">2<", ">5<", ">10<", ">50<", ">100<"}) EXPECT_THAT(svg, HasSubstr(tick));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+  EXPECT_THROW(plot.dots("red", x, x.head(2)), ContractError);
+}
+
+TEST(SvgPlot, ManyNamesTakeSeveralLines) {
+  SvgPlot few("", "", ""), many("", "", "");
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(2, 0.0, 1.0);
+  for (int i = 0; i < 12; ++i) {
+    if (i < 2) few.line("a name", "red", x, x);
+    many.line("quite a long name of a line", "red", x, x);
+  }
+  EXPECT_EQ(count(few.svg(), "y=\"22.0\""), 2U);
+  EXPECT_LT(count(many.svg(), "y=\"22.0\""), 4U);
+  EXPECT_GT(count(many.svg(), "y=\"36.0\""), 0U);
+}
+
 TEST(SvgPlot, BoxesAreDashedRectangles) {
   SvgPlot plot("", "", "", true);
   plot.box({-1.0, -1.0}, {1.0, 1.0});

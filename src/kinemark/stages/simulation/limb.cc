@@ -19,6 +19,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using internal::in_range;
 
+/// Where losses are heaviest.
+const Vector3d kLossySide(0.36, 0.53, 0.77);
+
 /// Markers at even steps along the bone, turned about it from one to the next.
 Eigen::Matrix3Xd marker_places(const ChainOptions& options, double length_m) {
   const int n = options.markers_per_segment;
@@ -79,6 +82,8 @@ Result<LimbRecording> simulate_chain(const ChainOptions& options) {
   Random motion(options.seed, static_cast<std::uint64_t>(internal::LimbStream::motion));
   auto x = out.x_true.begin();
   auto centre = out.centre_in_world.begin();
+  auto end = out.end_in_world.begin();
+  std::vector<double> weight;
   for (std::int64_t f = 0; f < options.frames; ++f) {
     Vector3d upper = Vector3d::Zero();
     for (std::size_t s = 0; s < segments; ++s) {
@@ -91,8 +96,11 @@ Result<LimbRecording> simulate_chain(const ChainOptions& options) {
       if (s + 1 == segments) continue;
       for (const double value : upper) *centre++ = value;
     }
+    for (const double value : upper) *end++ = value;
+    if (options.pose_correlated)
+      weight.push_back(1.0 + upper.stableNormalized().dot(kLossySide.normalized()));
   }
-  internal::record_limb(out, options.noise_sd_m, options.missing, options.seed);
+  internal::record_limb(out, options.noise_sd_m, options.missing, options.seed, weight);
   return out;
 }
 

@@ -123,6 +123,7 @@ Result<LimbRecording> simulate_sleeve(const SleeveOptions& options) {
       if (options.line_of_sight && !sight.sees(led, x, normal)) seen[at] = 0;
     }
     Eigen::Map<Vector3d>(out.centre_in_world.data() + 3 * f) = pose.elbow;
+    Eigen::Map<Vector3d>(out.end_in_world.data() + 3 * f) = pose.wrist;
   }
   internal::record_limb(out, options.noise_sd_m, options.missing, options.seed);
   for (std::int64_t f = 0; f < time.frames; ++f)

@@ -105,6 +105,29 @@ TEST(SimulateChain, NoiseAndLossesAreAsAsked) {
   EXPECT_NEAR(std::sqrt(squares / (3.0 * seen)), 0.002, 5e-5);
 }
 
+TEST(SimulateChain, LossesMayGoWithThePose) {
+  ChainOptions options;
+  options.frames = 4000;
+  options.missing = 0.3;
+  options.pose_correlated = true;
+  const auto limb = simulate_chain(options).value();
+  EXPECT_NEAR(static_cast<double>(limb.markers.count_missing()) / 24000.0, 0.3, 0.02);
+  const Vector3d side = Vector3d(0.36, 0.53, 0.77).normalized();
+  double lost_near = 0.0, near = 0.0, lost_far = 0.0, far = 0.0;
+  for (std::int64_t f = 0; f < 4000; ++f) {
+    const Vector3d end = Eigen::Map<const Vector3d>(limb.end_in_world.data() + 3 * f);
+    EXPECT_NEAR((end - centre(limb, f, 0)).norm(), 0.16, 1e-12);
+    const double cosine = end.normalized().dot(side);
+    for (std::int64_t m = 0; m < 6; ++m) {
+      const double lost = limb.markers.present(f, m) ? 0.0 : 1.0;
+      if (cosine > 0.9) near += 1.0, lost_near += lost;
+      if (cosine < -0.9) far += 1.0, lost_far += lost;
+    }
+  }
+  EXPECT_NEAR(lost_near / near, 0.585, 0.06);
+  EXPECT_LT(lost_far / far, 0.04);
+}
+
 TEST(SimulateChain, NoiseAndLossesLeaveTheMotionAlone) {
   ChainOptions options;
   options.frames = 20;

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "kinemark/core/random.h"
 
 namespace kinemark::simulation::internal {
@@ -33,15 +35,20 @@ LimbRecording empty_limb(const std::vector<std::string>& segments, const std::ve
   const auto frames = static_cast<std::size_t>(time.frames);
   out.x_true.resize(out.markers.x_in_world.size());
   out.centre_in_world.resize(frames * joints.size() * 3);
+  out.end_in_world.resize(frames * 3);
   return out;
 }
 
-void record_limb(LimbRecording& limb, double noise_sd_m, double missing, std::uint64_t seed) {
+void record_limb(LimbRecording& limb, double noise_sd_m, double missing, std::uint64_t seed,
+                 std::span<const double> weight) {
   Random noise(seed, static_cast<std::uint64_t>(LimbStream::noise));
   Random loss(seed, static_cast<std::uint64_t>(LimbStream::loss));
+  constexpr double kMost = 0.98;  // of a frame's samples, so that the worst frames still show something
+  const std::size_t markers = limb.markers.names.size();
   auto& x = limb.markers.x_in_world;
   for (std::size_t i = 0; i < limb.markers.state.size(); ++i) {
-    const bool lost = loss.uniform() < missing;
+    const double share = weight.empty() ? missing : std::min(kMost, missing * weight[i / markers]);
+    const bool lost = loss.uniform() < share;
     limb.markers.state[i] = lost ? data::SampleState::missing : data::SampleState::measured;
     if (lost) continue;
     noise.seek(6 * i);  // two uniforms a Gaussian: the same noise whatever is lost

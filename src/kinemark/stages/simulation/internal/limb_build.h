@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,9 @@ inline constexpr double kMostLimbFrames = 1e7;
                                        const std::vector<std::string>& prefixes, int markers_per_segment,
                                        const TimeBase& time);
 
-/// Recording from the truth: Gaussian noise on every coordinate, and a share of the samples lost.
-void record_limb(LimbRecording& limb, double noise_sd_m, double missing, std::uint64_t seed);
+/// Recording from the truth: Gaussian noise on every coordinate, and a share of the samples lost. weight:
+/// each frame's losses against that share, empty for 1.
+void record_limb(LimbRecording& limb, double noise_sd_m, double missing, std::uint64_t seed,
+                 std::span<const double> weight = {});
 
 }  // namespace kinemark::simulation::internal
