@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The macaque report's table: every row of `kinemark study macaque` on some seeds.
+#include <fmt/core.h>
+
+#include <string>
+#include <vector>
+
+#include "kinemark/pipeline/macaque/study_macaque_job.h"
+#include "support/acceptance.h"
+
+/// accept_macaque_study quick | all [SEEDS]   quick: few cells, one seed
+int main(int argc, char** argv) {
+  using namespace kinemark;
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  pipeline::MacaqueJob job;
+  if (arguments.empty() || arguments.front() == "quick") {
+    job.noise_mm = {1.0, 2.0};
+    job.missing = {0.0, 0.2, 0.4};
+    job.frames = 300;
+    job.sleeve_noise_mm = {1.0};
+    job.sleeve_s = 8.0;
+  } else if (arguments.size() > 1) {
+    job.seeds = pipeline::parse_seeds(arguments[1]).value();
+  }
+  const auto study = pipeline::study_macaque(job).value();
+  for (const auto& row : study.table.rows) {
+    std::string asked;
+    if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
+    if (row.at_most) asked += fmt::format("<= {:.4g} ", *row.at_most);
+    std::string measured = fmt::format("{:.4g}", row.ours);
+    if (row.limit) measured += fmt::format(", bound {:.4g}", *row.limit);
+    if (row.classic) measured += fmt::format(", classic {:.4g}", *row.classic);
+    if (row.paper) measured += fmt::format(", paper {:.4g}", *row.paper);
+    testing_support::print_row(row.pass(), row.quantity, asked + row.unit, measured);
+  }
+  return testing_support::exit_status();
+}
