@@ -132,9 +132,10 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
     const auto& described = model.description().coordinates[static_cast<std::size_t>(c)];
     // The angles of the free root are a matter of convention.
     const bool root = model.coordinates()[static_cast<std::size_t>(c)].free_joint >= 0;
-    if (root || described.locked || contains(control.locked_coordinates, name)) continue;
+    if (root || described.locked) continue;
     ++out.coordinates;
-    const bool told = !contains(control.undetermined_coordinates, name);
+    const bool told =
+        !contains(control.undetermined_coordinates, name) && !contains(control.locked_coordinates, name);
     out.determined += told;
     for (std::int64_t f = first; f < ours.frames(); ++f) {
       const double error = std::remainder(ours.q[ours.index(f, c)] - theirs.q[theirs.index(f + shift, c)],

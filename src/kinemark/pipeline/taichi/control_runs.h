@@ -46,14 +46,15 @@ struct ControlSetting {
                                                       const ControlSetting& setting,
                                                       const Eigen::VectorXd& rest);
 
-/// Track and least squares on the same goals; what follows counts frames from one second on.
+/// Track and least squares on the same goals, frames from one second on. What is determined is known of
+/// tracks with error bars.
 struct ControlComparison {
   std::string set;
   double least_squares_rms_m = 0.0, least_squares_max_m = 0.0;  ///< landmark to goal
   double control_rms_m = 0.0, control_max_m = 0.0;
   /// Control against least squares, over coordinates that the set determines (not those of the root).
   double angle_rms_rad = 0.0, angle_max_rad = 0.0;
-  double all_angles_rms_rad = 0.0;  ///< over all that are not locked
+  double all_angles_rms_rad = 0.0;  ///< over all that the model does not lock
   int determined = 0, coordinates = 0;
   int rank_min = 0, rank_max = 0, free_speeds = 0;
   std::int64_t flagged_frames = 0;  ///< not counted in the lines above when any

@@ -51,11 +51,14 @@ Result<std::vector<motion::GeometryParameter>> landmark_geometry(const data::Mod
 
 Result<GeometryFit> fit_geometry(const data::ModelDescription& model, const data::Trajectories& landmarks,
                                  Freedom freedom, std::int64_t first, std::int64_t last, int threads) {
-  const auto parameters = landmark_geometry(model, freedom);
-  if (!parameters) return std::unexpected(parameters.error());
-  GeometryFit out{.model = model, .parameters = static_cast<std::int64_t>(parameters->size())};
+  GeometryFit out{.model = model};
   const auto options = landmark_ik_options(model);
-  if (freedom != Freedom::none) {
+  // Places alone can stand in for joints that are off; joints first keeps them from it.
+  for (const auto step : {Freedom::centres, Freedom::places}) {
+    if (step > freedom) break;
+    const auto parameters = landmark_geometry(out.model, step);
+    if (!parameters) return std::unexpected(parameters.error());
+    out.parameters = static_cast<std::int64_t>(parameters->size());
     motion::AdaptOptions adapt{.ik = options,
                                .marker_noise_sd_m = 0.005,
                                .soft_tissue = false,
@@ -64,7 +67,7 @@ Result<GeometryFit> fit_geometry(const data::ModelDescription& model, const data
                                .threads = threads};
     adapt.ik.first_time_s = landmarks.time.time_s(first);
     adapt.ik.last_time_s = landmarks.time.time_s(last - 1);
-    auto adapted = motion::adapt_model(model, landmarks, *parameters, adapt);
+    auto adapted = motion::adapt_model(out.model, landmarks, *parameters, adapt);
     if (!adapted) return std::unexpected(adapted.error());
     out.model = std::move(adapted->model);
   }

@@ -128,8 +128,8 @@ Result<SetOutcome> study_set(const model::Model& model, const Trajectories& goal
   if (!of_made) return std::unexpected(of_made.error());
   const auto run = [&](const Trajectories& to, const motion::IkResult& fitted, double step_s,
                        motion::TrackResult* keep) -> Result<ControlComparison> {
-    auto tracked = run_control(model, to, set, {.step_s = step_s, .error_bars = keep != nullptr},
-                               first_pose(fitted.motion));
+    auto tracked =
+        run_control(model, to, set, {.step_s = step_s, .error_bars = true}, first_pose(fitted.motion));
     if (!tracked) return std::unexpected(tracked.error());
     auto compared = compare(model, *tracked, fitted, set.name);
     if (keep != nullptr) *keep = std::move(*tracked);

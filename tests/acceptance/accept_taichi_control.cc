@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The tai chi recording tracked by direct marker control, beside least squares on the same goals.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/units.h"
+#include "kinemark/pipeline/taichi/control_runs.h"
+#include "kinemark/pipeline/taichi/least_squares.h"
+#include "kinemark/pipeline/taichi/study_taichi.h"
+#include "kinemark/pipeline/taichi/subject.h"
+#include "support/acceptance.h"
+#include "taichi_recording.h"
+
+namespace {
+
+using namespace kinemark;
+using acceptance::kMillimetres;
+using pipeline::ControlComparison;
+using pipeline::ControlSetting;
+using pipeline::LandmarkSet;
+using testing_support::print_row;
+
+/// The sized model, the recording, and what the model itself can do.
+struct Scene {
+  model::Model model;
+  data::Trajectories landmarks, made;
+  motion::IkResult ik;
+};
+
+Scene prepare(const std::filesystem::path& data) {
+  auto landmarks = acceptance::tai_chi_landmarks(data);
+  const auto description =
+      pipeline::scale_by_medians(acceptance::human(), landmarks, {.lock_unseen = true}).value();
+  auto model = model::Model::compile(description).value();
+  auto ik = motion::solve_ik(model, landmarks, pipeline::landmark_ik_options(description)).value();
+  auto made = pipeline::carried_landmarks(model, ik.motion);
+  return {.model = std::move(model),
+          .landmarks = std::move(landmarks),
+          .made = std::move(made),
+          .ik = std::move(ik)};
+}
+
+std::string told(const ControlComparison& c) {
+  return fmt::format(
+      "{:.3f} mm, at most {:.1f} (least squares {:.3f}, {:.1f}); {} frames flagged; {:.0f} us a step",
+      kMillimetres * c.control_rms_m, kMillimetres * c.control_max_m, kMillimetres * c.least_squares_rms_m,
+      kMillimetres * c.least_squares_max_m, c.flagged_frames, c.us_per_step);
+}
+
+void check_recorded(const ControlComparison& c, const std::string& step, double most_deg) {
+  const double above = kMillimetres * (c.control_rms_m - c.least_squares_rms_m);
+  print_row(std::abs(above) <= 0.1 && !c.failed(), "whole body, recorded goals, " + step,
+            "landmark RMS within 0.1 mm of least squares", told(c));
+  print_row(kDegPerRad * c.angle_rms_rad <= most_deg && c.determined > 0, "whole body, angles, " + step,
+            fmt::format("determined angles within {} deg RMS of least squares", most_deg),
+            fmt::format("{:.3f} deg, at most {:.1f}; {} of {} coordinates determined; rank {} to {} of {}",
+                        kDegPerRad * c.angle_rms_rad, kDegPerRad * c.angle_max_rad, c.determined,
+                        c.coordinates, c.rank_min, c.rank_max, c.free_speeds));
+}
+
+void check_reachable(const ControlComparison& c, const std::string& step, double most_mm) {
+  print_row(kMillimetres * c.control_rms_m <= most_mm && !c.failed(),
+            "whole body, goals that the model made, " + step, fmt::format("landmark RMS <= {} mm", most_mm),
+            told(c));
+}
+
+void whole(const Scene& scene) {
+  const auto body =
+      pipeline::study_set(scene.model, scene.landmarks, scene.made, pipeline::whole_body_set(), true).value();
+  check_recorded(body.recorded_fine, "1 ms", 0.5);
+  check_recorded(body.recorded_coarse, "1/60 s", 1.0);
+  check_reachable(body.reachable_fine, "1 ms", 0.05);
+  check_reachable(*body.reachable_coarse, "1/60 s", 1.0);
+}
+
+void sets(const Scene& scene) {
+  const auto one =
+      pipeline::study_set(scene.model, scene.landmarks, scene.made, pipeline::whole_body_set(), false)
+          .value();
+  const auto three =
+      pipeline::study_set(scene.model, scene.landmarks, scene.made, pipeline::three_level_set(), true)
+          .value();
+  const bool whole_ok = !three.recorded_fine.failed() && !three.recorded_coarse.failed() &&
+                        !three.reachable_fine.failed() && !three.reachable_coarse->failed();
+  print_row(
+      whole_ok, "three strict levels, recorded and made goals, 1 ms and 1/60 s",
+      "no failure; cost of priority beside one level",
+      fmt::format(
+          "{:.2f} mm and {:.2f} deg from least squares against {:.2f} mm and {:.2f} deg of one level; "
+          "on made goals {:.3f} mm",
+          kMillimetres * three.recorded_fine.control_rms_m, kDegPerRad * three.recorded_fine.angle_rms_rad,
+          kMillimetres * one.recorded_fine.control_rms_m, kDegPerRad * one.recorded_fine.angle_rms_rad,
+          kMillimetres * three.reachable_fine.control_rms_m));
+  for (const auto& set : {pipeline::paper_set(), pipeline::pelvis_paper_set(), pipeline::upper_body_set(),
+                          pipeline::upper_body_pelvis_set()}) {
+    const auto outcome = pipeline::study_set(scene.model, scene.landmarks, scene.made, set, false).value();
+    const auto& c = outcome.recorded_fine;
+    const bool paper = set.name == pipeline::paper_set().name;
+    const bool rank_ok = !paper || (c.rank_min >= 11 && c.rank_max <= 12);
+    print_row(!c.failed() && !outcome.reachable_fine.failed() && rank_ok && c.determined < c.coordinates,
+              set.name + ", recorded goals, 1 ms",
+              paper ? "no failure, rank 11 or 12 in every frame, undetermined angles marked"
+                    : "no failure, rank said, undetermined angles marked",
+              fmt::format("{}; rank {} to {} of {}; {} of {} coordinates determined; made goals {:.3f} mm",
+                          told(c), c.rank_min, c.rank_max, c.free_speeds, c.determined, c.coordinates,
+                          kMillimetres * outcome.reachable_fine.control_rms_m));
+  }
+}
+
+/// Runs of five seconds over gains, damping, posture and the place in the recording to start from.
+void stability(const Scene& scene, const LandmarkSet& set, const std::string& name) {
+  constexpr int kRuns = 100;
+  constexpr std::int64_t kLength = 300, kApart = 7;  // frames
+  int failures = 0;
+  std::string first;
+  for (int run = 0; run < kRuns; ++run) {
+    ControlSetting setting;
+    setting.omega_rad_s = std::vector{50.0, 100.0, 200.0, 400.0}[static_cast<std::size_t>(run % 4)];
+    setting.damping = std::vector{0.1, 0.2, 0.3, 0.15, 0.25}[static_cast<std::size_t>(run / 4 % 5)];
+    setting.posture_kp = std::vector{25.0, 50.0, 100.0, 200.0, 400.0}[static_cast<std::size_t>(run / 20)];
+    setting.posture_kd = 2.0 * std::sqrt(setting.posture_kp);
+    setting.first_frame = kApart * run;
+    setting.last_frame = setting.first_frame + kLength;
+    const Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(
+        scene.ik.motion.q.data() + scene.ik.motion.index(setting.first_frame, 0),
+        static_cast<Eigen::Index>(scene.ik.motion.size()));
+    const auto tracked = pipeline::run_control(scene.model, scene.landmarks, set, setting, rest);
+    if (tracked && tracked->flagged_frames == 0) continue;
+    ++failures;
+    if (first.empty())
+      first = fmt::format(
+          "; the first: omega {}, damping {}, posture {}, from frame {}: {}", setting.omega_rad_s,
+          setting.damping, setting.posture_kp, setting.first_frame,
+          tracked ? fmt::format("{} frames flagged", tracked->flagged_frames) : tracked.error().message);
+  }
+  print_row(failures == 0, name + ", 100 runs over gains, damping, posture and starts, 1 ms", "no failure",
+            fmt::format("{} failures{}", failures, first));
+}
+
+}  // namespace
+
+/// accept_taichi_control whole | sets | stability
+int main(int argc, char** argv) {
+  const auto data = testing_support::test_data_folder();
+  if (!data) return testing_support::skip_all("direct marker control of the tai chi recording");
+  const Scene scene = prepare(*data);
+  const std::string_view part = argc > 1 ? argv[1] : "whole";
+  if (part == "whole") whole(scene);
+  if (part == "sets") sets(scene);
+  if (part == "stability") {
+    stability(scene, pipeline::whole_body_set(), "whole body, one level");
+    stability(scene, pipeline::paper_set(), "the paper's two subsets");
+    stability(scene, pipeline::pelvis_paper_set(), "pelvis level, then the paper's two subsets");
+  }
+  return testing_support::exit_status();
+}
