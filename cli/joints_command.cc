@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/pipeline/joints_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct JointsArguments {
+  pipeline::JointsJob job;
+  std::string sides = "both", kind = "auto";
+  double noise_mm = 0.0;
+  bool no_continuity = false;
+};
+
+Status read_names(JointsArguments& arguments) {
+  auto& job = arguments.job;
+  const auto sides = skeleton::parse_sides(arguments.sides);
+  if (!sides) return std::unexpected(sides.error());
+  job.sides = *sides;
+  if (arguments.kind == "auto")
+    job.kind = skeleton::KindChoice::automatic;
+  else if (arguments.kind == "ball")
+    job.kind = skeleton::KindChoice::ball;
+  else if (arguments.kind == "hinge")
+    job.kind = skeleton::KindChoice::hinge;
+  else
+    return fail(Code::usage,
+                fmt::format("'{}' is not a kind of joint; use auto, ball or hinge", arguments.kind));
+  return {};
+}
+
+int run_command(const Globals& globals, JointsArguments& arguments) {
+  if (auto s = read_names(arguments); !s) return report_error(s.error());
+  auto& job = arguments.job;
+  job.noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.continuity = !arguments.no_continuity;
+  job.threads = globals.threads;
+  job.seed = globals.seed;
+  job.force = globals.force;
+  job.command_line = globals.command_line;
+  const auto outcome = pipeline::run_joints(job, show_progress(globals, "frames"));
+  if (!outcome) return report_error(outcome.error());
+  const auto& skeleton = outcome->skeleton;
+  say(globals, fmt::format("{} frames at {:g} Hz, {} segments, {} joints; marker noise {:.2f} mm per axis.",
+                           skeleton.frames(), skeleton.time.rate_hz, skeleton.segments.size(),
+                           skeleton.joints.size(), 1e3 * skeleton.noise_sd_m));
+  for (const auto& line : pipeline::skeleton_words(skeleton)) say(globals, line);
+  for (const auto& warning : skeleton.warnings) say(globals, "attention: " + warning);
+  for (const auto& note : outcome->notes) say(globals, "note: " + note);
+  for (const auto& path : outcome->written) say(globals, fmt::format("wrote {}", path.string()));
+  if (globals.json) fmt::print("{}\n", outcome->json.dump(2));
+  return outcome->exit_status;
+}
+
+}  // namespace
+
+void add_joints(CLI::App& app, const Globals& globals, Run& run) {
+  auto* command =
+      app.add_subcommand("joints", "Joint centres and axes from markers, each with its covariance");
+  command->footer(
+      "Without --segments the markers are sorted into segments and joints by how they move. Exit status 1: "
+      "a\n"
+      "joint could be placed in no frame.");
+  const auto arguments = std::make_shared<JointsArguments>();
+  auto& job = arguments->job;
+  command->add_option("IN", job.input, "Recording, .c3d, .trc, .csv or .nwb")->required();
+  command
+      ->add_option("--segments", job.segments,
+                   "TOML: [[segment]] name, markers; [[joint]] name, parent, child")
+      ->group("Input");
+  command
+      ->add_option(
+          "-o,--output", job.output,
+          "Folder (centres.csv, centres.c3d, skeleton.json, segments.toml), or a file .c3d, .trc, .csv, .nwb")
+      ->group("Output");
+  command
+      ->add_option("--method", job.method,
+                   "articulated, score, sara, gamage, gamage-plain, cylinder or constant-distance")
+      ->capture_default_str()
+      ->group("Estimate");
+  command
+      ->add_option("--sides", arguments->sides, "Segments that hold the centre still: both, parent or child")
+      ->capture_default_str()
+      ->group("Estimate");
+  command->add_option("--kind", arguments->kind, "Joints are: auto (the data say), ball or hinge")
+      ->capture_default_str()
+      ->group("Estimate");
+  command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 finds it from the data")
+      ->capture_default_str()
+      ->group("Estimate");
+  command
+      ->add_flag("--no-continuity", arguments->no_continuity,
+                 "articulated: each frame on its own, nothing smoothed or bridged")
+      ->group("Estimate");
+  command->add_flag("--keep-upsampled", job.keep_upsampled, "Use samples that the recorder interpolated, too")
+      ->group("Input");
+  command
+      ->add_flag("--keep-defects", job.keep_defects, "Use samples that screening calls swapped or false, too")
+      ->group("Input");
+  command->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_command(globals, *arguments); };
+  });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Joint centres and axes of a recording of markers: what to do with the recorder's own samples and with
+// defects, segments from a file or from the data, one of several methods, files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/skeleton.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/stages/skeleton/functional/functional.h"
+#include "kinemark/stages/skeleton/functional/slip.h"
+#include "kinemark/stages/skeleton/topology/topology.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark joints` is asked to do. Paths that are empty are not used.
+struct JointsJob {
+  std::filesystem::path input;     ///< .c3d, .trc, .csv or .nwb
+  std::filesystem::path segments;  ///< TOML, see read_segments(); empty: found in the data
+  /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
+  /// file: the centres in its format, and NAME_skeleton.json beside it.
+  std::filesystem::path output;
+  std::string method = "articulated";  ///< that, or a name of parse_functional_method()
+  skeleton::Sides sides = skeleton::Sides::both;
+  skeleton::KindChoice kind = skeleton::KindChoice::automatic;
+  double noise_sd_m = 0.0;      ///< per axis; 0: found
+  bool continuity = true;       ///< articulated: smooth in time and bridge
+  bool keep_upsampled = false;  ///< use the samples that the recorder made as well
+  bool keep_defects = false;    ///< use what screening calls swapped, stuck, false
+  int threads = 1;              ///< 0: all cores. Any number gives the same bits.
+  std::uint64_t seed = 1;
+  bool force = false;
+  std::string command_line;  ///< for the record
+};
+
+struct JointsOutcome {
+  data::Skeleton skeleton;
+  std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
+  std::vector<skeleton::Slip> slips;
+  std::vector<std::string> notes;  ///< what was done before and after, and what is odd; one sentence each
+  nlohmann::ordered_json json;     ///< as skeleton.json
+  std::vector<std::filesystem::path> written;
+  int exit_status = 0;  ///< 0, or 1 when a joint was placed in no frame
+};
+
+/// Read, find, write. Either all files appear or, on a failure, none.
+[[nodiscard]] Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress = {});
+
+/// The centres as trajectories, one a joint. States: model_filled where the joint was placed by its frame,
+/// interpolated where with the help of others; the method's name ends in ": determined", ": bridged" or
+/// ": ambiguous".
+[[nodiscard]] data::Trajectories centre_trajectories(const data::Skeleton& skeleton);
+
+/// A skeleton without its frames as JSON (SI units, degrees where a name says so); unknown numbers are null.
+[[nodiscard]] nlohmann::ordered_json skeleton_json(const data::Skeleton& skeleton);
+
+/// One line a joint for people: name, method, frames, words.
+[[nodiscard]] std::vector<std::string> skeleton_words(const data::Skeleton& skeleton);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/skeleton.h"
+
+namespace kinemark::pipeline {
+
+/// Read which markers ride on which segment, TOML:
+///   [[segment]]
+///   name = "forearm"
+///   markers = ["WRA", "WRB", "ELB"]
+///   [[joint]]
+///   name = "elbow"
+///   parent = "upper_arm"
+///   child = "forearm"
+/// Markers are names of the recording, exactly or behind a subject's prefix ("Ann:WRA"). Without any
+/// [[joint]] the segments are joined in the order given. Code::bad_input with file and place for what does
+/// not fit.
+[[nodiscard]] Result<data::SegmentLayout> read_segments(const std::filesystem::path& path,
+                                                        const std::vector<std::string>& markers);
+/// The same from memory; `name` stands for the file.
+[[nodiscard]] Result<data::SegmentLayout> parse_segments(std::string_view text, const std::string& name,
+                                                         const std::vector<std::string>& markers);
+
+/// The text that parse_segments() reads.
+[[nodiscard]] std::string segments_text(const data::SegmentLayout& layout,
+                                        const std::vector<std::string>& markers);
+
+}  // namespace kinemark::pipeline

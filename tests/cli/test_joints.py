@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""`kinemark joints` from outside: methods, segments, files, bad input."""
+
+import csv
+import json
+import math
+import random
+import unittest
+
+from support import CommandTest, real_file
+
+SEGMENTS = """
+[[segment]]
+name = "upper"
+markers = ["u0", "u1", "u2", "u3"]
+[[segment]]
+name = "fore"
+markers = ["f0", "f1", "f2", "f3"]
+[[joint]]
+name = "elbow"
+parent = "upper"
+child = "fore"
+"""
+UPPER = [(0.03, 0.0, -0.12), (-0.02, 0.025, -0.09), (-0.015, -0.026, -0.06), (0.03, 0.01, -0.03)]
+FORE = [(0.03, 0.0, 0.03), (-0.015, 0.026, 0.06), (-0.015, -0.026, 0.09), (0.02, 0.02, 0.12)]
+
+
+def rotation(rng):
+    """A rotation drawn evenly from all, as three rows."""
+    q = [rng.gauss(0, 1) for _ in range(4)]
+    n = math.sqrt(sum(c * c for c in q))
+    w, x, y, z = (c / n for c in q)
+    return [
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    ]
+
+
+def arm(frames=120, noise=0.0005, moving=True, lose=None, slip=0.0, seed=1):
+    """Lines of a CSV recording of two segments about an elbow, and the elbow in every frame."""
+    rng = random.Random(seed)
+    rows, elbows = [], []
+    fixed = rotation(rng)
+    for f in range(frames):
+        elbow = [rng.uniform(-0.2, 0.2) for _ in range(3)]
+        elbows.append(elbow)
+        for letter, places in (("u", UPPER), ("f", FORE)):
+            turn = rotation(rng) if moving else fixed
+            for k, place in enumerate(places):
+                name = f"{letter}{k}"
+                local = (place[0], place[1], place[2] + (slip if name == "f0" and 2 * f >= frames else 0.0))
+                x = [e + sum(r * p for r, p in zip(row, local)) + rng.gauss(0, noise) for e, row in zip(elbow, turn)]
+                if lose and lose(f, name):
+                    rows.append([f, f / 60, name, "", "", "", "missing"])
+                else:
+                    rows.append([f, f / 60, name, *x, "measured"])
+    lines = ["frame,time_s,marker,x_m,y_m,z_m,state"] + [",".join(map(str, row)) for row in rows]
+    return "\n".join(lines) + "\n", elbows
+
+
+class Joints(CommandTest):
+    def setUp(self):
+        super().setUp()
+        text, self.elbows = arm()
+        self.write("arm.csv", text)
+        self.write("segments.toml", SEGMENTS)
+
+    def rms_mm(self, name):
+        with open(self.folder / name, encoding="utf-8", newline="") as file:
+            rows = [row for row in csv.DictReader(line for line in file if not line.startswith("#")) if row["x_m"]]
+        squares = [
+            sum((float(row[key]) - truth) ** 2 for key, truth in zip(("x_m", "y_m", "z_m"), self.elbows[int(row["frame"])]))
+            for row in rows
+        ]
+        return 1e3 * math.sqrt(sum(squares) / len(squares)), rows
+
+    def test_every_method_finds_the_elbow(self):
+        for method in ("articulated", "score", "gamage", "gamage-plain", "constant-distance"):
+            with self.subTest(method=method):
+                ran = self.good("joints", "arm.csv", "--segments", "segments.toml", "--method", method, "-o", f"{method}.csv")
+                rms, rows = self.rms_mm(f"{method}.csv")
+                self.assertLess(rms, 25.0 if method == "constant-distance" else 1.5)
+                self.assertEqual({row["marker"] for row in rows}, {"elbow"})
+                self.assertIn("deg of motion", ran.err)
+                self.assertGreater(float(rows[0]["sd_x_m"]), 0.0)
+
+    def test_hinge_methods_run(self):
+        for method in ("sara", "cylinder"):
+            self.assertIn("axis", self.good("joints", "arm.csv", "--segments", "segments.toml", "--method", method).err)
+
+    def test_folder_of_results(self):
+        self.good("joints", "arm.csv", "--segments", "segments.toml", "-o", "out")
+        self.assertEqual(
+            sorted(p.name for p in (self.folder / "out").iterdir()), ["centres.c3d", "centres.csv", "segments.toml", "skeleton.json"]
+        )
+        skeleton = json.loads((self.folder / "out" / "skeleton.json").read_text(encoding="utf-8"))
+        self.assertEqual(skeleton["schema"], "kinemark.skeleton")
+        self.assertEqual(skeleton["joints"][0]["name"], "elbow")
+        self.assertEqual(sum(skeleton["joints"][0]["frames"].values()), 120)
+        self.refused(4, "--force", "joints", "arm.csv", "--segments", "segments.toml", "-o", "out")
+        self.good("joints", "arm.csv", "--segments", "out/segments.toml", "-o", "out", "--force")
+
+    def test_segments_from_the_data(self):
+        printed = json.loads(self.good("joints", "arm.csv", "--method", "score", "--json", "-o", "centres.csv").out)
+        self.assertEqual([len(s["markers"]) for s in printed["segments"]], [4, 4])
+        self.assertEqual(len(printed["topology"]["markers"]), 8)
+        self.assertLess(self.rms_mm("centres.csv")[0], 1.5)
+        self.assertTrue((self.folder / "centres_skeleton.json").is_file())
+
+    def test_a_marker_that_slips_is_named(self):
+        self.write("slip.csv", arm(frames=300, slip=0.015)[0])
+        ran = self.good("joints", "slip.csv", "--segments", "segments.toml", "--method", "score")
+        self.assertIn("'f0' moved", ran.err)
+
+    def test_no_complete_frame(self):
+        self.write("gaps.csv", arm(lose=lambda f, name: int(name[1]) == f % 4)[0])
+        options = ("joints", "gaps.csv", "--segments", "segments.toml", "--method")
+        self.refused(3, ["gaps.csv", "no frames show all 8 markers"], *options, "constant-distance")
+        self.good(*options, "score", "-o", "centres.csv")
+        self.assertLess(self.rms_mm("centres.csv")[0], 5.0)
+
+    def test_what_cannot_be_known_is_one_sentence(self):
+        self.write("still.csv", arm(moving=False)[0])
+        self.refused(3, ["still.csv", "no joint can be seen"], "joints", "still.csv")
+        self.write("two.csv", arm(lose=lambda f, name: name not in ("u0", "f0"))[0])
+        two = '[[segment]]\nname = "a"\nmarkers = ["u0"]\n[[segment]]\nname = "b"\nmarkers = ["f0"]\n'
+        self.write("two.toml", two)
+        self.refused(3, "two.csv", "joints", "two.csv", "--segments", "two.toml")
+        self.refused(3, "two.csv", "joints", "two.csv", "--segments", "two.toml", "--method", "score")
+        self.write("one.toml", '[[segment]]\nname = "all"\nmarkers = ["u0", "u1", "u2", "f0"]\n')
+        self.refused(3, "arm.csv", "joints", "arm.csv", "--segments", "one.toml")
+        self.refused(3, "one segment", "joints", "arm.csv", "--segments", "one.toml", "--method", "score")
+
+    def test_a_joint_that_never_moves_is_wide(self):
+        self.write("still.csv", arm(moving=False)[0])
+        ran = self.good("joints", "still.csv", "--segments", "segments.toml", "--method", "score", "--json")
+        joint = json.loads(ran.out)["joints"][0]
+        self.assertGreater(joint["centre_sd_m"], 0.03)
+        self.assertNotIn("centre known", joint["words"])
+
+    def test_wrong_words_and_files(self):
+        self.refused(2, ["best", "articulated"], "joints", "arm.csv", "--method", "best")
+        self.refused(2, ["left", "parent"], "joints", "arm.csv", "--sides", "left")
+        self.refused(2, ["knee", "hinge"], "joints", "arm.csv", "--kind", "knee")
+        self.refused(2, "-1 mm", "joints", "arm.csv", "--noise", -1)
+        self.refused(4, "none.c3d", "joints", "none.c3d")
+        self.write("bad.c3d", "not a C3D file")
+        self.refused(3, "bad.c3d", "joints", "bad.c3d")
+        self.write("bad.toml", "[[segment]]\nname = 3\n")
+        self.refused(3, "bad.toml", "joints", "arm.csv", "--segments", "bad.toml")
+        self.write("other.toml", SEGMENTS.replace("u3", "XYZ"))
+        self.refused(3, ["other.toml", "XYZ"], "joints", "arm.csv", "--segments", "other.toml")
+
+    def test_a_real_knee(self):
+        knee = real_file("biobuddy/right_knee.c3d")
+        femur, tibia = ["RGT", "RTHI1", "RTHI2", "RTHI3"], ["RATT", "RLM", "RSPH", "RLEG1", "RLEG2", "RLEG3"]
+        self.write("knee.toml", "".join(f"[[segment]]\nname = {n!r}\nmarkers = {json.dumps(m)}\n" for n, m in (("femur", femur), ("tibia", tibia))))
+        printed = json.loads(self.good("joints", knee, "--segments", "knee.toml", "--method", "score", "--json").out)
+        self.assertEqual(printed["joints"][0]["kind"], "hinge")
+        self.assertGreater(printed["joints"][0]["range_of_motion_deg"], 30.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
