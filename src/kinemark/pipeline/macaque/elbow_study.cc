@@ -25,7 +25,10 @@ CentreErrors by_the_field(const LimbRecording& limb, skeleton::FunctionalMethod 
   options.method = method;
   options.kind = skeleton::KindChoice::ball;
   const auto found = skeleton::find_joints(limb.markers, limb.layout, options);
-  return found ? judge_centres(*found, limb, nullptr) : refused(limb);
+  // Where SCoRE cannot be used another method stands in, which is not asked here.
+  const bool stood_in =
+      found && method == skeleton::FunctionalMethod::score && found->joints.front().method != "SCoRE";
+  return found && !stood_in ? judge_centres(*found, limb, nullptr) : refused(limb);
 }
 
 CentreErrors by_us(const LimbRecording& limb, bool continuity, const skeleton::CentreBound* bound) {

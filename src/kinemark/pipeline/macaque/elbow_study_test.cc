@@ -21,8 +21,8 @@ TEST(StudyElbow, StaggeredMarkersLetScoreAnswer) {
   const auto errors = study_elbow({.noise_m = 0.001, .missing = 0.2, .stagger_m = 0.02, .frames = 200}, 1);
   ASSERT_TRUE(errors) << errors.error().message;
   EXPECT_GT(errors->score.answered, 20);
-  EXPECT_LT(errors->score.answered, 150);  // three markers on both segments are needed
-  EXPECT_LT(errors->score.rms_answered_m(), 0.003);
+  EXPECT_LT(errors->score.answered, 180);  // three markers on a segment are needed
+  EXPECT_LT(errors->score.rms_answered_m(), 0.005);
   EXPECT_GT(errors->ours.share_determined(), 0.7);
 }
 

@@ -37,6 +37,11 @@ class Extreme {
   std::optional<double> value_;
 };
 
+/// What a method that never answered has to say.
+std::optional<double> if_any(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 bool in_report_range(const ElbowCell& c) { return c.noise_m > 0.0 && c.missing < 0.5; }
 
 const char* layout_name(bool staggered) { return staggered ? "staggered 20 mm" : "collinear"; }
@@ -57,7 +62,7 @@ void add_report_rows(const MacaqueStudy& study, std::vector<StudyRow>& rows) {
                                             layout_name(a.staggered), a.noise_mm, kPercent * a.missing),
                     .unit = "mm",
                     .paper = a.paper,
-                    .classic = kPerM * r->errors.report.rms_answered_m(),
+                    .classic = if_any(kPerM * r->errors.report.rms_answered_m()),
                     .ours = kPerM * r->errors.ours.rms_determined_m(),
                     .limit = kPerM * r->errors.ours.bound_m(),
                     .at_most = a.most});
@@ -140,7 +145,7 @@ void add_shares(const MacaqueStudy& study, std::vector<StudyRow>& rows) {
 void add_score(const MacaqueStudy& study, std::vector<StudyRow>& rows) {
   for (const double noise_mm : {1.0, 3.0}) {
     const auto* r = study.find(noise_mm, 0.0, true);
-    if (r == nullptr) continue;
+    if (r == nullptr || r->errors.score.answered == 0) continue;
     rows.push_back({.quantity = fmt::format("staggered 20 mm, {} mm, 0 %: elbow (classic: SCoRE)", noise_mm),
                     .unit = "mm",
                     .classic = kPerM * r->errors.score.rms_answered_m(),
@@ -180,13 +185,13 @@ void add_honesty(const MacaqueStudy& study, std::vector<StudyRow>& rows) {
 void add_sleeve(const MacaqueStudy& study, double most, std::vector<StudyRow>& rows) {
   for (const auto& r : study.sleeve) {
     if (std::abs(r.cell.noise_m - 0.001) > 1e-9) continue;
-    rows.push_back(
-        {.quantity = fmt::format("sleeve{}, 1 mm: elbow, every frame", r.cell.hard ? ", hard" : ""),
-         .unit = "mm",
-         .classic = kPerM * r.errors.report.rms_answered_m(),
-         .ours = kPerM * r.errors.smoothed.rms_answered_m(),
-         .limit = kPerM * r.errors.alone.bound_m(),
-         .at_most = 1.25 * kPerM * r.errors.alone.bound_m()});
+    rows.push_back({.quantity = fmt::format("sleeve{}, 1 mm: elbow, every frame (classic: SCoRE)",
+                                            r.cell.hard ? ", hard" : ""),
+                    .unit = "mm",
+                    .classic = if_any(kPerM * r.errors.score.rms_answered_m()),
+                    .ours = kPerM * r.errors.smoothed.rms_answered_m(),
+                    .limit = kPerM * r.errors.alone.bound_m(),
+                    .at_most = 1.25 * kPerM * r.errors.alone.bound_m()});
   }
   Extreme usual(true), answered(false), bridged(true);
   std::int64_t beyond = 0;
