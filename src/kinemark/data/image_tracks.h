@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+#include "kinemark/data/rig.h"
+
+namespace kinemark::data {
+
+/// Labelled points in the images of calibrated cameras: F frames, C cameras, M markers. Images are free of
+/// nothing: distortion and warp are in them, as the cameras have them.
+struct ImageTracks {
+  std::vector<std::string> names;  ///< M
+  std::vector<Camera> cameras;     ///< C, calibrated
+  std::vector<double> noise_sd;    ///< C, per axis, in the camera's image units; > 0
+  TimeBase time;
+  Array<double> image;  ///< F x C x M x 2, image units; NaN where the camera did not see the marker
+
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }
+  [[nodiscard]] std::size_t index(std::int64_t frame, std::size_t camera, std::size_t marker) const {
+    return 2 * ((static_cast<std::size_t>(frame) * cameras.size() + camera) * names.size() + marker);
+  }
+  [[nodiscard]] Eigen::Vector2d at(std::int64_t frame, std::size_t camera, std::size_t marker) const {
+    return Eigen::Map<const Eigen::Vector2d>(image.data() + index(frame, camera, marker));
+  }
+  /// Shapes agree, noise is positive.
+  [[nodiscard]] Status validate() const;
+};
+
+}  // namespace kinemark::data

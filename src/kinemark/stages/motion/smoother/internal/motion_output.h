@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// From solved states and their covariance to joint motion.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/model/workspace.h"
+#include "kinemark/stages/motion/smoother/internal/slow_errors.h"
+#include "kinemark/stages/motion/smoother/rates.h"
+
+namespace kinemark::motion::internal {
+
+/// Speeds and accelerations of the tree in frame f by five-point differences of the states.
+void speeds_of_states(const model::Model& model, const Eigen::MatrixXd& states, std::int64_t f,
+                      double rate_hz, Eigen::VectorXd& v, Eigen::VectorXd& vdot);
+
+/// Fill q (angles of free joints continuous), v and a from the states.
+void fill_coordinates(const model::Model& model, const Eigen::MatrixXd& states, data::JointMotion& motion);
+
+/// Covariance of each coordinate, its rate and its acceleration (6 x n: qq qv qa vv va aa) in one of three
+/// neighbouring frames (`place` 0, 1, 2) from their joint covariance (3 nv x 3 nv). E: dq/dv.
+void coordinate_covariances(const Eigen::MatrixXd& joint, int place, double rate_hz, const Eigen::MatrixXd& E,
+                            Eigen::MatrixXd& out);
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/smoother/internal/noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kSmallestVariance = 1e-10;  // 10 um: nothing is measured better
+constexpr double kWidest = 10.0;             // a marker's variance over the usual one, and its inverse
+constexpr double kChance = 2.5;              // standard errors that a slow share must exceed
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+double median(VectorXd values) {
+  if (values.size() == 0) return 0.0;
+  auto middle = values.data() + values.size() / 2;
+  std::nth_element(values.data(), middle, values.data() + values.size());
+  return *middle;
+}
+
+/// Share of a marker's residual variance that is not white, beyond chance.
+double slow_share(const data::JointMotion& motion, Index m) {
+  const auto M = static_cast<std::int64_t>(motion.markers.size());
+  double second = 0.0, plain = 0.0;
+  std::int64_t count = 0;
+  for (std::int64_t f = 1; f + 1 < motion.frames(); ++f) {
+    const auto error = [&](std::int64_t frame) {
+      return Eigen::Map<const Vector3d>(motion.marker_error.data() + (frame * M + m) * 3);
+    };
+    const Vector3d turn = error(f - 1) - 2.0 * error(f) + error(f + 1);
+    if (!turn.allFinite()) continue;
+    second += turn.squaredNorm() / 6.0;
+    plain += error(f).squaredNorm();
+    ++count;
+  }
+  if (count < 30 || plain <= 0.0) return 0.0;
+  const double chance = kChance * std::sqrt(2.0 / (3.0 * static_cast<double>(count)));
+  return std::clamp(1.0 - second / plain - chance, 0.0, 1.0);
+}
+
+}  // namespace
+
+NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double bend_sd) {
+  const auto M = static_cast<Index>(problem.model.marker_count());
+  const auto bodies = static_cast<Index>(problem.model.bodies().size());
+  NoiseSplit split;
+  VectorXd own(M), common = VectorXd::Zero(M), share = VectorXd::Zero(M), count = VectorXd::Zero(bodies);
+  split.common_slow.setZero(bodies);
+  for (Index m = 0; m < M; ++m) {
+    const auto& summary = start.markers[at(m)];
+    own[m] = given_sd_m > 0.0 ? given_sd_m * given_sd_m : summary.noise_sd_m * summary.noise_sd_m;
+    if (!std::isfinite(own[m])) own[m] = 0.0;
+    if (given_sd_m > 0.0) continue;
+    if (std::isfinite(summary.common_sd_m)) common[m] = summary.common_sd_m * summary.common_sd_m;
+    share[m] = slow_share(start.motion, m);
+  }
+  const double usual = std::max(kSmallestVariance, median(own));
+  own = own.cwiseMax(usual / kWidest).cwiseMin(usual * kWidest);
+  split.white = own.cwiseProduct((1.0 - share.array()).matrix()).cwiseMax(kSmallestVariance);
+  split.slow = own.cwiseProduct(share);
+  for (Index m = 0; m < M; ++m) {
+    const int body = problem.model.markers()[at(m)].body;
+    if (body < 0) continue;
+    split.common_slow[body] += share[m] * common[m];
+    count[body] += 1.0;
+  }
+  split.common_slow.array() /= count.array().max(1.0);
+  split.any_slow = share.maxCoeff() > 0.0;
+
+  // Trust is shared out by the whole variance of a marker, half way to equal trust: markers that win trust
+  // by their residuals alone pull the pose to themselves and look even better.
+  const VectorXd total = own + common;
+  const double usual_total = median(total), usual_white = median(split.white);
+  const double usual_weight = median(problem.weight);
+  for (Index m = 0; m < M; ++m) {
+    MarkerTrust trust;
+    trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;
+    if (bend_sd > 0.0) trust.bend_m = bend_sd * std::sqrt(3.0 * total[m]);
+    split.trust.push_back(trust);
+  }
+  return split;
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// From a least-squares solution to the start of the smoother.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/model/model.h"
+
+namespace kinemark::motion::internal {
+
+/// States of all frames (one column each); where a coordinate is not determined it runs straight between its
+/// determined neighbours (a free joint as a whole).
+[[nodiscard]] Eigen::MatrixXd bridged_states(const model::Model& model, const data::JointMotion& motion);
+
+/// Variance of a third difference of every speed's coordinate, by the likelihood of the states (q_sd says
+/// how much each frame counts). Speeds that are never determined get the usual variance of their kind.
+[[nodiscard]] Eigen::VectorXd step_variances(const model::Model& model, const data::JointMotion& motion,
+                                             const Eigen::MatrixXd& states);
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/smoother/internal/step_prior.h"
+
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/model/state.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr std::array<double, 4> kSlope = {-1.0, 3.0, -3.0, 1.0};
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Matrix3d inverse_right_jacobian(const Vector3d& d) {
+  Matrix3d cross;
+  cross << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0;
+  const double angle = d.norm();
+  // 1/a^2 - (1 + cos a) / (2 a sin a), by its series near 0.
+  const double second =
+      angle < 1e-2 ? 1.0 / 12.0 + angle * angle / 720.0
+                   : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  return Matrix3d::Identity() + 0.5 * cross + second * (cross * cross);
+}
+
+StepPrior::StepPrior(const model::Model& model, VectorXd variance)
+    : model_(model), variance_(std::move(variance)), plain_(at(model.speed_count()), 1) {
+  check(variance_.size() == model.speed_count() && (variance_.array() > 0.0).all(),
+        "need one positive step variance for every speed");
+  for (const auto& free : model.free_joints())
+    for (int i = 3; i < 6; ++i) plain_[at(free.speed_idx + i)] = 0;
+  for (auto& d : d_) d.setZero(model.speed_count());
+  e_.setZero(model.speed_count());
+  turn_.resize(model.free_joints().size());
+}
+
+double StepPrior::visit(const VectorXd& x0, const VectorXd& x1, const VectorXd& x2, const VectorXd& x3) {
+  model::difference(model_, x0, x1, d_[0]);
+  model::difference(model_, x1, x2, d_[1]);
+  model::difference(model_, x2, x3, d_[2]);
+  e_ = d_[2] - 2.0 * d_[1] + d_[0];
+  for (std::size_t j = 0; j < turn_.size(); ++j) {
+    const int speed = model_.free_joints()[j].speed_idx + 3;
+    std::array<Matrix3d, 3> R;
+    for (std::size_t i = 0; i < 3; ++i) R[i] = inverse_right_jacobian(d_[i].segment<3>(speed));
+    turn_[j][0] = -R[0].transpose();
+    turn_[j][1] = R[0] + 2.0 * R[1].transpose();
+    turn_[j][2] = -2.0 * R[1] - R[2].transpose();
+    turn_[j][3] = R[2];
+  }
+  return 0.5 * (e_.array().square() / variance_.array()).sum();
+}
+
+void StepPrior::add_gradient(int a, Eigen::Ref<VectorXd> g) const {
+  for (Index i = 0; i < e_.size(); ++i)
+    if (plain_[at(i)]) g[i] += kSlope[at(a)] * e_[i] / variance_[i];
+  for (std::size_t j = 0; j < turn_.size(); ++j) {
+    const int speed = model_.free_joints()[j].speed_idx + 3;
+    const Vector3d weighed = e_.segment<3>(speed).cwiseQuotient(variance_.segment<3>(speed));
+    g.segment<3>(speed) += turn_[j][at(a)].transpose() * weighed;
+  }
+}
+
+void StepPrior::add_to(Window& window, bool with_gradient) const {
+  const Index n = e_.size();
+  auto& M = window.matrix();
+  for (Index a = 0; a < 4; ++a)
+    for (Index b = 0; b <= a; ++b) {
+      const double product = kSlope[at(a)] * kSlope[at(b)];
+      for (Index i = 0; i < n; ++i)
+        if (plain_[at(i)]) M(a * n + i, b * n + i) += product / variance_[i];
+      for (std::size_t j = 0; j < turn_.size(); ++j) {
+        const int speed = model_.free_joints()[j].speed_idx + 3;
+        const Vector3d weight = variance_.segment<3>(speed).cwiseInverse();
+        M.block<3, 3>(a * n + speed, b * n + speed) +=
+            turn_[j][at(a)].transpose() * weight.asDiagonal() * turn_[j][at(b)];
+      }
+    }
+  if (!with_gradient) return;
+  for (int a = 0; a < 4; ++a) {
+    VectorXd g = VectorXd::Zero(n);
+    add_gradient(a, g);
+    window.right().segment(a * n, n) -= g;
+  }
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/smoother/internal/whole_trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/model/state.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::int64_t kOneSegment = 1024, kSegment = 256;  // frames whose factors are in memory at once
+// SD (rad or m) at which a speed that nothing determines is held over the whole recording.
+constexpr double kFloorSd = 30.0;
+constexpr double kDone = 1e-4;        // half the squared step over its variance: 0.015 standard deviations
+constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearisation says nothing
+constexpr int kHalvings = 10;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+WholeTrajectory::WholeTrajectory(const model::Model& model, const Sightings& sightings, std::int64_t frames,
+                                 const VectorXd& variance, SpeedBounds bounds)
+    : model_(model),
+      sightings_(sightings),
+      frames_(frames),
+      segment_(frames <= kOneSegment ? frames : kSegment),
+      bounds_(std::move(bounds)),
+      rows_(model),
+      prior_(model, variance),
+      window_(model.speed_count()),
+      floor_(1.0 / (kFloorSd * kFloorSd * static_cast<double>(frames))) {
+  check(frames >= 4, "a trajectory needs four frames or more");
+  const auto n = static_cast<Index>(model.speed_count());
+  gradient_.setZero(n, frames);
+  step_.setZero(n, frames);
+  held_.assign(at(n * frames), 0);
+  factors_.resize(at(segment_));
+}
+
+double WholeTrajectory::cost(const MatrixXd& states) {
+  double sum = 0.0;
+  for (std::int64_t k = 0; k < frames_; ++k) {
+    sum += rows_.visit(sightings_, k, states.col(k));
+    if (k + 3 < frames_)
+      sum += prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
+  }
+  return sum;
+}
+
+double WholeTrajectory::evaluate(const MatrixXd& states) {
+  double sum = 0.0;
+  gradient_.setZero();
+  for (std::int64_t k = 0; k < frames_; ++k) {
+    sum += rows_.visit(sightings_, k, states.col(k));
+    rows_.pull(g_);
+    gradient_.col(k) -= g_;
+    if (k + 3 >= frames_) continue;
+    sum += prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
+    for (int a = 0; a < 4; ++a) prior_.add_gradient(a, gradient_.col(k + a));
+  }
+  return sum;
+}
+
+// Locked speeds never move; limited ones rest while the cost pushes them against their limit.
+void WholeTrajectory::hold(const MatrixXd& states) {
+  const Index n = gradient_.rows();
+  for (std::int64_t k = 0; k < frames_; ++k) {
+    std::copy(bounds_.fixed.begin(), bounds_.fixed.end(), held_.begin() + k * n);
+    for (const auto& c : model_.coordinates()) {
+      if (c.speed_idx < 0) continue;
+      const double value = states(c.state_idx, k), push = -gradient_(c.speed_idx, k), slack = 1e-12;
+      if ((value <= bounds_.lower[c.speed_idx] + slack && push <= 0.0) ||
+          (value >= bounds_.upper[c.speed_idx] - slack && push >= 0.0))
+        held_[at(k * n + c.speed_idx)] = 1;
+    }
+  }
+}
+
+// Frame k becomes part of the window: its sightings, and the prior that ties it to the next three.
+void WholeTrajectory::load(const MatrixXd& states, std::int64_t k, bool with_right) {
+  (void)rows_.visit(sightings_, k, states.col(k));
+  rows_.matrix(H_);
+  H_.diagonal().array() += floor_;
+  if (with_right)
+    window_.add(0, H_, -gradient_.col(k));
+  else
+    window_.add(0, H_, VectorXd::Zero(H_.rows()));
+  if (k + 3 >= frames_) return;
+  (void)prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
+  prior_.add_to(window_, false);
+}
+
+void WholeTrajectory::forward(const MatrixXd& states, std::int64_t first, std::int64_t last, bool keep,
+                              bool with_right) {
+  const Index n = gradient_.rows();
+  for (std::int64_t k = first; k < last; ++k) {
+    load(states, k, with_right);
+    window_.eliminate(held_.data() + k * n, keep ? factors_[at(k - first)] : scratch_);
+  }
+}
+
+// Forward over the segments, remembering what each began with; then back, each segment's factors made anew
+// (but those of the last).
+void WholeTrajectory::sweep(const MatrixXd& states, bool with_right,
+                            const std::function<void(std::int64_t, const NodeFactor&)>& back) {
+  const std::int64_t segments = (frames_ + segment_ - 1) / segment_;
+  std::vector<Window> begun;
+  window_.clear();
+  for (std::int64_t s = 0; s < segments; ++s) {
+    if (s + 1 < segments) begun.push_back(window_);
+    forward(states, s * segment_, std::min(frames_, (s + 1) * segment_), s + 1 == segments, with_right);
+  }
+  for (std::int64_t s = segments - 1; s >= 0; --s) {
+    const std::int64_t first = s * segment_, last = std::min(frames_, first + segment_);
+    if (s + 1 < segments) {
+      window_ = begun[at(s)];
+      forward(states, first, last, true, with_right);
+    }
+    for (std::int64_t k = last - 1; k >= first; --k) back(k, factors_[at(k - first)]);
+  }
+}
+
+void WholeTrajectory::clip(const MatrixXd& states) {
+  for (std::int64_t k = 0; k < frames_; ++k) {
+    const double longest = step_.col(k).cwiseAbs().maxCoeff();
+    if (longest > kLongestStep) step_.col(k) *= kLongestStep / longest;
+    for (const auto& c : model_.coordinates()) {
+      if (c.speed_idx < 0) continue;
+      const double low = bounds_.lower[c.speed_idx] - states(c.state_idx, k),
+                   high = bounds_.upper[c.speed_idx] - states(c.state_idx, k);
+      step_(c.speed_idx, k) = std::clamp(step_(c.speed_idx, k), std::min(low, 0.0), std::max(high, 0.0));
+    }
+  }
+}
+
+WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterations,
+                                                const Progress& progress) {
+  Outcome outcome;
+  const Index n = gradient_.rows();
+  MatrixXd moved(states.rows(), states.cols());
+  VectorXd next(3 * n), own(n), x;
+  outcome.cost = evaluate(states);
+  for (int i = 0; i < max_iterations; ++i) {
+    if (progress && !progress(i * frames_, max_iterations * frames_)) {
+      outcome.stopped = true;
+      return outcome;
+    }
+    ++outcome.iterations;
+    hold(states);
+    next.setZero();
+    sweep(states, true, [&](std::int64_t k, const NodeFactor& factor) {
+      step_back(factor, next, own);
+      step_.col(k) = own;
+      next.tail(2 * n) = next.head(2 * n).eval();
+      next.head(n) = own;
+    });
+    if (!step_.allFinite()) break;
+    const double decrement = -0.5 * step_.cwiseProduct(gradient_).sum();
+    clip(states);
+    double share = 1.0, moved_cost = 0.0;
+    bool better = false;
+    for (int h = 0; h < kHalvings && !better; ++h, share *= 0.5) {
+      moved = states;
+      for (std::int64_t k = 0; k < frames_; ++k) {
+        x = moved.col(k);
+        model::integrate(model_, x, share * step_.col(k));
+        moved.col(k) = x;
+      }
+      moved_cost = cost(moved);
+      better = moved_cost <= outcome.cost * (1.0 + 1e-12);
+    }
+    if (!better) {
+      outcome.converged = decrement < 1e3 * kDone;
+      break;
+    }
+    states = moved;
+    outcome.cost = evaluate(states);
+    if (decrement < kDone) {
+      outcome.converged = true;
+      break;
+    }
+  }
+  return outcome;
+}
+
+void WholeTrajectory::covariances(const MatrixXd& states, const Visitor& visitor) {
+  const Index n = gradient_.rows();
+  for (std::int64_t k = 0; k < frames_; ++k)
+    std::copy(bounds_.fixed.begin(), bounds_.fixed.end(), held_.begin() + k * n);
+  CovarianceWindow window(n);
+  sweep(states, false, [&](std::int64_t k, const NodeFactor& factor) {
+    window.step_back(factor);
+    if (k + 3 <= frames_) visitor(k, window.matrix());
+  });
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Gauss-Newton over all frames of a recording: sightings of every frame, white third differences between
+// them, limits as an active set.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/smoother/internal/frame_rows.h"
+#include "kinemark/stages/motion/smoother/internal/step_prior.h"
+#include "kinemark/stages/motion/smoother/internal/window.h"
+
+namespace kinemark::motion::internal {
+
+/// What may move and how far, per speed.
+struct SpeedBounds {
+  std::vector<std::uint8_t> fixed;
+  Eigen::VectorXd lower, upper;  ///< +-infinity where unlimited
+};
+
+class WholeTrajectory {
+ public:
+  /// @param variance  per speed, of a third difference.
+  WholeTrajectory(const model::Model& model, const Sightings& sightings, std::int64_t frames,
+                  const Eigen::VectorXd& variance, SpeedBounds bounds);
+
+  struct Outcome {
+    bool converged = false, stopped = false;
+    int iterations = 0;
+    double cost = 0.0;
+  };
+  /// Improve all postures (one column per frame, 4 or more) by at most so many steps.
+  Outcome solve(Eigen::MatrixXd& states, int max_iterations, const Progress& progress);
+
+  /// Covariances at the given postures without limits, from the last frame to the first. The visitor gets the
+  /// first of three neighbouring frames and their joint covariance (3 nv x 3 nv).
+  using Visitor = std::function<void(std::int64_t first, const Eigen::MatrixXd& covariance)>;
+  void covariances(const Eigen::MatrixXd& states, const Visitor& visitor);
+
+ private:
+  double cost(const Eigen::MatrixXd& states);
+  double evaluate(const Eigen::MatrixXd& states);
+  void hold(const Eigen::MatrixXd& states);
+  void load(const Eigen::MatrixXd& states, std::int64_t k, bool with_right);
+  /// Eliminate [first, last); factors are kept for it when asked.
+  void forward(const Eigen::MatrixXd& states, std::int64_t first, std::int64_t last, bool keep,
+               bool with_right);
+  void sweep(const Eigen::MatrixXd& states, bool with_right,
+             const std::function<void(std::int64_t k, const NodeFactor& factor)>& back);
+  void clip(const Eigen::MatrixXd& states);
+
+  const model::Model& model_;
+  const Sightings& sightings_;
+  std::int64_t frames_, segment_;
+  SpeedBounds bounds_;
+  FrameRows rows_;
+  StepPrior prior_;
+  Window window_;
+  double floor_;
+  std::vector<NodeFactor> factors_;
+  NodeFactor scratch_;
+  std::vector<std::uint8_t> held_;  ///< nv per frame
+  Eigen::MatrixXd gradient_, step_, H_;
+  Eigen::VectorXd g_;
+};
+
+}  // namespace kinemark::motion::internal

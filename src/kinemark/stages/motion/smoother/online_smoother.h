@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The smoother on a live stream: frames go in, smoothed postures come out a fixed lag later.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/smoother/smoother.h"
+
+namespace kinemark::motion {
+
+struct OnlineSmootherOptions {
+  int lag_frames = 10;     ///< >= 3: what comes out has seen so many frames more
+  bool error_bars = true;  ///< q_sd and determined; costs about as much as lag_frames pushes without
+  bool limits = true;      ///< clamped coordinates stay in their range (by clipping)
+
+  [[nodiscard]] Status check() const;
+};
+
+/// One frame that is ready; n coordinates.
+struct SmoothedFrame {
+  std::int64_t frame = 0;  ///< counted from the first that was pushed
+  Eigen::VectorXd q, v, a;
+  Eigen::VectorXd q_sd;  ///< NaN where not determined; white noise only; empty without error bars
+  std::vector<std::uint8_t> determined;  ///< empty without error bars
+};
+
+/// smooth_motion() on a stream. The strength of the jerk and the noise of the markers come from a recording
+/// of the same person (SmootherResult::tuning). Each frame is linearised once, where the frames before expect
+/// it, so that a lag as long as the recording gives what smooth_motion() gives up to terms of second order in
+/// the error bars. About 1 ms per frame for a whole body, memory for lag_frames frames.
+class OnlineSmoother {
+ public:
+  /// @param markers  names in the model, in the order in which they will come; `tuning` has as many
+  static Result<OnlineSmoother> create(const model::Model& model, const std::vector<std::string>& markers,
+                                       SmootherTuning tuning, const OnlineSmootherOptions& options = {});
+  OnlineSmoother(OnlineSmoother&&) noexcept;
+  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;
+  OnlineSmoother(const OnlineSmoother&) = delete;
+  OnlineSmoother& operator=(const OnlineSmoother&) = delete;
+  ~OnlineSmoother();
+
+  /// One frame: x (3 x markers, m, NaN where not seen); returns the frame that is lag_frames older, if there
+  /// is one. Frames before the first with three markers or more are skipped and not counted. Fails when x has
+  /// the wrong size.
+  [[nodiscard]] Result<std::optional<SmoothedFrame>> push(const Eigen::Matrix3Xd& x);
+  /// No more frames will come: the frames that are still inside, oldest first.
+  [[nodiscard]] std::vector<SmoothedFrame> finish();
+
+ private:
+  struct Impl;
+  explicit OnlineSmoother(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kinemark::motion

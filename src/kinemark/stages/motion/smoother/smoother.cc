@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/smoother/smoother.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/smoother/coordinate_smoother.h"
+#include "kinemark/stages/motion/smoother/internal/motion_output.h"
+#include "kinemark/stages/motion/smoother/internal/noise.h"
+#include "kinemark/stages/motion/smoother/internal/run.h"
+#include "kinemark/stages/motion/smoother/internal/slow_errors.h"
+#include "kinemark/stages/motion/smoother/internal/start.h"
+#include "kinemark/stages/motion/smoother/internal/whole_trajectory.h"
+
+namespace kinemark::motion {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using internal::Problem;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLargestSd = 0.5;  // rad or m; beyond it a linear error bar says nothing
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Measured minus model, and what it amounts to marker by marker.
+void fill_marker_errors(const Problem& problem, const data::Trajectories& markers, const MatrixXd& states,
+                        SmootherResult& result) {
+  const auto M = static_cast<std::int64_t>(problem.data_marker.size());
+  auto& motion = result.motion;
+  motion.marker_error.assign(at(3 * M * problem.frames), kNan);
+  model::Workspace w(problem.model);
+  VectorXd squares = VectorXd::Zero(M), seen = VectorXd::Zero(M), largest = VectorXd::Zero(M);
+  VectorXd gap;
+  for (std::int64_t f = 0; f < problem.frames; ++f) {
+    model::kinematics(problem.model, w, states.col(f));
+    model::point_constraint_gaps(problem.model, w, gap);
+    if (gap.size() > 0) result.max_loop_gap_m = std::max(result.max_loop_gap_m, gap.cwiseAbs().maxCoeff());
+    for (std::int64_t m = 0; m < M; ++m) {
+      if (!markers.present(problem.first_frame + f, problem.data_marker[at(m)])) continue;
+      const Vector3d error = markers.x(problem.first_frame + f, problem.data_marker[at(m)]) - w.marker.col(m);
+      std::copy_n(error.data(), 3, motion.marker_error.data() + 3 * (f * M + m));
+      squares[m] += error.squaredNorm();
+      seen[m] += 1.0;
+      largest[m] = std::max(largest[m], error.norm());
+      result.mean_marker_error_m += error;
+    }
+  }
+  for (std::int64_t m = 0; m < M; ++m) {
+    auto& summary = result.markers[at(m)];
+    summary.seen = seen[m] / static_cast<double>(problem.frames);
+    summary.rms_m = seen[m] > 0.0 ? std::sqrt(squares[m] / seen[m]) : kNan;
+    summary.max_m = largest[m];
+  }
+  result.max_marker_error_m = largest.maxCoeff();
+  if (seen.sum() > 0.0) {
+    result.rms_marker_error_m = std::sqrt(squares.sum() / seen.sum());
+    result.mean_marker_error_m /= seen.sum();
+  }
+}
+
+/// q_sd, determined, the covariances and the frames' status.
+void fill_bars(const Problem& problem, const Sightings& sightings, const internal::NoiseSplit& noise,
+               const MatrixXd& states, internal::WholeTrajectory& trajectory, SmootherResult& result) {
+  const auto& model = problem.model;
+  auto& motion = result.motion;
+  const std::int64_t F = motion.frames(), n = motion.size();
+  const internal::SlowErrors slow(model, sightings, noise, problem.fixed_speed, motion, states);
+  motion.q_sd.assign(at(F * n), kNan);
+  motion.determined.assign(at(F * n), 0);
+  result.errors.covariance.assign(at(6 * F * n), kNan);
+  model::Workspace w(model);
+  VectorXd q(n);
+  MatrixXd E, covariance;
+  const auto coordinates = model.coordinates();
+  const auto do_frame = [&](std::int64_t f, int place, const MatrixXd& joint) {
+    std::copy_n(motion.q.data() + motion.index(f, 0), n, q.data());
+    model::kinematics(model, w, states.col(f));
+    model::coordinate_jacobian(model, w, q, E);
+    for (Eigen::Index i = 0; i < E.cols(); ++i)
+      if (problem.fixed_speed[at(i)]) E.col(i).setZero();
+    internal::coordinate_covariances(joint, place, motion.time.rate_hz, E, covariance);
+    bool all = true;
+    for (int c = 0; c < n; ++c) {
+      const auto i = motion.index(f, c);
+      const double sd = std::sqrt(std::max(0.0, covariance(0, c)) + slow.variance(f, c));
+      const bool good = sd <= kLargestSd;
+      motion.determined[i] = good;
+      if (good) motion.q_sd[i] = sd;
+      all = all && good;
+      if (coordinates[at(c)].source < 0)
+        std::copy_n(covariance.col(c).data(), 6, result.errors.covariance.data() + 6 * i);
+    }
+    if (!all && motion.status[at(f)] == data::FrameStatus::converged)
+      motion.status[at(f)] = data::FrameStatus::underdetermined;
+  };
+  trajectory.covariances(states, [&](std::int64_t first, const MatrixXd& joint) {
+    if (first + 3 == F) do_frame(F - 1, 2, joint);
+    do_frame(first + 1, 1, joint);
+    if (first == 0) do_frame(0, 0, joint);
+  });
+}
+
+SmootherResult begin_result(IkResult& start, const model::Model& model) {
+  SmootherResult result;
+  result.first_frame = start.first_frame;
+  result.markers = std::move(start.markers);
+  result.model_markers_without_data = std::move(start.model_markers_without_data);
+  result.data_markers_without_model = std::move(start.data_markers_without_model);
+  result.excluded_markers = std::move(start.excluded_markers);
+  result.warnings = std::move(start.warnings);
+  auto& motion = result.motion;
+  motion.markers = start.motion.markers;
+  motion.time = start.motion.time;
+  for (const auto& coordinate : model.description().coordinates) {
+    motion.coordinates.push_back(coordinate.name);
+    motion.is_rotation.push_back(coordinate.is_rotation);
+  }
+  return result;
+}
+
+}  // namespace
+
+namespace internal {
+
+Result<Prepared> prepare(const model::Model& model, const data::Trajectories& markers,
+                         const SmootherOptions& options, const Progress& progress) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  const auto begun = std::chrono::steady_clock::now();
+  IkOptions ik = options.ik;
+  ik.error_bars = true;
+  auto start = solve_ik(model, markers, ik, progress);
+  if (!start) return std::unexpected(start.error());
+  auto problem = make_problem(model, markers, ik);
+  if (!problem) return std::unexpected(problem.error());
+  if (problem->frames < kFewestSamples)
+    return fail(Code::bad_input, fmt::format("the time range holds {} frames; the smoother needs {} or more",
+                                             problem->frames, kFewestSamples));
+  return Prepared{
+      .problem = std::move(*problem), .start = std::move(*start), .seconds = seconds_since(begun)};
+}
+
+Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers, const Sightings& sightings,
+                           const NoiseSplit& noise, const SmootherOptions& options,
+                           const Progress& progress) {
+  const auto solving = std::chrono::steady_clock::now();
+  const Problem& problem = prepared.problem;
+  MatrixXd states = bridged_states(problem.model, prepared.start.motion);
+  const VectorXd variance = step_variances(problem.model, prepared.start.motion, states);
+  SmootherResult result = begin_result(prepared.start, problem.model);
+  result.start_seconds = prepared.seconds;
+  result.tuning = {.step_variance = variance, .markers = noise.trust, .rate_hz = markers.time.rate_hz};
+  WholeTrajectory trajectory(problem.model, sightings, problem.frames, variance,
+                             {.fixed = problem.fixed_speed, .lower = problem.lower, .upper = problem.upper});
+  const auto outcome = trajectory.solve(states, options.max_iterations, progress);
+  if (outcome.stopped) return fail(Code::cancelled, "the smoother was stopped");
+  result.iterations = outcome.iterations;
+  result.converged = outcome.converged;
+  if (!outcome.converged)
+    result.warnings.push_back(
+        fmt::format("the smoother did not settle in {} iterations over the recording", outcome.iterations));
+  fill_coordinates(problem.model, states, result.motion);
+  result.motion.status.assign(at(problem.frames), outcome.converged ? data::FrameStatus::converged
+                                                                    : data::FrameStatus::not_converged);
+  if (options.error_bars) fill_bars(problem, sightings, noise, states, trajectory, result);
+  fill_marker_errors(problem, markers, states, result);
+  result.solve_seconds = seconds_since(solving);
+  return result;
+}
+
+}  // namespace internal
+
+Result<SmootherResult> smooth_motion(const model::Model& model, const data::Trajectories& markers,
+                                     const SmootherOptions& options, const Progress& progress) {
+  auto prepared = internal::prepare(model, markers, options, progress);
+  if (!prepared) return std::unexpected(prepared.error());
+  const auto& problem = prepared->problem;
+  const auto noise =
+      internal::split_noise(problem, prepared->start, options.ik.marker_noise_sd_m, options.bend_sd);
+  const MarkerSightings sightings(markers, problem.data_marker, problem.first_frame, noise.trust);
+  return internal::run(*prepared, markers, sightings, noise, options, progress);
+}
+
+}  // namespace kinemark::motion

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The whole-trajectory smoother: the one motion of the model that fits all frames of a recording at once,
+// when every coordinate's jerk is white noise of a strength that the data tell. Coordinates, rates and
+// accelerations come out together, with their covariance; markers that are missing are bridged. Theory:
+// docs/theory/trajectory-smoother.md
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/ik.h"
+#include "kinemark/stages/motion/smoother/rates.h"
+#include "kinemark/stages/motion/smoother/sightings.h"
+#include "kinemark/stages/motion/smoother/smoother_options.h"
+
+namespace kinemark::motion {
+
+/// What the smoother learnt from a recording; the live twin (online_smoother.h) starts from it.
+struct SmootherTuning {
+  Eigen::VectorXd step_variance;     ///< nv, of the third difference of each speed's own coordinate
+  std::vector<MarkerTrust> markers;  ///< one per used marker, in the order of motion.markers
+  double rate_hz = 0.0;
+};
+
+struct SmootherResult {
+  /// q, v, a, q_sd, determined, marker_error (measured minus model), status. A frame without any marker is
+  /// bridged like any other gap. Determined: the SD is at most 0.5 rad or 0.5 m.
+  data::JointMotion motion;
+  RateErrors errors;             ///< covariance of q, v, a by coordinate; empty without error bars
+  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
+  SmootherTuning tuning;
+  std::vector<MarkerSummary> markers;
+  std::vector<std::string> model_markers_without_data, data_markers_without_model;
+  std::vector<ExcludedMarker> excluded_markers;
+  std::vector<std::string> warnings;
+  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;  ///< measured to model, where seen
+  Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();
+  double max_loop_gap_m = 0.0;  ///< largest gap of a closed loop
+  int iterations = 0;           ///< steps over the whole recording
+  bool converged = false;
+  double start_seconds = 0.0, solve_seconds = 0.0;  ///< wall time: least squares; smoother with error bars
+};
+
+/// Smooth every frame of the time range.
+///
+/// Markers are matched by name as by solve_ik(), whose solution (with the undetermined coordinates bridged)
+/// is the start; the strength of the jerk of each coordinate maximises the likelihood of that solution. The
+/// noise of the markers is estimated as for its error bars and split into a white part, which smoothing
+/// averages out, and a slow part (soft tissue), which it does not: both are in q_sd. Needs 8 frames. About
+/// 1 ms per frame for a whole body. Errors as of solve_ik().
+[[nodiscard]] Result<SmootherResult> smooth_motion(const model::Model& model,
+                                                   const data::Trajectories& markers,
+                                                   const SmootherOptions& options = {},
+                                                   const Progress& progress = {});
+
+}  // namespace kinemark::motion
