@@ -9,6 +9,7 @@
 #include <string>
 
 #include "kinemark/core/check.h"
+#include "kinemark/stages/skeleton/articulated/internal/chain_bootstrap.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_globals.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_kind.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
@@ -23,7 +24,9 @@ using data::SegmentKind;
 
 constexpr double kFirstNoise = 1e-3;  // m, until the residuals tell
 constexpr double kLeastNoise = 1e-9;  // m: data without noise
-constexpr double kTwinClear = 10.0;   // chi-square between a geometry and its mirror twin
+constexpr double kTooRough = 4.0;     // deviates of the residuals above the noise that was given
+constexpr int kReplicates = 3;
+constexpr double kTwinClear = 10.0;  // chi-square between a geometry and its mirror twin
 
 Status check_options(const ChainSamples& samples, const ChainLayout& layout, const ChainFitOptions& options) {
   check(samples.markers == layout.markers(), "one segment a marker");
@@ -37,6 +40,26 @@ Status check_options(const ChainSamples& samples, const ChainLayout& layout, con
     }
   }
   return {};
+}
+
+// Take markers out that no frame ties to their segment; their indices.
+std::vector<int> drop_loose_markers(ChainSamples& samples, const ChainLayout& layout) {
+  std::vector<int> dropped;
+  for (int s = 0; s < layout.segments(); ++s) {
+    const std::vector<int> markers = layout.markers_of(s);
+    if (markers.size() < 4) continue;
+    const auto shape = segment_shape(samples, markers, SegmentKind::solid, 0.0);
+    if (!shape) continue;
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      if (!std::isnan((*shape)(0, static_cast<Eigen::Index>(i)))) continue;
+      dropped.push_back(markers[i]);
+      for (std::int64_t f = 0; f < samples.frames; ++f) {
+        std::fill_n(samples.x.data() + 3 * (f * samples.markers + markers[i]), 3,
+                    std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+  }
+  return dropped;
 }
 
 // Frames whose joints are all determined, with their poses.
@@ -79,8 +102,10 @@ class Rounds {
     if (options_.marker_noise) {
       for (int round = 0; round < 3; ++round) {
         const std::vector<double> ratio = globals.marker_variance(fit_.noise_sd_m);
-        for (std::size_t k = 0; k < ratio.size(); ++k)
-          fit_.marker_weight[k] = std::clamp(fit_.marker_weight[k] / ratio[k], 0.01, 100.0);
+        for (std::size_t k = 0; k < ratio.size(); ++k) {
+          if (fit_.marker_weight[k] > 0.0)
+            fit_.marker_weight[k] = std::clamp(fit_.marker_weight[k] / ratio[k], 0.01, 100.0);
+        }
         for (auto& weight : frames.weight) weight = fit_.marker_weight;
         cost = globals.run(10);
         measure_noise(globals, cost);
@@ -98,7 +123,23 @@ class Rounds {
         measure_noise(globals, cost);
       }
     }
-    fit_.residual_dof = globals.degrees_of_freedom();
+    double expected = 1.0;
+    if (last && has_weak_turns(fit_.chain, fit_.noise_sd_m)) {
+      const Bootstrap found = bootstrap(samples_, frames, fit_, kReplicates);
+      expected = std::clamp(found.chi2_ratio, 0.5, 1.0);
+      fit_.covariance_scale = std::clamp(found.variance_ratio, 1.0, 2.0);
+      fit_.chain.add_globals(-found.bias);
+      cost = globals.cost();
+      if (options_.noise_sd_m <= 0.0) fit_.noise_sd_m /= std::sqrt(expected);
+    }
+    fit_.residual_dof = expected * globals.degrees_of_freedom();
+    if (const double excess = cost / (fit_.noise_sd_m * fit_.noise_sd_m * fit_.residual_dof);
+        last && options_.noise_sd_m > 0.0 &&
+        excess > 1.0 + kTooRough * std::sqrt(2.0 / std::max(fit_.residual_dof, 1.0))) {
+      // Markers that slip on the skin, or a shape that is simpler than the truth: say how large the errors
+      // are.
+      fit_.noise_sd_m *= std::sqrt(excess);
+    }
     fit_.chi2 = cost / (fit_.noise_sd_m * fit_.noise_sd_m);
     fit_.global_covariance = fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
   }
@@ -121,10 +162,11 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
   if (const Status status = check_options(samples, layout, options); !status)
     return std::unexpected(status.error());
   std::vector<std::int64_t> kept;
-  const ChainSamples drawn = thin_out(samples, std::max(options.frames_max, 50), kept);
+  ChainSamples drawn = thin_out(samples, std::max(options.frames_max, 50), kept);
   if (drawn.frames < 5)
     return fail(Code::bad_input,
                 "fewer than five frames show two markers or more; nothing can be known of the joints");
+  const std::vector<int> dropped = drop_loose_markers(drawn, layout);
   std::vector<SegmentKind> kind = options.kind;
   if (kind.empty()) {
     auto chosen = choose_kinds(drawn, layout, options.noise_sd_m);
@@ -137,6 +179,12 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
   fit.chain = std::move(*start);
   fit.noise_sd_m = options.noise_sd_m > 0.0 ? options.noise_sd_m : kFirstNoise;
   fit.marker_weight.assign(layout.markers(), 1.0);
+  for (const int k : dropped) {
+    fit.marker_weight[k] = 0.0;
+    fit.warnings.emplace_back(
+        "Marker " + std::to_string(k) +
+        " is not seen together with three others of its segment in three frames; it was left out.");
+  }
   fit.robust_dof = options.robust_dof;
   fit.alternative_max = options.alternative_max;
 

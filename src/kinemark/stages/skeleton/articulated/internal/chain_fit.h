@@ -30,11 +30,12 @@ struct ChainFitOptions {
 struct ChainFit {
   Chain chain;
   double noise_sd_m = 0.0;            ///< given or found
-  std::vector<double> marker_weight;  ///< K: (common SD / own SD)^2
+  std::vector<double> marker_weight;  ///< K: (common SD / own SD)^2; 0: left out, its place is not known
   Eigen::MatrixXd global_covariance;  ///< n_g x n_g, m^2; zero along the gauge
   std::vector<std::int64_t> frames;   ///< that informed the geometry
   double residual_dof = 0.0;
-  double chi2 = 0.0;  ///< of these frames' residuals, in units of noise_sd_m^2
+  double chi2 = 0.0;              ///< of these frames' residuals, in units of noise_sd_m^2
+  double covariance_scale = 1.0;  ///< of a frame's own covariance, where turns are weak
   double robust_dof = 0.0;
   double alternative_max = 1e-3;
   /// chi-square by which the best mirrored geometry is worse: below about 10 the data do not tell them apart.

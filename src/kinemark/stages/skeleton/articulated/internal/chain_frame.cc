@@ -57,14 +57,15 @@ void FrameSolver::set(const double* x, std::span<const double> weights) {
   for (FrameSums::Segment& s : sums_.segment) s = {};
   sums_.centre.setZero();
   sums_.seen = 0;
+  const auto used = [&](int k) { return !std::isnan(x[3 * k]) && (weights.empty() || weights[k] > 0.0); };
   for (int k = 0; k < c.markers(); ++k) {
-    if (std::isnan(x[3 * k])) continue;
+    if (!used(k)) continue;
     sums_.centre += Eigen::Map<const Vector3d>(x + 3 * k);
     ++sums_.seen;
   }
   if (sums_.seen > 0) sums_.centre /= sums_.seen;
   for (int k = 0; k < c.markers(); ++k) {
-    if (std::isnan(x[3 * k])) continue;
+    if (!used(k)) continue;
     const double w = weights.empty() ? 1.0 : weights[k];
     FrameSums::Segment& s = sums_.segment[c.layout.segment_of_marker[k]];
     const Vector3d y = Eigen::Map<const Vector3d>(x + 3 * k) - sums_.centre;
@@ -236,8 +237,8 @@ void FrameSolver::globals(const ChainPose& pose, const double* x, std::span<cons
   for (int k = 0; k < c.markers(); ++k) {
     const std::size_t begin = own;
     while (own < first_joint && all[own].marker == k) ++own;
-    if (std::isnan(x[3 * k])) continue;
     const double w = weights.empty() ? 1.0 : weights[k];
+    if (std::isnan(x[3 * k]) || w <= 0.0) continue;
     const int q = c.layout.segment_of_marker[k];
     const Matrix3d& R = pose.rotation[q];
     const Vector3d m = c.marker.col(k);

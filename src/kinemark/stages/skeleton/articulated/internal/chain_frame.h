@@ -43,7 +43,7 @@ class FrameSolver {
   /// Keeps a reference: the chain must outlive the solver. After a change of its geometry call set() again.
   explicit FrameSolver(const Chain& chain);
 
-  /// Take a frame: K x 3 coordinates, NaN where not seen; weights K (empty: all 1).
+  /// Take a frame: K x 3 coordinates, NaN where not seen; weights K (empty: all 1; 0: as if not seen).
   void set(const double* x, std::span<const double> weights = {});
   [[nodiscard]] const FrameSums& sums() const { return sums_; }
 

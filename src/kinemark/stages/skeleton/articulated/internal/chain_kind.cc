@@ -18,8 +18,9 @@ namespace {
 using data::SegmentKind;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFirm = 50.0;       // information beyond which a turn's integral is Gaussian
-constexpr double kLineBonus = 30.0;  // nats that another kind must be better than a line
+constexpr double kFirm = 50.0;  // information beyond which a turn's integral is Gaussian
+constexpr double kLineBonusOfFrame = 0.5;
+constexpr double kLineBonus = 15.0;  // nats that another kind must be better than a line
 constexpr double kPlaneBonus = 3.0;  // nats that a solid must be better than a plane
 constexpr double kSurelyLine = 2.5;  // deviates of across_line()
 constexpr double kSurelyWide = 60.0;
@@ -144,10 +145,11 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
   }
   if (!open) return general;
   // All alike first, then segment by segment.
-  const auto bonus = [](const std::vector<SegmentKind>& kind) {
+  const double line_bonus = std::max(kLineBonus, kLineBonusOfFrame * static_cast<double>(frames.size()));
+  const auto bonus = [line_bonus](const std::vector<SegmentKind>& kind) {
     double sum = 0.0;
     for (const SegmentKind k : kind)
-      sum += k == SegmentKind::line ? kLineBonus : k == SegmentKind::plane ? kPlaneBonus : 0.0;
+      sum += k == SegmentKind::line ? line_bonus : k == SegmentKind::plane ? kPlaneBonus : 0.0;
     return sum;
   };
   std::vector<std::pair<std::vector<SegmentKind>, double>> known;

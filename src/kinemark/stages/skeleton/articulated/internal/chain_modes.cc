@@ -14,6 +14,8 @@ namespace {
 constexpr double kSame = 2e-5;  // m: joints nearer than this (and a fifth of the noise) are one minimum
 constexpr double kLeastRise = 0.35;
 constexpr double kMostRise = 2.5;
+constexpr int kReflected = 6;        // minima that are mirrored joint by joint
+constexpr double kHopeless = 40.0;   // chi-square above the best
 constexpr double kHold = 1e3;        // weight of the direction that is held, in markers
 constexpr double kFarthestSd = 0.3;  // m
 
@@ -45,6 +47,45 @@ void ModeFinder::refine(FrameSolver& solver, const ChainPose& start, double same
   ++count_;
 }
 
+// In longer chains a joint may be mirrored at the plane of what is seen and known around it while the others
+// stay: starts from every minimum found, the new ones included.
+void ModeFinder::reflect(FrameSolver& solver, const double* x, double sigma_m, double same_m, int iterations,
+                         std::vector<ChainMode>& modes) {
+  const Chain& c = solver.chain();
+  double best = modes[0].cost;
+  for (int i = 1; i < count_; ++i) best = std::min(best, modes[i].cost);
+  for (int i = 0; i < count_ && i < kReflected; ++i) {
+    if (modes[i].cost > best + kHopeless * sigma_m * sigma_m) continue;
+    for (int j = 0; j < c.joints(); ++j) {
+      const int parent = c.layout.parent[j];
+      const int child = j + 1;
+      if (std::max(solver.sums().segment[parent].seen, solver.sums().segment[child].seen) >= 3) continue;
+      about_.clear();
+      for (int k = 0; k < c.markers(); ++k) {
+        const int s = c.layout.segment_of_marker[k];
+        if ((s == parent || s == child) && !std::isnan(x[3 * k])) {
+          about_.emplace_back(Eigen::Map<const Vector3d>(x + 3 * k));
+        }
+      }
+      for (int other = 0; other < c.joints(); ++other) {
+        if (other == j) continue;
+        const int p = c.layout.parent[other];
+        if (p == parent || p == child || other + 1 == parent) about_.push_back(modes[i].centre[other]);
+      }
+      if (about_.size() < 3) continue;
+      Vector3d mean = Vector3d::Zero();
+      for (const Vector3d& y : about_) mean += y / static_cast<double>(about_.size());
+      Matrix3d scatter = Matrix3d::Zero();
+      for (const Vector3d& y : about_) scatter += (y - mean) * (y - mean).transpose();
+      const Vector3d normal = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors().col(0);
+      centres_ = modes[i].centre;
+      centres_[j] -= 2.0 * normal.dot(centres_[j] - mean) * normal;
+      starts_.from_centres(solver, centres_, mirrored_);
+      refine(solver, mirrored_, same_m, iterations, modes);
+    }
+  }
+}
+
 int ModeFinder::find(FrameSolver& solver, const double* x, double sigma_m, const ChainPose* extra,
                      int iterations, std::vector<ChainMode>& modes) {
   count_ = 0;
@@ -53,6 +94,7 @@ int ModeFinder::find(FrameSolver& solver, const double* x, double sigma_m, const
   if (extra != nullptr) refine(solver, *extra, same_m, iterations, modes);
   for (const ChainPose& start : starts_.poses()) refine(solver, start, same_m, iterations, modes);
   if (count_ == 0) return 0;
+  if (solver.chain().joints() > 1) reflect(solver, x, sigma_m, same_m, iterations, modes);
   std::sort(modes.begin(), modes.begin() + count_,
             [](const ChainMode& a, const ChainMode& b) { return a.cost < b.cost; });
   if (count_ == 1) {

@@ -26,7 +26,12 @@ class ModeFinder {
   void refine(FrameSolver& solver, const ChainPose& start, double same_m, int iterations,
               std::vector<ChainMode>& modes);
 
+  void reflect(FrameSolver& solver, const double* x, double sigma_m, double same_m, int iterations,
+               std::vector<ChainMode>& modes);
+
   ChainStarts starts_;
+  std::vector<Vector3d> centres_, about_;
+  ChainPose mirrored_;
   std::vector<double> log_weight_;
   Eigen::MatrixXd H_, scratch_;
   Eigen::VectorXd b_;

@@ -16,6 +16,8 @@ using data::SegmentKind;
 
 constexpr std::size_t kTwinFrames = 150;
 constexpr std::size_t kEnoughFrames = 40;
+constexpr double kWide = 50.0;    // second extent of a segment's markers over the noise, chi-square
+constexpr double kTurned = 0.05;  // of the most that two segments can turn against each other
 
 // Reflect a segment's joint (or its origin) at the plane that lies best through its markers.
 void mirror_joint(Chain& chain, int joint, bool in_parent) {
@@ -43,6 +45,33 @@ void mirror_joint(Chain& chain, int joint, bool in_parent) {
   for (int j = 1; j < chain.joints(); ++j) {
     if (chain.layout.parent[j] == s) chain.joint.col(j) -= change;
   }
+}
+
+// Where most frames show both segments' poses, and these turn against each other about more than one axis,
+// the joint follows from a linear system: no twin. sum |R_a p_a - R_b p_b|^2 has least eigenvalue n - |sum
+// R_a^T R_b|.
+bool surely_alone(const ChainSamples& samples, const GlobalFrames& frames, const ChainFit& fit, int joint) {
+  FrameSolver solver(fit.chain);
+  const int parent = fit.chain.layout.parent[joint];
+  const int child = joint + 1;
+  const auto wide = [&](int s) {
+    const FrameSums::Segment& sum = solver.sums().segment[s];
+    if (sum.seen < 3) return false;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(sum.mm - sum.m * sum.m.transpose() / sum.w,
+                                                       Eigen::EigenvaluesOnly);
+    return axes.eigenvalues()[1] > kWide * fit.noise_sd_m * fit.noise_sd_m;
+  };
+  Matrix3d turns = Matrix3d::Zero();
+  double count = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    solver.set(samples.frame(frames.frame[i]), fit.marker_weight);
+    if (!wide(parent) || !wide(child)) continue;
+    turns += frames.pose[i].rotation[parent].transpose() * frames.pose[i].rotation[child];
+    count += 1.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> squares(turns.transpose() * turns, Eigen::EigenvaluesOnly);
+  return count >= static_cast<double>(kEnoughFrames) &&
+         count - std::sqrt(squares.eigenvalues()[2]) > kTurned * count;
 }
 
 double joint_distance(const Chain& a, const GlobalFrames& in_a, const Chain& b, const GlobalFrames& in_b,
@@ -128,12 +157,17 @@ GlobalFrames first_poses(const ChainSamples& samples, const Chain& chain,
 }
 
 bool try_twins(const ChainSamples& samples, const GlobalFrames& frames, ChainFit& fit) {
+  fit.twin_margin = std::numeric_limits<double>::infinity();
+  std::vector<int> open;
+  for (int j = 0; j < fit.chain.joints(); ++j) {
+    if (!surely_alone(samples, frames, fit, j)) open.push_back(j);
+  }
+  if (open.empty()) return false;
   std::vector<std::int64_t> some;
   const std::size_t n = std::min(frames.size(), kTwinFrames);
   for (std::size_t i = 0; i < n; ++i) some.push_back(frames.frame[i * frames.size() / n]);
   const double variance = fit.noise_sd_m * fit.noise_sd_m;
   bool taken = false;
-  fit.twin_margin = std::numeric_limits<double>::infinity();
   const double share = static_cast<double>(frames.size()) / static_cast<double>(n);
   const auto refit = [&](Chain& chain, GlobalFrames& poses) {
     poses = first_poses(samples, chain, some, fit.marker_weight, fit.noise_sd_m, 15);
@@ -142,7 +176,7 @@ bool try_twins(const ChainSamples& samples, const GlobalFrames& frames, ChainFit
   Chain best = fit.chain;
   GlobalFrames best_poses;
   double best_cost = refit(best, best_poses);
-  for (int j = 0; j < fit.chain.joints(); ++j) {
+  for (const int j : open) {
     const bool parent_solid = fit.chain.kind[fit.chain.layout.parent[j]] == SegmentKind::solid;
     const bool child_solid = fit.chain.kind[j + 1] == SegmentKind::solid;
     for (const int which : {1, 2, 3}) {

@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace kinemark::skeleton {
 
 namespace {
 
 using data::SegmentKind;
+
+constexpr std::int64_t kFewFrames = 2;  // more than this must tie a marker to three others
 
 Eigen::Map<const Vector3d> place(const ChainSamples& samples, std::int64_t frame, int marker) {
   return Eigen::Map<const Vector3d>(samples.frame(frame) + 3 * marker);
@@ -46,17 +49,34 @@ Eigen::Matrix3Xd scaled(const Eigen::MatrixXd& d2) {
   return points;
 }
 
+// False for a marker that no frame ties to the others.
+bool placed(const Eigen::Matrix3Xd& shape, Eigen::Index marker) { return !std::isnan(shape(0, marker)); }
+
 // About the mean, in principal axes; what the kind leaves out is dropped.
 void make_principal(Eigen::Matrix3Xd& points, SegmentKind kind) {
-  points.colwise() -= points.rowwise().mean().eval();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(points * points.transpose());
+  Vector3d mean = Vector3d::Zero();
+  double count = 0.0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!placed(points, i)) continue;
+    mean += points.col(i);
+    count += 1.0;
+  }
+  points.colwise() -= (mean / std::max(count, 1.0)).eval();
+  Matrix3d scatter = Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (placed(points, i)) scatter += points.col(i) * points.col(i).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(scatter);
   Matrix3d own_from_old;
   own_from_old.row(2) = eigen.eigenvectors().col(2).transpose();
   own_from_old.row(0) = eigen.eigenvectors().col(1).transpose();
   own_from_old.row(1) = own_from_old.row(2).cross(own_from_old.row(0));
   points = (own_from_old * points).eval();
-  if (kind != SegmentKind::solid) points.row(1).setZero();
-  if (kind == SegmentKind::line) points.row(0).setZero();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!placed(points, i)) continue;
+    if (kind != SegmentKind::solid) points(1, i) = 0.0;
+    if (kind == SegmentKind::line) points(0, i) = 0.0;
+  }
 }
 
 // Each known marker's mean place in the segment's axes, over frames that fix these axes.
@@ -128,7 +148,7 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
   Vector3d mean_m = Vector3d::Zero();
   int n = 0;
   for (std::size_t i = 0; i < markers.size(); ++i) {
-    if (!samples.seen(frame, markers[i])) continue;
+    if (!samples.seen(frame, markers[i]) || !placed(shape, static_cast<Eigen::Index>(i))) continue;
     mean_x += place(samples, frame, markers[i]);
     mean_m += shape.col(i);
     ++n;
@@ -139,7 +159,7 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
   Matrix3d A = Matrix3d::Zero();
   Matrix3d S = Matrix3d::Zero();
   for (std::size_t i = 0; i < markers.size(); ++i) {
-    if (!samples.seen(frame, markers[i])) continue;
+    if (!samples.seen(frame, markers[i]) || !placed(shape, static_cast<Eigen::Index>(i))) continue;
     const Vector3d m = shape.col(i) - mean_m;
     A += (place(samples, frame, markers[i]) - mean_x) * m.transpose();
     S += m * m.transpose();
@@ -151,7 +171,9 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
     spread = S(2, 2);
   } else {
     rotation = nearest_rotation(A);
-    spread = Eigen::SelfAdjointEigenSolver<Matrix3d>(S, Eigen::EigenvaluesOnly).eigenvalues()[1];
+    // Markers on a line still have a pose, if one that says little of the turn about that line.
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(S, Eigen::EigenvaluesOnly);
+    spread = axes.eigenvalues()[1] + 1e-6 * axes.eigenvalues()[2];
   }
   origin = mean_x - rotation * mean_m;
   return true;
@@ -185,7 +207,7 @@ Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples, std::span<co
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) corner(i, j) = d2(known[i], known[j]);
     }
-    shape = Eigen::Matrix3Xd::Zero(3, n);
+    shape = Eigen::Matrix3Xd::Constant(3, n, std::numeric_limits<double>::quiet_NaN());
     const Eigen::Matrix3Xd triangle = scaled(corner);
     for (int i = 0; i < 3; ++i) shape.col(known[i]) = triangle.col(i);
     while (static_cast<int>(known.size()) < n) {
@@ -200,16 +222,12 @@ Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples, std::span<co
           for (const int k : known) others += samples.seen(f, markers[k]) ? 1 : 0;
           if (others >= 3) ++frames;
         }
-        if (frames > most) {
+        if (frames > std::max<std::int64_t>(most, kFewFrames)) {
           most = frames;
           next = t;
         }
       }
-      if (next < 0) {
-        return fail(
-            Code::bad_input,
-            "a marker is never seen together with three others of its segment; its place cannot be known");
-      }
+      if (next < 0) break;
       const std::array<int, 1> target{next};
       average_places(samples, markers, known, target, shape);
       known.push_back(next);
@@ -217,8 +235,10 @@ Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples, std::span<co
     }
   }
   if (n >= 3 && !line) {
-    std::vector<int> all(n);
-    for (int i = 0; i < n; ++i) all[i] = i;
+    std::vector<int> all;
+    for (int i = 0; i < n; ++i) {
+      if (placed(shape, i)) all.push_back(i);
+    }
     for (int round = 0; round < 8; ++round) average_places(samples, markers, all, all, shape);
   }
   make_principal(shape, kind);

@@ -14,7 +14,8 @@ namespace kinemark::skeleton {
 /// Shape of one segment's markers about their mean, in its principal axes (z longest, x second): from mean
 /// squared distances less 6 sigma^2, which noise adds to them; where markers are never seen all together, the
 /// best triangle and then one marker at a time through frames that show three known ones. A line has z alone.
-/// Error: no three markers seen together.
+/// NaN: a marker that fewer than three frames show together with three others. Error: no three markers seen
+/// together.
 [[nodiscard]] Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples,
                                                      std::span<const int> markers, data::SegmentKind kind,
                                                      double sigma_m);

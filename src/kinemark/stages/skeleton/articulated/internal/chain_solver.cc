@@ -93,10 +93,10 @@ void ChainSolver::Work::describe(const double* x, ChainFrame& out) {
     solver.joint_jacobian(pose, j, by_frame, by_globals);
     out.centre[j] = chain.joint_centre(pose, j);
     const Eigen::Matrix3Xd way = by_frame * own->inverse();
-    out.own_covariance[j] = variance * way * by_frame.transpose();
+    out.own_covariance[j] = fit.covariance_scale * variance * way * by_frame.transpose();
     of_globals = by_globals - way * G;
     out.covariance[j] = out.own_covariance[j] + of_globals * fit.global_covariance * of_globals.transpose();
-    out.information[j] = own->joint_information(by_frame) / variance;
+    out.information[j] = own->joint_information(by_frame) / (fit.covariance_scale * variance);
     out.state[j] = information.holds(by_frame) ? CentreState::determined : CentreState::undetermined;
   }
 }

@@ -198,7 +198,8 @@ Result<Chain> start_geometry(const ChainSamples& samples, const ChainLayout& lay
   for (int s = 0; s < layout.segments(); ++s) {
     const Vector3d origin = s == 0 ? joints[0].in_parent : joints[s - 1].in_child;
     for (std::size_t i = 0; i < bodies[s].markers.size(); ++i) {
-      chain.marker.col(bodies[s].markers[i]) = bodies[s].shape.col(i) - origin;
+      const Vector3d m = bodies[s].shape.col(i) - origin;
+      if (m.allFinite()) chain.marker.col(bodies[s].markers[i]) = m;
     }
     for (int j = 1; j < layout.joints(); ++j) {
       if (layout.parent[j] == s) chain.joint.col(j) = joints[j].in_parent - origin;
