@@ -59,7 +59,7 @@ void print_flags(const std::string& what, const Tally& t) {
             fmt::format("{} of {} unflagged", t.wrong_unflagged, t.wrong));
 }
 
-void collinear(const Run& run) {
+void collinear(const Run& run, Tally& pooled) {
   Tally all;
   for (const double noise : run.noise_mm)
     for (const double missing : run.missing) {
@@ -73,11 +73,11 @@ void collinear(const Run& run) {
                 cell_name("collinear", noise, missing), asked, t.words());
       all.add(t);
     }
-  print_flags("collinear", all);
+  pooled.add(all);
   print_coverage("collinear", all);
 }
 
-void staggered(const Run& run) {
+void staggered(const Run& run, Tally& pooled) {
   Tally all;
   for (const double noise : run.noise_mm)
     for (const double missing : run.missing) {
@@ -92,7 +92,7 @@ void staggered(const Run& run) {
                 fmt::format("{}; {} of {} whole ones flagged", t.words(), t.whole_flagged, t.whole));
       all.add(t);
     }
-  print_flags("staggered 20 mm", all);
+  pooled.add(all);
   print_coverage("staggered 20 mm", all);
   if (all.pairs > 0)
     print_row(Tally::part(all.pairs_flagged, all.pairs) >= 0.99,
@@ -101,8 +101,7 @@ void staggered(const Run& run) {
 }
 
 /// Stagger of the order of the noise: the data choose the kind of segment; the bound is the solid's.
-void weak(const Run& run) {
-  Tally all;
+void weak(const Run& run, Tally& pooled) {
   for (const double stagger : {2.0, 5.0})
     for (const double noise : run.noise_mm)
       for (const double missing : run.missing) {
@@ -112,12 +111,11 @@ void weak(const Run& run) {
         print_row(at_bound(t, run),
                   cell_name(fmt::format("staggered {} mm", stagger).c_str(), noise, missing),
                   ratio_asked(run), t.words());
-        all.add(t);
+        pooled.add(t);
       }
-  print_flags("staggered 2 and 5 mm", all);
 }
 
-void chain(const Run& run) {
+void chain(const Run& run, Tally& pooled) {
   Tally all;
   for (const double noise : {1.0, 3.0})
     for (const double missing : run.missing) {
@@ -132,7 +130,7 @@ void chain(const Run& run) {
                 ratio_asked(run), t.words());
       all.add(t);
     }
-  print_flags("three joints", all);
+  pooled.add(all);
   print_coverage("three joints", all);
   if (all.lengths < 40) return;
   const double one = Tally::part(all.length_in_1sd, all.lengths),
@@ -156,9 +154,11 @@ int main(int argc, char** argv) {
   const auto wanted = [&](const char* part) {
     return parts.empty() || std::ranges::find(parts, part) != parts.end();
   };
-  if (wanted("collinear")) collinear(run);
-  if (wanted("staggered")) staggered(run);
-  if (wanted("weak")) weak(run);
-  if (wanted("chain")) chain(run);
+  Tally pooled;
+  if (wanted("collinear")) collinear(run, pooled);
+  if (wanted("staggered")) staggered(run, pooled);
+  if (wanted("weak")) weak(run, pooled);
+  if (wanted("chain")) chain(run, pooled);
+  print_flags("all cells", pooled);
   return testing_support::exit_status();
 }

@@ -68,11 +68,13 @@ data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
   const int s = w.tree.segment_order[at(chain_segment)];
   data::SkeletonSegment out{.name = w.layout.segments[at(s)].name,
                             .kind = w.fit.chain.kind[at(chain_segment)]};
-  const auto markers = w.fit.chain.layout.markers_of(chain_segment);
-  out.x_in_segment.resize(3, static_cast<Eigen::Index>(markers.size()));
-  for (std::size_t i = 0; i < markers.size(); ++i) {
-    out.markers.push_back(w.input.marker[at(markers[i])]);
-    out.x_in_segment.col(static_cast<Eigen::Index>(i)) = w.fit.chain.marker.col(markers[i]);
+  std::vector<int> placed;
+  for (const int m : w.fit.chain.layout.markers_of(chain_segment))
+    if (w.fit.marker_weight[at(m)] > 0.0) placed.push_back(m);  // the others' places are not known
+  out.x_in_segment.resize(3, static_cast<Eigen::Index>(placed.size()));
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    out.markers.push_back(w.input.marker[at(placed[i])]);
+    out.x_in_segment.col(static_cast<Eigen::Index>(i)) = w.fit.chain.marker.col(placed[i]);
   }
   return out;
 }

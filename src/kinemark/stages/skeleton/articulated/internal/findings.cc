@@ -15,7 +15,7 @@ namespace {
 
 using data::SegmentKind;
 
-constexpr std::size_t kSwapFrames = 40;  // frames in which exchanged names are looked for
+constexpr std::size_t kSwapFrames = 12;  // frames in which exchanged names are looked for
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -54,7 +54,8 @@ double largest_angle(std::size_t count, const Angle& angle) {
 
 /// Variance of a segment's tilt in one frame that shows all its markers, about the axis known worst, rad^2.
 double tilt_variance(const ChainFit& fit, int segment) {
-  const auto markers = fit.chain.layout.markers_of(segment);
+  auto markers = fit.chain.layout.markers_of(segment);
+  std::erase_if(markers, [&](int m) { return !(fit.marker_weight[at(m)] > 0.0); });
   Vector3d mean = Vector3d::Zero();
   for (const int m : markers) mean += fit.chain.marker.col(m) / static_cast<double>(markers.size());
   Matrix3d S = Matrix3d::Zero();
@@ -75,6 +76,7 @@ Vector3d residual(const ChainFit& fit, const ChainSamples& samples, const Sample
 std::vector<std::pair<std::int64_t, Vector3d>> residuals(const ChainFit& fit, const ChainSamples& samples,
                                                          const RecordingPass& pass, int marker) {
   std::vector<std::pair<std::int64_t, Vector3d>> out;
+  if (!(fit.marker_weight[at(marker)] > 0.0)) return out;  // its place is not known
   for (const SampledPose& s : pass.sampled)
     if (samples.seen(s.frame, marker)) out.emplace_back(s.frame, residual(fit, samples, s, marker));
   return out;

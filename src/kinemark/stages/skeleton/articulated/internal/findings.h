@@ -40,7 +40,7 @@ struct Swap {
   std::int64_t frames = 0, first_frame = 0;
 };
 
-/// Exchanges that turn frames that nothing explains into ordinary ones; some 40 frames are looked at.
+/// Exchanges that turn frames that nothing explains into ordinary ones; some dozen frames are looked at.
 [[nodiscard]] std::vector<Swap> find_swaps(const ChainFit& fit, const ChainSamples& samples,
                                            const RecordingPass& pass);
 
