@@ -76,7 +76,8 @@ int main() {
   const auto ours = io::read_osim(job.output).value();
 
   Worst factors;
-  for (const auto& scale : io::read_scale_set(folder / "subject01_scaleSet_applied.xml").value())
+  const auto scales = io::read_scale_set(folder / "subject01_scaleSet_applied.xml").value();
+  for (const auto& scale : scales)
     for (const auto& mine : outcome.factors)
       if (mine.body == scale.body)
         factors.see((mine.factors.array() / scale.factors.array() - 1.0).abs().maxCoeff(), scale.body);

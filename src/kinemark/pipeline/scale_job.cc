@@ -31,7 +31,7 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 /// One run, step by step; every step moves outcome.model on.
 class ScaleRun {
  public:
-  ScaleRun(const ScaleJob& job, const Progress& progress) : job_(job), progress_(progress) {}
+  ScaleRun(ScaleJob job, const Progress& progress) : job_(std::move(job)), progress_(progress) {}
 
   Status read_setup() {
     if (job_.setup.empty()) return {};
@@ -267,7 +267,7 @@ class ScaleRun {
 }  // namespace
 
 Result<ScaleOutcome> run_scale(ScaleJob job, const Progress& progress) {
-  ScaleRun run(job, progress);
+  ScaleRun run(std::move(job), progress);
   for (const auto step : {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
                           &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh}) {
     if (auto s = (run.*step)(); !s) return std::unexpected(s.error());
