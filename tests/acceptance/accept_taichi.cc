@@ -9,11 +9,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "acceptance/taichi_recording.h"
 #include "kinemark/pipeline/taichi/least_squares.h"
 #include "kinemark/pipeline/taichi/subject.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "support/acceptance.h"
-#include "taichi_recording.h"
 
 namespace {
 

@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "acceptance/taichi_recording.h"
 #include "kinemark/core/units.h"
 #include "kinemark/pipeline/taichi/control_runs.h"
 #include "kinemark/pipeline/taichi/least_squares.h"
 #include "kinemark/pipeline/taichi/study_taichi.h"
 #include "kinemark/pipeline/taichi/subject.h"
 #include "support/acceptance.h"
-#include "taichi_recording.h"
 
 namespace {
 

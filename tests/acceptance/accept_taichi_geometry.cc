@@ -3,11 +3,11 @@
 // The tai chi recording: how far least squares comes when the model's geometry is adapted to it.
 #include <fmt/core.h>
 
+#include "acceptance/taichi_recording.h"
 #include "kinemark/pipeline/taichi/geometry_fit.h"
 #include "kinemark/pipeline/taichi/subject.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "support/acceptance.h"
-#include "taichi_recording.h"
 
 namespace {
 
