@@ -4,6 +4,7 @@
 // must carry the smoother through, and its bars must say how well.
 #include <fmt/core.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
