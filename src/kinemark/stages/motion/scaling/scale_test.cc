@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using testing_leg::leg;
 
-std::vector<Vector3d> all(const data::ModelDescription& model, const Vector3d& factors) {
+std::vector<Vector3d> same_factors(const data::ModelDescription& model, const Vector3d& factors) {
   return std::vector<Vector3d>(model.bodies.size(), factors);
 }
 
@@ -35,7 +35,7 @@ Measurement thigh_measurement() {
 TEST(ApplyFactors, a_uniform_factor_scales_every_length) {
   auto model = leg();
   const auto before = model;
-  apply_factors(model, all(model, Vector3d::Constant(1.2)), true);
+  apply_factors(model, same_factors(model, Vector3d::Constant(1.2)), true);
   EXPECT_TRUE(model.joints[2].parent_from_joint.translation.isApprox(Vector3d(0, -0.48, 0)));
   EXPECT_TRUE(model.joints[0].child_from_joint.translation.isApprox(Vector3d(0.06, 0, 0)));
   EXPECT_TRUE(model.markers[4].x_in_body.isApprox(1.2 * before.markers[4].x_in_body));
@@ -50,7 +50,7 @@ TEST(ApplyFactors, a_uniform_factor_scales_every_length) {
 TEST(ApplyFactors, masses_can_stay) {
   auto model = leg();
   const auto before = model;
-  apply_factors(model, all(model, Vector3d::Constant(1.2)), false);
+  apply_factors(model, same_factors(model, Vector3d::Constant(1.2)), false);
   EXPECT_EQ(model.bodies[1].mass, before.bodies[1].mass);
   EXPECT_TRUE(model.bodies[1].inertia_about_com.isApprox(
       std::pow(1.2, 2) * before.bodies[1].inertia_about_com, 1e-12));
@@ -68,7 +68,7 @@ TEST(ApplyFactors, a_body_stretched_along_one_axis_has_the_inertia_of_its_points
   };
   auto model = leg();
   model.bodies[2].inertia_about_com = inertia(half);
-  auto factors = all(model, Vector3d::Ones());
+  auto factors = same_factors(model, Vector3d::Ones());
   factors[2] = Vector3d(1.0, 1.5, 0.8);
   apply_factors(model, factors, false);
   EXPECT_TRUE(model.bodies[2].inertia_about_com.isApprox(inertia(half.cwiseProduct(factors[2])), 1e-12));
@@ -77,7 +77,7 @@ TEST(ApplyFactors, a_body_stretched_along_one_axis_has_the_inertia_of_its_points
 TEST(ApplyFactors, parent_and_child_scale_their_own_side_of_a_joint) {
   auto model = leg();
   const auto before = model;
-  auto factors = all(model, Vector3d::Ones());
+  auto factors = same_factors(model, Vector3d::Ones());
   factors[1] = Vector3d(1.0, 2.0, 1.0);
   apply_factors(model, factors, false);
   EXPECT_EQ(model.joints[1].parent_from_joint.translation, before.joints[1].parent_from_joint.translation);
@@ -90,7 +90,7 @@ TEST(ApplyFactors, parent_and_child_scale_their_own_side_of_a_joint) {
 TEST(ScaleModel, measured_over_model_distance_averaged_over_pairs) {
   const auto model = leg();
   auto subject = model;
-  auto factors = all(model, Vector3d::Ones());
+  auto factors = same_factors(model, Vector3d::Ones());
   factors[1] = Vector3d::Constant(1.1);
   apply_factors(subject, factors, false);
   const auto recording = static_trial(subject);

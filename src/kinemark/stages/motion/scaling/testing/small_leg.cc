@@ -112,7 +112,8 @@ data::Trajectories record(const data::ModelDescription& description, const Recor
       const auto& marker = model.markers()[static_cast<std::size_t>(m)];
       if (how.slide_m != 0.0 && description.markers[static_cast<std::size_t>(m)].body_idx == 1) {
         const int knee = description.find_coordinate("knee_angle");
-        const Vector3d along(std::cos(1.0 + 2.0 * m), std::sin(1.0 + 2.0 * m), 0.4);
+        const double phase = 1.0 + 2.0 * static_cast<double>(m);
+        const Vector3d along(std::cos(phase), std::sin(phase), 0.4);
         x += w.rotation[static_cast<std::size_t>(marker.body)] *
              (how.slide_m * std::sin(3.0 * q[knee]) * along);
       }
