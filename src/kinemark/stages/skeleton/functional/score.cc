@@ -17,7 +17,7 @@ struct Solution {
   Vector6 centre = Vector6::Zero();
   Vector6 axis = Vector6::Zero();  ///< two unit vectors; zero for a ball
   Vector6 open =
-      Vector6::Zero();  ///< share of each eigenvector's direction that is the prior's, not the data's
+      Vector6::Zero();  ///< SD along each eigenvector of what the data leave open, m
   Matrix6 directions = Matrix6::Identity();
 };
 
@@ -32,15 +32,18 @@ Solution solve(const ScoreSums& sums, data::JointKind kind, double residual_vari
   if (kind == data::JointKind::hinge) {
     const Vector6 e = s.directions.col(0);
     s.axis << e.head<3>().normalized(), e.tail<3>().normalized();
-    s.open(0) = 1.0;
+    s.open(0) = kPriorSd_m;
     first = 1;
   }
   for (int i = first; i < 6; ++i) {
     const Vector6 e = s.directions.col(i);
     const double value = std::max(0.0, eigen.eigenvalues()(i));
     s.centre += e * (e.dot(sums.right) / (value + prior));
-    // Noise of the poses looks like motion: what it adds to the eigenvalue is no information.
-    s.open(i) = std::min(1.0, (prior + e.dot(pose_noise * e)) / (value + prior));
+    // Noise of the poses looks like motion: by its share of the eigenvalue the place is drawn to the markers.
+    const double from_prior = prior / (value + prior);
+    const double from_noise = std::min(1.0, e.dot(pose_noise * e) / (value + prior));
+    s.open(i) = std::min(kPriorSd_m, kPriorSd_m * (from_prior + from_noise * from_noise) +
+                                         from_noise * std::abs(e.dot(s.centre)));
   }
   return s;
 }
@@ -157,7 +160,7 @@ JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const Seg
   }
   fit.axis_sd_rad = std::sqrt(tilts);
   for (int i = 0; i < 6; ++i) {
-    const double sd = kPriorSd_m * best.open(i);
+    const double sd = best.open(i);
     fit.open += sd * sd * best.directions.col(i) * best.directions.col(i).transpose();
   }
   fit.covariance += fit.open;

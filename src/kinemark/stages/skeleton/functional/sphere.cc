@@ -54,7 +54,7 @@ struct Moments {
 
 struct Centre {
   Eigen::Vector3d place = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
-  Eigen::Vector3d open = Eigen::Vector3d::Zero();  ///< share of each direction that the prior filled in
+  Eigen::Vector3d open = Eigen::Vector3d::Zero();  ///< SD along each direction of what the data leave open, m
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
   double noise_variance = 0.0;
 };
@@ -103,10 +103,13 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
       const double value = std::max(0.0, eigen.eigenvalues()(k));
       // The prior holds the centre to the points' mean.
       c.place += e * ((e.dot(corrected) + prior * e.dot(means)) / (value + prior));
-      c.open(k) = std::min(1.0, (prior + 2.0 * c.noise_variance) / (value + prior));
+      const double from_prior = prior / (value + prior);
+      const double from_noise = std::min(1.0, 2.0 * c.noise_variance / (value + prior));
+      const double drawn = options.correct_bias ? 0.0 : from_noise * std::abs(e.dot(c.place - means));
+      c.open(k) = std::min(kPriorSd_m, kPriorSd_m * (from_prior + from_noise * from_noise) + drawn);
     }
     if (options.about_axis) {
-      c.open(0) = 1.0;
+      c.open(0) = kPriorSd_m;
       c.place += c.axis * c.axis.dot(means);
     }
     double variance = 0.0;
@@ -182,7 +185,7 @@ SphereFit fit_spheres(const Samples& samples, const SegmentPoses& still, const s
   }
   fit.axis_sd_rad = std::sqrt(tilts);
   for (int k = 0; k < 3; ++k) {
-    const double sd = kPriorSd_m * best.open(k);
+    const double sd = best.open(k);
     fit.covariance += sd * sd * best.directions.col(k) * best.directions.col(k).transpose();
   }
   return fit;
