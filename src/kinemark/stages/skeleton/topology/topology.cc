@@ -76,7 +76,10 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
     }
     const double own = odds_to(clusters.segment[i]);
     evidence.nats = (std::isnan(own) ? 0.0 : own) - (evidence.second_segment < 0 ? 0.0 : best);
-    evidence.doubtful = evidence.second_segment >= 0 && evidence.nats < options.doubtful_nats;
+    // One marker that it moves against, on its own segment, is as much a reason as another segment that fits.
+    const bool moves =
+        internal::least_odds(clusters.odds, clusters.pairs, clusters.segment, i) < -options.doubtful_nats;
+    evidence.doubtful = evidence.second_segment >= 0 && (moves || evidence.nats < options.doubtful_nats);
     if (!evidence.doubtful) continue;
     const auto& segments = out.layout.segments;
     doubtful.push_back(fmt::format("'{}' on {} (or {}; {:.1f} nats)", names[marker],
@@ -90,7 +93,7 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
 }
 
 /// Tree edges as joints that lead away from the first segment of each tree.
-void add_joints(std::vector<internal::TreeEdge> tree, const TopologyOptions& options, Topology& out) {
+void add_joints(const std::vector<internal::TreeEdge>& tree, const TopologyOptions& options, Topology& out) {
   auto& layout = out.layout;
   std::vector<std::uint8_t> reached(layout.segments.size(), 0);
   std::vector<std::string> roots, doubtful;
@@ -152,14 +155,21 @@ Clusters find_clusters(const Samples& samples, const std::vector<std::int64_t>& 
     (seen >= options.least_frames ? clusters.markers : out.left_out).push_back(m);
   }
   clusters.pairs = internal::measure_pairs(samples, clusters.markers, frames, options.least_frames);
-  const auto same = internal::describe_same_segment(clusters.pairs, options.noise_sd_m);
+  auto same =
+      internal::describe_same_segment(clusters.pairs, options.noise_sd_m, 0.5 * options.least_motion_m);
+  const internal::OddsOptions range{.least_motion_m = options.least_motion_m,
+                                    .most_motion_m = options.most_motion_m};
+  const bool known = options.noise_sd_m > 0.0 || same.soft_sd_m > 0.0;
+  for (int round = 0; round < (known ? 1 : 2); ++round) {
+    if (round > 0)
+      if (const double within = internal::noise_within(clusters.pairs, clusters.segment); !std::isnan(within))
+        same.noise_variance = within;
+    clusters.odds = internal::log_odds(clusters.pairs, same, range);
+    clusters.segment = internal::cluster(clusters.odds, clusters.pairs);
+  }
   out.noise_sd_m = std::sqrt(same.noise_variance);
   out.soft_sd_m = same.soft_sd_m;
   out.independent = same.independent;
-  clusters.odds =
-      internal::log_odds(clusters.pairs, same,
-                         {.least_motion_m = options.least_motion_m, .most_motion_m = options.most_motion_m});
-  clusters.segment = internal::cluster(clusters.odds, clusters.pairs);
   return clusters;
 }
 

@@ -22,8 +22,9 @@ struct TopologyOptions {
   std::int64_t least_frames = 20;  ///< >= 6; pairs seen together in fewer count as never seen together
   std::int64_t most_frames =
       4000;                      ///< >= 100; of longer recordings so many frames, evenly drawn, are looked at
-  double doubtful_nats = 6.0;    ///< >= 0; markers with less evidence for their segment are called doubtful
-  double doubtful_margin = 1.5;  ///< >= 1; joints whose replacement is not so many times worse are, too
+  double doubtful_nats = 6.0;    ///< >= 0; markers with less evidence for their segment, or so much against
+                                 ///< one other marker there, are called doubtful
+  double doubtful_margin = 2.0;  ///< >= 1; joints whose replacement is not so many times worse are, too
   Array<std::uint8_t> mask;      ///< F x M, 0: not used; empty: all are
 
   [[nodiscard]] Status check() const;

@@ -3,7 +3,6 @@
 #include "kinemark/stages/skeleton/topology/internal/edges.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +15,9 @@ namespace kinemark::skeleton::internal {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kRounds = 3;
-constexpr std::size_t kLeastFrames = 8;
+constexpr double kArm_m = 0.1;  ///< from the markers to a joint, about
+constexpr double kRidge = 1e-6;
+constexpr std::size_t kLeastFrames = 8, kMostFrames = 600;
 constexpr double kSteadyShare = 0.1;
 
 int find_root(const std::vector<int>& root, int s) {
@@ -37,6 +37,23 @@ double steadiest(const std::vector<int>& segment, const PairSpread& pairs, int a
   return std::sqrt(least);
 }
 
+/// Frames with both poses, evenly thinned.
+std::vector<std::int64_t> common_frames(const SegmentPoses& a, const SegmentPoses& b) {
+  std::vector<std::int64_t> all, frames;
+  for (std::size_t f = 0; f < a.known.size(); ++f)
+    if (a.known[f] && b.known[f]) all.push_back(static_cast<std::int64_t>(f));
+  const std::size_t n = std::min(all.size(), kMostFrames);
+  for (std::size_t i = 0; i < n; ++i) frames.push_back(all[i * all.size() / n]);
+  return frames;
+}
+
+/// Variance that noise gives a point at a usual distance from the markers, m^2. It does not depend on the
+/// point looked for: else a point far away would look good for being badly known.
+double spread_at_arm(const Samples& samples, const SegmentPoses& poses, std::int64_t frame) {
+  const PoseNoise noise = pose_noise(samples, poses, frame);
+  return 3.0 * noise.mean_variance + 2.0 / 3.0 * kArm_m * kArm_m * noise.turn.trace() + 1e-12;
+}
+
 /// Of a segment without poses that moves about a point held still by one with poses.
 double sphere_residual(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b) {
   const bool a_still = a.known_frames > 0;
@@ -48,29 +65,18 @@ double sphere_residual(const Samples& samples, const SegmentPoses& a, const Segm
 }  // namespace
 
 double shared_point_residual(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b) {
-  const RelativeMotion motion = measure_motion(a, b);
-  if (motion.frames.size() < kLeastFrames) return kNone;
-  double noise =
-      std::max(std::isnan(a.noise_sd_m) ? 0.0 : a.noise_sd_m, std::isnan(b.noise_sd_m) ? 0.0 : b.noise_sd_m);
-  noise = std::max(noise, 1e-6);
-  Vector6 p = Vector6::Zero();
-  double left = 0.0;
-  for (int round = 0; round <= kRounds; ++round) {
-    ScoreSums sums;
-    for (const std::int64_t f : motion.frames) {
-      const auto i = static_cast<std::size_t>(f);
-      const Eigen::Matrix3d spread = pose_noise(samples, a, f).at(a.world_from_segment[i], p.head<3>()) +
-                                     pose_noise(samples, b, f).at(b.world_from_segment[i], p.tail<3>()) +
-                                     1e-12 * Eigen::Matrix3d::Identity();
-      sums.add(a, b, f, spread.inverse());
-    }
-    left = std::sqrt(sums.cost(p) / (3.0 * sums.frames));
-    if (round == kRounds) break;
-    Matrix6 normal = sums.normal;
-    normal.diagonal().array() += 1e-6 * normal.diagonal().maxCoeff();
-    p = normal.ldlt().solve(sums.right);
+  const std::vector<std::int64_t> frames = common_frames(a, b);
+  if (frames.size() < kLeastFrames) return kNone;
+  ScoreSums sums;
+  double total = 0.0;
+  for (const std::int64_t f : frames) {
+    const double weight = 1.0 / (spread_at_arm(samples, a, f) + spread_at_arm(samples, b, f));
+    sums.add(a, b, f, weight * Eigen::Matrix3d::Identity());
+    total += weight;
   }
-  return left * noise;
+  Matrix6 normal = sums.normal;
+  normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
+  return std::sqrt(sums.cost(normal.ldlt().solve(sums.right)) / (3.0 * total));
 }
 
 std::vector<Edge> find_edges(const Samples& samples, const std::vector<SegmentPoses>& poses,

@@ -17,8 +17,8 @@ struct Edge {
   double cost_m = 0.0;      ///< with a share of the steadiest distance between their markers, see edge_cost()
 };
 
-/// RMS gap of the point that two segments share, weighted by the poses' noise and given as if that were the
-/// markers' (three rounds of weighted least squares). NaN below 8 frames with both poses.
+/// RMS gap, per axis, of the point that two segments share, each frame weighted by what its poses are worth.
+/// NaN below 8 frames with both poses.
 [[nodiscard]] double shared_point_residual(const Samples& samples, const SegmentPoses& a,
                                            const SegmentPoses& b);
 

@@ -59,7 +59,7 @@ PairSpread measure_pairs(const Samples& samples, const std::vector<int>& markers
   return pairs;
 }
 
-SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m) {
+SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m, double least_soft_m) {
   std::vector<double> two_steadiest, second, slow, counts;
   const auto M = pairs.variance.rows();
   for (Eigen::Index i = 0; i < M; ++i) {
@@ -84,7 +84,7 @@ SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m) {
   const double chance = std::exp(4.0 * std::sqrt(2.0 / freedom));
   const double uneven = quantile(second, kFourFifths) / std::max(quantile(second, kOneFifth), 1e-30);
   if (correlation > kSlow || uneven > std::max(kUneven, chance)) {
-    same.soft_sd_m = std::sqrt(quantile(second, 0.5));
+    same.soft_sd_m = std::max(least_soft_m, std::sqrt(quantile(second, 0.5)));
     if (!(noise_sd_m > 0.0)) same.noise_variance *= 0.3;  // the rest of what was seen is soft tissue
   }
   return same;
@@ -94,7 +94,7 @@ Eigen::MatrixXd log_odds(const PairSpread& pairs, const SameSegment& same, const
   const auto M = pairs.variance.rows();
   const double noise = 2.0 * same.noise_variance;
   // Motion smaller than the noise would only describe an error of the noise figure.
-  const double least = std::max({options.least_motion_m, std::sqrt(0.5 * noise), same.soft_sd_m});
+  const double least = std::max({options.least_motion_m, std::sqrt(noise), same.soft_sd_m});
   const double most = std::max(options.most_motion_m, 2.0 * least);
   const double finest = same.soft_sd_m > 0.0 ? kFinest_m : least;
   const Eigen::ArrayXd sizes = Eigen::ArrayXd::LinSpaced(kGrid, std::log(finest), std::log(most)).exp();
@@ -124,6 +124,16 @@ Eigen::MatrixXd log_odds(const PairSpread& pairs, const SameSegment& same, const
   return odds;
 }
 
+double noise_within(const PairSpread& pairs, const std::vector<int>& segment) {
+  std::vector<double> within;
+  for (std::size_t i = 0; i < segment.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double v = pairs.variance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (segment[i] == segment[j] && !std::isnan(v)) within.push_back(v);
+    }
+  return within.empty() ? kNone : 0.5 * quantile(within, 0.5);
+}
+
 double mean_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs, const std::vector<int>& segment,
                  std::size_t i, int s) {
   double sum = 0.0;
@@ -135,6 +145,17 @@ double mean_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs, const std
     ++n;
   }
   return n > 0 ? sum / n : kNone;
+}
+
+double least_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs, const std::vector<int>& segment,
+                  std::size_t i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < segment.size(); ++j) {
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+    if (j != i && segment[j] == segment[i] && !std::isnan(pairs.variance(a, b)))
+      least = std::min(least, odds(a, b));
+  }
+  return std::isinf(least) ? 0.0 : least;
 }
 
 std::vector<int> cluster(const Eigen::MatrixXd& odds, const PairSpread& pairs) {

@@ -27,7 +27,9 @@ struct SameSegment {
   double soft_sd_m = 0.0;
   double independent = 1.0;  ///< independent frames per frame
 };
-[[nodiscard]] SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m);
+/// Soft tissue, where there is any, is at least `least_soft_m`.
+[[nodiscard]] SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m,
+                                                double least_soft_m = 0.001);
 
 struct OddsOptions {
   double least_motion_m = 0.002, most_motion_m = 0.1;
@@ -39,6 +41,14 @@ struct OddsOptions {
 /// Segment of each marker, numbered by first marker: average linkage over seen pairs while it is positive,
 /// then single markers move to where they fit better.
 [[nodiscard]] std::vector<int> cluster(const Eigen::MatrixXd& odds, const PairSpread& pairs);
+
+/// Noise variance per axis that pairs of markers on one segment show, m^2; NaN without such pairs. The
+/// steadiest pairs alone are so by chance as well.
+[[nodiscard]] double noise_within(const PairSpread& pairs, const std::vector<int>& segment);
+
+/// Least odds of marker i with any other of its own segment; 0 when it is alone.
+[[nodiscard]] double least_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs,
+                                const std::vector<int>& segment, std::size_t i);
 
 /// Mean odds of marker i to the others of segment s; NaN when it was seen with none of them.
 [[nodiscard]] double mean_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs,

@@ -35,6 +35,8 @@ TEST(Pairs, VarianceWithinASegmentIsTwiceTheNoises) {
   EXPECT_EQ(same.soft_sd_m, 0.0);
   EXPECT_GT(same.independent, 0.8);
   EXPECT_EQ(describe_same_segment(pairs, 0.003).noise_variance, 9e-6);
+  EXPECT_NEAR(noise_within(pairs, {0, 0, 0, 1, 1, 1}), 1e-6, 5e-8);
+  EXPECT_TRUE(std::isnan(noise_within(pairs, {0, 1, 2, 3, 4, 5})));
 }
 
 TEST(Pairs, SlowWobbleIsSoftTissueNotMotion) {
@@ -85,6 +87,8 @@ TEST(Pairs, ClustersAreNumberedByFirstMarkerAndStraysMove) {
   EXPECT_EQ(mean_odds(odds, pairs, {0, 0, 1, 1, 1}, 2, 1), 9.0);
   EXPECT_EQ(mean_odds(odds, pairs, {0, 0, 1, 1, 1}, 2, 0), 3.5);
   EXPECT_TRUE(std::isnan(mean_odds(odds, pairs, {0, 1, 1, 1, 1}, 0, 0)));
+  EXPECT_EQ(least_odds(odds, pairs, {0, 0, 0, 1, 1}, 0), -5.0);
+  EXPECT_EQ(least_odds(odds, pairs, {0, 1, 1, 1, 1}, 0), 0.0);
 }
 
 }  // namespace
