@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/smoother/internal/window.h"
 
+#include <algorithm>
+
 #include "kinemark/core/check.h"
 
 namespace kinemark::motion::internal {
@@ -10,8 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kRounding = 1e-13;  // relative: what the sums before may have lost
 
 }  // namespace
 
@@ -38,11 +38,11 @@ void Window::eliminate(const std::uint8_t* held, NodeFactor& factor) {
     r_[i] = 0.0;
   }
   auto own = M_.topLeftCorner(n, n);
-  own.diagonal() *= 1.0 + kRounding;
   llt_.compute(own);
+  // Only the last nodes can fail, in directions that nothing determines: rounding left them below zero.
   for (double floor = 1e-12; llt_.info() != Eigen::Success; floor *= 10.0) {
     check(floor < 1e6, "the normal equations hold numbers that are not finite");
-    own.diagonal().array() += floor * own.diagonal().cwiseAbs().maxCoeff();
+    own.diagonal().array() += floor * std::max(1.0, own.diagonal().cwiseAbs().maxCoeff());
     llt_.compute(own);
   }
   factor.L = llt_.matrixL();
