@@ -256,6 +256,7 @@ void knee(const fs::path& data) {
     const Eigen::Vector3d middle = 0.5 * (markers.x(f, lateral) + markers.x(f, medial));
     const Eigen::Vector3d axis = femur.world_from_segment[static_cast<std::size_t>(f)] * joint.axis_in_parent;
     const Eigen::Vector3d off = middle - found.centre(f, 0);
+    angle += std::acos(std::min(1.0, std::abs(axis.dot(line)))) * kDegPerRad;
     middle_distance += (off - axis * axis.dot(off)).norm();
     const Eigen::Vector3d across = axis.cross(line).normalized();
     distance += std::abs(off.dot(across));
