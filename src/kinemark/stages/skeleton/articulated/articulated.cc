@@ -21,7 +21,6 @@ namespace {
 using data::CentreState;
 
 constexpr double kRobustDof = 30.0;  // of Student's t: bends at some five SDs and costs nothing below
-constexpr double kStill_rad = 0.02;  // a joint that turns less did not move
 constexpr double kMm = 1e3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -83,8 +82,8 @@ data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
 std::string words(const internal::JointMotionSeen& seen, bool hinge, double common_sd_m) {
   const double deg = seen.range_rad * kDegPerRad;
   if (seen.frames == 0) return "no frame determines it by its own markers";
-  if (seen.range_rad < kStill_rad)
-    return fmt::format("{:.1f} deg of motion: neither axis nor centre known", deg);
+  if (seen.still)
+    return fmt::format("{:.1f} deg of motion, no more than noise: neither axis nor centre known", deg);
   if (hinge && seen.one_axis)
     return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
                        seen.axis_sd_rad * kDegPerRad);
@@ -167,6 +166,17 @@ void widen_along_axis(const Work& w, data::Skeleton& skeleton, int layout_joint,
   auto& changed = skeleton.joints[at(layout_joint)];
   widen(changed.covariance_in_parent, changed.axis_in_parent);
   widen(changed.covariance_in_child, changed.axis_in_child);
+}
+
+/// A joint that did not move may lie anywhere about its segments: noise only looks like motion.
+void widen_all_around(data::Skeleton& skeleton, int layout_joint, double size_m) {
+  const Matrix3d more = size_m * size_m * Matrix3d::Identity();
+  for (std::int64_t f = 0; f < skeleton.frames(); ++f)
+    if (skeleton.state[skeleton.index(f, layout_joint)] != CentreState::undetermined)
+      internal::store_symmetric(skeleton.covariance.data() + 6 * skeleton.index(f, layout_joint),
+                                skeleton.centre_covariance(f, layout_joint) + more);
+  skeleton.joints[at(layout_joint)].covariance_in_parent += more;
+  skeleton.joints[at(layout_joint)].covariance_in_child += more;
 }
 
 /// One joint's centres, by its own frames or by its path.
@@ -286,9 +296,13 @@ ArticulatedFit assemble(const Work& w) {
     for (int j = 0; j < J; ++j)
       if (w.pass.state[at(j)][static_cast<std::size_t>(flagged.frame)] != CentreState::determined)
         out.joints[at(w.tree.joint_order[at(j)])].modes += static_cast<std::int64_t>(flagged.modes.size());
-  for (int j = 0; j < J; ++j)
-    if (seen[at(j)].one_axis && skeleton.joints[at(w.tree.joint_order[at(j)])].kind == data::JointKind::hinge)
-      widen_along_axis(w, skeleton, w.tree.joint_order[at(j)], w.fit.chain.scale());
+  for (int j = 0; j < J; ++j) {
+    const int joint = w.tree.joint_order[at(j)];
+    if (seen[at(j)].still)
+      widen_all_around(skeleton, joint, w.fit.chain.scale());
+    else if (seen[at(j)].one_axis && skeleton.joints[at(joint)].kind == data::JointKind::hinge)
+      widen_along_axis(w, skeleton, joint, w.fit.chain.scale());
+  }
   write_lengths(w, skeleton);
   write_warnings(w, skeleton);
   return out;

@@ -63,8 +63,6 @@ class Limb {
 
   [[nodiscard]] int frame_unknowns() const { return frame_unknowns_; }
   [[nodiscard]] int globals() const { return globals_; }
-  [[nodiscard]] const JointTree& tree() const { return tree_; }
-  [[nodiscard]] int joint_global(int joint) const { return joint_global_[at(joint)]; }
 
   /// Fix each segment's axes to its points: z towards the farthest from its origin, x towards the one
   /// farthest from that line.

@@ -145,6 +145,7 @@ JointMotionSeen look_at_joint(const ChainFit& fit, const RecordingPass& pass, in
   seen.axis_in_parent = eigen.eigenvectors().col(2);
   seen.axis_in_child = mean.transpose() * seen.axis_in_parent;
   const double first = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
+  seen.still = first < 2.0 * seen.second_noise_rad;
   seen.one_axis = fit.chain.kind[at(parent)] == SegmentKind::solid &&
                   fit.chain.kind[at(joint + 1)] == SegmentKind::solid &&
                   seen.second_rad < 2.0 * seen.second_noise_rad && first > 3.0 * seen.second_noise_rad;

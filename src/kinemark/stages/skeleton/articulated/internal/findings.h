@@ -15,6 +15,7 @@ struct JointMotionSeen {
   double second_rad = 0.0;        ///< spread (SD) of the turns about the second axis
   double second_noise_rad = 0.0;  ///< what noise alone would show there
   bool one_axis = false;          ///< both segments solid, and no more than noise about other axes
+  bool still = false;             ///< both segments more than lines, and no more than noise about any axis
   Vector3d axis_in_parent = Vector3d::Zero();  ///< unit length; chain's parent and child
   Vector3d axis_in_child = Vector3d::Zero();
   double axis_sd_rad = 0.0;
