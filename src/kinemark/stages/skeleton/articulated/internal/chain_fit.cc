@@ -123,6 +123,7 @@ class Rounds {
         measure_noise(globals, cost);
       }
     }
+    fit_.global_covariance = fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
     double expected = 1.0;
     if (last && has_weak_turns(fit_.chain, fit_.noise_sd_m)) {
       const Bootstrap found = bootstrap(samples_, frames, fit_, kReplicates);
@@ -209,6 +210,7 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
       fit.warnings.emplace_back(
           "Fewer than 20 frames determine all joints by themselves; the geometry rests on the frames that "
           "show most markers.");
+      rounds.fit(frames, true);
       break;
     }
     frames = std::move(next);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace kinemark::skeleton {
 
@@ -72,11 +73,13 @@ void ChainStarts::anchor(const FrameSolver& solver, int segment) {
   const Matrix3d R = nearest_rotation(s.xm - mean_x * s.m.transpose());
   const Eigen::SelfAdjointEigenSolver<Matrix3d> spread_of_markers(s.mm - s.m * mean_m.transpose());
   const Vector3d axis = spread_of_markers.eigenvectors().col(2);
-  for (const bool turned : {false, true}) {
+  // Two markers leave the turn about their line open; in a chain, unlike between two segments, no sphere
+  // closes it.
+  const bool open = s.seen == 2 && chain_->joints() > 1;
+  const int turns = open ? 4 : 2;
+  for (int i = 0; i < turns; ++i) {
     ChainPose& pose = next();
-    const Matrix3d turn = turned ? Matrix3d(2.0 * axis * axis.transpose() - Matrix3d::Identity())
-                                 : Matrix3d(Matrix3d::Identity());
-    pose.rotation[segment] = R * turn;
+    pose.rotation[segment] = R * exponential(2.0 * std::numbers::pi * i / turns * axis);
     origin_[segment] = mean_x - pose.rotation[segment] * mean_m;
     done_[segment] = 1;
     spread(solver, pose);
