@@ -29,7 +29,13 @@ constexpr const char* kReport = "#b8860b";
 constexpr const char* kScore = "#2e8b57";
 constexpr const char* kOurs = "#1f5fa8";
 constexpr const char* kBound = "#888888";
-constexpr double kPerM = 1e3;  // mm
+constexpr double kPerM = 1e3;    // mm
+constexpr double kLeast = 0.01;  // shown: without noise SCoRE is right to rounding, which dwarfs all the rest
+
+/// A paragraph below a picture, no wider than it.
+std::string words(const std::string& text) {
+  return fmt::format("<p style=\"max-width:640px\">{}</p>", html_text(text));
+}
 
 /// A curve over cells: what to show of each, NaN where there is nothing.
 struct Curve {
@@ -53,7 +59,7 @@ void draw(SvgPlot& plot, const MacaqueStudy& study, const Curve& curve, const st
   std::vector<std::pair<double, double>> points;
   for (const auto& r : study.elbow)
     if (which(r.cell)) points.emplace_back(along(r.cell), curve.get(r.errors));
-  std::erase_if(points, [](const auto& p) { return !std::isfinite(p.second); });
+  std::erase_if(points, [](const auto& p) { return !(p.second >= kLeast && std::isfinite(p.second)); });
   if (points.empty()) return;
   std::ranges::sort(points);
   const auto n = static_cast<Eigen::Index>(points.size());
@@ -79,9 +85,9 @@ StudyFigure against_noise(const MacaqueStudy& study, bool staggered) {
                    std::abs(c.missing - missing) < 1e-9;
           },
           [](const ElbowCell& c) { return kPerM * c.noise_m; });
-  return {fmt::format("Figure 6, {}: error against noise, nothing missing and 40 % (dashed)",
-                      staggered ? "markers staggered by 20 mm" : "markers collinear"),
-          plot.svg()};
+  return {
+      fmt::format("Figure 6, {}: error against noise", staggered ? "markers staggered" : "markers collinear"),
+      plot.svg() + words("Nothing missing, and 40 % (dashed).")};
 }
 
 StudyFigure against_missing(const MacaqueStudy& study, bool staggered, double noise_mm) {
@@ -97,10 +103,10 @@ StudyFigure against_missing(const MacaqueStudy& study, bool staggered, double no
                    std::abs(kPerM * c.noise_m - noise_mm) < 1e-9;
           },
           [](const ElbowCell& c) { return 100.0 * c.missing; });
-  return {fmt::format("Figure 7, {}, {} mm of noise: error against missing data, uniform and going with the "
-                      "pose (dashed)",
-                      staggered ? "staggered" : "collinear", noise_mm),
-          plot.svg()};
+  return {fmt::format("Figure 7, {}: error against missing data",
+                      staggered ? "markers staggered" : "markers collinear"),
+          plot.svg() + words(fmt::format("{} mm of noise; losses uniform, and going with the pose (dashed).",
+                                         noise_mm))};
 }
 
 StudyFigure shares(const MacaqueStudy& study) {
@@ -121,7 +127,8 @@ StudyFigure shares(const MacaqueStudy& study) {
                    std::abs(c.noise_m - 0.001) < 1e-9;
           },
           [](const ElbowCell& c) { return 100.0 * c.missing; });
-  return {"Frames with an answer, 1 mm of noise, collinear and staggered (dashed)", plot.svg()};
+  return {"Frames with an answer",
+          plot.svg() + words("1 mm of noise; markers collinear, and staggered (dashed).")};
 }
 
 Vector3d at(const Array<double>& values, std::size_t index) {
@@ -172,12 +179,12 @@ Result<StudyFigure> arm_picture(std::uint64_t seed) {
   scene.dot(kOurs, ours->skeleton.centre(frame, 0), 7.0);
   const Vector3d truth = at(limb->centre_in_world, static_cast<std::size_t>(frame));
   return StudyFigure{
-      fmt::format(
-          "The report's arm, collinear markers, 2 mm of noise, frame {} of 400: elbow by the report's "
-          "method {:.1f} mm off, by ours (blue) {:.1f} mm",
-          frame + 1, kPerM * (theirs->centre(frame, 0) - truth).norm(),
-          kPerM * (ours->skeleton.centre(frame, 0) - truth).norm()),
-      scene.svg()};
+      "The report's arm",
+      scene.svg() + words(fmt::format(
+                        "Collinear markers, 2 mm of noise, frame {} of {}: the elbow is {:.1f} mm off by "
+                        "the report's method (gold) and {:.1f} mm by ours (blue).",
+                        frame + 1, limb->markers.frames(), kPerM * (theirs->centre(frame, 0) - truth).norm(),
+                        kPerM * (ours->skeleton.centre(frame, 0) - truth).norm()))};
 }
 
 Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
@@ -191,7 +198,7 @@ Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
   const double middle = 0.5 * (low.first + high.first);
   const auto halfway =
       std::ranges::min(heights, {}, [&](const auto& h) { return std::abs(h.first - middle); });
-  SvgScene scene("The sleeve", -50.0, 20.0);
+  SvgScene scene("The sleeve", 40.0, 18.0);
   scene.floor(-0.24);
   Matrix3Xd path(3, limb->markers.frames());
   for (std::int64_t f = 0; f < limb->markers.frames(); ++f)
@@ -200,9 +207,11 @@ Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
   for (const auto frame : {low.second, halfway.second, high.second}) draw_arm(scene, *limb, frame);
   scene.words("shoulder", Vector3d::Zero());
   return StudyFigure{
-      "A monkey's arm in its sleeve, reaching for food, on the way, and at the mouth: LEDs that the cameras "
-      "see are full, the others hollow; blue: path of the wrist",
-      scene.svg()};
+      "The sleeve",
+      scene.svg() +
+          words(
+              "A monkey's arm reaching for food, on the way, and at the mouth. LEDs that the cameras see are "
+              "full, the others hollow; blue: the wrist's path.")};
 }
 
 }  // namespace

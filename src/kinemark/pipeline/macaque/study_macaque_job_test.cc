@@ -107,7 +107,9 @@ TEST(MacaqueRows, HoldErrorsAgainstTheBoundAndTheReport) {
   const auto worse = macaque_rows(made_up(1.12, 1.0), 10);
   EXPECT_FALSE(row(worse, "worst cell")->pass());
   EXPECT_TRUE(row(macaque_rows(made_up(1.12, 1.0), 1), "worst cell")->pass());  // a single seed scatters
-  EXPECT_FALSE(row(macaque_rows(made_up(1.0, 0.7), 10), "20 % missing: frames determined")->pass());
+  EXPECT_FALSE(row(macaque_rows(made_up(1.0, 0.7), 10), "20 % missing: frames known")->pass());
+  EXPECT_TRUE(row(macaque_rows(made_up(1.05, 0.95), 1), "20 % missing: frames known")->pass());
+  EXPECT_FALSE(row(macaque_rows(made_up(1.05, 0.95), 3), "20 % missing: frames known")->pass());
   EXPECT_EQ(row(macaque_rows(made_up(1.0, 0.7), 10), "4 of 5")->ours, -1.0);
 
   study.elbow[2].errors.ours.bound_squares = std::nan("");
