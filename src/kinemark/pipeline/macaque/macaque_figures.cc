@@ -43,13 +43,17 @@ struct Curve {
   const char* colour;
   std::function<double(const ElbowErrors&)> get;
   bool dots;
+  double least = 0.0;  // smaller values are left out
 };
 
 std::array<Curve, 4> curves() {
-  return {{{"report", kReport, [](const ElbowErrors& e) { return kPerM * e.report.rms_answered_m(); }, true},
-           {"SCoRE", kScore, [](const ElbowErrors& e) { return kPerM * e.score.rms_answered_m(); }, true},
-           {"bound", kBound, [](const ElbowErrors& e) { return kPerM * e.ours.bound_m(); }, false},
-           {"ours", kOurs, [](const ElbowErrors& e) { return kPerM * e.ours.rms_determined_m(); }, true}}};
+  return {
+      {{"report", kReport, [](const ElbowErrors& e) { return kPerM * e.report.rms_answered_m(); }, true,
+        kLeast},
+       {"SCoRE", kScore, [](const ElbowErrors& e) { return kPerM * e.score.rms_answered_m(); }, true, kLeast},
+       {"bound", kBound, [](const ElbowErrors& e) { return kPerM * e.ours.bound_m(); }, false, kLeast},
+       {"ours", kOurs, [](const ElbowErrors& e) { return kPerM * e.ours.rms_determined_m(); }, true,
+        kLeast}}};
 }
 
 /// One line of a plot over the cells that `which` chooses, x by `along`.
@@ -59,7 +63,7 @@ void draw(SvgPlot& plot, const MacaqueStudy& study, const Curve& curve, const st
   std::vector<std::pair<double, double>> points;
   for (const auto& r : study.elbow)
     if (which(r.cell)) points.emplace_back(along(r.cell), curve.get(r.errors));
-  std::erase_if(points, [](const auto& p) { return !(p.second >= kLeast && std::isfinite(p.second)); });
+  std::erase_if(points, [&](const auto& p) { return !(p.second >= curve.least && std::isfinite(p.second)); });
   if (points.empty()) return;
   std::ranges::sort(points);
   const auto n = static_cast<Eigen::Index>(points.size());
