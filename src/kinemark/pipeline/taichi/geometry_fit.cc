@@ -53,23 +53,32 @@ Result<GeometryFit> fit_geometry(const data::ModelDescription& model, const data
                                  Freedom freedom, std::int64_t first, std::int64_t last, int threads) {
   GeometryFit out{.model = model};
   const auto options = landmark_ik_options(model);
-  // Places alone can stand in for joints that are off; joints first keeps them from it.
-  for (const auto step : {Freedom::centres, Freedom::places}) {
-    if (step > freedom) break;
-    const auto parameters = landmark_geometry(out.model, step);
+  motion::AdaptOptions adapting{.ik = options,
+                                .marker_noise_sd_m = 0.005,
+                                .soft_tissue = false,
+                                .max_frames = 334,
+                                .max_iterations = 25,
+                                .threads = threads};
+  adapting.ik.first_time_s = landmarks.time.time_s(first);
+  adapting.ik.last_time_s = landmarks.time.time_s(last - 1);
+  const auto adapt = [&](const data::ModelDescription& start, Freedom step) -> Result<motion::AdaptResult> {
+    const auto parameters = landmark_geometry(start, step);
     if (!parameters) return std::unexpected(parameters.error());
     out.parameters = static_cast<std::int64_t>(parameters->size());
-    motion::AdaptOptions adapt{.ik = options,
-                               .marker_noise_sd_m = 0.005,
-                               .soft_tissue = false,
-                               .max_frames = 334,
-                               .max_iterations = 25,
-                               .threads = threads};
-    adapt.ik.first_time_s = landmarks.time.time_s(first);
-    adapt.ik.last_time_s = landmarks.time.time_s(last - 1);
-    auto adapted = motion::adapt_model(out.model, landmarks, *parameters, adapt);
-    if (!adapted) return std::unexpected(adapted.error());
-    out.model = std::move(adapted->model);
+    return motion::adapt_model(start, landmarks, *parameters, adapting);
+  };
+  if (freedom != Freedom::none) {
+    auto best = adapt(model, freedom);
+    if (!best) return std::unexpected(best.error());
+    if (freedom == Freedom::places) {
+      // So many numbers have more than one resting place: start a second time from adapted joints.
+      const auto centres = adapt(model, Freedom::centres);
+      if (!centres) return std::unexpected(centres.error());
+      auto second = adapt(centres->model, Freedom::places);
+      if (!second) return std::unexpected(second.error());
+      if (second->rms_after_m < best->rms_after_m) best = std::move(second);
+    }
+    out.model = std::move(best->model);
   }
   const auto compiled = model::Model::compile(out.model);
   if (!compiled) return std::unexpected(compiled.error());

@@ -32,7 +32,8 @@ struct GeometryFit {
 };
 
 /// Adapt the geometry to the landmarks of frames [first, last) and solve all frames. Freedom::none adapts
-/// nothing; Freedom::places adapts the centres first. About 5 s for a whole body and 334 frames.
+/// nothing; Freedom::places keeps the better of two starts, the model as it is and with its centres adapted.
+/// About 5 s for a whole body and 334 frames.
 [[nodiscard]] Result<GeometryFit> fit_geometry(const data::ModelDescription& model,
                                                const data::Trajectories& landmarks, Freedom freedom,
                                                std::int64_t first, std::int64_t last, int threads = 1);

@@ -152,7 +152,8 @@ StudyPage taichi_page(const TaiChiStudy& study) {
       .title = "Study: Demircan, Sentis, De Sapio and Khatib 2008",
       .heading = "Tai chi by direct marker control",
       .words = fmt::format(
-          "{}. The paper's four landmarks fix {} of {} directions of the body and determine {} of {} joint "
+          "{}. The paper's four landmarks fix {} of the {} directions that they can move and determine {} of "
+          "{} joint "
           "angles: they are tracked well by any arm that reaches them, so good tracking proves nothing about "
           "the "
           "other angles. As recorded, left elbow and left wrist are {:.0f} to {:.0f} mm apart; a rigid "
