@@ -29,7 +29,7 @@ struct LivePose {
 
 /// track_markers() on a stream: frames go in, poses come out `delay_frames()` later, with the same numbers
 /// (q, v, a, tau) as from a file, provided that the first frame shows 95 % of the markers and that the same
-/// coordinates are locked. Standard deviations and bounds are the same when the marker noise is given;
+/// coordinates are locked. Standard deviations and bounds agree to rounding when the marker noise is given;
 /// otherwise it is estimated from the frames so far.
 ///
 /// The delay is the lookahead of the goals' filter, TrackOptions::lookahead_s, or the fading time where that

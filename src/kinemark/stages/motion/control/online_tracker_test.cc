@@ -70,10 +70,10 @@ TEST(OnlineTracker, GivesTheSameNumbersAsAFile) {
         ASSERT_EQ(pose.tau[c], file.motion.tau[i]);
       }
       if (!std::isnan(pose.q_sd[c])) {
-        ASSERT_EQ(pose.q_sd[c], file.motion.q_sd[i]);
+        ASSERT_NEAR(pose.q_sd[c], file.motion.q_sd[i], 1e-10);
       }
       if (!std::isnan(pose.q_bound[c])) {
-        ASSERT_EQ(pose.q_bound[c], file.motion.q_bound[i]);
+        ASSERT_NEAR(pose.q_bound[c], file.motion.q_bound[i], 1e-10);
       }
     }
   }

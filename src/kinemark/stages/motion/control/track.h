@@ -46,7 +46,8 @@ struct TrackResult {
 /// Markers are matched by name as by solve_ik(). Errors (one sentence): options out of range, gains that are
 /// unstable for the step, no marker in common, a level without tasks, a marker named twice or fixed to the
 /// ground, coordinates without mass behind them. Goals that cannot be reached are not errors: the frames are
-/// flagged. About 100 us per step for a whole body with one level; nothing is allocated per step.
+/// flagged. About 100 us per step for a whole body with one level, which allocates nothing; several levels
+/// allocate where their ranks differ.
 [[nodiscard]] Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
                                                 const TrackOptions& options = {},
                                                 const Progress& progress = {});
