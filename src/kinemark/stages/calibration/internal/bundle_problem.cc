@@ -49,9 +49,9 @@ double chi2(const data::Camera& camera, const Vector3d& x_in_world, const StillS
 
 }  // namespace
 
-BundleProblem::BundleProblem(const data::Rig& nominal, const StillPoses& tree,
+BundleProblem::BundleProblem(data::Rig nominal, const StillPoses& tree,
                              const std::vector<GridSightings>& grids, const BundleOptions& options)
-    : nominal_(nominal), tree_(tree), grids_(grids), options_(options) {
+    : nominal_(std::move(nominal)), tree_(tree), grids_(grids), options_(options) {
   poses_.resize(static_cast<std::size_t>(tree.poses()));
   std::iota(poses_.begin(), poses_.end(), 0);
   tree_weight_.assign(tree.sightings.size(), 1.0);

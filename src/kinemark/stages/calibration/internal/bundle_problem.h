@@ -32,7 +32,7 @@ struct BundleState {
 /// the three parts of math::eliminate_scale, over its standard deviation.
 class BundleProblem {
  public:
-  BundleProblem(const data::Rig& nominal, const StillPoses& tree, const std::vector<GridSightings>& grids,
+  BundleProblem(data::Rig nominal, const StillPoses& tree, const std::vector<GridSightings>& grids,
                 const BundleOptions& options);
 
   /// Poses of the tree that take part (all, unless told).
