@@ -86,14 +86,6 @@ TEST(AdaptModel, an_end_segment_is_not_determined) {
   EXPECT_LT(foot.sd, 0.1);
 }
 
-TEST(AdaptModel, a_limb_that_keeps_still_is_not_determined) {
-  const auto list = parameters(leg());
-  const auto recording = testing_leg::record(leg(), {.noise_sd_m = 0.001, .knee_still = true});
-  const auto result = adapt_model(leg(), recording, list).value();
-  EXPECT_THAT(result.not_determined, Contains("shank_r"));
-  EXPECT_THAT(result.not_determined, Contains("tibia_r: knee_r to ankle_r"));
-}
-
 TEST(AdaptModel, less_motion_means_wider_intervals) {
   const auto list = parameters(leg());
   const auto rich = adapt_model(leg(), testing_leg::record(leg(), {.noise_sd_m = 0.001}), list).value();
