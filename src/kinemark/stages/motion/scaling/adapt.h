@@ -80,9 +80,9 @@ struct AdaptResult {
 /// segment.
 ///
 /// determined: without the marker places' prior the standard deviation stays below half the parameter's
-/// prior. End segments (head, hand, toes) and limbs that keep still are not. Fails for a model with point
-/// constraints, no parameters, terms that do not exist, or what solve_ik() refuses. About 1 ms per frame and
-/// step for a whole body with 140 parameters.
+/// prior. End segments (head, hand, toes) are not; limbs that keep still may be called so although they are
+/// not. Fails for a model with point constraints, no parameters, terms that do not exist, or what solve_ik()
+/// refuses. About 1 ms per frame and step for a whole body with 140 parameters.
 [[nodiscard]] Result<AdaptResult> adapt_model(const data::ModelDescription& model,
                                               const data::Trajectories& markers,
                                               const std::vector<GeometryParameter>& parameters,
