@@ -97,7 +97,7 @@ TEST(Smoother, BridgesMarkersThatAreMissing) {
   const auto smooth = smooth_motion(model, markers).value();
   const int elbow = static_cast<int>(smooth.motion.find("elbow"));
   const auto sd = [&](std::int64_t f) { return smooth.motion.q_sd[smooth.motion.index(f, elbow)]; };
-  EXPECT_GT(sd(95), 3.0 * sd(40));
+  EXPECT_GT(sd(95), 1.5 * sd(40));
   EXPECT_GT(sd(95), sd(82));
   for (std::int64_t f = 80; f < 110; ++f) {
     const double error = smooth.motion.q[smooth.motion.index(f, elbow)] - truth(model, f, elbow);

@@ -45,6 +45,24 @@ double slow_share(const data::JointMotion& motion, Index m) {
   return std::clamp(1.0 - second / plain - chance, 0.0, 1.0);
 }
 
+/// Variance of a marker's residuals as most of its frames show it, over that of all frames: 1 for Gaussian
+/// residuals, small where single frames make most of the sum. At most 1.
+double usual_share(const data::JointMotion& motion, Index m) {
+  constexpr double kMedianOfChiSquare3 = 2.366;
+  constexpr Index kFewest = 30;
+  const auto M = static_cast<std::int64_t>(motion.markers.size());
+  VectorXd squares(motion.frames());
+  Index count = 0;
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const Eigen::Map<const Vector3d> error(motion.marker_error.data() + (f * M + m) * 3);
+    if (error.allFinite()) squares[count++] = error.squaredNorm();
+  }
+  if (count < kFewest) return 1.0;
+  const double mean = squares.head(count).mean();
+  if (mean <= 0.0) return 1.0;
+  return std::min(1.0, 3.0 / kMedianOfChiSquare3 * median(squares.head(count)) / mean);
+}
+
 }  // namespace
 
 NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double bend_sd) {
@@ -82,7 +100,11 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   for (Index m = 0; m < M; ++m) {
     MarkerTrust trust;
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;
-    if (bend_sd > 0.0) trust.bend_m = bend_sd * std::sqrt(3.0 * total[m]);
+    // Outliers are judged by what the other frames show, not by a variance that they made themselves.
+    if (bend_sd > 0.0) {
+      const double usual_frames = given_sd_m > 0.0 ? 1.0 : usual_share(start.motion, m);
+      trust.bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual_frames * total[m]));
+    }
     split.trust.push_back(trust);
   }
   return split;
