@@ -138,6 +138,21 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
           "How large residuals count: square, huber or cauchy")
       ->default_str("square")
       ->group("Estimate");
+  command
+      ->add_option_function<std::string>(
+          "--estimator",
+          [&job](const std::string& name) {
+            if (name == "smoother")
+              job.estimator = pipeline::Estimator::smoother;
+            else if (name != "least-squares")
+              throw CLI::ValidationError("--estimator",
+                                         fmt::format("'{}' is not least-squares or smoother", name));
+          },
+          "least-squares (frame by frame) or smoother (the whole recording at once)")
+      ->default_str("least-squares")
+      ->group("Estimate");
+  command->add_flag("--torques", job.torques, "Also write Q_tau.sto and Q_tau_sd.sto (N m, N)")
+      ->group("Estimate");
   command->add_option("--loss-scale", arguments->loss_scale_mm, "Where huber and cauchy begin to bend, mm")
       ->capture_default_str()
       ->group("Estimate");

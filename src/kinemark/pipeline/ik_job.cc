@@ -14,6 +14,7 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/file_hash.h"
+#include "kinemark/pipeline/ik_estimate.h"
 #include "kinemark/pipeline/ik_setup_options.h"
 #include "kinemark/pipeline/motion_tables.h"
 #include "kinemark/pipeline/staging.h"
@@ -87,7 +88,7 @@ report::IkRun describe_run(const IkJob& job, const motion::IkResult& result, con
   report::IkRun run;
   run.trial = job.markers.filename().string();
   run.model = model.description().name;
-  run.method = "least squares";
+  run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
   run.version = kVersion;
   run.command_line = job.command_line;
   run.seed = job.options.seed;
@@ -161,6 +162,13 @@ Status write_results(const IkJob& job, const IkOutcome& outcome, const data::Tra
         report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &markers});
     if (auto s = io::write_text(staging.path(4), page, false); !s) return s;
   }
+  const std::size_t torque = job.report.empty() ? 4 : 5;
+  if (!motion.tau.empty())
+    if (auto s = io::write_table(staging.path(torque), torques_table(motion), table_options); !s) return s;
+  if (!motion.tau_sd.empty())
+    if (auto s = io::write_table(staging.path(torque + 1), torque_deviations_table(motion), table_options);
+        !s)
+      return s;
   return {};
 }
 
@@ -191,11 +199,13 @@ Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
   std::vector<fs::path> targets{job.output, beside(job.output, "_sd.sto"),
                                 beside(job.output, "_marker_errors.sto"), beside(job.output, "_report.json")};
   if (!job.report.empty()) targets.push_back(job.report);
+  if (job.torques) targets.push_back(beside(job.output, "_tau.sto"));
+  if (job.torques && job.options.error_bars) targets.push_back(beside(job.output, "_tau_sd.sto"));
   auto staging = Staging::create(targets, job.force);
   if (!staging) return std::unexpected(staging.error());
 
   IkOutcome outcome;
-  auto result = motion::solve_ik(*model, trial->markers, job.options, progress);
+  auto result = estimate_motion(job, *model, trial->markers, progress);
   if (!result) return fail_at(job.markers.string(), result.error());
   outcome.result = std::move(*result);
 

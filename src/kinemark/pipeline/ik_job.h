@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@
 
 namespace kinemark::pipeline {
 
+/// How coordinates are found: frame by frame, or over the whole recording at once.
+enum class Estimator : std::uint8_t { least_squares, smoother };
+
 /// What `kinemark ik` is asked to do. Paths that are empty are not used.
 struct IkJob {
   std::filesystem::path model, markers;
@@ -20,8 +24,10 @@ struct IkJob {
   std::filesystem::path tasks;   ///< OpenSim IKTaskSet file
   std::filesystem::path output;  ///< Q.mot; Q_sd.sto, Q_marker_errors.sto and Q_report.json go beside it
   std::filesystem::path report;  ///< page to write as well
-  double rate_hz = 0.0;        ///< of a marker file that tells none (.v3d); 0: not given
+  double rate_hz = 0.0;          ///< of a marker file that tells none (.v3d); 0: not given
   motion::IkOptions options;
+  Estimator estimator = Estimator::least_squares;
+  bool torques = false;        ///< also Q_torque.sto and Q_torque_sd.sto
   double max_rms_m = 0.05;     ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;  ///< quality gate: length of the mean distance vector
   bool force = false;
