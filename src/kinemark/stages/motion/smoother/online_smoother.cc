@@ -34,6 +34,8 @@ constexpr double kFloor = 1e-6;      // 1/rad^2 or 1/m^2: holds what nothing det
 constexpr double kLookAgain = 0.02;  // rad or m; a prediction that misses by more is linearised anew
 constexpr int kLooks = 4;
 constexpr std::int64_t kFewestMarkers = 3;
+constexpr double kFarthest_m = 1e6;     // what lies farther away is no place of a marker
+constexpr double kLargestEntry = 1e60;  // of the normal equations: products of these are finite
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -155,27 +157,34 @@ struct OnlineSmoother::Impl {
     }
   }
 
-  void take_in(VectorXd x) {
+  /// False when the normal equations or a step are not finite; what is held is of no use then.
+  [[nodiscard]] bool take_in(VectorXd x) {
     internal::Window with = window;
     for (int look = 0; look < kLooks; ++look) {
       with = window;
       add_newest(x, with);
+      if (!(with.matrix().array().abs() <= kLargestEntry).all() ||
+          !(with.right().array().abs() <= kLargestEntry).all())
+        return false;
       const bool full = nodes.size() >= 3;
       NodeFactor oldest;
       if (full) with.eliminate(fixed.data(), oldest);
       if (full) nodes[nodes.size() - 3].factor = std::move(oldest);
       nodes.push_back({.x = x});
       solve(with, nodes);
-      const double miss = nodes.back().step.cwiseAbs().maxCoeff();
-      if (look + 1 == kLooks || !(miss > kLookAgain) || !nodes.back().step.allFinite()) break;
+      if (!std::ranges::all_of(nodes, [](const Node& node) { return node.step.allFinite(); })) return false;
+      if (look + 1 == kLooks || nodes.back().step.cwiseAbs().maxCoeff() <= kLookAgain) break;
       model::integrate(model, x, nodes.back().step);
       nodes.pop_back();
     }
     window = with;
-    while (static_cast<std::int64_t>(nodes.size()) > options.lag_frames + 3) {
-      nodes.pop_front();
-      ++first;
-    }
+    while (static_cast<std::int64_t>(nodes.size()) > options.lag_frames + 3) nodes.pop_front();
+    return true;
+  }
+
+  void forget() {
+    nodes.clear();
+    window.clear();
   }
 
   /// The node at a place in the queue as it stands now.
@@ -195,7 +204,7 @@ struct OnlineSmoother::Impl {
       states.col(j - from) = x;
     }
     SmoothedFrame out;
-    out.frame = first + place;
+    out.frame = pushed - static_cast<std::int64_t>(nodes.size()) + place;
     VectorXd v = VectorXd::Zero(model.speed_count()), vdot = v;
     if (states.cols() >= 3) internal::speeds_of_states(model, states, place - from, rate_hz, v, vdot);
     model::coordinates_from_state(model, states.col(place - from), near, out.q);
@@ -242,7 +251,7 @@ struct OnlineSmoother::Impl {
   VectorXd near, g;
   MatrixXd H;
   std::deque<Node> nodes;
-  std::int64_t first = 0;  ///< number of the oldest node's frame
+  std::int64_t pushed = 0;  ///< frames, from the first with markers enough; the last node is the newest
 };
 
 OnlineSmoother::OnlineSmoother(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -254,14 +263,25 @@ Result<OnlineSmoother> OnlineSmoother::create(const model::Model& model,
                                               const std::vector<std::string>& markers, SmootherTuning tuning,
                                               const OnlineSmootherOptions& options) {
   if (auto status = options.check(); !status) return std::unexpected(status.error());
-  if (!(tuning.rate_hz > 0.0))
-    return fail(Code::usage, fmt::format("the tuning is of {} Hz; need more than 0", tuning.rate_hz));
+  if (!(tuning.rate_hz > 0.0) || !std::isfinite(tuning.rate_hz))
+    return fail(Code::usage,
+                fmt::format("the tuning is of {} Hz; need a finite rate above 0", tuning.rate_hz));
   if (tuning.markers.size() != markers.size() || tuning.step_variance.size() != model.speed_count())
     return fail(Code::usage, fmt::format("the tuning is of {} markers and {} speeds; need {} and {}",
                                          tuning.markers.size(), tuning.step_variance.size(), markers.size(),
                                          model.speed_count()));
-  if (!(tuning.step_variance.array() > 0.0).all())
-    return fail(Code::usage, "the tuning has a step variance of 0 or less");
+  if (!(tuning.step_variance.array() > 0.0).all() || !tuning.step_variance.allFinite())
+    return fail(Code::usage, "the tuning has a step variance that is not a finite number above 0");
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    const auto& trust = tuning.markers[m];
+    if (!(trust.information > 0.0) || !std::isfinite(trust.information) || !(trust.bend_m > 0.0) ||
+        !std::isfinite(trust.bend_m))
+      return fail(
+          Code::usage,
+          fmt::format("the tuning of marker '{}' has an information of {} 1/m^2 and bends at {} m; both "
+                      "need to be finite and above 0",
+                      markers[m], trust.information, trust.bend_m));
+  }
   data::ModelDescription reduced = model.description();
   reduced.markers.clear();
   for (const auto& name : markers) {
@@ -280,16 +300,25 @@ Result<std::optional<SmoothedFrame>> OnlineSmoother::push(const Eigen::Matrix3Xd
     return fail(Code::bad_input,
                 fmt::format("the frame has {} markers; need {}", x.cols(), live.markers.size()));
   live.newest.x = x;
+  for (Eigen::Index m = 0; m < x.cols(); ++m)
+    if (!(x.col(m).cwiseAbs().maxCoeff() <= kFarthest_m)) live.newest.x.col(m).setConstant(kNan);
   VectorXd guess = live.predict();
   if (live.nodes.empty()) {
     std::int64_t seen = 0;
-    for (Eigen::Index m = 0; m < x.cols(); ++m) seen += x.col(m).allFinite();
-    if (seen < kFewestMarkers) return std::optional<SmoothedFrame>();
+    for (Eigen::Index m = 0; m < x.cols(); ++m) seen += live.newest.x.col(m).allFinite();
+    if (seen < kFewestMarkers) {
+      if (live.pushed > 0) ++live.pushed;
+      return std::optional<SmoothedFrame>();
+    }
     auto pose = live.first_pose();
     if (!pose) return std::unexpected(pose.error());
     guess = std::move(*pose);
   }
-  live.take_in(std::move(guess));
+  ++live.pushed;
+  if (!live.take_in(std::move(guess))) {
+    live.forget();
+    return std::optional<SmoothedFrame>();
+  }
   const std::int64_t place = static_cast<std::int64_t>(live.nodes.size()) - 1 - live.options.lag_frames;
   if (place < 0) return std::optional<SmoothedFrame>();
   return std::optional<SmoothedFrame>(live.read(place));
@@ -302,8 +331,8 @@ std::vector<SmoothedFrame> OnlineSmoother::finish() {
   for (std::int64_t place = std::max<std::int64_t>(0, count - live.options.lag_frames); place < count;
        ++place)
     rest.push_back(live.read(place));
-  live.nodes.clear();
-  live.window.clear();
+  live.forget();
+  live.pushed = 0;
   return rest;
 }
 

@@ -47,8 +47,10 @@ class OnlineSmoother {
   ~OnlineSmoother();
 
   /// One frame: x (3 x markers, m, NaN where not seen); returns the frame that is lag_frames older, if there
-  /// is one. Frames before the first with three markers or more are skipped and not counted. Fails when x has
-  /// the wrong size.
+  /// is one. Frames before the first with three markers or more are skipped and not counted. A marker more
+  /// than 1000 km away counts as not seen. A frame that cannot be taken in (its normal equations are not
+  /// finite) is lost together with the frames that are still inside; counting goes on, and the next frame
+  /// starts anew. Fails when x has the wrong size.
   [[nodiscard]] Result<std::optional<SmoothedFrame>> push(const Eigen::Matrix3Xd& x);
   /// No more frames will come: the frames that are still inside, oldest first.
   [[nodiscard]] std::vector<SmoothedFrame> finish();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/smoother/online_smoother.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -110,6 +111,50 @@ TEST(OnlineSmoother, WaitsForMarkers) {
   EXPECT_EQ(stream(live, markers).front().frame, 0);
 }
 
+TEST(OnlineSmoother, ASpikeBeyondAllNumbersIsNotSeen) {
+  const auto model = body();
+  auto markers = testing_body::record(model, kFrames, 0.002, 6);
+  const auto tuning = smooth_motion(model, markers).value();
+  for (const std::int64_t hit : {0, 50}) {
+    auto spoilt = markers, lacking = markers;
+    spoilt.x(hit, 2).setConstant(1e200);
+    lacking.x(hit, 2).setConstant(kNan);
+    auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
+    auto without = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
+    const auto frames = stream(live, spoilt), wanted = stream(without, lacking);
+    ASSERT_EQ(frames.size(), wanted.size());
+    for (std::size_t f = 0; f < frames.size(); ++f) EXPECT_EQ(frames[f].q, wanted[f].q) << hit << " " << f;
+  }
+}
+
+TEST(OnlineSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
+  const auto model = body();
+  const auto markers = testing_body::record(model, kFrames, 0.002, 7);
+  auto tuning = smooth_motion(model, markers).value();
+  const int lag = 5;
+  tuning.tuning.markers[3].information = 1e305;  // overflows wherever it is seen
+  auto live =
+      OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = lag}).value();
+  const std::int64_t hit = 40, dark = 2;  // after the hit the markers stay away for two frames
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t f = 0; f < kFrames; ++f) {
+    Eigen::Matrix3Xd x = frame_of(markers, f);
+    if (f != hit) x.col(3).setConstant(kNan);
+    if (f > hit && f <= hit + dark) x.setConstant(kNan);
+    const auto out = live.push(x).value();
+    EXPECT_EQ(out.has_value(), f >= lag && (f < hit || f > hit + dark + lag)) << f;
+    if (!out) continue;
+    EXPECT_EQ(out->frame, f - lag);
+    EXPECT_TRUE(out->q.allFinite() && out->v.allFinite() && out->a.allFinite()) << f;
+    if (f < hit + dark + lag + 20) continue;
+    const auto truth = testing_body::coordinates(model, out->frame);
+    for (int c = 0; c < 12; ++c) EXPECT_LT(std::abs(out->q[c] - truth[c]), 5.0 * out->q_sd[c]) << f;
+  }
+  EXPECT_EQ(live.finish().back().frame, kFrames - 1);
+  EXPECT_FALSE(live.push(frame_of(markers, 0)).value());  // the very first frame may be the one
+  EXPECT_TRUE(live.finish().empty());
+}
+
 TEST(OnlineSmoother, BadInputIsToldInASentence) {
   const auto model = body();
   const auto offline = smooth_motion(model, testing_body::record(model, 30, 0.002, 5)).value();
@@ -123,6 +168,19 @@ TEST(OnlineSmoother, BadInputIsToldInASentence) {
   auto tuning = offline.tuning;
   tuning.rate_hz = 0.0;
   EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("0 Hz"));
+  for (const double rate : {kNan, std::numeric_limits<double>::infinity()}) {
+    tuning.rate_hz = rate;
+    EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("finite rate"));
+  }
+  for (const double bad : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+    tuning = offline.tuning;
+    tuning.markers[1].information = bad;
+    EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message,
+                HasSubstr(fmt::format("marker '{}' has an information of", names[1])));
+    tuning = offline.tuning;
+    tuning.markers[1].bend_m = bad;
+    EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("bends at"));
+  }
   tuning = offline.tuning;
   tuning.step_variance[0] = 0.0;
   EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("step variance"));

@@ -151,6 +151,8 @@ Result<Prepared> prepare(const model::Model& model, const data::Trajectories& ma
   if (problem->frames < kFewestSamples)
     return fail(Code::bad_input, fmt::format("the time range holds {} frames; the smoother needs {} or more",
                                              problem->frames, kFewestSamples));
+  if (ik.marker_noise_sd_m <= 0.0 && options.bend_sd > 0.0)
+    internal::leave_out_outliers(*problem, markers, options.bend_sd, ik.threads, *start);
   return Prepared{
       .problem = std::move(*problem), .start = std::move(*start), .seconds = seconds_since(begun)};
 }

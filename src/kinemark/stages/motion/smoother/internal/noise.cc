@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/error_bars.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -45,9 +50,13 @@ double slow_share(const data::JointMotion& motion, Index m) {
   return std::clamp(1.0 - second / plain - chance, 0.0, 1.0);
 }
 
-/// Variance of a marker's residuals as most of its frames show it, over that of all frames: 1 for Gaussian
-/// residuals, small where single frames make most of the sum. At most 1.
-double usual_share(const data::JointMotion& motion, Index m) {
+struct Spread {
+  double usual = 0.0;  ///< m^2, variance per axis as most frames show it; 0 when they are few
+  double share = 1.0;  ///< of the variance over all frames, at most 1: small where single frames make the sum
+};
+
+/// Spread of a marker's residuals.
+Spread spread(const data::JointMotion& motion, Index m) {
   constexpr double kMedianOfChiSquare3 = 2.366;
   constexpr Index kFewest = 30;
   const auto M = static_cast<std::int64_t>(motion.markers.size());
@@ -57,13 +66,49 @@ double usual_share(const data::JointMotion& motion, Index m) {
     const Eigen::Map<const Vector3d> error(motion.marker_error.data() + (f * M + m) * 3);
     if (error.allFinite()) squares[count++] = error.squaredNorm();
   }
-  if (count < kFewest) return 1.0;
-  const double mean = squares.head(count).mean();
-  if (mean <= 0.0) return 1.0;
-  return std::min(1.0, 3.0 / kMedianOfChiSquare3 * median(squares.head(count)) / mean);
+  if (count < kFewest) return {};
+  const double all = squares.head(count).mean() / 3.0;
+  if (!(all > 0.0)) return {};
+  const double usual = median(squares.head(count)) / kMedianOfChiSquare3;
+  return {.usual = usual, .share = std::min(1.0, usual / all)};
 }
 
 }  // namespace
+
+void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
+                        int threads, IkResult& start) {
+  constexpr std::int64_t kRare = 10;  // one frame in so many
+  auto& motion = start.motion;
+  const std::int64_t F = motion.frames();
+  const auto M = static_cast<std::int64_t>(motion.markers.size());
+  std::vector<std::uint8_t> wild(at(F), 0);
+  for (std::int64_t m = 0; m < M; ++m) {
+    const double usual = spread(motion, m).usual;
+    if (usual <= 0.0) continue;
+    const double bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual));
+    for (std::int64_t f = 0; f < F; ++f)
+      if (Eigen::Map<const Vector3d>(motion.marker_error.data() + (f * M + m) * 3).norm() > bend_m)
+        wild[at(f)] = 1;
+  }
+  const auto count = std::ranges::count(wild, 1);
+  if (count == 0 || count * kRare > F) return;
+  data::Trajectories calm = markers;
+  Eigen::MatrixXd states(problem.model.state_count(), F);
+  VectorXd q(static_cast<Index>(motion.size()));
+  for (std::int64_t f = 0; f < F; ++f) {
+    std::copy_n(motion.q.data() + motion.index(f, 0), q.size(), q.data());
+    states.col(f) = model::state_from_coordinates(problem.model, q);
+    if (wild[at(f)] == 0) continue;
+    for (std::int64_t m = 0; m < calm.markers(); ++m) calm.set_missing(problem.first_frame + f, m);
+    std::fill_n(motion.marker_error.begin() + f * M * 3, M * 3, std::numeric_limits<double>::quiet_NaN());
+  }
+  const auto variances = estimate_variances(problem, calm, states, threads);
+  for (Index m = 0; m < M; ++m) {
+    const int body = problem.model.markers()[at(m)].body;
+    start.markers[at(m)].noise_sd_m = std::sqrt(variances.own[m]);
+    if (body >= 0) start.markers[at(m)].common_sd_m = std::sqrt(variances.common[body]);
+  }
+}
 
 NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double bend_sd) {
   const auto M = static_cast<Index>(problem.model.marker_count());
@@ -102,7 +147,7 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;
     // Outliers are judged by what the other frames show, not by a variance that they made themselves.
     if (bend_sd > 0.0) {
-      const double usual_frames = given_sd_m > 0.0 ? 1.0 : usual_share(start.motion, m);
+      const double usual_frames = given_sd_m > 0.0 ? 1.0 : spread(start.motion, m).share;
       trust.bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual_frames * total[m]));
     }
     split.trust.push_back(trust);

@@ -21,6 +21,13 @@ struct NoiseSplit {
   bool any_slow = false;
 };
 
+/// Least squares has no robust loss: one wild sample makes its own marker look bad and the others of the
+/// segment good, in all frames. Frames with a residual beyond `bend_sd` of what most frames of that marker
+/// show lose their residuals in start.motion, and the noise in start.markers is estimated anew without them;
+/// when they are more than a tenth of all they are no outliers, and nothing changes.
+void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
+                        int threads, IkResult& start);
+
 /// From the least-squares solution with its estimated (or given) noise.
 [[nodiscard]] NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m,
                                      double bend_sd);
