@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "kinemark/stages/skeleton/functional/relative_motion.h"
@@ -59,20 +60,22 @@ Eigen::Index change_point(const Path& path) {
   return best;
 }
 
-/// Mean of some columns and the variance of that mean (sum over axes), from blocks.
+/// Mean of some columns and the variance of that mean (sum over axes), from blocks; infinite where one column
+/// or none tells nothing of it.
 struct Part {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double variance = 0.0;
 };
 Part summarise(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+  const std::int64_t n = x.cols(), blocks = std::min(kBlocksASide, n);
+  if (blocks < 2) return {.variance = std::numeric_limits<double>::infinity()};
   Part part;
   part.mean = x.rowwise().mean();
-  const auto n = x.cols();
-  for (std::int64_t b = 0; b < kBlocksASide; ++b) {
-    const auto from = n * b / kBlocksASide, to = n * (b + 1) / kBlocksASide;
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    const auto from = n * b / blocks, to = n * (b + 1) / blocks;
     part.variance += (x.middleCols(from, to - from).rowwise().mean() - part.mean).squaredNorm();
   }
-  part.variance /= static_cast<double>(kBlocksASide * (kBlocksASide - 1));
+  part.variance /= static_cast<double>(blocks * (blocks - 1));
   return part;
 }
 
@@ -84,7 +87,9 @@ std::optional<Slip> compare_marker(const Path& path, const SlipOptions& options)
   slip.shift_m = (after.mean - before.mean).norm();
   slip.sd_m = std::sqrt(before.variance + after.variance);
   slip.frame = path.frames[static_cast<std::size_t>(at)];
-  if (slip.shift_m < options.least_m || slip.shift_m < options.sure_sd * slip.sd_m) return std::nullopt;
+  // What is not a number is no slip.
+  if (!(slip.shift_m >= options.least_m) || !(slip.shift_m >= options.sure_sd * slip.sd_m))
+    return std::nullopt;
   return slip;
 }
 
@@ -133,7 +138,7 @@ void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout,
     const Matrix6 both = chance(first) + chance(second);
     const Eigen::Matrix3d covariance = both.block<3, 3>(3 * side, 3 * side);
     const double far = std::sqrt(shift.dot(covariance.ldlt().solve(shift)));
-    if (shift.norm() < options.least_m || far < options.sure_sd) continue;
+    if (!(shift.norm() >= options.least_m) || !(far >= options.sure_sd)) continue;
     const Eigen::Vector3d along = shift.normalized();
     const int segment = side == 0 ? j.parent : j.child;
     Slip slip{.segment = segment, .joint = joint, .shift_m = shift.norm(), .frame = *middle};

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinemark/stages/skeleton/functional/testing/random_chain.h"
 
 namespace kinemark::skeleton {
@@ -51,6 +53,27 @@ TEST(Slip, OneMarkerIsFoundWithItsFrame) {
   EXPECT_NEAR(slips->front().shift_m, 0.012, 0.006) << "the pose gives way to it by its share";
   EXPECT_NE(slips->front().sentence.find("'s1m1'"), std::string::npos);
   EXPECT_NE(slips->front().sentence.find("at about 5.8"), std::string::npos) << slips->front().sentence;
+}
+
+// So short that the seven frames after the change are fewer than the blocks of longer recordings.
+TEST(Slip, AFewFramesAtTheEndHaveAScatterOfTheirOwn) {
+  auto s = setup();
+  s.frames = 70;
+  auto slipped = testing::make_chain(s);
+  auto shaken = slipped;
+  slide(slipped, 63, {6}, 0.012);
+  const auto slips = find_slips(slipped.markers, slipped.layout);
+  ASSERT_TRUE(slips);
+  ASSERT_FALSE(slips->empty());
+  EXPECT_EQ(slips->front().marker, 6);
+  for (const Slip& slip : *slips) EXPECT_TRUE(std::isfinite(slip.sd_m)) << slip.sentence;
+  // To and fro by 40 mm: a mean of 6 mm with an SD of 15.
+  for (std::int64_t f = 63; f < 70; ++f) {
+    slide(shaken, f, {6}, f == 63 ? 0.040 : f % 2 == 0 ? -0.080 : 0.080);
+  }
+  const auto none = find_slips(shaken.markers, shaken.layout);
+  ASSERT_TRUE(none);
+  for (const Slip& slip : *none) EXPECT_LT(slip.marker, 0) << slip.sentence;
 }
 
 TEST(Slip, AWholeSleeveIsSeenByItsJoint) {
