@@ -38,9 +38,15 @@ std::string cell_name(const char* what, double noise_mm, double missing) {
   return fmt::format("{}, {} mm, {:.0f} % missing", what, noise_mm, 100.0 * missing);
 }
 
-/// A single seed may err more by chance; with one or two seeds it is the pooled ratio that it bounds.
-bool at_bound(const Tally& t, const Run& run) {
+/// Error over bound where there is one. A single seed may err more by chance; with one or two seeds there is
+/// only that to hold.
+bool near_bound(const Tally& t, const Run& run) {
   return run.quick ? t.worst_seed() <= 1.15 : t.ratio() <= 1.1 && t.worst_seed() <= 1.15;
+}
+
+/// The same, and no frame called determined whose bound says that it is not: none goes unjudged.
+bool at_bound(const Tally& t, const Run& run) {
+  return near_bound(t, run) && t.determined_without_bound == 0;
 }
 
 const char* ratio_asked(const Run& run) {
@@ -53,7 +59,13 @@ void print_coverage(const std::string& what, const Tally& t) {
             "60-75 % and 91-98.5 %", fmt::format("{:.1f} and {:.1f} %", 100.0 * one, 100.0 * two));
 }
 
-void print_flags(const std::string& what, const Tally& t) {
+void print_flags(const std::string& what, const Run& run, const Tally& t) {
+  // A full run has thousands of mirror pairs and half of the guesses are wrong: none means a test gone blind.
+  if (t.wrong == 0 && !run.quick) {
+    print_row(false, what + ": errors beyond 5 SD", ">= 99 % lie in frames flagged",
+              "nothing to test: no frame errs so far");
+    return;
+  }
   const double flagged = 1.0 - Tally::part(t.wrong_unflagged, std::max<std::int64_t>(t.wrong, 1));
   print_row(flagged >= 0.99, what + ": errors beyond 5 SD", ">= 99 % lie in frames flagged",
             fmt::format("{} of {} unflagged", t.wrong_unflagged, t.wrong));
@@ -100,7 +112,9 @@ void staggered(const Run& run, Tally& pooled) {
               fmt::format("{} of {} flagged", all.pairs_flagged, all.pairs));
 }
 
-/// Stagger of the order of the noise: the data choose the kind of segment; the bound is the solid's.
+/// Stagger of the order of the noise: the data choose the kind of segment; the bound is the solid's. Where
+/// they choose lines, two markers and one hold the joint that solids leave open: such frames have no bound
+/// here, but an error beyond 5 SD in them counts.
 void weak(const Run& run, Tally& pooled) {
   for (const double stagger : {2.0, 5.0})
     for (const double noise : run.noise_mm)
@@ -108,9 +122,13 @@ void weak(const Run& run, Tally& pooled) {
         const auto t =
             joint_cells::run_cell({.stagger_m = stagger * kMm, .noise_sd_m = noise * kMm, .missing = missing},
                                   SegmentKind::solid, run.seeds, alone());
-        print_row(at_bound(t, run),
-                  cell_name(fmt::format("staggered {} mm", stagger).c_str(), noise, missing),
-                  ratio_asked(run), t.words());
+        const double share = noise > 2 || missing == 0.0 ? 0.0 : missing > 0.3 ? 0.49 : 0.85;
+        print_row(
+            near_bound(t, run) && t.share() >= share && t.whole_flagged == 0,
+            cell_name(fmt::format("staggered {} mm", stagger).c_str(), noise, missing),
+            fmt::format("{} of solid segments; determined >= {:.0f} %; every frame with a whole segment",
+                        ratio_asked(run), 100.0 * share),
+            fmt::format("{}; {} of {} whole ones flagged", t.words(), t.whole_flagged, t.whole));
         pooled.add(t);
       }
 }
@@ -159,6 +177,6 @@ int main(int argc, char** argv) {
   if (wanted("staggered")) staggered(run, pooled);
   if (wanted("weak")) weak(run, pooled);
   if (wanted("chain")) chain(run, pooled);
-  print_flags("all cells", pooled);
+  print_flags("all cells", run, pooled);
   return testing_support::exit_status();
 }

@@ -14,6 +14,9 @@ namespace {
 
 using data::CentreState;
 
+/// Of a recording without a fit or without a frame to judge: more than any bar allows.
+constexpr double kNoRatio = 99.0;
+
 int seen_of(const simulation::LimbRecording& limb, std::int64_t frame, int segment) {
   int seen = 0;
   for (const int m : limb.layout.segments[static_cast<std::size_t>(segment)].markers)
@@ -40,12 +43,12 @@ void measure_lengths(const simulation::LimbRecording& limb, const data::Skeleton
 }  // namespace
 
 double Tally::ratio() const { return std::sqrt(squares_m2 / bound_m2); }
-double Tally::worst_seed() const { return seed_ratio.empty() ? 0.0 : std::ranges::max(seed_ratio); }
+double Tally::worst_seed() const { return seed_ratio.empty() ? kNoRatio : std::ranges::max(seed_ratio); }
 double Tally::rms_mm() const {
-  return 1e3 * std::sqrt(squares_m2 / static_cast<double>(std::max<std::int64_t>(determined, 1)));
+  return 1e3 * std::sqrt(squares_m2 / static_cast<double>(std::max<std::int64_t>(bounded, 1)));
 }
 double Tally::bound_mm() const {
-  return 1e3 * std::sqrt(bound_m2 / static_cast<double>(std::max<std::int64_t>(determined, 1)));
+  return 1e3 * std::sqrt(bound_m2 / static_cast<double>(std::max<std::int64_t>(bounded, 1)));
 }
 
 void Tally::add(const Tally& o) {
@@ -54,6 +57,8 @@ void Tally::add(const Tally& o) {
   seed_ratio.insert(seed_ratio.end(), o.seed_ratio.begin(), o.seed_ratio.end());
   frames += o.frames;
   determined += o.determined;
+  bounded += o.bounded;
+  determined_without_bound += o.determined_without_bound;
   whole += o.whole;
   whole_flagged += o.whole_flagged;
   wrong += o.wrong;
@@ -79,9 +84,9 @@ std::string Tally::words() const {
   return fmt::format(
       "ratio {:.3f} (worst seed {:.3f}), RMS {:.2f} mm, bound {:.2f} mm, determined {:.1f} %, {} of {} "
       "beyond 5 SD "
-      "unflagged, coverage {:.1f} / {:.1f} %, noise x {:.3f}, kinds {}/{}/{}",
+      "unflagged, {} determined without a bound, coverage {:.1f} / {:.1f} %, noise x {:.3f}, kinds {}/{}/{}",
       ratio(), worst_seed(), rms_mm(), bound_mm(), 100.0 * share(), wrong_unflagged, wrong,
-      100.0 * part(in_1sd, coordinates), 100.0 * part(in_2sd, coordinates),
+      determined_without_bound, 100.0 * part(in_1sd, coordinates), 100.0 * part(in_2sd, coordinates),
       noise_ratio / static_cast<double>(std::max<std::size_t>(seed_ratio.size(), 1)), kinds[0], kinds[1],
       kinds[2]);
 }
@@ -96,7 +101,10 @@ void measure(const simulation::LimbRecording& limb, data::SegmentKind kind, doub
   const auto fitted = skeleton::fit_articulated(limb.markers, limb.layout, options);
   if (!fitted) {
     fmt::print("no fit: {}\n", fitted.error().message);
-    tally.seed_ratio.push_back(99.0);
+    const auto all = static_cast<std::int64_t>(limb.layout.joints.size()) * limb.markers.frames();
+    tally.seed_ratio.push_back(kNoRatio);
+    tally.frames += all;
+    tally.unanswered += all;
     return;
   }
   const data::Skeleton& skeleton = fitted->skeleton;
@@ -124,18 +132,20 @@ void measure(const simulation::LimbRecording& limb, data::SegmentKind kind, doub
       }
       const Eigen::Vector3d e = skeleton.centre(f, static_cast<std::int64_t>(j)) - truth_of(limb, k);
       const Eigen::Matrix3d C = skeleton.centre_covariance(f, static_cast<std::int64_t>(j));
-      const bool beyond = e.squaredNorm() > 25.0 * C.trace();
-      if (bound.determined[k] || options.continuity) {
-        one.wrong += beyond ? 1 : 0;
-        one.wrong_unflagged += beyond && alone ? 1 : 0;
-      }
+      const bool beyond = !(e.squaredNorm() <= 25.0 * C.trace());
+      one.wrong += beyond ? 1 : 0;
+      one.wrong_unflagged += beyond && alone ? 1 : 0;
       one.worst_m = std::max(one.worst_m, e.norm());
       if (skeleton.state[k] == CentreState::bridged) ++one.bridged, one.bridged_squares_m2 += e.squaredNorm();
       if (skeleton.state[k] == CentreState::ambiguous && options.continuity) ++one.unanswered;
       if (!alone) continue;
       ++one.determined;
       one.smooth_squares_m2 += e.squaredNorm();
-      if (!bound.determined[k]) continue;
+      if (!bound.determined[k]) {
+        ++one.determined_without_bound;
+        continue;
+      }
+      ++one.bounded;
       one.squares_m2 += e.squaredNorm();
       one.bound_m2 += bound.variance(k);
       for (int i = 0; i < 3; ++i) {
@@ -148,7 +158,7 @@ void measure(const simulation::LimbRecording& limb, data::SegmentKind kind, doub
   measure_lengths(limb, skeleton, one);
   one.noise_ratio = skeleton.noise_sd_m / noise_sd_m;
   for (const auto& segment : skeleton.segments) ++one.kinds[static_cast<int>(segment.kind)];
-  one.seed_ratio.push_back(one.ratio());
+  one.seed_ratio.push_back(std::isfinite(one.ratio()) ? one.ratio() : kNoRatio);
   tally.add(one);
 }
 
