@@ -10,8 +10,8 @@
 namespace kinemark::pipeline {
 
 /// The table of the study, each line with its bound; lines whose cells were not asked for are left out. With
-/// three seeds or more errors are held against 1.1 times the Cramer-Rao bound, with fewer against 1.15 and
-/// shares of frames against 4 % less.
+/// three seeds or more their errors together are held against 1.1 times the Cramer-Rao bound and on the arm
+/// each seed's against 1.15; with fewer, errors against 1.15 and shares of frames against nothing.
 [[nodiscard]] std::vector<StudyRow> macaque_rows(const MacaqueStudy& study, std::size_t seeds);
 
 }  // namespace kinemark::pipeline
