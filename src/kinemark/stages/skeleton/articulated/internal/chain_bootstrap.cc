@@ -14,8 +14,7 @@ namespace kinemark::skeleton {
 
 namespace {
 
-constexpr double kWeak = 50.0;        // second extent over the noise, chi-square
-constexpr std::size_t kFrames = 400;  // the bias is a frame's own: more frames do not change it
+constexpr double kWeak = 50.0;  // second extent over the noise, chi-square
 constexpr std::uint64_t kSeed = 20060;
 
 // Globals of b less those of a.
@@ -49,7 +48,7 @@ bool has_weak_turns(const Chain& chain, double sigma_m) {
 
 Bootstrap bootstrap(const ChainSamples& samples, const GlobalFrames& frames, const ChainFit& fit,
                     int replicates) {
-  const std::size_t n = std::min(frames.size(), kFrames);
+  const std::size_t n = std::min(frames.size(), kBootstrapFrames);
   const Chain& truth = fit.chain;
   Bootstrap out;
   out.bias = Eigen::VectorXd::Zero(truth.globals().size());

@@ -4,6 +4,8 @@
 // that the fitted limb itself made.
 #pragma once
 
+#include <cstddef>
+
 #include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_globals.h"
 
@@ -19,6 +21,9 @@ struct Bootstrap {
   double chi2_ratio = 1.0;      ///< residuals' chi-square over its degrees of freedom
   double variance_ratio = 1.0;  ///< squared error of determined centres over their variance, geometry held
 };
+
+/// Frames of a replicate, at most: the bias is a frame's own, and more frames do not change it.
+inline constexpr std::size_t kBootstrapFrames = 400;
 
 /// Parametric bootstrap: `replicates` recordings of the fitted chain in its fitted poses, same markers seen,
 /// noise of the fitted size; each fitted anew from its own starts.

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "kinemark/core/check.h"
@@ -32,6 +33,8 @@ Status check_options(const ChainSamples& samples, const ChainLayout& layout, con
   check(samples.markers == layout.markers(), "one segment a marker");
   check(options.kind.empty() || static_cast<int>(options.kind.size()) == layout.segments(),
         "one kind a segment");
+  check(options.marker_names.empty() || static_cast<int>(options.marker_names.size()) == layout.markers(),
+        "one name a marker");
   if (layout.joints() < 1) return fail(Code::usage, "an articulated chain needs two segments or more");
   for (int s = 0; s < layout.segments(); ++s) {
     if (layout.markers_of(s).empty()) {
@@ -125,12 +128,19 @@ class Rounds {
     }
     fit_.global_covariance = fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
     double expected = 1.0;
+    double wider = 1.0;
     if (last && has_weak_turns(fit_.chain, fit_.noise_sd_m)) {
       const Bootstrap found = bootstrap(samples_, frames, fit_, kReplicates);
       expected = std::clamp(found.chi2_ratio, 0.5, 1.0);
       fit_.covariance_scale = std::clamp(found.variance_ratio, 1.0, 2.0);
-      fit_.chain.add_globals(-found.bias);
-      cost = globals.cost();
+      // A bias that is larger than the segments themselves is a refit that ran away.
+      if (found.bias.allFinite() && found.bias.cwiseAbs().maxCoeff() < fit_.chain.scale()) {
+        fit_.chain.add_globals(-found.bias);
+        cost = globals.cost();
+        // The bias has a scatter of its own: that of the replicates' geometries.
+        const auto n = static_cast<double>(frames.size());
+        wider += n / (std::min(n, static_cast<double>(kBootstrapFrames)) * kReplicates);
+      }
       if (options_.noise_sd_m <= 0.0) fit_.noise_sd_m /= std::sqrt(expected);
     }
     fit_.residual_dof = expected * globals.degrees_of_freedom();
@@ -142,7 +152,7 @@ class Rounds {
       fit_.noise_sd_m *= std::sqrt(excess);
     }
     fit_.chi2 = cost / (fit_.noise_sd_m * fit_.noise_sd_m);
-    fit_.global_covariance = fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
+    fit_.global_covariance = wider * fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
   }
 
  private:
@@ -183,7 +193,7 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
   for (const int k : dropped) {
     fit.marker_weight[k] = 0.0;
     fit.warnings.emplace_back(
-        "Marker " + std::to_string(k) +
+        "Marker " + (options.marker_names.empty() ? std::to_string(k) : "'" + options.marker_names[k] + "'") +
         " is not seen together with three others of its segment in three frames; it was left out.");
   }
   fit.robust_dof = options.robust_dof;
@@ -226,7 +236,8 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
 Matrix3d ChainFit::joint_covariance(int j, bool in_parent) const {
   const int s = in_parent ? chain.layout.parent[j] : j + 1;
   const Vector3d p = in_parent ? Vector3d(chain.joint.col(j)) : Vector3d(Vector3d::Zero());
-  const std::vector<int> markers = chain.layout.markers_of(s);
+  std::vector<int> markers = chain.layout.markers_of(s);
+  std::erase_if(markers, [&](int k) { return !(marker_weight[k] > 0.0); });  // their places are not known
   const auto n = static_cast<double>(markers.size());
   Vector3d mean = Vector3d::Zero();
   for (const int k : markers) mean += chain.marker.col(k) / n;
@@ -247,6 +258,7 @@ Matrix3d ChainFit::joint_covariance(int j, bool in_parent) const {
       if (in_parent && globals[g].joint == j) L.col(g) = e;
       continue;
     }
+    if (!(marker_weight[globals[g].marker] > 0.0)) continue;
     const Vector3d turn = mobility * (chain.marker.col(globals[g].marker) - mean).cross(e);
     L.col(g) = -e / n - turn.cross(p - mean);
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct ChainFitOptions {
   int rounds = 3;                       ///< of geometry, verdicts, geometry
   int frames_max = 1500;                ///< frames that inform the geometry, drawn evenly; 50 or more
   double alternative_max = 1e-3;        ///< weight of other minima that a determined frame may have
+  std::vector<std::string> marker_names;  ///< K, for warnings; empty: numbers
 };
 
 /// Geometry with its uncertainty.

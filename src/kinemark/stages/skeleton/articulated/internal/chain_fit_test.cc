@@ -297,6 +297,11 @@ TEST(FitChain, LeavesOutAMarkerThatIsNeverSeen) {
   EXPECT_EQ(fit->marker_weight[3], 0.0);
   EXPECT_THAT(fit->warnings, testing::Contains(HasSubstr("Marker 3")));
   EXPECT_NEAR(fit->noise_sd_m, 0.001, 1e-4);
+  for (const bool in_parent : {true, false}) {
+    const Matrix3d C = fit->joint_covariance(0, in_parent);
+    EXPECT_TRUE(C.allFinite());
+    EXPECT_LT(C.trace(), 0.001 * 0.001) << "200 frames of 1 mm";
+  }
 }
 
 TEST(ChooseKinds, FindsLinesPlanesAndSolids) {

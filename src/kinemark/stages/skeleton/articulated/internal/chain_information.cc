@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "kinemark/stages/skeleton/articulated/internal/chain_frame.h"

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinemark/stages/skeleton/articulated/internal/chain_modes.h"
 
