@@ -92,7 +92,8 @@ class ScaleRun {
         std::ranges::find(options.order, motion::ScaleStep::measurements) != options.order.end() &&
         !options.measurements.empty();
     if (measures)
-      if (auto s = read_trial(setup_->scale_marker_file, "the measurements of the setup", recording); !s)
+      if (auto s = read_trial(setup_->scale_marker_file, "the measurements of the setup", recording, true);
+          !s)
         return s;
     motion::ScaleOptions with_mass = options;
     with_mass.mass_kg = job_.mass_kg;
@@ -104,7 +105,8 @@ class ScaleRun {
     out_.scaled = std::move(*scaled);
     if (!setup_->place) return {};
     data::Trajectories trial;
-    if (auto s = read_trial(setup_->place_marker_file, "the MarkerPlacer of the setup", trial); !s) return s;
+    if (auto s = read_trial(setup_->place_marker_file, "the MarkerPlacer of the setup", trial, true); !s)
+      return s;
     auto options_of_placer = place_options(*setup_, marker_set_, out_.model);
     if (!options_of_placer) return fail_at(job_.setup.string(), options_of_placer.error());
     return place(trial, *options_of_placer);
@@ -152,7 +154,7 @@ class ScaleRun {
     const double rms = out_.from_motion ? out_.from_motion->rms_after_m
                        : out_.placed    ? out_.placed->rms_m
                                         : 0.0;
-    if (rms > job_.max_rms_m) {
+    if (!(rms <= job_.max_rms_m)) {
       out_.exit_status = 1;
       out_.notes.push_back(
           fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most "
@@ -176,13 +178,13 @@ class ScaleRun {
   }
 
  private:
-  /// --static wins over the setup's own file.
-  Status read_trial(const fs::path& named, const char* what, data::Trajectories& out) const {
-    const fs::path& path =
-        setup_ && !job_.static_trial.empty() && named != job_.markers ? job_.static_trial : named;
+  /// --static wins over the file that the setup names itself.
+  Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
+                    bool by_setup = false) const {
+    const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;
     if (path.empty())
       return fail(Code::usage, fmt::format("{} needs a marker file; give --static or name it there", what));
-    auto trial = io::read_markers(path);
+    auto trial = io::read_markers(path, {.rate_hz = io::needs_rate(path) ? job_.rate_hz : 0.0});
     if (!trial) return std::unexpected(trial.error());
     out = std::move(trial->markers);
     return {};

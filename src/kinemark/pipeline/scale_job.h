@@ -22,6 +22,7 @@ struct ScaleJob {
   std::filesystem::path static_trial;  ///< marker file of a static trial
   std::filesystem::path markers;       ///< marker file of a motion: sizes and places are adapted to it
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
+  double rate_hz = 0.0;                ///< of marker files that tell none (.v3d); 0: not given
   double mass_kg = 0.0;                ///< 0: the setup's, or as the factors make it
   bool dempster = false;               ///< distribute the mass by Dempster's fractions
   bool clavicles = false;              ///< set shoulders free first

@@ -30,12 +30,15 @@ constexpr Share kShares[] = {
     {"head", false, 0.081, 0.0, "trunk"},       {"trunk", false, 0.355, 0.0, "pelvis"},
     {"pelvis", false, 0.142, 0.0, "trunk"}};
 
-/// "thigh_r" for paired segments, "trunk" for others.
+/// "thigh_r" for paired segments, "trunk" for others; empty for bodies that are no segment.
 std::string key_of(const std::string& body) {
   const auto [stem, side] = internal::split_side(body);
   const std::string segment = internal::segment_of(stem);
   for (const auto& share : kShares)
-    if (segment == share.segment) return share.paired ? segment + side : segment;
+    if (segment == share.segment) {
+      if (share.paired && side.empty()) return {};  // of which side nobody says: it keeps its mass
+      return share.paired ? segment + side : segment;
+    }
   return {};
 }
 

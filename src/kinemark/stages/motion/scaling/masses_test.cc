@@ -81,6 +81,14 @@ TEST(DistributeMass, massless_segments_get_theirs_and_other_bodies_keep_theirs) 
   EXPECT_GT(mass(model, "pelvis"), 0.0);
 }
 
+TEST(DistributeMass, a_limb_without_a_side_keeps_its_mass) {
+  auto model = bodies({{"pelvis", 1}, {"torso", 1}, {"femur", 7}, {"tibia_r", 1}});
+  ASSERT_TRUE(distribute_mass(model, 90.0));
+  EXPECT_NEAR(mass(model, "femur"), 7.0, 1e-12);
+  EXPECT_GT(mass(model, "tibia_r"), 0.0);
+  EXPECT_NEAR(total(model), 90.0, 1e-12);
+}
+
 TEST(DistributeMass, mass_centres_of_long_bones_move_to_their_place) {
   auto model = testing_leg::leg();
   ASSERT_TRUE(distribute_mass(model, 70.0));

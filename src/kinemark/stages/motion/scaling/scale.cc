@@ -121,11 +121,19 @@ struct Scaler {
             measured->measured_m / measured->model_m / static_cast<double>(measurement.pairs.size());
         out.pairs.push_back(std::move(*measured));
       }
-      for (const auto& part : measurement.bodies)
+      // OpenSim passes over bodies that the model lacks (its own setups name patellae); but not all of them.
+      const auto missing = [&](const auto& part) {
+        const int b = model.find_body(part.body);
+        return b < 0 && b != kGround;
+      };
+      const bool some = !std::ranges::all_of(measurement.bodies, missing);
+      for (const auto& part : measurement.bodies) {
+        if (some && missing(part)) continue;
         if (auto s = set(fmt::format("measurement '{}'", measurement.name), part.body,
                          Vector3d::Constant(out.factor), part.axes);
             !s)
           return s;
+      }
       result.measurements.push_back(std::move(out));
     }
     return {};
