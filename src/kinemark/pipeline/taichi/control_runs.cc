@@ -31,7 +31,7 @@ struct Sum {
   void add(double error) {
     square += error * error;
     count += 1.0;
-    most = std::max(most, std::abs(error));
+    most = !(std::abs(error) <= most) ? std::abs(error) : most;  // keeps what is not a number
   }
   [[nodiscard]] double rms() const {
     return count > 0.0 ? std::sqrt(square / count) : std::numeric_limits<double>::quiet_NaN();
@@ -94,7 +94,7 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
                                                      : kFast_rad_s;
   options.damping = setting.damping;
   options.cutoff_hz = 0.0;
-  options.limits = false;
+  options.limits = setting.limits;
   options.posture_kp = setting.posture_kp;
   options.posture_kd = setting.posture_kd;
   options.error_bars = setting.error_bars;

@@ -37,6 +37,7 @@ struct ControlSetting {
   double posture_kp = 100.0, posture_kd = 20.0;
   std::int64_t first_frame = 0, last_frame = -1;  ///< [first, last]; -1: to the end
   bool error_bars = false;
+  bool limits = false;
 };
 
 /// Track a set's landmarks. Goals are taken as they are: the recording is low-passed already. The posture to

@@ -17,6 +17,8 @@ namespace {
 using data::Trajectories;
 using Eigen::Vector3d;
 
+constexpr double kMostFrames = 1e6;  // 4.6 hours at 60 Hz, half a gigabyte of landmarks
+
 /// Mean of one landmark over its samples.
 Vector3d mean_place(const Trajectories& markers, std::int64_t m) {
   Vector3d sum = Vector3d::Zero();
@@ -116,6 +118,13 @@ Result<Trajectories> prepare_landmarks(const Trajectories& recorded, double rate
   if (!turn) return std::unexpected(turn.error());
 
   const double duration_s = static_cast<double>(recorded.frames() - 1) / recorded.time.rate_hz;
+  if (!(rate_hz > 0.0 && recorded.time.rate_hz > 0.0 && duration_s * rate_hz + 1.0 <= kMostFrames))
+    return fail(
+        Code::bad_input,
+        fmt::format("{} frames at {} Hz are {} s; at {} Hz these would be {:.3g} frames, and the study "
+                    "takes {:.0f} at most",
+                    recorded.frames(), recorded.time.rate_hz, duration_s, rate_hz, duration_s * rate_hz + 1.0,
+                    kMostFrames));
   const TimeBase time{.rate_hz = rate_hz,
                       .t0_s = recorded.time.t0_s,
                       .frames = static_cast<std::int64_t>(std::floor(duration_s * rate_hz + 1e-9)) + 1};

@@ -31,7 +31,8 @@ struct LandmarkPlace {
 /// `rate_hz` by natural cubic splines through each run of samples. Where the recording has z up (the head
 /// lies above the feet along z) it is turned about x: (x, z, -y).
 ///
-/// Code::bad_input when a landmark is not there or hardly seen, or the body lies.
+/// Code::bad_input when a landmark is not there or hardly seen, the body lies, or the
+/// result would have more than a million frames.
 [[nodiscard]] Result<data::Trajectories> prepare_landmarks(const data::Trajectories& recorded,
                                                            double rate_hz = 60.0);
 

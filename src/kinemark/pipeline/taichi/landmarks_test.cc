@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "kinemark/io/osim/osim_model.h"
@@ -87,6 +88,16 @@ TEST(PrepareLandmarks, RefusesWhatIsNotThisRecording) {
   auto single = standing();
   single.time.frames = 1;
   EXPECT_THAT(prepare_landmarks(single).error().message, HasSubstr("fewer than two frames"));
+}
+
+TEST(PrepareLandmarks, RefusesARateThatMakesADayOfASecond) {
+  auto slow = standing();
+  slow.time.rate_hz = 1e-9;
+  EXPECT_THAT(prepare_landmarks(slow).error().message,
+              HasSubstr("frames, and the study takes 1000000 at most"));
+  for (const double rate :
+       {0.0, -60.0, 1e9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_THAT(prepare_landmarks(standing(), rate).error().message, HasSubstr("at most")) << rate;
 }
 
 TEST(MedianDistance, IsRobustAndSaysWhenThereIsNone) {
