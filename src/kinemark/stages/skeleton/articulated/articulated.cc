@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kinemark/core/units.h"
@@ -39,6 +40,7 @@ struct Work {
 
 Status check_input(const data::Trajectories& markers, const data::SegmentLayout& layout,
                    const ArticulatedOptions& options) {
+  if (auto s = markers.validate(); !s) return s;
   if (auto s = options.check(); !s) return s;
   if (auto s = layout.validate(markers.markers()); !s) return s;
   if (auto s = internal::check_tree(layout); !s) return s;
@@ -60,7 +62,18 @@ ChainFitOptions fit_options(const Work& w) {
   out.frames_max = w.options.max_fit_frames;
   if (!w.options.kinds.empty())
     for (const int s : w.tree.segment_order) out.kind.push_back(w.options.kinds[at(s)]);
+  for (const int m : w.input.marker) out.marker_names.push_back(w.markers.names[at(m)]);
   return out;
+}
+
+/// Markers whose place on their segment is not known say nothing in any frame.
+void blank_dropped_markers(const ChainFit& fit, ChainSamples& samples) {
+  for (int m = 0; m < samples.markers; ++m) {
+    if (fit.marker_weight[at(m)] > 0.0) continue;
+    for (std::int64_t f = 0; f < samples.frames; ++f)
+      std::fill_n(samples.x.data() + 3 * (f * samples.markers + m), 3,
+                  std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
@@ -84,11 +97,21 @@ std::string words(const internal::JointMotionSeen& seen, bool hinge, double comm
   if (seen.frames == 0) return "no frame determines it by its own markers";
   if (seen.still)
     return fmt::format("{:.1f} deg of motion, no more than noise: neither axis nor centre known", deg);
-  if (hinge && seen.one_axis)
+  if (hinge)
     return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
                        seen.axis_sd_rad * kDegPerRad);
   return fmt::format("{:.0f} deg of motion: centre known to {:.1f} mm in its segments", deg,
                      kMm * common_sd_m);
+}
+
+/// An axis that can be named: lines show none, and noise alone has none.
+bool shows_axis(const internal::JointMotionSeen& seen) {
+  return !seen.still && seen.axis_in_parent.squaredNorm() > 0.0;
+}
+
+bool is_hinge(const Work& w, const internal::JointMotionSeen& seen) {
+  return shows_axis(seen) && (w.options.joint == JointChoice::hinge ||
+                              (w.options.joint == JointChoice::automatic && seen.one_axis));
 }
 
 data::SkeletonJoint describe_joint(const Work& w, int j, const internal::JointMotionSeen& seen,
@@ -96,8 +119,7 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const internal::JointMo
   const int layout_joint = w.tree.joint_order[at(j)];
   const auto& named = w.layout.joints[at(layout_joint)];
   data::SkeletonJoint out{.name = named.name, .parent_segment = named.parent, .child_segment = named.child};
-  const bool hinge =
-      w.options.joint == JointChoice::hinge || (w.options.joint == JointChoice::automatic && seen.one_axis);
+  const bool hinge = is_hinge(w, seen);
   out.kind = hinge ? data::JointKind::hinge : data::JointKind::ball;
   out.range_of_motion_rad = seen.range_rad;
   out.method = "articulated";
@@ -251,8 +273,8 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
                     name(slip.marker), kMm * slip.distance_m, w.markers.time.time_s(slip.frame)));
   for (const auto& swap : internal::find_swaps(w.fit, w.input.samples, w.pass))
     warnings.push_back(fmt::format(
-        "markers '{}' and '{}' have exchanged names in {} frames, the first at {:.2f} s", name(swap.marker_a),
-        name(swap.marker_b), swap.frames, w.markers.time.time_s(swap.first_frame)));
+        "markers '{}' and '{}' have exchanged names in about {} frames, the first at {:.2f} s",
+        name(swap.marker_a), name(swap.marker_b), swap.frames, w.markers.time.time_s(swap.first_frame)));
   for (const auto& loose : internal::find_loose_markers(w.fit, w.input.samples, w.pass)) {
     const bool slipped = std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; });
     if (!slipped)
@@ -300,11 +322,16 @@ ArticulatedFit assemble(const Work& w) {
     const int joint = w.tree.joint_order[at(j)];
     if (seen[at(j)].still)
       widen_all_around(skeleton, joint, w.fit.chain.scale());
-    else if (seen[at(j)].one_axis && skeleton.joints[at(joint)].kind == data::JointKind::hinge)
+    else if (skeleton.joints[at(joint)].kind == data::JointKind::hinge)
       widen_along_axis(w, skeleton, joint, w.fit.chain.scale());
   }
   write_lengths(w, skeleton);
   write_warnings(w, skeleton);
+  for (int j = 0; j < J && w.options.joint == JointChoice::hinge; ++j)
+    if (!shows_axis(seen[at(j)]))
+      skeleton.warnings.push_back(fmt::format(
+          "joint '{}': a hinge was asked for, but no axis can be seen; it is given as a ball joint",
+          w.layout.joints[at(w.tree.joint_order[at(j)])].name));
   return out;
 }
 
@@ -329,6 +356,7 @@ Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const 
   auto fit = fit_chain(w.input.samples, w.input.layout, fit_options(w));
   if (!fit) return std::unexpected(fit.error());
   w.fit = std::move(*fit);
+  blank_dropped_markers(w.fit, w.input.samples);
   auto pass = internal::pass_over(w.fit, w.input.samples, options.threads, progress);
   if (!pass) return std::unexpected(pass.error());
   w.pass = std::move(*pass);

@@ -181,6 +181,50 @@ TEST(FitArticulated, AHingeIsKnownButForItsPlaceAlongTheAxis) {
   EXPECT_LT(e.squaredNorm(), 25.0 * C.trace());
 }
 
+TEST(FitArticulated, LinesHaveNoHingeEvenWhenAsked) {
+  const Limb limb = make_limb({.frames = 200, .seed = 2});
+  auto options = alone(SegmentKind::line);
+  options.joint = JointChoice::hinge;
+  const auto fit = fit_articulated(limb.markers, limb.layout, options).value();
+  EXPECT_EQ(fit.skeleton.joints[0].kind, data::JointKind::ball);
+  EXPECT_THAT(fit.skeleton.warnings, Contains(AllOf(HasSubstr("'j0'"), HasSubstr("no axis can be seen"))));
+}
+
+// The joint turns about every axis: who calls it a hinge is told nothing of its place along the main one.
+TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
+  const Limb limb = make_limb({.frames = 200, .markers_per_segment = 4, .stagger_m = 0.03, .seed = 7});
+  auto options = alone(SegmentKind::solid);
+  options.joint = JointChoice::hinge;
+  const auto fit = fit_articulated(limb.markers, limb.layout, options).value();
+  const data::SkeletonJoint& joint = fit.skeleton.joints[0];
+  EXPECT_EQ(joint.kind, data::JointKind::hinge);
+  EXPECT_NEAR(joint.axis_in_parent.norm(), 1.0, 1e-9);
+  EXPECT_GT(joint.axis_sd_rad, 0.0);
+  EXPECT_GT(joint.axis_in_parent.dot(joint.covariance_in_parent * joint.axis_in_parent), 0.03 * 0.03);
+  EXPECT_GT(fit.skeleton.centre_covariance(100, 0).trace(), 0.03 * 0.03);
+  EXPECT_THAT(joint.words, HasSubstr("position along it not"));
+}
+
+TEST(FitArticulated, AMarkerWithoutAPlaceIsLeftOutByName) {
+  Limb limb = make_limb({.frames = 200, .markers_per_segment = 5, .stagger_m = 0.03, .seed = 13});
+  // In two frames alone, far away: too few to know its place, enough to draw a pose to it.
+  for (std::int64_t f = 0; f < 200; ++f) {
+    if (f == 50 || f == 51)
+      limb.markers.x(f, 7) += Eigen::Vector3d(0.1, 0.0, 0.0);
+    else
+      limb.markers.set_missing(f, 7);
+  }
+  const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid)).value();
+  EXPECT_THAT(fit.skeleton.warnings, Contains(AllOf(HasSubstr("'s1m2'"), HasSubstr("left out"))));
+  EXPECT_EQ(fit.skeleton.segments[1].markers.size(), 4U);
+  EXPECT_TRUE(fit.skeleton.joints[0].covariance_in_parent.allFinite());
+  EXPECT_TRUE(fit.skeleton.joints[0].covariance_in_child.allFinite());
+  for (const std::int64_t f : {50, 51}) {
+    EXPECT_EQ(fit.skeleton.state[fit.skeleton.index(f, 0)], CentreState::determined);
+    EXPECT_LT(error_of(limb, fit.skeleton, f, 0).norm(), 0.005);
+  }
+}
+
 TEST(FitArticulated, AJointThatNeverMovesSaysSo) {
   const Limb limb = make_limb({.frames = 200,
                                .markers_per_segment = 4,
@@ -257,6 +301,11 @@ TEST(FitArticulated, SaysInOneSentenceWhatCannotBeKnown) {
   EXPECT_THAT(message(limb.layout, {.max_fit_frames = 3}), HasSubstr("20 or more"));
   EXPECT_THAT(message(limb.layout, {.max_bridge_sd_m = 0.0}), HasSubstr("bridged"));
   EXPECT_THAT(message(limb.layout, {.threads = -1}), HasSubstr("threads"));
+  auto untimed = limb.markers;
+  untimed.time.rate_hz = 0.0;
+  EXPECT_THAT(fit_articulated(untimed, limb.layout, {}).error().message, HasSubstr("rate of 0 Hz"));
+  untimed.time.rate_hz = std::nan("");
+  EXPECT_THAT(fit_articulated(untimed, limb.layout, {}).error().message, HasSubstr("rate of nan Hz"));
   const auto empty = data::Trajectories::all_missing(limb.markers.names, limb.markers.time);
   EXPECT_THAT(fit_articulated(empty, limb.layout, {}).error().message, HasSubstr("frames"));
   EXPECT_EQ(fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid),

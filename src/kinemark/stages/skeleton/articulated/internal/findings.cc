@@ -16,6 +16,7 @@ namespace {
 using data::SegmentKind;
 
 constexpr std::size_t kSwapFrames = 12;  // frames in which exchanged names are looked for
+constexpr double kSwapFar = 4.0;         // SDs from its place that make a marker suspect
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -80,6 +81,20 @@ std::vector<std::pair<std::int64_t, Vector3d>> residuals(const ChainFit& fit, co
   for (const SampledPose& s : pass.sampled)
     if (samples.seen(s.frame, marker)) out.emplace_back(s.frame, residual(fit, samples, s, marker));
   return out;
+}
+
+/// Markers that lie far from where the best pose of a frame has them.
+std::vector<bool> far_off(const ChainFit& fit, const ChainSamples& samples, std::int64_t f,
+                          const ChainFrame& frame) {
+  std::vector<bool> far(at(samples.markers), false);
+  for (int m = 0; m < samples.markers; ++m) {
+    const double weight = fit.marker_weight[at(m)];
+    if (!(weight > 0.0) || !samples.seen(f, m)) continue;
+    const Eigen::Map<const Vector3d> x(samples.frame(f) + std::ptrdiff_t{3} * m);
+    const double distance_m = (x - fit.chain.predict(frame.modes.front().pose, m)).norm();
+    far[at(m)] = distance_m > kSwapFar * fit.noise_sd_m / std::sqrt(weight);
+  }
+  return far;
 }
 
 struct Step {
@@ -177,14 +192,17 @@ std::vector<Swap> find_swaps(const ChainFit& fit, const ChainSamples& samples, c
   ChainFrame frame;
   const int K = samples.markers;
   std::vector<double> x(at(3 * K));
-  const std::size_t stride = std::max<std::size_t>(1, pass.misfits.size() / kSwapFrames);
+  const std::size_t stride = std::max<std::size_t>(1, (pass.misfits.size() + kSwapFrames - 1) / kSwapFrames);
   for (std::size_t i = 0; i < pass.misfits.size(); i += stride) {
     const std::int64_t f = pass.misfits[i];
     double least = std::numeric_limits<double>::infinity();
     std::pair<int, int> best{-1, -1};
+    solver.solve(samples.frame(f), nullptr, frame);
+    if (frame.mode_count == 0) continue;
+    const std::vector<bool> far = far_off(fit, samples, f, frame);
     for (int a = 0; a < K; ++a)
       for (int b = a + 1; b < K; ++b) {
-        if (!samples.seen(f, a) && !samples.seen(f, b)) continue;
+        if (!far[at(a)] && !far[at(b)]) continue;
         std::copy_n(samples.frame(f), 3 * K, x.begin());
         std::swap_ranges(x.begin() + 3 * a, x.begin() + 3 * a + 3, x.begin() + 3 * b);
         solver.solve(x.data(), nullptr, frame);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct JointMotionSeen {
   bool still = false;             ///< both segments more than lines, and no more than noise about any axis
   Vector3d axis_in_parent = Vector3d::Zero();  ///< unit length; chain's parent and child
   Vector3d axis_in_child = Vector3d::Zero();
-  double axis_sd_rad = 0.0;
+  double axis_sd_rad = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no axis, and both are zero
   std::int64_t frames = 0;
 };
 
@@ -38,10 +39,11 @@ struct Slip {
 /// Two markers whose names are exchanged in some frames.
 struct Swap {
   int marker_a = 0, marker_b = 0;
-  std::int64_t frames = 0, first_frame = 0;
+  std::int64_t frames = 0, first_frame = 0;  ///< how many: about, where not all were looked at
 };
 
-/// Exchanges that turn frames that nothing explains into ordinary ones; some dozen frames are looked at.
+/// Exchanges that turn frames that nothing explains into ordinary ones; a dozen frames are looked at, and the
+/// pairs of which one marker or both lie far from where the frame's pose would have them.
 [[nodiscard]] std::vector<Swap> find_swaps(const ChainFit& fit, const ChainSamples& samples,
                                            const RecordingPass& pass);
 

@@ -62,7 +62,7 @@ Result<RecordingPass> pass_over(const ChainFit& fit, const ChainSamples& samples
   pass.state.assign(J, std::vector<CentreState>(F, CentreState::undetermined));
   pass.covariance.assign(J, Array<double>(6 * F, kNaN));
   pass.common.assign(J, Array<double>(6 * F, kNaN));
-  const std::int64_t stride = std::max<std::int64_t>(1, samples.frames / kSampled);
+  const std::int64_t stride = std::max<std::int64_t>(1, (samples.frames + kSampled - 1) / kSampled);
   std::vector<Chunk> chunks(static_cast<std::size_t>((samples.frames + kChunk - 1) / kChunk));
   std::atomic<bool> stop = false;
   std::mutex telling;
