@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "kinemark/core/random.h"
 #include "kinemark/stages/simulation/internal/limb_build.h"
@@ -52,12 +53,15 @@ ArmPose pose_arm(const Vector3d& goal, double swivel, double roll) {
   return out;
 }
 
-/// Three turns about the limb over its LEDs: two helices, so that no neighbours look the same way.
+/// Three turns about the limb over its LEDs, or the next number of turns that shares no factor with theirs:
+/// no neighbours look the same way, no two sit above each other, and they never lie in one plane.
 Eigen::Matrix3Xd led_places(const SleeveOptions& options, double length_m) {
   const int n = options.leds_per_segment;
+  int turns = n > 3 ? 3 : 1;
+  while (std::gcd(turns, n) != 1) ++turns;
   Eigen::Matrix3Xd out(3, n);
   for (int k = 0; k < n; ++k) {
-    const double turn = 2.0 * pi * k * (n > 3 ? 3 : 1) / n;
+    const double turn = 2.0 * pi * k * turns / n;
     out.col(k) << options.radius_m * std::cos(turn), options.radius_m * std::sin(turn),
         length_m * (k + 1) / (n + 1);
   }
