@@ -22,8 +22,9 @@ using data::FrameStatus;
 
 constexpr double kFastest_hz = 10000.0;
 constexpr double kLongestGap_s = 2.0;
-constexpr double kPatience_s = 1.0;  // then a start with fewer markers is good enough
-constexpr double kEnough = 0.95;     // of the markers
+constexpr double kMostAhead_s = 0.5;  // of the stamps, by frames that come faster than the rate
+constexpr double kPatience_s = 1.0;   // then a start with fewer markers is good enough
+constexpr double kEnough = 0.95;      // of the markers
 constexpr std::int64_t kFewest = 3;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -55,8 +56,8 @@ struct OnlineTracker::Impl {
       : plan(std::move(given)),
         options(opts),
         filter(internal::make_filter(plan.rate_hz, opts)),
-        // Frames that the stream skips come in at once.
-        capacity(filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
+        // A window to look back, one of poses not fetched yet, and frames that the stream skips, at once.
+        capacity(2 * filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
         samples(plan.problem.model.marker_count(), capacity),
         readout(plan.problem.model),
         y(3, plan.problem.model.marker_count()),
@@ -175,7 +176,7 @@ struct OnlineTracker::Impl {
   MarkerVariances variances;
   std::int64_t columns;
   LivePose pose;
-  std::int64_t next_frame = 0;
+  std::int64_t next_frame = 0, ahead = 0;
   double t0_s = 0.0, last_time_s = 0.0;
 };
 
@@ -222,7 +223,17 @@ Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
       return fail(Code::bad_input,
                   fmt::format("no frame for {:.1f} s; after more than {:g} s begin a new stream", wait,
                               kLongestGap_s));
-    for (auto missed = std::llround(wait * s.plan.rate_hz) - 1; missed > 0; --missed) s.take(nullptr);
+    // Counted from the first frame on, so that rounding does not add up.
+    const auto place = std::llround((time_s - s.t0_s) * s.plan.rate_hz);
+    const auto ahead = s.window().frames() - place;
+    if (static_cast<double>(ahead) > std::max(2.0, kMostAhead_s * s.plan.rate_hz))
+      return fail(
+          Code::bad_input,
+          fmt::format("frames come faster than {:g} Hz: the one at {} s is {} frames ahead of its time; "
+                      "give the rate of the stream",
+                      s.plan.rate_hz, time_s, ahead));
+    for (auto missed = -ahead; missed > 0; --missed) s.take(nullptr);
+    s.ahead = std::max<std::int64_t>(0, ahead);
   }
   s.last_time_s = time_s;
   s.take(&x);
@@ -262,6 +273,8 @@ std::vector<std::string> OnlineTracker::locked_coordinates() const {
     names.push_back(impl_->plan.problem.model.description().coordinates[at(c)].name);
   return names;
 }
+
+std::int64_t OnlineTracker::frames_ahead() const { return impl_->ahead; }
 
 std::int64_t OnlineTracker::restarts() const { return impl_->walker ? impl_->walker->restarts() : 0; }
 

@@ -48,9 +48,11 @@ class OnlineTracker {
 
   [[nodiscard]] std::int64_t delay_frames() const;
 
-  /// One frame: x (3 x markers, m, NaN where not seen) at a time in s. Frames that the stream skipped count
-  /// as not seen. Fails, and takes nothing in, when time does not advance, jumps by more than 2 s, x has the
-  /// wrong size, or poses wait to be fetched.
+  /// One frame: x (3 x markers, m, NaN where not seen) at a time in s. A frame's place is its
+  /// time since the first one, to the nearest frame, or the next place where that is taken; frames that the
+  /// stream skipped count as not seen. Fails, and takes nothing in, when time does not advance, jumps by more
+  /// than 2 s or falls more than half a second behind the count of frames, x has the wrong size, or poses
+  /// wait to be fetched.
   [[nodiscard]] Status push(double time_s, const Eigen::Matrix3Xd& x);
   /// No more frames will come: what is on the way comes out.
   void finish();
@@ -60,6 +62,9 @@ class OnlineTracker {
   [[nodiscard]] Result<const LivePose*> next();
 
   [[nodiscard]] std::vector<std::string> locked_coordinates() const;
+  /// Frames by which the poses' times run ahead of the stamp last pushed: 0 or 1 for a stream that keeps its
+  /// rate, more where frames come faster than that, or in a burst after a pause.
+  [[nodiscard]] std::int64_t frames_ahead() const;
   [[nodiscard]] std::int64_t restarts() const;
 
  private:

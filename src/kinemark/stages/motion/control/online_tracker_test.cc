@@ -133,6 +133,90 @@ TEST(OnlineTracker, FramesThatTheStreamSkippedAreGaps) {
   EXPECT_EQ(poses[55].status, data::FrameStatus::no_markers);
 }
 
+/// Push frame 0 of `markers` at every one of the times; the poses that come out.
+std::vector<LivePose> poses_at(OnlineTracker& tracker, const data::Trajectories& markers,
+                               const std::vector<double>& times) {
+  std::vector<LivePose> poses;
+  const auto x = frame_of(markers, 0);
+  for (const double time : times) {
+    EXPECT_TRUE(tracker.push(time, x)) << time;
+    while (const auto* pose = *tracker.next()) poses.push_back(*pose);
+  }
+  tracker.finish();
+  while (const auto* pose = *tracker.next()) poses.push_back(*pose);
+  return poses;
+}
+
+TEST(OnlineTracker, JitterOfTheStampsLosesNoFrameAndInventsNone) {
+  const auto model = body();
+  const auto markers = record(model, 2);
+  std::vector<double> times;
+  for (int f = 0; f < 600; ++f)
+    times.push_back(0.01 * f + (f % 3 == 1 ? 0.0049 : f % 3 == 2 ? -0.0049 : 0.0));
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0, {.error_bars = false}).value();
+  const auto poses = poses_at(tracker, markers, times);
+  ASSERT_EQ(poses.size(), 600u);
+  for (const auto& pose : poses) EXPECT_NE(pose.status, data::FrameStatus::no_markers) << pose.frame;
+  EXPECT_EQ(tracker.frames_ahead(), 0);
+}
+
+TEST(OnlineTracker, AStreamThatIsSlowerThanItsRateDoesNotDrift) {
+  const auto model = body();
+  const auto markers = record(model, 2);
+  std::vector<double> times;
+  for (int f = 0; f < 5000; ++f) times.push_back(f / 239.76);
+  auto tracker =
+      OnlineTracker::create(model, markers.names, 240.0, {.step_s = 1.0 / 240.0, .error_bars = false})
+          .value();
+  const auto poses = poses_at(tracker, markers, times);
+  ASSERT_EQ(poses.size(), 5005u);  // 4999 / 239.76 s are 5004.0 frames of 240 Hz
+  EXPECT_NEAR(poses.back().time_s, times.back(), 1.0 / 240.0);
+  EXPECT_EQ(tracker.frames_ahead(), 0);
+}
+
+TEST(OnlineTracker, AStreamThatIsFasterThanItsRateIsSaidToBe) {
+  const auto model = body();
+  const auto x = frame_of(record(model, 2), 0);
+  auto tracker = OnlineTracker::create(model, record(model, 2).names, 100.0, {.error_bars = false}).value();
+  Status status;
+  int f = 0;
+  for (; f < 400 && status; ++f) {
+    status = tracker.push(f / 125.0, x);
+    while (*tracker.next() != nullptr) {
+    }
+    if (status) {
+      EXPECT_NEAR(static_cast<double>(tracker.frames_ahead()), 0.2 * f, 0.6);
+    }
+  }
+  ASSERT_FALSE(status);
+  EXPECT_THAT(status.error().message, HasSubstr("frames come faster than 100 Hz"));
+  EXPECT_NEAR(f, 254, 3);  // 51 frames too many
+}
+
+TEST(OnlineTracker, TheLongestPauseOverwritesNothingThatIsStillNeeded) {
+  const auto model = body();
+  const auto markers = record(model, 140);
+  const auto run = [&](bool fetch_late) {
+    auto tracker = OnlineTracker::create(model, markers.names, 100.0, {.error_bars = false}).value();
+    std::vector<LivePose> poses;
+    const auto fetch = [&] {
+      while (const auto* pose = *tracker.next()) poses.push_back(*pose);
+    };
+    for (std::int64_t f = 0; f < 140; ++f) {
+      // After 1 s the stream pauses for as long as it may; late: nothing is fetched before that.
+      EXPECT_TRUE(tracker.push(markers.time.time_s(f) + (f >= 100 ? 1.98 : 0.0), frame_of(markers, f)));
+      if (!fetch_late || f < 80 || f >= 100) fetch();
+    }
+    tracker.finish();
+    fetch();
+    return poses;
+  };
+  const auto soon = run(false), late = run(true);
+  ASSERT_EQ(soon.size(), 338u);
+  ASSERT_EQ(late.size(), soon.size());
+  for (std::size_t f = 0; f < soon.size(); ++f) ASSERT_TRUE(late[f].q == soon[f].q) << f;
+}
+
 TEST(OnlineTracker, WaitsForEnoughMarkers) {
   const auto model = body();
   auto markers = record(model, 120);

@@ -105,6 +105,7 @@ class Recorder {
       walker_.next();
       store();
     }
+    if (goals_ == 0) result_.rms_goal_error_m = kNaN;
     result_.restarts = walker_.restarts();
     result_.steps = walker_.controller().steps();
     return true;
@@ -226,8 +227,10 @@ void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances&
   for (std::int64_t f = 0; f < p.frames; ++f) {
     const auto* row = motion.determined.data() + motion.index(f, 0);
     auto& status = motion.status[at(f)];
-    if (status == FrameStatus::converged && std::any_of(row, row + n, [](auto d) { return d == 0; }))
-      status = FrameStatus::underdetermined;
+    if (status != FrameStatus::converged && status != FrameStatus::underdetermined) continue;
+    // The rank of a step lacks what rests at a limit; what the markers determine is the better answer.
+    const bool all = std::all_of(row, row + n, [](auto d) { return d != 0; });
+    status = all ? FrameStatus::converged : FrameStatus::underdetermined;
   }
 }
 
@@ -265,7 +268,12 @@ void summarise(const Plan& plan, const data::Trajectories& markers, const Marker
     result.max_marker_error_m = std::max(result.max_marker_error_m, s.max_m);
     result.markers.push_back(std::move(s));
   }
-  if (count == 0) return;
+  // Nothing seen, nothing known: NaN passes no gate.
+  if (count == 0) {
+    result.rms_marker_error_m = kNaN;
+    result.mean_marker_error_m.setConstant(kNaN);
+    return;
+  }
   result.rms_marker_error_m = std::sqrt(squares / static_cast<double>(count));
   result.mean_marker_error_m = sum / static_cast<double>(count);
 }
@@ -289,6 +297,23 @@ void describe(const Plan& plan, const data::Trajectories& markers, TrackResult& 
   motion.time = {
       .rate_hz = markers.time.rate_hz, .t0_s = markers.time.time_s(p.first_frame), .frames = p.frames};
   for (const int c : plan.locked) result.locked_coordinates.push_back(motion.coordinates[at(c)]);
+}
+
+/// Without goals of other kinds there is nothing to do where no marker is seen.
+Status check_seen(const Plan& plan, const internal::SampleWindow& samples, const Track& track,
+                  const TimeBase& time) {
+  const auto& p = plan.problem;
+  if (track.weights.size() > 0 && track.weights.maxCoeff() > 0.0) return {};
+  if (std::any_of(plan.levels.begin(), plan.levels.end(),
+                  [](const auto& level) { return !level.tasks.empty(); }))
+    return {};
+  bool seen = false;
+  for (std::int64_t f = 0; f < p.frames && !seen; ++f)
+    for (int m = 0; m < p.model.marker_count() && !seen; ++m) seen = samples.present(f, m);
+  return fail(Code::bad_input,
+              fmt::format("no tracked marker is seen {}between {:g} and {:g} s",
+                          seen ? "in enough frames in a row to be followed " : "", time.time_s(p.first_frame),
+                          time.time_s(p.first_frame + p.frames - 1)));
 }
 
 Status check_derivatives(const data::Trajectories& markers, const TrackOptions& options) {
@@ -315,6 +340,8 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
     internal::SampleWindow samples(plan->problem.model.marker_count(), plan->problem.frames);
     fill_window(*plan, markers, samples);
     fill_goals(*plan, markers, filter, samples, options.derivatives, track);
+    if (auto status = check_seen(*plan, samples, track, markers.time); !status)
+      return std::unexpected(status.error());
   }
   const Eigen::VectorXd start = internal::find_first_pose(*plan, track.goals, options.lock);
   if (auto status = internal::check_mass(*plan, start); !status) return std::unexpected(status.error());

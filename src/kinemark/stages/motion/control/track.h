@@ -21,9 +21,11 @@ struct TrackResult {
   /// q, v, a, tau, marker_error (measured minus model), status; with error bars also q_sd, determined and
   /// q_bound. Status not_converged: the frame was flagged (explosion, restart, goals out of reach).
   data::JointMotion motion;
-  std::int64_t first_frame = 0;                       ///< index in the recording of motion's frame 0
-  std::vector<int> rank;                              ///< per frame: directions that the levels fix together
-  std::vector<double> smallest_singular;              ///< per frame, of the last level's directions, kg^-1/2
+  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
+  std::vector<int> rank;         ///< per frame: directions that the levels fix together
+  /// Per frame: smallest pivot over all levels, near the smallest singular value of what they fix, kg^-1/2; 0
+  /// where they fix nothing. Without error bars NaN where one level fixes everything: not computed.
+  std::vector<double> smallest_singular;
   int free_speeds = 0;                                ///< directions there are: speeds that are not locked
   std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
   std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames
@@ -31,7 +33,8 @@ struct TrackResult {
   std::vector<std::string> model_markers_without_data, data_markers_without_model;
   std::vector<ExcludedMarker> excluded_markers;
   std::vector<std::string> warnings;
-  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;  ///< measured to model, all frames and markers
+  /// Measured to model, all frames and markers; RMS and mean NaN when none is seen.
+  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;
   Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();
   double rms_goal_error_m = 0.0, max_goal_error_m = 0.0;  ///< goal (filtered) to model, gaps left out
   std::int64_t flagged_frames = 0;
@@ -44,10 +47,10 @@ struct TrackResult {
 /// Track every frame of the time range.
 ///
 /// Markers are matched by name as by solve_ik(). Errors (one sentence): options out of range, gains that are
-/// unstable for the step, no marker in common, a level without tasks, a marker named twice or fixed to the
-/// ground, coordinates without mass behind them. Goals that cannot be reached are not errors: the frames are
-/// flagged. About 100 us per step for a whole body with one level, which allocates nothing; several levels
-/// allocate where their ranks differ.
+/// unstable for the step, no marker in common, or none seen in the time range, a level without tasks, a
+/// marker named twice or fixed to the ground, coordinates without mass behind them. Goals that cannot be
+/// reached are not errors: the frames are flagged. About 100 us per step for a whole body with one level;
+/// steps allocate nothing.
 [[nodiscard]] Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
                                                 const TrackOptions& options = {},
                                                 const Progress& progress = {});

@@ -11,6 +11,8 @@
 namespace kinemark::motion {
 namespace {
 
+constexpr double kLowestCutoff_hz = 0.12;  // below, the filter looks more than 10 s ahead
+
 struct Bounded {
   const char* name;
   double value, low;
@@ -36,6 +38,9 @@ Status check_numbers(const TrackOptions& o) {
     if (!std::isfinite(n.value) || n.value < n.low || (!n.low_itself && n.value == n.low))
       return fail(Code::usage, fmt::format("{} is {}; it must be {} {}", n.name, n.value,
                                            n.low_itself ? "at least" : "more than", n.low));
+  if (o.cutoff_hz > 0.0 && o.cutoff_hz < kLowestCutoff_hz)
+    return fail(Code::usage, fmt::format("the cut-off is {} Hz; it must be 0 (none) or at least {} Hz",
+                                         o.cutoff_hz, kLowestCutoff_hz));
   if ((o.kp > 0.0) != (o.kd > 0.0))
     return fail(Code::usage, fmt::format("kp is {} and kd is {}; give both, or omega alone", o.kp, o.kd));
   if (o.truncation >= 1.0)

@@ -38,7 +38,7 @@ struct TrackOptions {
   double damping = 0.1;      ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
   double truncation = 1e-4;  ///< > 0, of a level's strongest direction: below, left to lower levels
   bool feed_forward = true;  ///< velocity and acceleration of the goals are used
-  double cutoff_hz = 6.0;    ///< of the goals, zero phase, -3 dB; 0: goals are the samples
+  double cutoff_hz = 6.0;    ///< of the goals, zero phase, -3 dB; 0: goals are the samples; or >= 0.12
   double lookahead_s = 0.0;  ///< half width of that filter; 0: 1.2 / cutoff. The live tracker lags by it
   double fade_s = 0.1;       ///< > 0; a marker's weight grows and shrinks over this time beside its gaps
   const data::Derivatives* derivatives = nullptr;  ///< velocity and acceleration of the samples, used in

@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemark/model/state.h"
+#include "kinemark/stages/motion/control/tasks.h"
 #include "kinemark/stages/motion/test_body.h"
 
 namespace kinemark::motion {
@@ -194,6 +196,74 @@ TEST(Track, FrameWithoutMarkersAreMarkedAndTheBodyStaysSane) {
   EXPECT_NEAR(track.motion.q[track.motion.index(180, 9)], testing_body::coordinates(model, 180)[9], 2e-3);
 }
 
+TEST(Track, ABlankStretchIsAFailureAndNoPerfectFit) {
+  const auto model = body();
+  auto markers = record(model, 200);
+  for (std::int64_t f = 80; f < 120; ++f)
+    for (std::int64_t m = 0; m < 14; ++m) markers.set_missing(f, m);
+  EXPECT_THAT(refusal(model, markers, {.first_time_s = 0.85, .last_time_s = 1.15}),
+              HasSubstr("no tracked marker is seen between 0.85 and 1.15 s"));
+  // One frame alone cannot be followed either.
+  markers.x(100, 3) = Eigen::Vector3d(0.1, 0.2, 0.3);
+  markers.state[markers.index(100, 3)] = data::SampleState::measured;
+  EXPECT_THAT(refusal(model, markers, {.first_time_s = 0.85, .last_time_s = 1.15}),
+              HasSubstr("no tracked marker is seen in enough frames in a row"));
+  EXPECT_EQ(refusal(model, markers, {.first_time_s = 0.5, .last_time_s = 1.15}), "");
+}
+
+TEST(Track, ACoordinateAtItsLimitIsDeterminedAllTheSame) {
+  auto description = testing_body::description();
+  for (auto& c : description.coordinates)
+    if (c.name == "elbow") c.range_max = 0.5;  // the recorded elbow goes to 1.2 rad
+  const auto limited = model::Model::compile(std::move(description)).value();
+  const auto track =
+      track_markers(limited, record(body(), 200), {.step_s = 2e-3, .marker_noise_sd_m = 1e-3}).value();
+  const auto& motion = track.motion;
+  const auto elbow = motion.find("elbow");
+  std::int64_t at_limit = 0;
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const auto* determined = motion.determined.data() + motion.index(f, 0);
+    const bool all = std::all_of(determined, determined + motion.size(), [](auto d) { return d != 0; });
+    EXPECT_EQ(motion.status[static_cast<std::size_t>(f)],
+              all ? data::FrameStatus::converged : data::FrameStatus::underdetermined)
+        << f;
+    at_limit += all && std::abs(motion.q[motion.index(f, elbow)] - 0.5) < 1e-6;
+  }
+  EXPECT_GT(at_limit, 10);
+}
+
+TEST(Track, TheSmallestPivotIsSaidOnlyWhenItIsComputed) {
+  const auto model = body();
+  auto markers = record(model, 60);
+  for (std::int64_t f = 20; f < 40; ++f)
+    for (std::int64_t m = 0; m < 14; ++m) markers.set_missing(f, m);
+  const auto fast = track_markers(model, markers, {.error_bars = false}).value();
+  const auto bars = track_markers(model, markers).value();
+  EXPECT_TRUE(std::isnan(fast.smallest_singular[10]));
+  EXPECT_EQ(fast.smallest_singular[30], 0.0);
+  EXPECT_GT(bars.smallest_singular[10], 0.03);
+  EXPECT_EQ(bars.smallest_singular[30], 0.0);
+}
+
+TEST(Track, AGoalThatDoesNotSayHowSureItIsGivesNoDeviation) {
+  const auto model = body();
+  const TimeBase time{.rate_hz = 100.0, .t0_s = 0.0, .frames = 40};
+  const auto track =
+      track_markers(
+          model, record(model, 40),
+          {.levels = {{.markers = {"T1", "T2", "T3", "T4", "U1", "U2", "H1", "H2", "S1", "S2", "S3"},
+                       .tasks = {coordinate_task("elbow", {0.4}, time)}}},
+           .marker_noise_sd_m = 1e-3})
+          .value();
+  const auto& motion = track.motion;
+  const auto elbow = motion.index(20, motion.find("elbow")), knee = motion.index(20, motion.find("knee"));
+  EXPECT_EQ(motion.determined[elbow], 1);
+  EXPECT_TRUE(std::isnan(motion.q_sd[elbow]));
+  EXPECT_TRUE(std::isfinite(motion.q_bound[elbow]));
+  EXPECT_EQ(motion.determined[knee], 1);
+  EXPECT_GT(motion.q_sd[knee], 0.0);
+}
+
 TEST(Track, GoalsOutOfReachAreFlaggedAndNeverAnExplosion) {
   const auto model = body();
   auto markers = record(model, 120);
@@ -224,6 +294,11 @@ TEST(Track, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(model, markers, {.step_s = 1e-9}), HasSubstr("more than 100000 steps"));
   EXPECT_THAT(refusal(model, markers, {.kp = 100.0}), HasSubstr("give both"));
   EXPECT_THAT(refusal(model, markers, {.omega_rad_s = -1.0}), HasSubstr("omega is -1"));
+  for (const double cutoff : {1e-300, 1e-6, 0.119})
+    EXPECT_THAT(refusal(model, markers, {.cutoff_hz = cutoff}),
+                HasSubstr("Hz; it must be 0 (none) or at least 0.12 Hz"));
+  EXPECT_TRUE(TrackOptions{.cutoff_hz = 0.12}.check());
+  EXPECT_TRUE(TrackOptions{.cutoff_hz = 0.0}.check());
   EXPECT_THAT(refusal(model, markers, {.damping = std::nan("")}), HasSubstr("damping is nan"));
   EXPECT_THAT(refusal(model, markers, {.posture_kp = 1e9}), HasSubstr("posture's gains are unstable"));
   EXPECT_THAT(refusal(model, markers, {.rest_pose = {{.coordinate = "wing"}}}), HasSubstr("'wing'"));

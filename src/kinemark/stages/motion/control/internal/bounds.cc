@@ -17,6 +17,7 @@ constexpr double kBlindRotation = 1.0 / 0.003;  // rad per m of goal error, as f
 constexpr double kBlindTranslation = 20.0;      // m per m
 constexpr double kNullShare = 1e-4;             // of a coordinate's square that no level fixes
 constexpr double kLargestSd = 0.5;              // rad or m
+constexpr double kUnknownShare = 1e-6;          // of the squared gains that goals with a known SD have
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
@@ -129,7 +130,7 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
     const bool rotation = model.description().coordinates[at(c)].is_rotation;
     bool sure = whole - fixed <= kNullShare * whole &&
                 G_.row(c).norm() <= (rotation ? kBlindRotation : kBlindTranslation);
-    double variance = 0.0, bound = 0.0;
+    double variance = 0.0, bound = 0.0, known = 0.0, unknown = 0.0;
     Eigen::RowVectorXd common = Eigen::RowVectorXd::Zero(3 * noise.common.size());
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const auto part = G_.row(c).segment(first_column_[i], levels_[i].variance.size());
@@ -138,6 +139,10 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
         const int body = model.markers()[at(plan_.levels[i].markers[j])].body;
         if (body >= 0) common.segment<3>(3 * body) += part.segment<3>(3 * static_cast<Eigen::Index>(j));
       }
+      const Eigen::Index points = 3 * static_cast<Eigen::Index>(plan_.levels[i].markers.size());
+      known += part.squaredNorm();
+      for (Eigen::Index row = points; row < part.size(); ++row)
+        if (levels_[i].variance[row] == 0.0) unknown += part[row] * part[row];
       bound += (C_.col(c).transpose() * levels_[i].inverse).norm() * levels_[i].dx.norm();
     }
     for (Eigen::Index b = 0; b < noise.common.size(); ++b)
@@ -145,7 +150,8 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
     sd_[c] = std::sqrt(variance);
     sure = sure && sd_[c] <= kLargestSd;
     bound_[c] = sure ? bound + kNoiseSds * sd_[c] : nan;
-    if (!sure) sd_[c] = nan;
+    // Held by goals alone that do not say how sure they are.
+    if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;
     determined_[at(c)] = sure ? 1 : 0;
   }
   for (const int c : plan_.locked) {  // held by us: nothing is known

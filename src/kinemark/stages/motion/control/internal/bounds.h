@@ -35,7 +35,7 @@ class Bounds {
   void find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
             const MarkerVariances& noise);
 
-  [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }        ///< NaN where not determined
+  [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }  ///< NaN where not determined or not known
   [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }  ///< likewise
   [[nodiscard]] const std::vector<std::uint8_t>& determined() const { return determined_; }
   [[nodiscard]] int rank() const { return rank_; }

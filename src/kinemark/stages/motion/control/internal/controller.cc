@@ -213,7 +213,7 @@ bool Controller::evaluate(const GoalValues& goal, double time_s) {
     if (!hold_at_limits()) break;
   }
   rank_ = solver_.rank();
-  smallest_ = solver_.smallest_pivot();
+  smallest_ = rank_ > 0 ? solver_.smallest_pivot() : 0.0;
   return a_.allFinite();
 }
 

@@ -14,8 +14,7 @@
 
 namespace kinemark::motion::internal {
 
-/// The body and the law that moves it. With one level it allocates in its constructor and in the first step
-/// only.
+/// The body and the law that moves it. It allocates in its constructor and in the first step only.
 class Controller {
  public:
   explicit Controller(const Plan& plan);

@@ -26,8 +26,7 @@ PrioritySolver::PrioritySolver(int speeds)
       part_(speeds),
       projected_(speeds),
       result_(speeds),
-      held_a_(speeds),
-      workspace_(speeds) {}
+      held_a_(speeds) {}
 
 bool PrioritySolver::begin(const Eigen::MatrixXd& M, const std::vector<std::uint8_t>& held,
                            const Eigen::VectorXd& held_a) {
@@ -74,8 +73,9 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
   level.r.noalias() -= level.A.transpose() * z_;
   const auto V = V_.leftCols(used_);
   if (used_ > 0) {
-    level.shared.noalias() = V.transpose() * level.A;
-    level.A.noalias() -= V * level.shared;
+    level.shared.resize(n, m);
+    level.shared.topRows(used_).noalias() = V.transpose() * level.A;
+    level.A.noalias() -= V * level.shared.topRows(used_);
   }
   level.qr.compute(level.A);
   const auto& qr = level.qr.matrixQR();
@@ -85,29 +85,33 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
   while (count < most && std::abs(qr(count, count)) > floor) ++count;
   if (count == 0) return;
   smallest_ = std::min(smallest_, std::abs(qr(count - 1, count - 1)));
-  level.B.setIdentity(n, count);
-  workspace_.resize(count);
-  level.qr.householderQ().applyThisOnTheLeft(level.B, workspace_);
-  // A' = B R P' on what is kept, so that B'z solves (R R' + damping^2) y = R P' r.
-  level.R = qr.topRows(count);
-  for (int j = 0; j < count; ++j) level.R.col(j).tail(count - 1 - j).setZero();
-  level.G.resize(count, count);
-  level.G.noalias() = level.R * level.R.transpose();
-  level.G.diagonal().array() += damping.damping * damping.damping;
-  level.llt.compute(level.G);
-  level.idle = damping.damping > 0.0 && std::abs(qr(count - 1, count - 1)) < kBusy;
-  if (level.idle) {
+  // A' = B R P' on what is kept, so that B'z solves (R R' + damping^2) y = R P' r. Sizes do not follow the
+  // rank (that would allocate): what is not kept has zero rows in R and takes no part.
+  const int size = std::min(m, n), rest = size - count;
+  level.B.setIdentity(n, size);
+  level.workspace.resize(size);
+  level.qr.householderQ().applyThisOnTheLeft(level.B, level.workspace);
+  level.R = qr.topRows(size);
+  for (int j = 0; j < size; ++j) level.R.col(j).tail(size - 1 - j).setZero();
+  level.R.bottomRows(rest).setZero();
+  level.G.resize(size, size);
+  const auto factor = [&](double spread, Eigen::LLT<Eigen::MatrixXd>& llt) {
     level.G.noalias() = level.R * level.R.transpose();
-    level.G.diagonal().array() += kIdle * kIdle;
-    level.idle_llt.compute(level.G);
-  }
+    level.G.diagonal().head(count).array() += spread * spread;
+    level.G.diagonal().tail(rest).setOnes();
+    llt.compute(level.G);
+  };
+  factor(damping.damping, level.llt);
+  level.idle = damping.damping > 0.0 && std::abs(qr(count - 1, count - 1)) < kBusy;
+  if (level.idle) factor(kIdle, level.idle_llt);
+  level.count = count;
   level.permuted.resize(m);
   for (int j = 0; j < m; ++j) level.permuted[j] = level.r[level.qr.colsPermutation().indices()[j]];
-  level.along.resize(count);
+  level.along.resize(size);
   level.along.noalias() = level.R * level.permuted;
   level.llt.solveInPlace(level.along);
   z_.noalias() += level.B * level.along;
-  V_.middleCols(used_, count) = level.B;
+  V_.middleCols(used_, count) = level.B.leftCols(count);
   used_ += count;
 }
 
@@ -129,7 +133,7 @@ bool PrioritySolver::add_full_level(const Eigen::MatrixXd& H, const Eigen::Vecto
   normal_.solveInPlace(part_);
   z_.noalias() = llt_.matrixL().transpose() * part_;
   used_ = free_count_;
-  smallest_ = std::min(smallest_, min_singular);
+  smallest_ = std::numeric_limits<double>::quiet_NaN();
   return true;
 }
 
@@ -142,6 +146,7 @@ void PrioritySolver::add_posture(const Eigen::VectorXd& wished) {
     auto& level = levels_[i];
     if (!level.idle) continue;
     level.along.noalias() = level.B.transpose() * projected_;
+    level.along.tail(level.along.size() - level.count).setZero();
     level.idle_llt.solveInPlace(level.along);
     z_.noalias() += (kIdle * kIdle) * (level.B * level.along);
   }

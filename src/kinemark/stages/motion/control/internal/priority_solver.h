@@ -55,13 +55,15 @@ class PrioritySolver {
   [[nodiscard]] int rank() const { return used_; }
   /// Speeds that are not held.
   [[nodiscard]] int free_speeds() const { return free_count_; }
-  /// Smallest pivot that a level uses, near its smallest singular value; infinity before the first level.
+  /// Smallest pivot over the levels, near the smallest singular value of what they fix; infinity when they
+  /// fix nothing, NaN after add_full_level(), which does not compute it.
   [[nodiscard]] double smallest_pivot() const { return smallest_; }
 
  private:
   struct Level {
     Eigen::MatrixXd A, B, R, G, shared;  ///< A transposed: speeds x rows
-    Eigen::VectorXd r, permuted, along;
+    Eigen::VectorXd r, permuted, along, workspace;
+    int count = 0;  ///< directions that it fixes
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     Eigen::LLT<Eigen::MatrixXd> llt, idle_llt;
     bool idle = false;  ///< some direction is left to the posture, wholly or in part
@@ -73,7 +75,7 @@ class PrioritySolver {
   int free_count_ = 0;
   Eigen::MatrixXd M_, H_, V_;
   Eigen::LLT<Eigen::MatrixXd> llt_, normal_;
-  Eigen::VectorXd z_, part_, projected_, result_, held_a_, workspace_;
+  Eigen::VectorXd z_, part_, projected_, result_, held_a_;
   std::deque<Level> levels_;
   std::size_t next_level_ = 0;
   int used_ = 0;
