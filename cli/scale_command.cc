@@ -95,6 +95,8 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("-t,--markers", job.markers,
                    "Marker file of a motion that sizes and places are adapted to")
       ->group("Input");
+  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that tell none (.v3d), Hz")
+      ->group("Input");
   command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
       ->group("Input");
   command->add_option("--end", job.adapt.ik.last_time_s, "Last time of the motion to use, s")->group("Input");

@@ -17,6 +17,7 @@ struct LimbArguments {
   std::vector<double> lengths_mm{150.0, 160.0};
   std::string interpolation = "linear";
   bool all_seen = false, hard = false;
+  bool missing_given = false;
 };
 
 int run_limb(const Globals& globals, LimbArguments& arguments) {
@@ -32,7 +33,7 @@ int run_limb(const Globals& globals, LimbArguments& arguments) {
     job.macaque.sight_cosine = hard.sight_cosine;
     job.macaque.sight_cameras = hard.sight_cameras;
     job.macaque.mouth_loss = hard.mouth_loss;
-    if (job.macaque.missing == 0.0) job.macaque.missing = hard.missing;
+    if (!arguments.missing_given) job.macaque.missing = hard.missing;
   }
   job.macaque.line_of_sight = !arguments.all_seen;
   job.upsample.how =
@@ -97,8 +98,10 @@ void add_simulate_limb(CLI::App& simulate, const Globals& globals, Run& run) {
       ->excludes(all_seen);
   macaque->add_flag("--obstacles", worn.obstacles, "Head, trunk and cage bars stand in the way as well")
       ->excludes(all_seen);
-  macaque->callback(
-      [&globals, sleeve, &run] { run = [&globals, sleeve] { return run_limb(globals, *sleeve); }; });
+  macaque->callback([&globals, macaque, sleeve, &run] {
+    sleeve->missing_given = macaque->count("--missing") > 0;
+    run = [&globals, sleeve] { return run_limb(globals, *sleeve); };
+  });
 }
 
 }  // namespace kinemark::cli

@@ -52,8 +52,10 @@ Status reject_defects(data::Trajectories& markers, JointsOutcome& outcome) {
   }
   if (sure.empty()) return {};
   if (samples > kMostDefects * static_cast<double>(markers.state.size())) {
-    outcome.notes.emplace_back(
-        "Most paths have breaks: frames are taken as poses of their own, and nothing was rejected.");
+    outcome.notes.push_back(
+        fmt::format("{:.0f} % of the samples break their paths: frames are taken as poses of their own, and "
+                    "nothing was rejected.",
+                    100.0 * samples / static_cast<double>(markers.state.size())));
     return {};
   }
   for (std::size_t i = 0; i < sure.size() && i < kDefectsTold; ++i)
@@ -104,7 +106,7 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
 }
 
 /// What the likelihood of a chain can be asked about: the largest tree of segments with two markers or more.
-data::SegmentLayout largest_tree(const data::SegmentLayout& layout, std::vector<std::string>& notes) {
+Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout, std::vector<std::string>& notes) {
   const auto S = layout.segments.size();
   const auto usable = [&](int s) { return layout.segments[static_cast<std::size_t>(s)].markers.size() >= 2; };
   std::vector<int> tree(S);
@@ -135,6 +137,12 @@ data::SegmentLayout largest_tree(const data::SegmentLayout& layout, std::vector<
               child = number[static_cast<std::size_t>(joint.child)];
     if (parent >= 0 && child >= 0) out.joints.push_back({joint.name, parent, child});
   }
+  if (out.joints.empty())
+    return fail(Code::bad_input,
+                fmt::format("none of the {} joints found lies between two segments of two markers or more, "
+                            "which the articulated method needs; name the segments in a file, or use another "
+                            "method",
+                            layout.joints.size()));
   notes.push_back(fmt::format(
       "Left out, as the articulated method needs two markers on a segment and one tree of them: {}.", left));
   return out;
@@ -275,7 +283,10 @@ Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress)
     if (auto s = reject_defects(markers, outcome); !s) return fail_at(name, s.error());
   auto layout = find_layout(job, markers, outcome);
   if (!layout) return job.segments.empty() ? fail_at(name, layout.error()) : std::unexpected(layout.error());
-  if (job.method == "articulated" && outcome.topology) *layout = largest_tree(*layout, outcome.notes);
+  if (job.method == "articulated" && outcome.topology) {
+    layout = largest_tree(*layout, outcome.notes);
+    if (!layout) return fail_at(name, layout.error());
+  }
   NewFolder folder;
   if (!job.output.empty() && into_folder(job.output))
     if (auto s = folder.make(job.output); !s) return std::unexpected(s.error());

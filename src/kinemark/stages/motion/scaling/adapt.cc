@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -33,6 +34,7 @@ constexpr double kSameNoise = 0.03;
 constexpr double kNoPlacePrior_m = 1.0;
 constexpr double kTold = 0.5;  // share of its prior that a determined parameter's deviation stays below
 constexpr double kLeastNoise_m = 1e-5;
+constexpr double kSettled = 0.1;  // standard deviations that a step which no longer helps may have left to go
 
 Status check_terms(const data::ModelDescription& model, const std::vector<GeometryParameter>& parameters) {
   if (parameters.empty()) return fail(Code::bad_input, "nothing to adapt: the list of parameters is empty");
@@ -146,6 +148,8 @@ class Adaptation {
     sums_ = projection_.solve(x_, states_);
     double now = cost(sums_, x_, prior), damping = 1e-4;
     result.converged = false;
+    if (!std::isfinite(now))
+      return fail(Code::bad_input, "the recording gives distances that are not finite");
     for (int i = 0; i < limit; ++i) {
       if (progress_ && !progress_(result.iterations, result.iterations + limit - i))
         return fail(Code::cancelled, "adapting the model was stopped");
@@ -154,11 +158,19 @@ class Adaptation {
       S.diagonal() += prior;
       const VectorXd g = sums_.normal.g - prior.cwiseProduct(x_);
       bool better = false;
-      double drop = 0.0;
+      double drop = 0.0, ahead = std::numeric_limits<double>::infinity();
       for (int trial = 0; trial < 8 && !better; ++trial) {
         MatrixXd A = S;
         A.diagonal() += damping * (S.diagonal().array() + 1e-6 * S.diagonal().maxCoeff()).matrix();
-        const VectorXd x_try = x_ + A.llt().solve(g);
+        const Eigen::LLT<MatrixXd> llt(A);
+        const VectorXd step = llt.solve(g);
+        if (llt.info() != Eigen::Success || !step.allFinite()) {
+          damping *= 10.0;
+          continue;
+        }
+        // What the quadratic model promises of the first, boldest step.
+        if (!std::isfinite(ahead)) ahead = 2.0 * g.dot(step) - step.dot(S * step);
+        const VectorXd x_try = x_ + step;
         MatrixXd states_try = states_;
         auto sums = projection_.solve(x_try, states_try);
         const double then = cost(sums, x_try, prior);
@@ -175,7 +187,8 @@ class Adaptation {
         }
       }
       if (better && drop > 1e-7) continue;
-      result.converged = true;
+      if (!better) sums_ = projection_.solve(x_, states_);  // the trials have moved its model
+      result.converged = better || ahead <= std::max(1e-7 * now, std::pow(kSettled * noise_m_, 2));
       break;
     }
     return {};
@@ -214,6 +227,9 @@ class Adaptation {
     };
     result.covariance = covariance(0.0);
     data_covariance_ = covariance(kNoPlacePrior_m);
+    if (!result.covariance.allFinite() || !data_covariance_.allFinite())
+      return fail(Code::bad_input,
+                  "these data give no finite deviations of sizes; give more frames or markers");
     return {};
   }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "kinemark/core/random.h"
@@ -48,10 +49,19 @@ int index_of(const AdaptResult& result, const std::string& name) {
   return -1;
 }
 
+// Sizes and places are drawn with the deviations that the priors claim, so the covariance is the truth's own.
+// Errors of one subject hang together; each subject's chi-square and share count as one number, and chance is
+// judged from how these numbers scatter.
 TEST(AdaptModel, finds_sizes_and_places_of_a_noisy_recording_within_their_deviations) {
-  const auto list = parameters(leg());
-  int inside = 0, inside_two = 0, count = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  auto list = parameters(leg());
+  for (auto& parameter : list)
+    if (parameter.kind == ParameterKind::body_scale) parameter.prior_sd = 0.04;
+  constexpr int kSubjects = 10;
+  const auto freedom = static_cast<double>(list.size());
+  double chi_squares = 0.0;
+  Eigen::ArrayXd share(kSubjects);
+  for (int s = 0; s < kSubjects; ++s) {
+    const auto seed = static_cast<std::uint64_t>(s + 1);
     const auto who = subject(list, seed);
     const auto recording = testing_leg::record(who.model, {.frames = 150, .noise_sd_m = 0.001, .seed = seed});
     const auto result = adapt_model(leg(), recording, list);
@@ -60,19 +70,23 @@ TEST(AdaptModel, finds_sizes_and_places_of_a_noisy_recording_within_their_deviat
     EXPECT_NEAR(result->noise_sd_m, 0.001, 1e-4);
     EXPECT_EQ(result->tissue_sd_m, 0.0);
     EXPECT_LT(result->rms_after_m, 0.3 * result->rms_before_m);
+    Eigen::VectorXd error(who.change.size());
+    share[s] = 0.0;
     for (std::size_t k = 0; k < list.size(); ++k) {
       const auto& p = result->parameters[k];
-      const double error = std::abs(p.value - list[k].initial - who.change[static_cast<Eigen::Index>(k)]);
-      inside += error < p.sd;
-      inside_two += error < 2.0 * p.sd;
-      ++count;
+      const auto i = static_cast<Eigen::Index>(k);
+      error[i] = p.value - list[k].initial - who.change[i];
+      if (std::abs(error[i]) < p.sd) share[s] += 1.0 / freedom;
     }
-    const int thigh = index_of(*result, "thigh_r");
-    EXPECT_LT(result->parameters[static_cast<std::size_t>(thigh)].sd, 0.02);
-    EXPECT_TRUE(result->parameters[static_cast<std::size_t>(thigh)].determined);
+    chi_squares += error.dot(result->covariance.ldlt().solve(error)) / freedom / kSubjects;
+    const auto thigh = static_cast<std::size_t>(index_of(*result, "thigh_r"));
+    EXPECT_LT(result->parameters[thigh].sd, 0.02);
+    EXPECT_TRUE(result->parameters[thigh].determined);
   }
-  EXPECT_NEAR(static_cast<double>(inside) / count, 0.68, 0.1);
-  EXPECT_NEAR(static_cast<double>(inside_two) / count, 0.95, 0.05);
+  EXPECT_NEAR(chi_squares, 1.0, 3.0 * std::sqrt(2.0 / (freedom * kSubjects)));
+  const double scatter = std::sqrt((share - share.mean()).square().sum() / (kSubjects - 1.0));
+  EXPECT_NEAR(share.mean(), 0.683, 3.0 * scatter / std::sqrt(kSubjects));
+  EXPECT_LT(scatter, 0.15);
 }
 
 TEST(AdaptModel, an_end_segment_is_not_determined) {

@@ -3,6 +3,7 @@
 #include "kinemark/stages/motion/scaling/internal/projection.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "kinemark/core/parallel.h"
@@ -43,10 +44,15 @@ Projection::Projection(const data::ModelDescription& full, const std::vector<Geo
       threads_(threads) {}
 
 ProjectedSums Projection::solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states) {
-  // Places and offsets stay finite, so what compiled once compiles again.
-  problem_.model = model::Model::compile(apply_geometry(base_, parameters_, x),
-                                         {.free_roots = !problem_.model.free_joints().empty()})
-                       .value();
+  auto compiled = x.allFinite() ? model::Model::compile(apply_geometry(base_, parameters_, x),
+                                                        {.free_roots = !problem_.model.free_joints().empty()})
+                                : fail(Code::bad_input, "sizes that are not finite");
+  if (!compiled) {
+    ProjectedSums none(layout_.columns);
+    none.cost = std::numeric_limits<double>::quiet_NaN();
+    return none;
+  }
+  problem_.model = std::move(*compiled);
   const std::int64_t visited = (problem_.frames + stride_ - 1) / stride_;
   std::vector<ProjectedSums> partial(at((visited + kGrain - 1) / kGrain), ProjectedSums(layout_.columns));
   parallel_for(visited, kGrain, threads_, [&](std::int64_t begin, std::int64_t end) {

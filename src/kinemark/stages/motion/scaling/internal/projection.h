@@ -32,6 +32,7 @@ class Projection {
   void set_frames(std::int64_t stride) { stride_ = stride; }
 
   /// Solve all frames with the geometry changed by x, from `states` (columns are frames), which improve.
+  /// A geometry that is no model (numbers that are not finite) costs NaN, and nothing changes.
   ProjectedSums solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states);
 
   /// Start every frame from its neighbours' postures as well, with the geometry of the last solve(), and keep

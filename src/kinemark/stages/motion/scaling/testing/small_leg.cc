@@ -16,6 +16,10 @@ namespace kinemark::motion::testing_leg {
 
 using Eigen::Vector3d;
 
+namespace {
+constexpr double kKneeBent = -0.6;  // about which it moves, rad
+}
+
 data::ModelDescription leg() {
   data::ModelDescription model;
   model.name = "leg";
@@ -102,7 +106,7 @@ data::Trajectories record(const data::ModelDescription& description, const Recor
       const std::string& name = description.coordinates[static_cast<std::size_t>(c)].name;
       q[c] = how.amplitude *
              (0.3 * std::sin(2.0 * (1.3 + 0.37 * c) * t + c) + 0.15 * std::sin(5.1 * t + 2.0 * c));
-      if (name == "knee_angle") q[c] -= 0.6;
+      if (name == "knee_angle") q[c] += kKneeBent;
       if (how.knee_still && (name == "knee_angle" || name == "ankle_angle")) q[c] = -0.3;
       if (name.starts_with("t") && name.size() == 2) q[c] *= 0.3;
     }
@@ -115,7 +119,7 @@ data::Trajectories record(const data::ModelDescription& description, const Recor
         const double phase = 1.0 + 2.0 * static_cast<double>(m);
         const Vector3d along(std::cos(phase), std::sin(phase), 0.4);
         x += w.rotation[static_cast<std::size_t>(marker.body)] *
-             (how.slide_m * std::sin(3.0 * q[knee]) * along);
+             (how.slide_m * std::sin(3.0 * (q[knee] - kKneeBent)) * along);
       }
       for (int axis = 0; axis < 3; ++axis) x[axis] += how.noise_sd_m * random.gaussian();
       out.x(f, m) = x;

@@ -20,7 +20,7 @@ struct Recording {
   double noise_sd_m = 0.0;
   double amplitude = 1.0;   ///< times 0.4 rad or so in every coordinate
   bool knee_still = false;  ///< the shank does not move in the thigh, nor the foot in the shank
-  double slide_m = 0.0;     ///< markers of the thigh slide by this times the sine of the knee
+  double slide_m = 0.0;     ///< markers of the thigh slide by this times sin 3 (knee - its middle)
   std::uint64_t seed = 1;
 };
 
