@@ -16,8 +16,7 @@ constexpr std::int64_t kNoiseFrames = 200;  ///< in which the noise of the poses
 struct Solution {
   Vector6 centre = Vector6::Zero();
   Vector6 axis = Vector6::Zero();  ///< two unit vectors; zero for a ball
-  Vector6 open =
-      Vector6::Zero();  ///< SD along each eigenvector of what the data leave open, m
+  Vector6 open = Vector6::Zero();  ///< SD along each eigenvector of what the data leave open, m
   Matrix6 directions = Matrix6::Identity();
 };
 
