@@ -104,12 +104,6 @@ Result<motion::PlaceOptions> place_options(const io::ScaleSetup& setup,
     }
     options.ik.coordinate_tasks.push_back({.coordinate = task.name, .weight = task.weight, .value = value});
   }
-  // OpenSim adds weighted squares, IkOptions averages those of markers: what pulls coordinates is shared out
-  // alike.
-  double total = 0.0;
-  for (const auto& marker : options.ik.marker_weights) total += marker.weight;
-  if (total > 0.0)
-    for (auto& task : options.ik.coordinate_tasks) task.weight /= total;
   return options;
 }
 
