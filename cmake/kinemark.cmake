@@ -46,12 +46,16 @@ function(kinemark_library name)
   add_library(kinemark::${name} ALIAS kinemark_${name})
 endfunction()
 
-# kinemark_tests(name SOURCES a_test.cc ... LINK links... LABELS ...)  -> program test_name, ctest -R name
+# kinemark_tests(name SOURCES a_test.cc ... LINK links... LABELS ... [UNSANITIZED])  -> program test_name, ctest -R name
+# UNSANITIZED: left out where addresses are watched.
 function(kinemark_tests name)
   if(NOT KINEMARK_DEVELOPER)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED" "" "SOURCES;LINK;LABELS" ${ARGN})
+  if(ARG_UNSANITIZED AND KINEMARK_SANITIZE_ADDRESS)
+    return()
+  endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE kinemark_flags kinemark::testing ${ARG_LINK} GTest::gmock GTest::gtest GTest::gtest_main)
   add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
