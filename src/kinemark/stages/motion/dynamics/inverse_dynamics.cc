@@ -62,7 +62,7 @@ class Worker {
  public:
   Worker(const model::Model& model, const data::JointMotion& motion, const data::Wrenches* wrenches,
          const ContactPlan& plan)
-      : model_(model), motion_(motion), wrenches_(wrenches), plan_(plan), frame_(model) {
+      : motion_(motion), wrenches_(wrenches), plan_(plan), frame_(model) {
     for (auto* v : {&q_, &qd_, &qdd_}) v->setZero(model.coordinate_count());
   }
 
@@ -111,7 +111,6 @@ class Worker {
   [[nodiscard]] const FrameDynamics& frame() const { return frame_; }
 
  private:
-  const model::Model& model_;
   const data::JointMotion& motion_;
   const data::Wrenches* wrenches_;
   const ContactPlan& plan_;
