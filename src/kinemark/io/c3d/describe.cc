@@ -8,6 +8,10 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <utility>
+
+#include "kinemark/io/c3d/force_plates.h"
+#include "kinemark/io/c3d/internal/count.h"
 
 namespace kinemark::io {
 namespace {
@@ -54,17 +58,12 @@ std::string maker(const C3dParameters& p) {
   return software.empty() ? company : company + " " + software;
 }
 
-/// A count that a file gives as any number, NaN included.
-std::size_t bounded(double value, std::size_t most) {
-  return value >= 0.0 ? static_cast<std::size_t>(std::min(value, static_cast<double>(most))) : 0;
-}
-
 /// Vicon's group holds times on the recording's clock as (minutes, seconds); BKIN's looks the same.
 bool events_from_group(const C3dParameters& p, std::string_view group, data::Trial& trial) {
   const std::vector<double> times = p.numbers(group, "TIMES");
   const auto used = p.number(group, "USED");
   const std::size_t there = times.size() / 2;
-  const std::size_t n = used ? bounded(*used, there) : there;
+  const std::size_t n = used ? internal::bounded_count(*used, there) : there;
   if (used && *used > static_cast<double>(there))
     trial.warnings.push_back(
         fmt::format("{}:USED promises {} events, {}:TIMES holds {}", group, *used, group, there));
@@ -87,74 +86,6 @@ void read_events(const C3dHeader& header, const C3dParameters& p, data::Trial& t
   for (const C3dHeaderEvent& event : header.events)
     trial.events.push_back(
         {.label = event.label, .context = "", .time_s = trial.markers.time.t0_s + event.time_s});
-}
-
-std::size_t channels_of_type(int type, std::size_t rows) {
-  switch (type) {
-    case 1:
-    case 2:
-    case 4:
-      return std::min<std::size_t>(6, rows);
-    case 3:
-    case 5:
-    case 7:
-      return std::min<std::size_t>(8, rows);
-    default:
-      return rows;
-  }
-}
-
-Eigen::Vector3d metres3(const std::vector<double>& values, std::size_t at, double metres) {
-  return at + 3 <= values.size()
-             ? Eigen::Vector3d(metres * Eigen::Map<const Eigen::Vector3d>(values.data() + at))
-             : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-}
-
-void read_force_plates(const C3dParameters& p, const C3dLayout& layout, data::Trial& trial) {
-  constexpr double kFar = 1000.0;  // m; a corner further away is a number gone wrong
-  const std::size_t used = bounded(p.number("FORCE_PLATFORM", "USED").value_or(0.0), 255);
-  const C3dParameter* channels = p.find("FORCE_PLATFORM", "CHANNEL");
-  const C3dParameter* calibrations = p.find("FORCE_PLATFORM", "CAL_MATRIX");
-  const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
-  const std::vector<double> corners = p.numbers("FORCE_PLATFORM", "CORNERS");
-  const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
-  const std::size_t rows =
-      channels != nullptr && !channels->dims.empty() ? static_cast<std::size_t>(channels->dims[0]) : 0;
-  for (std::size_t i = 0; i < used; ++i) {
-    data::ForcePlate plate;
-    plate.type = i < types.size() ? static_cast<int>(bounded(types[i], 1000)) : 0;
-    bool good = plate.type > 0 && rows > 0;
-    for (std::size_t r = 0; good && r < channels_of_type(plate.type, rows); ++r) {
-      const std::size_t at = i * rows + r;
-      const double channel = at < channels->numbers.size() ? channels->numbers[at] : 0.0;
-      good = channel >= 1.0 && channel <= static_cast<double>(layout.analog_channels);
-      if (good) plate.channel_idx.push_back(static_cast<int>(channel) - 1);
-    }
-    if (!good) {
-      trial.warnings.push_back(
-          fmt::format("force plate {} is left out: its type or its analog channels make no sense", i + 1));
-      continue;
-    }
-    bool sound = true;
-    for (std::size_t c = 0; c < 4; ++c) {
-      plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
-      sound = sound && plate.corners_in_world[c].cwiseAbs().maxCoeff() < kFar;
-    }
-    plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
-    sound = sound && plate.origin_in_plate.cwiseAbs().maxCoeff() < kFar;
-    if (calibrations != nullptr && calibrations->dims.size() >= 2) {
-      const std::size_t size =
-          static_cast<std::size_t>(calibrations->dims[0]) * static_cast<std::size_t>(calibrations->dims[1]);
-      if (size > 0 && (i + 1) * size <= calibrations->numbers.size()) {
-        const auto begin = calibrations->numbers.begin() + static_cast<std::ptrdiff_t>(i * size);
-        plate.calibration.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
-      }
-    }
-    if (!sound)
-      trial.warnings.push_back(
-          fmt::format("force plate {} has corners or an origin that make no sense", i + 1));
-    trial.force_plates.push_back(std::move(plate));
-  }
 }
 
 }  // namespace
@@ -183,7 +114,8 @@ void describe_trial(const C3dHeader& header, const C3dParameters& parameters, co
             ? "has no points, only a ROTATION group (orientations of segments), which is not read"
             : "has no points");
   read_events(header, parameters, trial);
-  read_force_plates(parameters, layout, trial);
+  for (C3dForcePlate& plate : find_force_plates(parameters, layout, warnings))
+    trial.force_plates.push_back(std::move(plate.plate));
 }
 
 }  // namespace kinemark::io

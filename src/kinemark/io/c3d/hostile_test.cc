@@ -10,6 +10,7 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/c3d/internal/simulated_trial.h"
+#include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 #include "support/scratch.h"
@@ -59,6 +60,15 @@ bool survives(std::span<const std::byte> bytes) {
   EXPECT_TRUE(trial->validate()) << trial->validate().error().message;
   EXPECT_LE(trial->markers.x_in_world.size() + trial->analog.values.size(), bytes.size());
   for (const std::string& warning : trial->warnings) EXPECT_THAT(warning, Not(HasSubstr("\n")));
+  const auto forces = read_plate_forces(*reader);
+  if (!forces) {
+    EXPECT_THAT(forces.error().message, Not(HasSubstr("\n")));
+    return true;
+  }
+  EXPECT_TRUE(forces->wrenches.validate()) << forces->wrenches.validate().error().message;
+  std::size_t numbers = 0;
+  for (const auto& wrench : forces->wrenches.items) numbers += wrench.force.size();
+  EXPECT_LE(numbers, bytes.size());
   return true;
 }
 

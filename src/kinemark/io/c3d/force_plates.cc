@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/c3d/force_plates.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "kinemark/io/c3d/internal/count.h"
+
+namespace kinemark::io {
+namespace {
+
+constexpr double kFar = 1000.0;  // m; a corner further away is a number gone wrong
+
+bool near(const Eigen::Vector3d& x) { return (x.array().abs() < kFar).all(); }
+
+std::size_t channels_of_type(int type, std::size_t rows) {
+  switch (type) {
+    case 1:
+    case 2:
+    case 4:
+      return std::min<std::size_t>(6, rows);
+    case 3:
+    case 5:
+    case 7:
+      return std::min<std::size_t>(8, rows);
+    default:
+      return rows;
+  }
+}
+
+Eigen::Vector3d metres3(const std::vector<double>& values, std::size_t at, double metres) {
+  return at + 3 <= values.size()
+             ? Eigen::Vector3d(metres * Eigen::Map<const Eigen::Vector3d>(values.data() + at))
+             : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Zero-based channels of plate i; empty when one of them is not in the file.
+std::vector<int> find_channels(const C3dParameter* channels, std::size_t i, int type,
+                               std::int64_t analog_channels) {
+  const std::size_t rows =
+      channels != nullptr && !channels->dims.empty() ? static_cast<std::size_t>(channels->dims[0]) : 0;
+  std::vector<int> found;
+  for (std::size_t r = 0; r < channels_of_type(type, rows); ++r) {
+    const std::size_t at = i * rows + r;
+    const double channel = at < channels->numbers.size() ? channels->numbers[at] : 0.0;
+    if (!(channel >= 1.0 && channel <= static_cast<double>(analog_channels))) return {};
+    found.push_back(static_cast<int>(channel) - 1);
+  }
+  return found;
+}
+
+void read_calibration(const C3dParameter* calibrations, std::size_t i, C3dForcePlate& plate) {
+  if (calibrations == nullptr || calibrations->dims.size() < 2) return;
+  const std::size_t size =
+      static_cast<std::size_t>(calibrations->dims[0]) * static_cast<std::size_t>(calibrations->dims[1]);
+  if (size == 0 || (i + 1) * size > calibrations->numbers.size()) return;
+  const auto begin = calibrations->numbers.begin() + static_cast<std::ptrdiff_t>(i * size);
+  plate.plate.calibration.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
+  plate.calibration_rows = calibrations->dims[0];
+}
+
+}  // namespace
+
+std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters, const C3dLayout& layout,
+                                             std::vector<std::string>& warnings) {
+  const C3dParameters& p = parameters;
+  const std::size_t used = internal::bounded_count(p.number("FORCE_PLATFORM", "USED").value_or(0.0), 255);
+  const C3dParameter* channels = p.find("FORCE_PLATFORM", "CHANNEL");
+  const C3dParameter* calibrations = p.find("FORCE_PLATFORM", "CAL_MATRIX");
+  const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
+  const std::vector<double> corners = p.numbers("FORCE_PLATFORM", "CORNERS");
+  const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
+  std::vector<C3dForcePlate> plates;
+  for (std::size_t i = 0; i < used; ++i) {
+    C3dForcePlate found{.number = static_cast<int>(i) + 1};
+    data::ForcePlate& plate = found.plate;
+    plate.type = i < types.size() ? static_cast<int>(internal::bounded_count(types[i], 1000)) : 0;
+    if (plate.type > 0) plate.channel_idx = find_channels(channels, i, plate.type, layout.analog_channels);
+    if (plate.channel_idx.empty()) {
+      warnings.push_back(
+          fmt::format("force plate {} is left out: its type or its analog channels make no sense", i + 1));
+      continue;
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+      plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
+      found.sound = found.sound && near(plate.corners_in_world[c]);
+    }
+    plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
+    found.sound = found.sound && near(plate.origin_in_plate);
+    read_calibration(calibrations, i, found);
+    if (!found.sound)
+      warnings.push_back(fmt::format("force plate {} has corners or an origin that make no sense", i + 1));
+    plates.push_back(std::move(found));
+  }
+  return plates;
+}
+
+}  // namespace kinemark::io

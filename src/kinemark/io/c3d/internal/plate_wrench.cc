@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/c3d/internal/plate_wrench.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <cctype>
+#include <optional>
+
+namespace kinemark::io::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+/// "N.mm", "Nt mm" -> "nmm".
+std::string plain(const std::string& unit) {
+  std::string text;
+  for (const char c : unit)
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (text.starts_with("newton")) text.erase(1, text.starts_with("newtons") ? 6 : 5);
+  if (text.starts_with("nt")) text.erase(1, 1);
+  return text;
+}
+
+double newtons(const std::string& unit) {
+  const std::string text = plain(unit);
+  return text == "kn" ? 1e3 : 1.0;
+}
+
+/// The manual gives moments in N x unit of length; a channel that names another unit is believed.
+double newton_metres(const std::string& unit, double metres_per_unit) {
+  const std::string text = plain(unit);
+  if (text.size() < 2 || text.front() != 'n') return metres_per_unit;
+  return io::metres_per_unit(text.substr(1)).value_or(metres_per_unit);
+}
+
+double metres(const std::string& unit, double metres_per_unit) {
+  return io::metres_per_unit(plain(unit)).value_or(metres_per_unit);
+}
+
+std::size_t channels_needed(int type) { return type == 3 || type == 7 ? 8 : 6; }
+
+/// Force and moment about the plate's origin from the eight channels fx12 fx34 fy14 fy23 fz1 fz2 fz3 fz4 of
+/// four sensors at (+-a, +-b).
+Eigen::MatrixXd of_four_sensors(double a, double b) {
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(6, 8);
+  m.row(0) << 1, 1, 0, 0, 0, 0, 0, 0;
+  m.row(1) << 0, 0, 1, 1, 0, 0, 0, 0;
+  m.row(2) << 0, 0, 0, 0, 1, 1, 1, 1;
+  m.row(3) << 0, 0, 0, 0, b, b, -b, -b;
+  m.row(4) << 0, 0, 0, 0, -a, a, a, -a;
+  m.row(5) << -b, b, a, -a, 0, 0, 0, 0;
+  return m;
+}
+
+/// CAL_MATRIX(i, j), i fastest: output i from channel j.
+Result<Eigen::MatrixXd> calibration(const C3dForcePlate& plate, std::size_t size) {
+  const auto n = static_cast<Eigen::Index>(size);
+  if (plate.calibration_rows != static_cast<int>(size) || plate.plate.calibration.size() != size * size)
+    return fail(Code::bad_input, fmt::format("is of type {} but has no CAL_MATRIX of {} x {} numbers",
+                                             plate.plate.type, size, size));
+  const Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(plate.plate.calibration.data(), n, n);
+  if (!m.allFinite() || m.isZero(0.0))
+    return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of what is no number");
+  return m;
+}
+
+}  // namespace
+
+Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::vector<std::string>& units,
+                                        double metres_per_unit) {
+  const int type = plate.plate.type;
+  if (!(type >= 1 && type <= 4) && type != 7)
+    return fail(Code::not_supported,
+                fmt::format("is of type {}; forces are read from types 1, 2, 3, 4 and 7", type));
+  const std::size_t n = channels_needed(type);
+  if (plate.plate.channel_idx.size() < n)
+    return fail(Code::bad_input, fmt::format("has {} analog channels; type {} needs {}",
+                                             plate.plate.channel_idx.size(), type, n));
+  const auto unit = [&](std::size_t c) {
+    const auto idx = static_cast<std::size_t>(plate.plate.channel_idx[c]);
+    return idx < units.size() ? units[idx] : std::string();
+  };
+
+  PlateWrench wrench;
+  wrench.is_pressure_point_ = type == 1;
+  // From the origin of the plate's axes to the centre of its surface; z points down, into the plate. Files
+  // that give it the other way round are told by its sign.
+  wrench.centre_ = plate.plate.origin_in_plate;
+  wrench.origin_turned_ = wrench.centre_.z() > 0.0;
+  const bool sensors = type == 3 || type == 7;
+  if (wrench.origin_turned_ && sensors) wrench.centre_.z() *= -1.0;
+  if (wrench.origin_turned_ && !sensors) wrench.centre_ *= -1.0;
+
+  wrench.scale_.setOnes(static_cast<Eigen::Index>(n));
+  for (std::size_t c = 0; c < n; ++c) {
+    double& scale = wrench.scale_[static_cast<Eigen::Index>(c)];
+    if (sensors || c < 3)
+      scale = newtons(unit(c));
+    else if (type == 1 && c < 5)
+      scale = metres(unit(c), metres_per_unit);
+    else
+      scale = newton_metres(unit(c), metres_per_unit);
+  }
+  if (type == 4 || type == 7) {
+    auto matrix = calibration(plate, n);
+    if (!matrix) return std::unexpected(matrix.error());
+    // The matrix, not the channels, carries the units.
+    if (type == 4) matrix->bottomRows(3).array().colwise() *= wrench.scale_.tail(3).array();
+    wrench.scale_.setOnes();
+    wrench.matrix_ = type == 4
+                         ? *matrix
+                         : Eigen::MatrixXd(of_four_sensors(wrench.centre_.x(), wrench.centre_.y()) * *matrix);
+  } else if (type == 3) {
+    wrench.matrix_ = of_four_sensors(wrench.centre_.x(), wrench.centre_.y());
+  } else {
+    wrench.matrix_ = Eigen::MatrixXd::Identity(6, 6);
+  }
+  // Sensors lie evenly about the middle: what is left of ORIGIN is the depth.
+  if (sensors) wrench.centre_.head<2>().setZero();
+  return wrench;
+}
+
+Vector6 PlateWrench::operator()(const Channels& channels) const {
+  const Channels v = scale_.cwiseProduct(channels.head(scale_.size()));
+  if (is_pressure_point_) {
+    const Vector3d force = v.head<3>();
+    const Vector3d arm(v[3] - centre_.x(), v[4] - centre_.y(), 0.0);
+    Vector6 out;
+    out << force, arm.cross(force) + Vector3d(0.0, 0.0, v[5]);
+    return out;
+  }
+  Vector6 out = matrix_ * v;
+  out.tail<3>() -= centre_.cross(Vector3d(out.head<3>()));
+  return out;
+}
+
+Result<PlatePlace> place_plate(const C3dForcePlate& plate) {
+  const auto& c = plate.plate.corners_in_world;
+  const Vector3d along_x = 0.5 * (c[0] - c[1] + c[3] - c[2]), along_y = 0.5 * (c[0] - c[3] + c[1] - c[2]);
+  const Vector3d normal = along_x.cross(along_y);
+  constexpr double kSmallest = 1e-4;  // m^2; no foot fits on less
+  if (!plate.sound || !(normal.norm() > kSmallest))
+    return fail(Code::bad_input, "has corners that span no surface");
+  PlatePlace place;
+  place.centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+  place.half_size = {0.5 * along_x.norm(), 0.5 * along_y.norm()};
+  place.world_from_plate.col(0) = along_x.normalized();
+  place.world_from_plate.col(2) = normal.normalized();
+  place.world_from_plate.col(1) = place.world_from_plate.col(2).cross(place.world_from_plate.col(0));
+  return place;
+}
+
+}  // namespace kinemark::io::internal

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The arithmetic of one force plate.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/io/c3d/force_plates.h"
+
+namespace kinemark::io::internal {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Channels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
+
+/// What one sample of a plate's channels says: force (N) and moment (N m) about the centre of its surface, in
+/// the plate's axes and with the sign of the file.
+class PlateWrench {
+ public:
+  /// `units` of all analog channels; `metres_per_unit` of the file's lengths. A plate that cannot be
+  /// computed: Code::not_supported or bad_input, a half sentence that says why.
+  static Result<PlateWrench> create(const C3dForcePlate& plate, const std::vector<std::string>& units,
+                                    double metres_per_unit);
+
+  [[nodiscard]] Vector6 operator()(const Channels& channels) const;
+  /// Channels whose baseline is a force or moment that was there before anybody stepped on the plate.
+  [[nodiscard]] bool has_baseline(std::size_t channel) const {
+    return !is_pressure_point_ || channel < 3 || channel > 4;
+  }
+  [[nodiscard]] bool origin_turned() const { return origin_turned_; }
+
+ private:
+  bool is_pressure_point_ = false;  ///< type 1: channels 3 and 4 are the centre of pressure
+  bool origin_turned_ = false;
+  Channels scale_;  ///< of each channel, to N, N m and m
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 8> matrix_;
+  Eigen::Vector3d centre_ =
+      Eigen::Vector3d::Zero();  ///< of the surface, in the axes and from the origin of the plate
+};
+
+/// Where a plate lies: origin at the centre of its surface, x from corner 2 to 1, y from corner 4 to 1.
+struct PlatePlace {
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d world_from_plate;
+  Eigen::Vector2d half_size;  ///< m
+};
+
+/// Corners that span no rectangle are Code::bad_input.
+[[nodiscard]] Result<PlatePlace> place_plate(const C3dForcePlate& plate);
+
+}  // namespace kinemark::io::internal

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Force plates of a C3D file as forces on the body. Conventions: docs/formats/c3d.md
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/wrenches.h"
+#include "kinemark/io/c3d/reader.h"
+
+namespace kinemark::io {
+
+struct PlateOptions {
+  double contact_force_n = 20.0;  ///< a plate that pushes less than this along its normal is empty: no wrench
+                                  ///< at all in that frame. 0: everything counts, also a pull.
+  bool baseline = true;           ///< subtract the mean over the frames that FORCE_PLATFORM:ZERO names
+
+  [[nodiscard]] Status check() const;
+};
+
+struct PlateForces {
+  /// One item per plate, "plate 1" and so on as the file counts, at the rate of the markers and in their
+  /// axes: force on the body (N), moment about the centre of pressure (N m, along the plate's normal), centre
+  /// of pressure on the plate's surface (m; NaN where the plate is empty). Bodies are left open.
+  data::Wrenches wrenches;
+  std::vector<std::string> warnings;  ///< what was odd or mended, one sentence each
+};
+
+/// Forces of the plates of types 1, 2, 3, 4 and 7. Each frame gets the mean of the analog samples from half a
+/// frame before it to half a frame after it. A force is NaN where a sample was not a number.
+///
+/// Fails when no plate has forces that can be read. Reads the file piece by piece: O(samples), memory 48
+/// bytes per frame and plate.
+[[nodiscard]] Result<PlateForces> read_plate_forces(const C3dReader& reader,
+                                                    const PlateOptions& options = {});
+[[nodiscard]] Result<PlateForces> read_plate_forces(const std::filesystem::path& path,
+                                                    const PlateOptions& options = {});
+
+}  // namespace kinemark::io

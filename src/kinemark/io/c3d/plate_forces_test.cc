@@ -1,0 +1,453 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/c3d/plate_forces.h"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "kinemark/core/random.h"
+#include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/table_file.h"
+#include "support/scratch.h"
+#include "support/test_data.h"
+
+namespace kinemark::io {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Vector3d of_frame(const Array<double>& values, std::int64_t f) {
+  return Eigen::Map<const Vector3d>(values.data() + 3 * f);
+}
+
+/// A plate somewhere in a laboratory whose z points up, and what one sample of it must say. Physics written
+/// down afresh: forces of four sensors, or one force at a place, give the channels.
+struct Setting {
+  int type = 2;
+  Vector3d centre{0.4, -1.2, 0.03};
+  Matrix3d world_from_plate =
+      (Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * Eigen::AngleAxisd(3.14159265358979, Vector3d::UnitX()))
+          .toRotationMatrix();
+  Vector3d origin{0.002, -0.003, -0.04};  ///< from the plate's origin to the middle of its surface
+  double a = 0.12, b = 0.2;               ///< of the four sensors of type 3
+  std::int64_t samples_per_frame = 4;
+  bool markers_below = false;
+
+  // What acts on the body, in the plate's axes.
+  Vector3d force{30.0, -50.0, -700.0}, place{0.05, -0.11, 0.0};
+  double twist = 4.0;
+
+  std::vector<std::string> units = {"N", "N", "N", "Nmm", "Nmm", "Nmm"};
+  Eigen::MatrixXd calibration;  ///< of type 4
+  bool origin_turned = false;
+
+  [[nodiscard]] Vector3d moment_about_origin(const Vector3d& f) const {
+    return (place + origin).cross(f) + Vector3d(0.0, 0.0, twist * f.z() / force.z());
+  }
+
+  [[nodiscard]] std::vector<double> channels(double scale) const {
+    const Vector3d f = scale * force;
+    if (type == 1) {
+      const Vector3d point = 1e3 * (place + origin);
+      return {f.x(), f.y(), f.z(), point.x(), point.y(), 1e3 * scale * twist};
+    }
+    const Vector3d m = moment_about_origin(f);
+    if (type == 3) {
+      // Sensors 1 to 4 at (+a +b), (-a +b), (-a -b), (+a -b): any four forces with this sum and moment.
+      const double mx = m.x(), my = m.y(), mz = m.z();
+      const double fx12 = 0.5 * f.x() - 0.25 * mz / b, fx34 = 0.5 * f.x() + 0.25 * mz / b;
+      const double fy14 = 0.5 * f.y() + 0.25 * mz / a, fy23 = 0.5 * f.y() - 0.25 * mz / a;
+      const double s = 0.25 * f.z(), u = 0.25 * mx / b, v = 0.25 * my / a, odd = 17.0;
+      return {fx12, fx34, fy14, fy23, s + u - v + odd, s + u + v - odd, s - u + v + odd, s - u - v - odd};
+    }
+    Eigen::VectorXd out(6);
+    out << f, 1e3 * m;
+    if (type == 4) out = calibration.inverse() * out;
+    return {out.data(), out.data() + 6};
+  }
+
+  /// A recording whose force follows `course` (1: as above), by analog sample.
+  [[nodiscard]] data::Trial trial(std::int64_t frames, const std::function<double(double)>& course) const {
+    data::Trial t;
+    t.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .frames = frames});
+    for (std::int64_t f = 0; f < frames; ++f) {
+      t.markers.x(f, 0) = centre + Vector3d(0.3, 0.1, markers_below ? -1.0 : 1.0);
+      t.markers.state[t.markers.index(f, 0)] = data::SampleState::measured;
+    }
+    const std::size_t channel_count = type == 3 ? 8 : 6;
+    data::ForcePlate plate{.type = type, .origin_in_plate = origin_turned ? Vector3d(-origin) : origin};
+    if (type == 3) plate.origin_in_plate = {a, b, origin_turned ? -origin.z() : origin.z()};
+    const double corners[4][2] = {{0.25, 0.3}, {-0.25, 0.3}, {-0.25, -0.3}, {0.25, -0.3}};
+    for (std::size_t c = 0; c < 4; ++c)
+      plate.corners_in_world[c] = centre + world_from_plate * Vector3d(corners[c][0], corners[c][1], 0.0);
+    plate.calibration.assign(calibration.data(), calibration.data() + calibration.size());
+    t.analog.names = {"other"};  // the plate does not begin at the first channel
+    t.analog.units = {"V"};
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      plate.channel_idx.push_back(static_cast<int>(c) + 1);
+      t.analog.names.push_back("ch" + std::to_string(c));
+      t.analog.units.push_back(c < units.size() ? units[c] : "N");
+    }
+    t.force_plates.push_back(plate);
+    t.analog.samples = frames * samples_per_frame;
+    t.analog.rate_hz = 100.0 * static_cast<double>(samples_per_frame);
+    for (std::int64_t i = 0; i < t.analog.samples; ++i) {
+      t.analog.values.push_back(-1.0);
+      for (const double v : channels(course(static_cast<double>(i)))) t.analog.values.push_back(v);
+    }
+    return t;
+  }
+};
+
+/// Written and opened again; `mend` may change the bytes between.
+Result<PlateForces> through_a_file(const data::Trial& trial, const PlateOptions& options = {},
+                                   const std::function<void(std::string&)>& mend = {}) {
+  const testing_support::ScratchFolder scratch;
+  if (auto s = write_c3d(scratch / "p.c3d", trial); !s) return std::unexpected(s.error());
+  std::string bytes = read_text(scratch / "p.c3d").value();
+  if (mend) mend(bytes);
+  const auto span = std::as_bytes(std::span(bytes));
+  const auto reader = C3dReader::open(std::make_unique<MemorySource>(span, "p.c3d"));
+  if (!reader) return std::unexpected(reader.error());
+  auto forces = read_plate_forces(*reader, options);
+  EXPECT_TRUE(!forces || forces->wrenches.validate());
+  return forces;
+}
+
+/// Set FORCE_PLATFORM:ZERO, which our writer leaves at (0, 0).
+auto set_zero(std::int16_t first, std::int16_t last) {
+  return [=](std::string& bytes) {
+    const auto at = bytes.find("ZERO");
+    ASSERT_NE(at, std::string::npos);
+    std::memcpy(bytes.data() + at + 9, &first, 2);
+    std::memcpy(bytes.data() + at + 11, &last, 2);
+  };
+}
+
+void expect_truth(const Setting& setting, const data::Wrench& wrench, std::int64_t f,
+                  double tolerance = 1e-3) {
+  const Matrix3d& R = setting.world_from_plate;
+  EXPECT_LT((of_frame(wrench.force, f) - R * setting.force).norm(), tolerance * 700.0);
+  EXPECT_LT((of_frame(wrench.point, f) - setting.centre - R * setting.place).norm(), tolerance);
+  EXPECT_LT((of_frame(wrench.moment, f) - R * Vector3d(0.0, 0.0, setting.twist)).norm(), 20.0 * tolerance);
+}
+
+TEST(PlateForces, AForceAtAPlaceIsFoundForEveryType) {
+  Random random(5, 0);
+  for (const int type : {1, 2, 3, 4}) {
+    SCOPED_TRACE(type);
+    Setting setting;
+    setting.type = type;
+    if (type == 3) setting.origin.head<2>().setZero();  // sensors lie evenly about the middle
+    if (type == 1) setting.units = {"N", "N", "N", "mm", "mm", "Nmm"};
+    if (type == 4) {
+      setting.units.assign(6, "V");
+      setting.calibration = Eigen::MatrixXd::Zero(6, 6);
+      for (double& v : setting.calibration.reshaped()) v = random.uniform(-0.05, 0.05);
+      setting.calibration.diagonal() << 1.5, 1.6, 6.0, 740.0, 741.0, 390.0;
+    }
+    const auto forces = through_a_file(setting.trial(9, [](double) { return 1.0; })).value();
+    ASSERT_EQ(forces.wrenches.items.size(), 1u);
+    EXPECT_EQ(forces.wrenches.items[0].name, "plate 1");
+    EXPECT_EQ(forces.wrenches.items[0].body, "");
+    EXPECT_EQ(forces.wrenches.frames(), 9);
+    EXPECT_EQ(forces.wrenches.time.rate_hz, 100.0);
+    EXPECT_THAT(forces.warnings, IsEmpty());
+    for (const std::int64_t f : {0, 4, 8}) expect_truth(setting, forces.wrenches.items[0], f);
+  }
+}
+
+TEST(PlateForces, AnOriginAboveTheSurfaceIsTurned) {
+  for (const int type : {1, 2, 3}) {
+    SCOPED_TRACE(type);
+    Setting setting;
+    setting.type = type;
+    setting.origin_turned = true;
+    if (type == 3) setting.origin.head<2>().setZero();
+    if (type == 1) setting.units = {"N", "N", "N", "mm", "mm", "Nmm"};
+    const auto forces = through_a_file(setting.trial(3, [](double) { return 1.0; })).value();
+    expect_truth(setting, forces.wrenches.items.at(0), 1);
+    EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 has an ORIGIN above its surface")));
+  }
+}
+
+TEST(PlateForces, TheUnitOfMomentsIsTheChannelsOrTheFiles) {
+  for (const auto& unit : {"Nm", "N.m", "Nt m", "newton-metre"}) {
+    Setting setting;
+    setting.units = {"N", "N", "N", unit, unit, unit};
+    auto trial = setting.trial(3, [](double) { return 1.0; });
+    for (std::size_t i = 0; i < trial.analog.values.size(); ++i)
+      if (i % 7 >= 4) trial.analog.values[i] *= 1e-3;
+    expect_truth(setting, through_a_file(trial).value().wrenches.items.at(0), 1);
+  }
+  Setting setting;
+  setting.units = {"kN", "kN", "kN", "", "", ""};
+  auto trial = setting.trial(3, [](double) { return 1.0; });
+  for (std::size_t i = 0; i < trial.analog.values.size(); ++i)
+    if (i % 7 >= 1 && i % 7 < 4) trial.analog.values[i] *= 1e-3;
+  expect_truth(setting, through_a_file(trial).value().wrenches.items.at(0), 1);
+}
+
+TEST(PlateForces, FramesAreNeitherEarlyNorLate) {
+  // A force that grows evenly must be found, in every frame but none at the rim, at the frame's own time.
+  for (const std::int64_t S : {1, 2, 5, 8}) {
+    SCOPED_TRACE(S);
+    Setting setting;
+    setting.samples_per_frame = S;
+    const auto course = [S](double sample) { return 0.5 + 0.01 * sample / static_cast<double>(S); };
+    const auto forces = through_a_file(setting.trial(40, course)).value();
+    for (std::int64_t f = 0; f < 40; ++f)
+      EXPECT_NEAR(of_frame(forces.wrenches.items.at(0).force, f).z(),
+                  700.0 * (0.5 + 0.01 * static_cast<double>(f)), 1e-3);
+  }
+}
+
+TEST(PlateForces, AMeanOverAFrameTakesNoiseAway) {
+  // Alternating samples: the mean over an even number of them has none of it left.
+  Setting setting;
+  setting.samples_per_frame = 8;
+  const auto course = [](double i) { return std::fmod(i, 2.0) == 0.0 ? 1.3 : 0.7; };
+  const auto forces = through_a_file(setting.trial(20, course)).value();
+  for (std::int64_t f = 1; f < 20; ++f)
+    EXPECT_NEAR(of_frame(forces.wrenches.items.at(0).force, f).z(), 700.0, 1e-3);
+}
+
+TEST(PlateForces, LongRecordingsAreReadPieceByPiece) {
+  Setting setting;
+  setting.samples_per_frame = 2;
+  const std::int64_t frames = 40000;  // more than one piece
+  const auto course = [](double i) { return 1.0 + 0.2 * std::sin(1e-3 * i); };
+  const auto forces = through_a_file(setting.trial(frames, course)).value();
+  for (std::int64_t f = 1; f < frames; ++f)
+    ASSERT_NEAR(of_frame(forces.wrenches.items.at(0).force, f).z(),
+                700.0 * course(2.0 * static_cast<double>(f)), 1e-2)
+        << f;
+}
+
+TEST(PlateForces, AnEmptyPlateDoesNothing) {
+  Setting setting;
+  const auto course = [](double i) { return i < 40.0 ? 1.0 : 0.025; };  // 17.5 N
+  const auto trial = setting.trial(20, course);
+  const auto forces = through_a_file(trial).value();
+  const auto& wrench = forces.wrenches.items.at(0);
+  expect_truth(setting, wrench, 8);
+  EXPECT_EQ(of_frame(wrench.force, 15), Vector3d::Zero());
+  EXPECT_EQ(of_frame(wrench.moment, 15), Vector3d::Zero());
+  EXPECT_TRUE(of_frame(wrench.point, 15).hasNaN());
+  // Below the asked number only.
+  const auto fine = through_a_file(trial, {.contact_force_n = 10.0}).value();
+  EXPECT_NEAR(of_frame(fine.wrenches.items.at(0).force, 15).z(), 17.5, 1e-3);
+}
+
+TEST(PlateForces, WithoutAThresholdAPullCountsToo) {
+  Setting setting;
+  const auto course = [](double i) { return i < 40.0 ? 1.0 : -0.1; };
+  const auto trial = setting.trial(20, course);
+  EXPECT_EQ(of_frame(through_a_file(trial).value().wrenches.items.at(0).force, 15), Vector3d::Zero());
+  const auto all = through_a_file(trial, {.contact_force_n = 0.0}).value().wrenches.items.at(0);
+  EXPECT_LT((of_frame(all.force, 15) + 0.1 * setting.world_from_plate * setting.force).norm(), 1e-3);
+  // Taken at the middle of the plate, with the whole moment: the same push and twist.
+  EXPECT_LT((of_frame(all.point, 15) - setting.centre).norm(), 1e-6);
+  const Vector3d moment = -0.1 * (setting.place.cross(setting.force) + Vector3d(0.0, 0.0, setting.twist));
+  EXPECT_LT((of_frame(all.moment, 15) - setting.world_from_plate * moment).norm(), 1e-3);
+}
+
+TEST(PlateForces, WhatTheBodyDoesToThePlateIsTurnedRound) {
+  Setting setting;
+  auto trial = setting.trial(5, [](double) { return 1.0; });
+  for (std::size_t i = 0; i < trial.analog.values.size(); ++i)
+    if (i % 7 >= 1) trial.analog.values[i] *= -1.0;
+  const auto forces = through_a_file(trial).value();
+  expect_truth(setting, forces.wrenches.items.at(0), 2);
+  EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 tells what the body does to it")));
+}
+
+TEST(PlateForces, CornersTheWrongWayRoundAreTold) {
+  Setting setting;
+  setting.markers_below = true;  // all that is certain: the body is where the markers are
+  const auto forces = through_a_file(setting.trial(5, [](double) { return 1.0; })).value();
+  EXPECT_THAT(forces.warnings, Contains(HasSubstr("corners that run the wrong way round")));
+  EXPECT_GT(-of_frame(forces.wrenches.items.at(0).force, 2).z(), 600.0);  // towards the markers
+}
+
+TEST(PlateForces, BaselineOfTheFramesThatZeroNames) {
+  Setting setting;
+  // 28 N of drift all the time, and a step from frame 10.
+  const auto course = [](double i) { return i < 40.0 ? 0.04 : 1.04; };
+  const auto trial = setting.trial(30, course);
+  const auto forces = through_a_file(trial, {}, set_zero(1, 9)).value();
+  expect_truth(setting, forces.wrenches.items.at(0), 20);
+  EXPECT_EQ(of_frame(forces.wrenches.items.at(0).force, 5), Vector3d::Zero());
+  const auto raw = through_a_file(trial, {.baseline = false}, set_zero(1, 9)).value();
+  EXPECT_NEAR(of_frame(raw.wrenches.items.at(0).force, 20).z(), 728.0, 1e-3);
+  // Ranges that name nothing.
+  for (const auto& [first, last] : {std::pair{0, 0}, {1, 0}, {0, 9}, {1, 31}, {-3, 2}}) {
+    const auto as_is =
+        through_a_file(trial, {}, set_zero(static_cast<std::int16_t>(first), static_cast<std::int16_t>(last)))
+            .value();
+    EXPECT_NEAR(of_frame(as_is.wrenches.items.at(0).force, 20).z(), 728.0, 1e-3);
+  }
+  // Somebody stands on it: that is no baseline.
+  const auto loaded = through_a_file(trial, {}, set_zero(15, 20)).value();
+  EXPECT_NEAR(of_frame(loaded.wrenches.items.at(0).force, 20).z(), 728.0, 1e-3);
+  EXPECT_THAT(loaded.warnings,
+              Contains(HasSubstr("carries 728 N in the frames 15 to 20 that FORCE_PLATFORM:ZERO")));
+}
+
+TEST(PlateForces, ASampleThatIsNoNumberIsNotKnown) {
+  Setting setting;
+  auto trial = setting.trial(10, [](double) { return 1.0; });
+  trial.analog.values[7 * (4 * 5) + 4] = kNan;  // frame 5
+  const auto forces = through_a_file(trial).value();
+  EXPECT_TRUE(of_frame(forces.wrenches.items.at(0).force, 5).hasNaN());
+  expect_truth(setting, forces.wrenches.items.at(0), 3);
+  expect_truth(setting, forces.wrenches.items.at(0), 7);
+}
+
+TEST(PlateForces, AWrongUnitShowsAtTheCentreOfPressure) {
+  Setting setting;
+  setting.units = {"N", "N", "N", "Nm", "Nm", "Nm"};  // but the numbers are N mm
+  const auto forces = through_a_file(setting.trial(6, [](double) { return 1.0; })).value();
+  EXPECT_THAT(forces.warnings,
+              ElementsAre(HasSubstr("the centre of pressure leaves plate 1 in 6 of 6 frames")));
+}
+
+TEST(PlateForces, WhatCannotBeReadIsToldInASentence) {
+  const auto message = [](const data::Trial& trial) {
+    const auto forces = through_a_file(trial);
+    EXPECT_FALSE(forces);
+    EXPECT_EQ(forces.error().code, Code::bad_input);
+    return forces.error().message;
+  };
+  const auto flat = [](double) { return 1.0; };
+  Setting setting;
+  auto trial = setting.trial(3, flat);
+  trial.force_plates.clear();
+  EXPECT_EQ(message(trial), "p.c3d: has no force plate whose forces can be read");
+  trial = setting.trial(3, flat);
+  trial.force_plates[0].type = 5;
+  EXPECT_THAT(message(trial),
+              HasSubstr("plate 1 is left out: it is of type 5; forces are read from types 1, 2, 3, 4 and 7"));
+  trial.force_plates[0].type = 4;
+  EXPECT_THAT(message(trial), HasSubstr("is of type 4 but has no CAL_MATRIX of 6 x 6 numbers"));
+  trial.force_plates[0].calibration.assign(36, 0.0);
+  EXPECT_THAT(message(trial), HasSubstr("CAL_MATRIX of zeros"));
+  trial.force_plates[0].type = 3;
+  EXPECT_THAT(message(trial), HasSubstr("has 6 analog channels; type 3 needs 8"));
+  trial = setting.trial(3, flat);
+  trial.force_plates[0].corners_in_world[0] = trial.force_plates[0].corners_in_world[2];
+  trial.force_plates[0].corners_in_world[1] = trial.force_plates[0].corners_in_world[3];
+  for (auto& corner : trial.force_plates[0].corners_in_world) corner.y() = 0.0;
+  EXPECT_THAT(message(trial), HasSubstr("corners that span no surface"));
+  trial = setting.trial(3, flat);
+  trial.force_plates[0].channel_idx[5] = trial.force_plates[0].channel_idx[4];
+  EXPECT_THAT(message(trial), HasSubstr("an analog channel of it is used twice"));
+  const auto wrong = through_a_file(setting.trial(3, flat), {.contact_force_n = -1.0});
+  EXPECT_EQ(wrong.error().code, Code::usage);
+  EXPECT_THAT(wrong.error().message, HasSubstr("contact force is -1 N"));
+  EXPECT_EQ(read_plate_forces("no such file.c3d").error().code, Code::io);
+}
+
+TEST(PlateForces, OnlyThePlatesThatCanBeReadAreThere) {
+  Setting setting;
+  auto trial = setting.trial(4, [](double) { return 1.0; });
+  auto bad = trial.force_plates[0];
+  bad.type = 6;
+  bad.channel_idx = {0};
+  trial.force_plates.insert(trial.force_plates.begin(), bad);
+  const auto forces = through_a_file(trial).value();
+  ASSERT_EQ(forces.wrenches.items.size(), 1u);
+  EXPECT_EQ(forces.wrenches.items[0].name, "plate 2");  // as the file counts
+  EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("force plate 1 is left out")));
+}
+
+/// OpenSim 4 turned this recording into force and moment about the middle of each plate, every 0.05 s.
+TEST(PlateForces, WalkOfTwoPlatesIsWhatOpenSimFinds) {
+  KINEMARK_REQUIRE_TEST_DATA(data);
+  const auto folder = data / "opensim-core-formats";
+  const auto forces =
+      read_plate_forces(folder / "walking2.c3d", {.contact_force_n = 0.0, .baseline = false}).value();
+  const auto table = read_table(folder / "std_walking2_grfs.sto").value();
+  ASSERT_EQ(forces.wrenches.items.size(), 2u);
+  const double rate = forces.wrenches.time.rate_hz;
+  double worst_force = 0.0, worst_moment = 0.0;
+  int compared = 0;
+  for (std::int64_t row = 0; row < table.rows(); ++row) {
+    const double frame = table.time_s[static_cast<std::size_t>(row)] * rate;
+    const auto f = static_cast<std::int64_t>(std::floor(frame));
+    if (f + 1 >= forces.wrenches.frames()) break;
+    const double later = frame - static_cast<double>(f);
+    ++compared;
+    for (int p = 0; p < 2; ++p) {
+      const auto& wrench = forces.wrenches.items[static_cast<std::size_t>(p)];
+      const auto triple = [&](const char* name) {
+        Vector3d v;
+        for (int i = 0; i < 3; ++i) v[i] = table(row, table.find(fmt::format("{}{}_{}", name, p + 1, i + 1)));
+        return v;
+      };
+      const Vector3d centre = 1e-3 * triple("p");
+      const auto moment = [&](std::int64_t at) -> Vector3d {
+        return of_frame(wrench.moment, at) +
+               (of_frame(wrench.point, at) - centre).cross(of_frame(wrench.force, at));
+      };
+      const Vector3d force =
+          (1.0 - later) * of_frame(wrench.force, f) + later * of_frame(wrench.force, f + 1);
+      worst_force = std::max(worst_force, (force - triple("f")).norm());
+      worst_moment = std::max(
+          worst_moment, ((1.0 - later) * moment(f) + later * moment(f + 1) - 1e-3 * triple("m")).norm());
+    }
+  }
+  EXPECT_GT(compared, 95);
+  // OpenSim takes single samples, we the mean of eight (4 ms).
+  EXPECT_LT(worst_force, 4.0);
+  EXPECT_LT(worst_moment, 0.8);
+  ::testing::Test::RecordProperty("worst_force_n", std::to_string(worst_force));
+  ::testing::Test::RecordProperty("worst_moment_nm", std::to_string(worst_moment));
+}
+
+/// One standing person on a plate: 783 N, as the file says, not far from the middle of the markers.
+TEST(PlateForces, StandingPersonPressesUnderTheMarkers) {
+  KINEMARK_REQUIRE_TEST_DATA(data);
+  const auto forces = read_plate_forces(data / "pycgm-rom/Sample_Static.c3d").value();
+  for (std::int64_t f = 0; f < forces.wrenches.frames(); ++f) {
+    EXPECT_NEAR(of_frame(forces.wrenches.items.at(0).force, f).z(), 781.0, 6.0);
+    EXPECT_LT((of_frame(forces.wrenches.items.at(0).point, f) - Vector3d(0.22, 0.26, 0.0)).norm(), 0.05);
+  }
+}
+
+/// c3d.org's pair: the same recording with the whole calibration matrix and with its diagonal only.
+TEST(PlateForces, TypesTwoAndFourOfOneRecordingAgree) {
+  KINEMARK_REQUIRE_TEST_DATA(data);
+  const auto two = read_plate_forces(data / "c3d-org/sample10/TYPE-2.C3D").value();
+  const auto four = read_plate_forces(data / "c3d-org/sample10/TYPE-4.C3D").value();
+  int loaded = 0;
+  for (std::int64_t f = 0; f < two.wrenches.frames(); ++f) {
+    const Vector3d a = of_frame(two.wrenches.items.at(0).force, f),
+                   b = of_frame(four.wrenches.items.at(0).force, f);
+    if (a.z() < 100.0 || b.z() < 100.0) continue;
+    ++loaded;
+    EXPECT_LT((a - b).norm(), 0.05 * a.norm());  // cross-talk of a few percent
+    const Vector3d gap =
+        of_frame(two.wrenches.items.at(0).point, f) - of_frame(four.wrenches.items.at(0).point, f);
+    EXPECT_LT(gap.norm(), 0.03);
+  }
+  EXPECT_GT(loaded, 30);
+}
+
+}  // namespace
+}  // namespace kinemark::io
