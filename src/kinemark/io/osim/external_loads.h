@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// OpenSim's ExternalLoads: which columns of a table push which body.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+#include "kinemark/data/table.h"
+#include "kinemark/data/wrenches.h"
+
+namespace kinemark::io {
+
+/// One ExternalForce that is switched on, given in the ground's frame. Identifiers are what three columns'
+/// names begin with; empty: none.
+struct ExternalForce {
+  std::string name;
+  std::string body;  ///< of the model
+  std::string force, point, torque;
+};
+
+struct ExternalLoads {
+  std::string source;               ///< the file, for sentences
+  std::filesystem::path data_file;  ///< seen from the file's folder
+  std::vector<ExternalForce> forces;
+};
+
+/// Read an ExternalLoads file. Code::not_supported, one sentence: a force or point in the frame of a body, or
+/// a force without a point (which OpenSim puts at the body's origin); Code::bad_input for what is missing.
+[[nodiscard]] Result<ExternalLoads> read_external_loads(const std::filesystem::path& path);
+/// The same from memory; the data file is seen from `folder`.
+[[nodiscard]] Result<ExternalLoads> parse_external_loads(std::string_view xml, std::string name,
+                                                         const std::filesystem::path& folder = {});
+
+/// What the loads do at the frames of `time`, linear between the rows of the table (N, m, N m). NaN before
+/// its first and after its last row, beside cells that are blank, and where a force has no point. Columns
+/// that are not there: Code::bad_input.
+[[nodiscard]] Result<data::Wrenches> sample_external_loads(const ExternalLoads& loads,
+                                                           const data::Table& table, const TimeBase& time);
+
+}  // namespace kinemark::io
