@@ -16,6 +16,8 @@ using data::CentreState;
 
 /// Of a recording without a fit or without a frame to judge: more than any bar allows.
 constexpr double kNoRatio = 99.0;
+/// A variance below this share of the bound's is that of a frame near a fold.
+constexpr double kFold = 0.5;
 
 int seen_of(const simulation::LimbRecording& limb, std::int64_t frame, int segment) {
   int seen = 0;
@@ -147,7 +149,9 @@ void measure(const simulation::LimbRecording& limb, data::SegmentKind kind, doub
       }
       ++one.bounded;
       one.squares_m2 += e.squaredNorm();
-      one.bound_m2 += bound.variance(k);
+      // Near a fold the bound grows without limit and says nothing: there the fit's own claim is held to.
+      const bool fold = C.trace() < kFold * bound.variance(k);
+      one.bound_m2 += fold ? C.trace() : bound.variance(k);
       for (int i = 0; i < 3; ++i) {
         const double z = std::abs(e[i]) / std::sqrt(C(i, i));
         ++one.coordinates;

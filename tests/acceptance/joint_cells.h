@@ -15,9 +15,11 @@ namespace kinemark::joint_cells {
 
 /// Sums over the joint frames of several recordings.
 struct Tally {
-  double squares_m2 = 0.0, bound_m2 = 0.0;  ///< of frames called determined, whose bound exists
-  std::vector<double> seed_ratio;           ///< one a recording
-  std::int64_t frames = 0, determined = 0;  ///< joint frames, all and called determined
+  /// Of frames called determined, whose bound exists; where the fit claims less than half the bound's
+  /// variance (near a fold), its claim instead of the bound.
+  double squares_m2 = 0.0, bound_m2 = 0.0;
+  std::vector<double> seed_ratio;                          ///< one a recording
+  std::int64_t frames = 0, determined = 0;                 ///< joint frames, all and called determined
   std::int64_t bounded = 0, determined_without_bound = 0;  ///< of the latter: with a bound, and without
   std::int64_t whole = 0, whole_flagged = 0;    ///< a neighbouring segment fully seen; not called determined
   std::int64_t wrong = 0, wrong_unflagged = 0;  ///< errors beyond 5 SD, and those called determined

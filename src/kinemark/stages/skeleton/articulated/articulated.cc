@@ -60,6 +60,7 @@ ChainFitOptions fit_options(const Work& w) {
   out.noise_sd_m = w.options.noise_sd_m;
   out.robust_dof = w.options.robust ? kRobustDof : 0.0;
   out.frames_max = w.options.max_fit_frames;
+  out.marker_noise = w.options.soft_tissue;
   if (!w.options.kinds.empty())
     for (const int s : w.tree.segment_order) out.kind.push_back(w.options.kinds[at(s)]);
   for (const int m : w.input.marker) out.marker_names.push_back(w.markers.names[at(m)]);
@@ -325,6 +326,11 @@ ArticulatedFit assemble(const Work& w) {
     else if (skeleton.joints[at(joint)].kind == data::JointKind::hinge)
       widen_along_axis(w, skeleton, joint, w.fit.chain.scale());
   }
+  out.marker_noise_sd_m.assign(w.markers.names.size(), std::numeric_limits<double>::quiet_NaN());
+  for (int m = 0; m < w.fit.chain.markers(); ++m)
+    if (w.fit.marker_weight[at(m)] > 0.0)
+      out.marker_noise_sd_m[at(w.input.marker[at(m)])] =
+          w.fit.noise_sd_m / std::sqrt(w.fit.marker_weight[at(m)]);
   write_lengths(w, skeleton);
   write_warnings(w, skeleton);
   for (int j = 0; j < J && w.options.joint == JointChoice::hinge; ++j)

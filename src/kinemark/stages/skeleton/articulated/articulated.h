@@ -24,8 +24,11 @@ struct ArticulatedOptions {
   double noise_sd_m = 0.0;               ///< of a marker, per axis, >= 0; 0: estimated from the residuals
   std::vector<data::SegmentKind> kinds;  ///< one a segment; empty: the data choose line, plane or solid
   JointChoice joint = JointChoice::automatic;
-  bool continuity = true;         ///< smooth the centres in time and bridge what one frame leaves open
-  bool robust = true;             ///< single markers far off lose their weight
+  bool continuity = true;  ///< smooth the centres in time and bridge what one frame leaves open
+  bool robust = true;      ///< single markers far off lose their weight
+  /// Soft tissue: every marker has a noise of its own, found from its residuals and shrunk towards the common
+  /// one. Markers on loose skin then count less, and covariances know of them.
+  bool soft_tissue = false;
   int max_fit_frames = 1500;      ///< 20 or more; frames, spread over the recording, for the geometry
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
@@ -44,6 +47,9 @@ struct JointSummary {
 struct ArticulatedFit {
   data::Skeleton skeleton;           ///< one centre a frame and joint; covariances include the common part
   std::vector<JointSummary> joints;  ///< as skeleton.joints
+  /// Noise of each marker, M, per axis, m: the same for all but with soft_tissue. NaN: not in the layout, or
+  /// left out.
+  std::vector<double> marker_noise_sd_m;
 };
 
 /// Centres of all joints of `layout` in every frame, their covariances, and what can be known of them.

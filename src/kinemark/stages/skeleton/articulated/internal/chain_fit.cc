@@ -77,7 +77,7 @@ GlobalFrames determined_frames(const ChainSamples& samples, const ChainFit& fit)
     last = frame.modes[0].pose;
     const bool all = std::all_of(frame.state.begin(), frame.state.end(),
                                  [](CentreState s) { return s == CentreState::determined; });
-    if (!all) continue;
+    if (!all || frame.gathered) continue;
     out.frame.push_back(f);
     out.pose.push_back(last);
     out.weight.push_back(fit.marker_weight);

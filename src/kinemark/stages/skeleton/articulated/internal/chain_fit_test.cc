@@ -313,6 +313,18 @@ TEST(ChooseKinds, FindsLinesPlanesAndSolids) {
   }
 }
 
+// 60 % missing leaves few frames or none with both segments whole.
+TEST(ChooseKinds, SolidsStaySolidWhereNoFrameShowsBothSegments) {
+  RandomChain limb = make_random_chain({.frames = 200, .noise_sd_m = 0.002});
+  for (int f = 0; f < 200; ++f) hide(limb.samples, f, f % 2 == 0 ? (f / 2) % 3 : 3 + (f / 2) % 3);
+  const auto chosen = choose_kinds(limb.samples, limb.chain.layout, 0.0);
+  ASSERT_TRUE(chosen.has_value()) << chosen.error().message;
+  EXPECT_THAT(*chosen, Each(SegmentKind::solid));
+  const auto fit = fit_chain(limb.samples, limb.chain.layout);
+  ASSERT_TRUE(fit.has_value()) << fit.error().message;
+  EXPECT_NEAR(fit->noise_sd_m, 0.002, 0.0003);
+}
+
 TEST(ChooseKinds, TakesTheLineWhereNoiseHidesTheStagger) {
   const RandomChain limb = make_random_chain({.frames = 150, .stagger_m = 0.002, .noise_sd_m = 0.003});
   EXPECT_THAT(choose_kinds(limb.samples, limb.chain.layout, 0.003).value(),

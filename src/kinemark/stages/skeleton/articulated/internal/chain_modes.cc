@@ -14,10 +14,13 @@ namespace {
 constexpr double kSame = 2e-5;  // m: joints nearer than this (and a fifth of the noise) are one minimum
 constexpr double kLeastRise = 0.35;
 constexpr double kMostRise = 2.5;
-constexpr int kReflected = 6;        // minima that are mirrored joint by joint
-constexpr double kHopeless = 40.0;   // chi-square above the best
-constexpr double kHold = 1e3;        // weight of the direction that is held, in markers
-constexpr double kFarthestSd = 0.3;  // m
+constexpr int kReflected = 6;          // minima that are mirrored joint by joint
+constexpr double kHopeless = 40.0;     // chi-square above the best
+constexpr double kHold = 1e3;          // weight of the direction that is held, in markers
+constexpr double kFarthestSd = 0.3;    // m
+constexpr int kScan = 6;               // SD to either side
+constexpr double kOpenEnds = 1e-3;     // weight of the scan's ends: the profile goes on beyond them
+constexpr double kLeastScanned = 0.3;  // of the Gaussian's variance: below, steps of one SD are too coarse
 
 double distance(const ChainMode& a, const ChainMode& b) {
   double most = 0.0;
@@ -114,25 +117,76 @@ int ModeFinder::find(FrameSolver& solver, const double* x, double sigma_m, const
   return count_;
 }
 
+namespace {
+
+// A joint held at places along the weakest direction of its covariance, all else refitted.
+class Profile {
+ public:
+  Profile(FrameSolver& solver, const ChainPose& best, double cost, int joint, const Matrix3d& covariance,
+          double sigma_m)
+      : solver_(solver), best_(best), cost_(cost), joint_(joint), sigma_m_(sigma_m) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
+    weakest_ = eigen.eigenvectors().col(2);
+    sd_m_ = std::min(std::sqrt(std::max(eigen.eigenvalues()[2], 0.0)), kFarthestSd);
+    centre_ = solver.chain().joint_centre(best, joint);
+  }
+  [[nodiscard]] const Vector3d& weakest() const { return weakest_; }
+  [[nodiscard]] double sd_m() const { return sd_m_; }
+
+  // Chi-square above the best at z SD.
+  [[nodiscard]] double rise(double z) {
+    const Vector3d off = z * sd_m_ * weakest_;
+    const JointPrior hold{joint_, centre_ + off, kHold * weakest_ * weakest_.transpose()};
+    pose_.joint0 = best_.joint0 + off;
+    pose_.rotation = best_.rotation;
+    const double held = solver_.refine(pose_, {&hold, 1}, 25, 1e-7);
+    return (held - cost_) / (sigma_m_ * sigma_m_);
+  }
+
+ private:
+  FrameSolver& solver_;
+  const ChainPose& best_;
+  double cost_;
+  int joint_;
+  double sigma_m_, sd_m_ = 0.0;
+  Vector3d weakest_, centre_;
+  ChainPose pose_;
+};
+
+}  // namespace
+
 bool profile_is_gaussian(FrameSolver& solver, const ChainPose& best, double cost, int joint,
                          const Matrix3d& covariance, double sigma_m) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
-  const Vector3d weakest = eigen.eigenvectors().col(2);
-  const double sd = std::min(std::sqrt(std::max(eigen.eigenvalues()[2], 0.0)), kFarthestSd);
-  const Vector3d centre = solver.chain().joint_centre(best, joint);
-  ChainPose pose;
+  Profile profile(solver, best, cost, joint, covariance, sigma_m);
   for (const double z : {4.0, 2.0}) {
     for (const double side : {1.0, -1.0}) {
-      const Vector3d off = side * z * sd * weakest;
-      const JointPrior hold{joint, centre + off, kHold * weakest * weakest.transpose()};
-      pose.joint0 = best.joint0 + off;
-      pose.rotation = best.rotation;
-      const double held = solver.refine(pose, {&hold, 1}, 25, 1e-7);
-      const double rise = (held - cost) / (sigma_m * sigma_m * z * z);
+      const double rise = profile.rise(side * z) / (z * z);
       if (!(rise > kLeastRise && rise < kMostRise)) return false;
     }
   }
   return true;
+}
+
+std::optional<ProfileMoments> profile_moments(FrameSolver& solver, const ChainPose& best, double cost,
+                                              int joint, const Matrix3d& covariance, double sigma_m) {
+  Profile profile(solver, best, cost, joint, covariance, sigma_m);
+  double sum = 0.0, first = 0.0, second = 0.0, ends = 0.0;
+  for (int z = -kScan; z <= kScan; ++z) {
+    const double rise = z == 0 ? 0.0 : profile.rise(z);
+    if (rise < -1.0) return std::nullopt;  // another minimum, and a better one
+    const double weight = std::exp(-0.5 * rise);
+    sum += weight;
+    first += weight * z;
+    second += weight * z * z;
+    if (std::abs(z) == kScan) ends += weight;
+  }
+  const double mean = first / sum;
+  const double variance = second / sum - mean * mean;
+  if (ends > kOpenEnds * sum || variance < kLeastScanned) return std::nullopt;
+  const Vector3d& u = profile.weakest();
+  return ProfileMoments{.shift = mean * profile.sd_m() * u,
+                        .more = (variance - 1.0) * profile.sd_m() * profile.sd_m() * u * u.transpose(),
+                        .variance_ratio = variance};
 }
 
 }  // namespace kinemark::skeleton

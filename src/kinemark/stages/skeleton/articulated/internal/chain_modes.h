@@ -3,6 +3,7 @@
 // All minima of a frame, and whether the likelihood around the best one is what its covariance says.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
@@ -44,5 +45,18 @@ class ModeFinder {
 /// (0.35, 2.5).
 [[nodiscard]] bool profile_is_gaussian(FrameSolver& solver, const ChainPose& best, double cost, int joint,
                                        const Matrix3d& covariance, double sigma_m);
+
+/// Mean and variance of a joint along the weakest direction of its covariance, from the profile likelihood
+/// every SD to six on either side: what the covariance should have been where the profile is not Gaussian.
+struct ProfileMoments {
+  Vector3d shift = Vector3d::Zero();  ///< of the mean from the best place, m
+  Matrix3d more = Matrix3d::Zero();   ///< to add to the covariance, m^2; may be negative
+  double variance_ratio = 1.0;        ///< of the Gaussian's along that direction
+};
+/// None when the profile does not end within the scan, is too narrow for its steps, or falls into a better
+/// minimum. About twelve refits.
+[[nodiscard]] std::optional<ProfileMoments> profile_moments(FrameSolver& solver, const ChainPose& best,
+                                                            double cost, int joint,
+                                                            const Matrix3d& covariance, double sigma_m);
 
 }  // namespace kinemark::skeleton

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,6 +23,10 @@ using data::SegmentKind;
 constexpr double kWide = 50.0;
 // Minima nearer to the best than this many of its SD are part of it.
 constexpr double kNear = 0.5;
+// Several places are one when their scatter about their mean adds no more variance than the best has (so many
+// times), and none that counts lies farther from the mean than so many SD of all together.
+constexpr double kCompact = 1.0;
+constexpr double kFarOff = 3.0;
 
 }  // namespace
 
@@ -47,6 +52,8 @@ struct ChainSolver::Work {
   void begin(const double* x, ChainFrame& out);
   void describe(const double* x, ChainFrame& out);
   void judge(ChainFrame& out);
+  bool gather(ChainFrame& out, int joint) const;
+  bool follow_profile(ChainFrame& out, int joint);
   void reweigh(const double* x, ChainFrame& out);
   // Three markers or more, wide enough to fix the segment's pose; of a line two.
   bool anchored(int segment) const;
@@ -68,6 +75,7 @@ void ChainSolver::Work::begin(const double* x, ChainFrame& out) {
   frame_weights = weights;
   out.seen = solver.sums().seen;
   out.mode_count = 0;
+  out.gathered = false;
   out.state.assign(joints, CentreState::undetermined);
   out.centre.assign(joints, Vector3d::Constant(nan));
   out.covariance.assign(joints, Matrix3d::Constant(nan));
@@ -101,6 +109,44 @@ void ChainSolver::Work::describe(const double* x, ChainFrame& out) {
   }
 }
 
+// Places closer together than any of them is known: their mean, with the variance of all. False when they are
+// apart.
+bool ChainSolver::Work::gather(ChainFrame& out, int joint) const {
+  Vector3d mean = Vector3d::Zero();
+  for (int i = 0; i < out.mode_count; ++i) mean += out.modes[i].weight * out.modes[i].centre[joint];
+  Matrix3d between = Matrix3d::Zero();
+  for (int i = 0; i < out.mode_count; ++i) {
+    const Vector3d d = out.modes[i].centre[joint] - mean;
+    between += out.modes[i].weight * d * d.transpose();
+  }
+  if (between.trace() > kCompact * out.covariance[joint].trace()) return false;
+  const double farthest = kFarOff * std::sqrt((out.covariance[joint] + between).trace());
+  double beyond = 0.0;
+  for (int i = 0; i < out.mode_count; ++i)
+    if ((out.modes[i].centre[joint] - mean).norm() > farthest) beyond += out.modes[i].weight;
+  if (beyond >= fit.alternative_max) return false;
+  out.centre[joint] = mean;
+  out.covariance[joint] += between;
+  out.own_covariance[joint] += between;
+  out.information[joint] = out.own_covariance[joint].inverse();
+  out.gathered = true;
+  return true;
+}
+
+// A curved valley or a fold that is no wider than about a Gaussian's: its mean and its variance. False when
+// it is wider or goes on.
+bool ChainSolver::Work::follow_profile(ChainFrame& out, int joint) {
+  const auto moments = profile_moments(solver, out.modes[0].pose, out.modes[0].cost, joint,
+                                       out.own_covariance[joint], fit.noise_sd_m);
+  if (!moments || moments->variance_ratio > 1.0 + kCompact) return false;
+  out.centre[joint] += moments->shift;
+  out.covariance[joint] += moments->more;
+  out.own_covariance[joint] += moments->more;
+  out.information[joint] = out.own_covariance[joint].inverse();
+  out.gathered = true;
+  return true;
+}
+
 void ChainSolver::Work::judge(ChainFrame& out) {
   const Chain& chain = fit.chain;
   for (int j = 0; j < chain.joints(); ++j) {
@@ -117,12 +163,16 @@ void ChainSolver::Work::judge(ChainFrame& out) {
     for (int i = 1; i < out.mode_count; ++i) {
       if ((out.modes[i].centre[j] - out.modes[0].centre[j]).norm() > near) elsewhere += out.modes[i].weight;
     }
-    if (elsewhere >= fit.alternative_max ||
-        (std::max(seen(parent), seen(child)) < 3 &&
-         !profile_is_gaussian(solver, out.modes[0].pose, out.modes[0].cost, j, out.covariance[j],
-                              fit.noise_sd_m))) {
-      out.state[j] = CentreState::ambiguous;
-    }
+    // Three markers in all are three spheres: mirror twins, or just grown into one.
+    const bool four = seen(parent) + seen(child) >= 4;
+    const bool whole = std::max(seen(parent), seen(child)) >= 3;
+    bool one_place = true;
+    if (elsewhere >= fit.alternative_max)
+      one_place = four && gather(out, j);
+    else if (!whole && !profile_is_gaussian(solver, out.modes[0].pose, out.modes[0].cost, j,
+                                            out.covariance[j], fit.noise_sd_m))
+      one_place = four && follow_profile(out, j);
+    if (!one_place) out.state[j] = CentreState::ambiguous;
   }
 }
 

@@ -15,6 +15,7 @@ using data::SegmentKind;
 
 // Pulls a joint that the motion does not show towards its segments' middle: 1 mm of residual over 0.3 m.
 constexpr double kRidge = 1e-5;
+constexpr std::int64_t kEnoughForScore = 12;  // frames that show both poses; below, spheres see more
 
 // One segment's markers as a body, where three (a line: two) or more are seen.
 struct Body {
@@ -67,7 +68,7 @@ struct Joint {
   Vector3d in_parent = Vector3d::Zero(), in_child = Vector3d::Zero();
 };
 
-Result<Joint> score(const ChainSamples& samples, const Body& a, const Body& b) {
+Result<Joint> score(const ChainSamples& samples, const Body& a, const Body& b, std::int64_t least) {
   const std::vector<int> axes_a = a.axes();
   const std::vector<int> axes_b = b.axes();
   const Eigen::Index n = static_cast<Eigen::Index>(axes_a.size() + axes_b.size());
@@ -85,7 +86,7 @@ Result<Joint> score(const ChainSamples& samples, const Body& a, const Body& b) {
     right += weight * row.transpose() * (b.origin[f] - a.origin[f]);
     ++used;
   }
-  if (used < 3)
+  if (used < least)
     return fail(Code::bad_input,
                 "fewer than three frames show both segments of a joint well enough for their poses");
   const Eigen::VectorXd p = normal.ldlt().solve(right);
@@ -121,6 +122,18 @@ Result<Vector3d> sphere_centre(const ChainSamples& samples, const Body& a, const
   if (used < 4) return fail(Code::bad_input, "fewer than four samples show a joint's two segments together");
   normal.topLeftCorner<3, 3>().diagonal().array() += 1e-9 * normal.topLeftCorner<3, 3>().trace();
   return Vector3d(normal.ldlt().solve(right).head<3>());
+}
+
+// Both bodies have poses, but perhaps in few of the same frames: then each body sees the other's markers on
+// spheres.
+Result<Joint> start_joint(const ChainSamples& samples, const Body& a, const Body& b) {
+  if (auto joint = score(samples, a, b, kEnoughForScore); joint) return joint;
+  const bool solid = a.kind != SegmentKind::line && b.kind != SegmentKind::line;
+  if (solid) {
+    const auto in_a = sphere_centre(samples, a, b), in_b = sphere_centre(samples, b, a);
+    if (in_a && in_b) return Joint{.in_parent = *in_a, .in_child = *in_b};
+  }
+  return score(samples, a, b, 3);
 }
 
 // One or two markers about a joint whose place is known in the other body: distances give a planar shape.
@@ -172,7 +185,7 @@ Result<Chain> start_geometry(const ChainSamples& samples, const ChainLayout& lay
     Body& parent = bodies[layout.parent[j]];
     Body& child = bodies[j + 1];
     if (parent.whole && child.whole) {
-      auto joint = score(samples, parent, child);
+      auto joint = start_joint(samples, parent, child);
       if (!joint) return std::unexpected(joint.error());
       joints[j] = *joint;
       continue;
