@@ -5,19 +5,11 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/io/number.h"
+#include "cli/motion_arguments.h"
 #include "kinemark/pipeline/ik_job.h"
 
 namespace kinemark::cli {
 namespace {
-
-/// "NAME=NUMBER".
-Result<std::pair<std::string, double>> parse_weight(const std::string& text) {
-  const auto equals = text.rfind('=');
-  const auto number = equals == std::string::npos ? std::nullopt : io::parse_number(text.substr(equals + 1));
-  if (!number || equals == 0) return fail(Code::usage, fmt::format("'{}' is not NAME=WEIGHT", text));
-  return std::pair{text.substr(0, equals), *number};
-}
 
 /// One line for all coordinates that some frames do not determine, or nothing.
 std::string coordinates_partly_determined(const report::IkSummary& summary, std::int64_t frames) {
@@ -44,45 +36,25 @@ void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
                   100.0 * summary.determined_fraction));
   const auto partly = coordinates_partly_determined(summary, motion.frames());
   if (!partly.empty()) say(globals, partly);
-  for (const auto& finding : summary.findings) {
-    const bool note = finding.level == report::Verdict::good;
-    if (note && finding.about == "coordinate") continue;
-    say(globals, fmt::format("{}: {}", note ? "note" : "attention", finding.text));
-  }
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
-  if (globals.json) fmt::print("{}\n", report::summary_json(summary).dump(2));
+  print_motion(globals, outcome);
 }
 
 struct IkArguments {
   pipeline::IkJob job;
-  std::vector<std::string> weights, coordinate_weights;
-  double max_rms_mm = 50.0, max_offset_mm = 50.0, noise_mm = 0.0, loss_scale_mm = 20.0;
-  bool no_limits = false, no_error_bars = false;
+  MotionArguments motion;
+  std::vector<std::string> coordinate_weights;
+  double loss_scale_mm = 20.0;
 };
 
 int run_command(const Globals& globals, IkArguments& arguments) {
   auto& job = arguments.job;
-  auto& options = job.options;
-  for (const auto& text : arguments.weights) {
-    const auto weight = parse_weight(text);
-    if (!weight) return report_error(weight.error());
-    options.marker_weights.push_back({weight->first, weight->second});
-  }
+  if (auto status = apply(globals, arguments.motion, job); !status) return report_error(status.error());
   for (const auto& text : arguments.coordinate_weights) {
-    const auto weight = parse_weight(text);
+    const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return report_error(weight.error());
-    options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
+    job.options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
   }
-  options.limits = !arguments.no_limits;
-  options.error_bars = !arguments.no_error_bars;
-  options.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
-  options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
-  options.threads = globals.threads;
-  options.seed = globals.seed;
-  job.max_rms_m = 1e-3 * arguments.max_rms_mm;
-  job.max_offset_m = 1e-3 * arguments.max_offset_mm;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
+  job.options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
   const auto outcome = pipeline::run_ik(job, show_progress(globals, "frames"));
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
@@ -101,24 +73,13 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
   const auto arguments = std::make_shared<IkArguments>();
   auto& job = arguments->job;
   auto& options = job.options;
-  command->add_option("-m,--model", job.model, "Body model, .osim")->group("Input");
-  command->add_option("-t,--markers", job.markers, "Marker file, .c3d, .trc, .nwb, .csv or .v3d")
-      ->group("Input");
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
-      ->group("Input");
+  add_motion_options(*command, job, arguments->motion);
   command->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options win over it")
       ->group("Input");
   command->add_option("--tasks", job.tasks, "OpenSim IKTaskSet: marker and coordinate weights")
       ->group("Input");
-  command->add_option("--start", options.first_time_s, "First time to solve, s")->group("Input");
-  command->add_option("--end", options.last_time_s, "Last time to solve, s")->group("Input");
-  command->add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
   command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
       ->group("Output");
-  command
-      ->add_option("--weight", arguments->weights,
-                   "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
-      ->group("Estimate");
   command
       ->add_option("--coordinate-weight", arguments->coordinate_weights,
                    "Pull a coordinate to 0 with NAME=W (OpenSim's convention). Repeatable.")
@@ -156,21 +117,6 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
   command->add_option("--loss-scale", arguments->loss_scale_mm, "Where huber and cauchy begin to bend, mm")
       ->capture_default_str()
       ->group("Estimate");
-  command
-      ->add_option("--noise", arguments->noise_mm,
-                   "Marker noise per axis, mm; 0 estimates it from the residuals")
-      ->capture_default_str()
-      ->group("Estimate");
-  command->add_flag("--no-limits", arguments->no_limits, "Let clamped coordinates leave their range")
-      ->group("Estimate");
-  command->add_flag("--no-error-bars", arguments->no_error_bars, "Skip standard deviations")
-      ->group("Estimate");
-  command->add_option("--max-rms", arguments->max_rms_mm, "Gate: RMS marker error, mm")
-      ->capture_default_str()
-      ->group("Quality gates");
-  command->add_option("--max-offset", arguments->max_offset_mm, "Gate: mean marker offset, mm")
-      ->capture_default_str()
-      ->group("Quality gates");
   command->callback([&globals, arguments, &run] {
     run = [&globals, arguments] { return run_command(globals, *arguments); };
   });

@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/motion_arguments.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/track_job.h"
 
@@ -15,9 +16,10 @@ namespace {
 
 struct TrackArguments {
   pipeline::TrackJob job;
-  std::vector<std::string> levels, weights, rest, posture;
-  double step_ms = 0.0, noise_mm = 0.0, max_rms_mm = 50.0, max_offset_mm = 50.0;
-  bool no_limits = false, no_error_bars = false, no_feed_forward = false, no_lock = false;
+  MotionArguments motion;
+  std::vector<std::string> levels, rest, posture;
+  double step_ms = 0.0;
+  bool no_feed_forward = false, no_lock = false;
 };
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -31,15 +33,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// "NAME=NUMBER".
-Result<std::pair<std::string, double>> parse_pair(const std::string& text, const char* what) {
-  const auto equals = text.rfind('=');
-  const auto number = equals == std::string::npos ? std::nullopt : io::parse_number(text.substr(equals + 1));
-  if (!number || equals == 0) return fail(Code::usage, fmt::format("'{}' is not NAME={}", text, what));
-  return std::pair{text.substr(0, equals), *number};
-}
-
-Status apply(const Globals& globals, const TrackArguments& arguments, pipeline::TrackJob& job) {
+Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   auto& options = job.options;
   for (const auto& text : arguments.levels) {
     motion::TrackLevel level;
@@ -49,11 +43,6 @@ Status apply(const Globals& globals, const TrackArguments& arguments, pipeline::
       level.markers.push_back(name);
     }
     options.levels.push_back(std::move(level));
-  }
-  for (const auto& text : arguments.weights) {
-    const auto weight = parse_pair(text, "WEIGHT");
-    if (!weight) return std::unexpected(weight.error());
-    options.marker_weights.push_back({weight->first, weight->second});
   }
   for (const auto& text : arguments.rest) {
     const auto value = parse_pair(text, "VALUE");
@@ -69,17 +58,8 @@ Status apply(const Globals& globals, const TrackArguments& arguments, pipeline::
     options.posture_kd = *kd;
   }
   options.step_s = 1e-3 * arguments.step_ms;
-  options.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
-  options.limits = !arguments.no_limits;
-  options.error_bars = !arguments.no_error_bars;
   options.feed_forward = !arguments.no_feed_forward;
   options.lock = arguments.no_lock ? motion::LockMode::off : motion::LockMode::automatic;
-  options.threads = globals.threads;
-  options.seed = globals.seed;
-  job.max_rms_m = 1e-3 * arguments.max_rms_mm;
-  job.max_offset_m = 1e-3 * arguments.max_offset_mm;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
   return {};
 }
 
@@ -108,18 +88,13 @@ void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome
   if (!result.undetermined_coordinates.empty())
     say(globals, fmt::format("note: Not determined in 95 % of the frames: {}",
                              names(result.undetermined_coordinates)));
-  for (const auto& finding : outcome.summary.findings) {
-    const bool note = finding.level == report::Verdict::good;
-    if (note && finding.about == "coordinate") continue;
-    say(globals, fmt::format("{}: {}", note ? "note" : "attention", finding.text));
-  }
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
-  if (globals.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
+  print_motion(globals, outcome);
 }
 
 int run_command(const Globals& globals, const TrackArguments& arguments) {
   pipeline::TrackJob job = arguments.job;
-  if (auto status = apply(globals, arguments, job); !status) return report_error(status.error());
+  if (auto status = apply(globals, arguments.motion, job); !status) return report_error(status.error());
+  if (auto status = apply(arguments, job); !status) return report_error(status.error());
   const auto outcome = pipeline::run_track(job, show_progress(globals, "frames"));
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
@@ -140,20 +115,12 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
   const auto arguments = std::make_shared<TrackArguments>();
   auto& a = *arguments;
   auto& options = a.job.options;
-  command->add_option("-m,--model", a.job.model, "Body model with masses, .osim")->group("Input");
-  command->add_option("-t,--markers", a.job.markers, "Marker file")->group("Input");
-  command->add_option("--rate", a.job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
-      ->group("Input");
-  command->add_option("--start", options.first_time_s, "First time to track, s")->group("Input");
-  command->add_option("--end", options.last_time_s, "Last time to track, s")->group("Input");
-  command->add_option("-o,--output", a.job.output, "Motion file to write, Q.mot")->group("Output");
+  add_motion_options(*command, a.job, a.motion);
   command
       ->add_option(
           "--level", a.levels,
           "Markers of one level of priority, A,B,...; '*' takes the rest. Repeat from the highest to the "
           "lowest. None: one level of all markers")
-      ->group("Tasks");
-  command->add_option("--weight", a.weights, "Marker weight within its level NAME=W. Repeatable.")
       ->group("Tasks");
   command->add_option("--lock", options.locked, "Coordinate to hold at the rest pose. Repeatable.")
       ->group("Tasks");
@@ -178,19 +145,6 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Control");
   command->add_flag("--no-feed-forward", a.no_feed_forward, "Use places only, not their rates")
       ->group("Control");
-  command->add_flag("--no-limits", a.no_limits, "Let clamped coordinates leave their range")
-      ->group("Control");
-  command->add_option("--noise", a.noise_mm, "Marker noise per axis, mm; 0 estimates it")
-      ->capture_default_str()
-      ->group("Error bars");
-  command->add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations and bounds")
-      ->group("Error bars");
-  command->add_option("--max-rms", a.max_rms_mm, "Gate: RMS marker error, mm")
-      ->capture_default_str()
-      ->group("Quality gates");
-  command->add_option("--max-offset", a.max_offset_mm, "Gate: mean marker offset, mm")
-      ->capture_default_str()
-      ->group("Quality gates");
   command->callback([&globals, arguments, &run] {
     run = [&globals, arguments] { return run_command(globals, *arguments); };
   });

@@ -31,16 +31,6 @@ motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
   return result;
 }
 
-data::Table forces_table(const data::JointMotion& motion, const Array<double>& values, std::string name) {
-  data::Table table;
-  table.name = std::move(name);
-  for (std::int64_t f = 0; f < motion.frames(); ++f) table.time_s.push_back(motion.time.time_s(f));
-  for (std::size_t c = 0; c < motion.coordinates.size(); ++c)
-    table.columns.push_back(motion.coordinates[c] + (motion.is_rotation[c] ? "_moment" : "_force"));
-  table.values = values;
-  return table;
-}
-
 }  // namespace
 
 Result<motion::IkResult> estimate_motion(const IkJob& job, const model::Model& model,
@@ -71,14 +61,6 @@ Result<motion::IkResult> estimate_motion(const IkJob& job, const model::Model& m
                     "N), so that the torques of limbs on the ground lack what the ground does",
                     root.body, root.force_rms_n, root.moment_rms_nm, dynamics->body_weight_n));
   return result;
-}
-
-data::Table torques_table(const data::JointMotion& motion) {
-  return forces_table(motion, motion.tau, "Generalised forces in N m and N");
-}
-
-data::Table torque_deviations_table(const data::JointMotion& motion) {
-  return forces_table(motion, motion.tau_sd, "Standard deviations of generalised forces in N m and N");
 }
 
 }  // namespace kinemark::pipeline

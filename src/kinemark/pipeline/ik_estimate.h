@@ -5,7 +5,6 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
-#include "kinemark/data/table.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/ik_job.h"
@@ -17,10 +16,5 @@ namespace kinemark::pipeline {
 [[nodiscard]] Result<motion::IkResult> estimate_motion(const IkJob& job, const model::Model& model,
                                                        const data::Trajectories& markers,
                                                        const Progress& progress);
-
-/// Generalised forces, one column per coordinate ("knee_moment" in N m, "pelvis_tx_force" in N), and one
-/// standard deviation of each.
-[[nodiscard]] data::Table torques_table(const data::JointMotion& motion);
-[[nodiscard]] data::Table torque_deviations_table(const data::JointMotion& motion);
 
 }  // namespace kinemark::pipeline

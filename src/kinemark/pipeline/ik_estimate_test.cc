@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kinemark/pipeline/human_model.h"
+#include "kinemark/pipeline/motion_tables.h"
 #include "kinemark/stages/simulation/subject.h"
 
 namespace kinemark::pipeline {

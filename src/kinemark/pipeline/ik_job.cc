@@ -5,35 +5,18 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
-#include "kinemark/io/file.h"
-#include "kinemark/io/markers/marker_file.h"
-#include "kinemark/io/osim/ik_setup.h"
-#include "kinemark/io/osim/osim_model.h"
-#include "kinemark/io/text/table_file.h"
-#include "kinemark/model/model.h"
-#include "kinemark/pipeline/file_hash.h"
 #include "kinemark/pipeline/ik_estimate.h"
 #include "kinemark/pipeline/ik_setup_options.h"
-#include "kinemark/pipeline/motion_tables.h"
-#include "kinemark/pipeline/staging.h"
-#include "kinemark/pipeline/version.h"
+#include "kinemark/pipeline/internal/motion_run.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-report::Gate make_gate(std::string name, double value, double bound, std::string unit, std::string sentence) {
-  return {.name = std::move(name),
-          .passed = value <= bound,
-          .value = value,
-          .bound = bound,
-          .unit = std::move(unit),
-          .sentence = std::move(sentence)};
-}
 
 /// How the recording lies to the model when they do not meet, in one sentence.
 std::string offset_sentence(const motion::IkResult& result, const IkJob& job, const model::Model& model,
@@ -51,56 +34,34 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
       1e3 * result.rms_marker_error_m);
 }
 
-std::vector<report::Gate> check_gates(const motion::IkResult& result, const IkJob& job,
-                                      const model::Model& model, const data::Trajectories& markers) {
-  std::vector<report::Gate> gates;
-  gates.push_back(make_gate("mean_marker_offset", 1e3 * result.mean_marker_error_m.norm(),
-                            1e3 * job.max_offset_m, "mm", offset_sentence(result, job, model, markers)));
-  gates.push_back(make_gate(
-      "marker_rms", 1e3 * result.rms_marker_error_m, 1e3 * job.max_rms_m, "mm",
-      fmt::format(
-          "The RMS distance between measured and model markers is {:.1f} mm; at most {:.1f} mm is accepted.",
-          1e3 * result.rms_marker_error_m, 1e3 * job.max_rms_m)));
+void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInputs& inputs,
+               const motion::IkResult& result) {
+  internal::add_marker_gates(run, job, result.mean_marker_error_m.norm(),
+                             offset_sentence(result, job, inputs.model, inputs.trial.markers),
+                             result.rms_marker_error_m);
   std::int64_t failed = 0;
   for (const auto status : result.motion.status) failed += status == data::FrameStatus::not_converged;
-  gates.push_back(
-      make_gate("not_converged", static_cast<double>(failed), 0.0, "frames",
-                fmt::format("{} of {} frames did not converge.", failed, result.motion.frames())));
+  internal::add_gate(run, "not_converged", static_cast<double>(failed), 0.0, "frames",
+                     fmt::format("{} of {} frames did not converge.", failed, result.motion.frames()));
   if (!std::isnan(result.max_loop_gap_m) && result.max_loop_gap_m > 0.0)
-    gates.push_back(
-        make_gate("loop_gap", 1e3 * result.max_loop_gap_m, 1e-3, "mm",
-                  fmt::format("The widest gap of a closed loop is {:.2g} mm; at most 0.001 mm is accepted.",
-                              1e3 * result.max_loop_gap_m)));
-  return gates;
+    internal::add_gate(
+        run, "loop_gap", 1e3 * result.max_loop_gap_m, 1e-3, "mm",
+        fmt::format("The widest gap of a closed loop is {:.2g} mm; at most 0.001 mm is accepted.",
+                    1e3 * result.max_loop_gap_m));
 }
 
-Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
-  if (path.empty()) return {};
-  const auto hash = hash_file(path);
-  if (!hash) return std::unexpected(hash.error());
-  run.inputs.push_back(
-      {.role = role, .path = path.string(), .bytes = hash->bytes, .hash = hash->hex, .hash_kind = "XXH3-64"});
-  return {};
-}
-
-report::IkRun describe_run(const IkJob& job, const motion::IkResult& result, const model::Model& model,
-                           const data::Trial& trial) {
-  report::IkRun run;
-  run.trial = job.markers.filename().string();
-  run.model = model.description().name;
-  run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
-  run.version = kVersion;
-  run.command_line = job.command_line;
-  run.seed = job.options.seed;
-  run.threads = job.options.threads;
-  run.solve_s = result.solve_seconds;
-  run.warnings = trial.warnings;
-  const auto& of_model = model.description().warnings;
-  run.warnings.insert(run.warnings.end(), of_model.begin(), of_model.end());
-  run.warnings.insert(run.warnings.end(), result.warnings.begin(), result.warnings.end());
+Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInputs& inputs,
+                                   const motion::IkResult& result) {
+  auto run = internal::begin_run(job, inputs);
+  if (!run) return run;
+  if (auto s = internal::add_input(*run, "setup", job.setup); !s) return std::unexpected(s.error());
+  if (auto s = internal::add_input(*run, "tasks", job.tasks); !s) return std::unexpected(s.error());
   const auto& o = job.options;
+  run->method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
+  run->seed = o.seed;
+  run->threads = o.threads;
   const char* losses[] = {"square", "huber", "cauchy"};
-  run.options = {
+  run->options = {
       {"loss", losses[static_cast<int>(o.loss)]},
       {"loss scale", fmt::format("{} m", o.loss_scale_m)},
       {"limits of clamped coordinates", o.limits ? "kept" : "ignored"},
@@ -108,25 +69,8 @@ report::IkRun describe_run(const IkJob& job, const motion::IkResult& result, con
                                                  : "estimated from the residuals, per marker and segment"},
       {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
       {"starts of the first frame", std::to_string(o.starts)}};
-  for (const auto& marker : result.markers)
-    run.markers.push_back({.name = marker.name,
-                           .weight = marker.weight,
-                           .noise_sd_m = std::hypot(marker.noise_sd_m, marker.common_sd_m)});
-  for (const auto& marker : result.excluded_markers)
-    run.markers.push_back({.name = marker.name,
-                           .weight = 0.0,
-                           .why_excluded = marker.seen ? "given the weight 0" : "never seen"});
-  for (const auto& name : result.model_markers_without_data)
-    run.markers.push_back(
-        {.name = name, .weight = 0.0, .why_excluded = "in the model, not in the recording"});
-  for (const auto& name : result.data_markers_without_model)
-    run.markers.push_back(
-        {.name = name, .weight = 0.0, .why_excluded = "in the recording, not in the model"});
-  for (const auto& coordinate : model.description().coordinates)
-    if (coordinate.locked) run.locked_coordinates.push_back(coordinate.name);
-  run.gates = check_gates(result, job, model, trial.markers);
-  for (const auto& gate : run.gates)
-    if (!gate.passed) run.exit_status = 1;
+  internal::add_estimate(*run, result, "given the weight 0");
+  add_gates(*run, job, inputs, result);
   return run;
 }
 
@@ -146,84 +90,41 @@ data::Trajectories solved_markers(const data::Trajectories& recorded, const moti
   return solved;
 }
 
-Status write_results(const IkJob& job, const IkOutcome& outcome, const data::Trajectories& markers,
-                     const Staging& staging) {
-  const auto& motion = outcome.result.motion;
-  const io::TableWriteOptions table_options;
-  if (auto s = io::write_table(staging.path(0), coordinates_table(motion), table_options); !s) return s;
-  if (!motion.q_sd.empty())
-    if (auto s = io::write_table(staging.path(1), deviations_table(motion), table_options); !s) return s;
-  if (auto s = io::write_table(staging.path(2), marker_errors_table(motion), table_options); !s) return s;
-  if (auto s = io::write_text(staging.path(3), report::summary_json(outcome.summary).dump(2) + "\n", false);
-      !s)
-    return s;
-  if (!job.report.empty()) {
-    const std::string page =
-        report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &markers});
-    if (auto s = io::write_text(staging.path(4), page, false); !s) return s;
-  }
-  const std::size_t torque = job.report.empty() ? 4 : 5;
-  if (!motion.tau.empty())
-    if (auto s = io::write_table(staging.path(torque), torques_table(motion), table_options); !s) return s;
-  if (!motion.tau_sd.empty())
-    if (auto s = io::write_table(staging.path(torque + 1), torque_deviations_table(motion), table_options);
-        !s)
-      return s;
-  return {};
-}
-
 }  // namespace
-
-fs::path beside(const fs::path& output, const std::string& suffix) {
-  return output.parent_path() / (output.stem().string() + suffix);
-}
 
 Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
   if (auto s = apply_setup(job); !s) return std::unexpected(s.error());
-  if (job.model.empty()) return fail(Code::usage, "no model; give --model or a --setup that names one");
-  if (job.markers.empty())
-    return fail(Code::usage, "no marker file; give --markers or a --setup that names one");
-  if (job.output.empty()) return fail(Code::usage, "no output; give --output or a --setup that names one");
+  if (auto s = internal::check_named(job, " or a --setup that names one"); !s)
+    return std::unexpected(s.error());
+  const auto inputs = internal::read_inputs(job);
+  if (!inputs) return std::unexpected(inputs.error());
+  const auto& [model, trial] = *inputs;
+  if (auto s = apply_tasks(job, model, trial.markers); !s) return std::unexpected(s.error());
 
-  auto description = io::read_osim(job.model);
-  if (!description) return std::unexpected(description.error());
-  if (description->markers.empty())
-    return fail(Code::bad_input, fmt::format("{}: model '{}' has no markers; need at least one",
-                                             job.model.string(), description->name));
-  const auto trial = io::read_markers(job.markers, {.rate_hz = job.rate_hz});
-  if (!trial) return std::unexpected(trial.error());
-  const auto model = model::Model::compile(std::move(*description));
-  if (!model) return fail_at(job.model.string(), model.error());
-  if (auto s = apply_tasks(job, *model, trial->markers); !s) return std::unexpected(s.error());
-
-  std::vector<fs::path> targets{job.output, beside(job.output, "_sd.sto"),
-                                beside(job.output, "_marker_errors.sto"), beside(job.output, "_report.json")};
-  if (!job.report.empty()) targets.push_back(job.report);
-  if (job.torques) targets.push_back(beside(job.output, "_tau.sto"));
-  if (job.torques && job.options.error_bars) targets.push_back(beside(job.output, "_tau_sd.sto"));
-  auto staging = Staging::create(targets, job.force);
+  std::vector<fs::path> further;
+  if (!job.report.empty()) further.push_back(job.report);
+  if (job.torques) further.push_back(beside(job.output, "_tau.sto"));
+  if (job.torques && job.options.error_bars) further.push_back(beside(job.output, "_tau_sd.sto"));
+  auto staging = internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further);
   if (!staging) return std::unexpected(staging.error());
 
   IkOutcome outcome;
-  auto result = estimate_motion(job, *model, trial->markers, progress);
+  auto result = estimate_motion(job, model, trial.markers, progress);
   if (!result) return fail_at(job.markers.string(), result.error());
   outcome.result = std::move(*result);
-
-  report::IkRun run = describe_run(job, outcome.result, *model, *trial);
-  for (const auto& [role, path] :
-       {std::pair{"model", job.model}, {"markers", job.markers}, {"setup", job.setup}, {"tasks", job.tasks}})
-    if (auto s = add_input(run, role, path); !s) return std::unexpected(s.error());
-  outcome.exit_status = run.exit_status;
-  const data::Trajectories solved = solved_markers(trial->markers, outcome.result);
-  auto summary = report::summarize(std::move(run), outcome.result.motion, &solved);
-  if (!summary) return std::unexpected(summary.error());
-  outcome.summary = std::move(*summary);
-  if (auto s = write_results(job, outcome, solved, *staging); !s) return staging->failure(s.error());
-  const auto frames = outcome.result.motion.frames();
-  if (progress && !progress(frames, frames)) return fail(Code::cancelled, "inverse kinematics was stopped");
-  if (auto s = staging->commit(); !s) return std::unexpected(s.error());
-  for (const auto& target : targets)
-    if (fs::exists(target)) outcome.written.push_back(target);
+  auto run = describe_run(job, *inputs, outcome.result);
+  if (!run) return std::unexpected(run.error());
+  const auto& motion = outcome.result.motion;
+  const data::Trajectories solved = solved_markers(trial.markers, outcome.result);
+  if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, &solved, outcome); !s)
+    return std::unexpected(s.error());
+  if (!job.report.empty()) {
+    const std::string page =
+        report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &solved});
+    if (auto s = internal::put(*staging, job.report, page); !s) return std::unexpected(s.error());
+  }
+  if (auto s = internal::reveal(*staging, progress, "inverse kinematics", outcome); !s)
+    return std::unexpected(s.error());
   return outcome;
 }
 

@@ -10,8 +10,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/report_job.h"
-#include "kinemark/pipeline/testing/test_files.h"
-#include "support/scratch.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -19,24 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class RunIk : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    scratch_ = new testing_support::ScratchFolder;
-    testing::simulate_into(*scratch_ / "in");
-  }
-  static void TearDownTestSuite() { delete scratch_; }
-  static fs::path at(const std::string& name) { return *scratch_ / name; }
-  static IkJob job(const std::string& output) {
-    IkJob j;
-    j.model = at("in/model.osim");
-    j.markers = at("in/markers.c3d");
-    j.output = at(output);
-    return j;
-  }
-  static testing_support::ScratchFolder* scratch_;
-};
-testing_support::ScratchFolder* RunIk::scratch_ = nullptr;
+using RunIk = testing::RecordedTest<IkJob>;
 
 TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
   const auto outcome = run_ik(job("Q.mot"));
@@ -130,11 +112,6 @@ TEST_F(RunIk, AsksForWhatIsNotGiven) {
   empty = job("Q2.mot");
   empty.output.clear();
   EXPECT_THAT(run_ik(empty).error().message, HasSubstr("no output"));
-}
-
-TEST(Beside, KeepsFolderAndStem) {
-  EXPECT_EQ(beside("a/b/Q.mot", "_sd.sto"), fs::path("a/b/Q_sd.sto"));
-  EXPECT_EQ(beside("Q.v2.mot", "_x"), fs::path("Q.v2_x"));
 }
 
 }  // namespace

@@ -34,6 +34,14 @@ data::Table coordinate_columns(const data::JointMotion& motion, const Array<doub
   return table;
 }
 
+data::Table forces_table(const data::JointMotion& motion, const Array<double>& values, std::string name) {
+  data::Table table = empty_table(motion, std::move(name));
+  for (std::size_t c = 0; c < motion.coordinates.size(); ++c)
+    table.columns.push_back(motion.coordinates[c] + (motion.is_rotation[c] ? "_moment" : "_force"));
+  table.values = values;
+  return table;
+}
+
 /// Rate of evenly spaced times, or an error that names the first uneven row.
 Result<TimeBase> time_base_of(const data::Table& table) {
   const auto n = table.rows();
@@ -58,6 +66,18 @@ data::Table coordinates_table(const data::JointMotion& motion) {
 
 data::Table deviations_table(const data::JointMotion& motion) {
   return coordinate_columns(motion, motion.q_sd, "Standard deviations of coordinates");
+}
+
+data::Table bounds_table(const data::JointMotion& motion) {
+  return coordinate_columns(motion, motion.q_bound, "Bounds of coordinates");
+}
+
+data::Table torques_table(const data::JointMotion& motion) {
+  return forces_table(motion, motion.tau, "Generalised forces in N m and N");
+}
+
+data::Table torque_deviations_table(const data::JointMotion& motion) {
+  return forces_table(motion, motion.tau_sd, "Standard deviations of generalised forces in N m and N");
 }
 
 data::Table marker_errors_table(const data::JointMotion& motion) {

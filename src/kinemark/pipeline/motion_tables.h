@@ -15,6 +15,14 @@ namespace kinemark::pipeline {
 /// One standard deviation of each coordinate, degrees or metres; NaN where the markers do not determine it.
 [[nodiscard]] data::Table deviations_table(const data::JointMotion& motion);
 
+/// What the error of each coordinate cannot exceed, degrees or metres; NaN where not determined.
+[[nodiscard]] data::Table bounds_table(const data::JointMotion& motion);
+
+/// Generalised forces, one column per coordinate ("knee_moment" in N m, "pelvis_tx_force" in N), and one
+/// standard deviation of each.
+[[nodiscard]] data::Table torques_table(const data::JointMotion& motion);
+[[nodiscard]] data::Table torque_deviations_table(const data::JointMotion& motion);
+
 /// Distance between measured and model marker in metres: columns rms, max, then one per marker; NaN where not
 /// seen.
 [[nodiscard]] data::Table marker_errors_table(const data::JointMotion& motion);

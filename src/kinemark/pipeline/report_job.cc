@@ -9,7 +9,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/ik_job.h"
+#include "kinemark/pipeline/motion_job.h"
 #include "kinemark/pipeline/motion_tables.h"
 #include "kinemark/stages/report/ik_report.h"
 

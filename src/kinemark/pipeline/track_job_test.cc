@@ -8,8 +8,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/testing/test_files.h"
-#include "support/scratch.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -17,24 +16,11 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class RunTrack : public ::testing::Test {
+class RunTrack : public testing::RecordedTest<TrackJob> {
  protected:
-  static void SetUpTestSuite() {
-    scratch_ = new testing_support::ScratchFolder;
-    testing::simulate_into(*scratch_ / "in");
-  }
-  static void TearDownTestSuite() { delete scratch_; }
-  static fs::path at(const std::string& name) { return *scratch_ / name; }
-  static TrackJob job(const std::string& output) {
-    TrackJob j;
-    j.model = at("in/model.osim");
-    j.markers = at("in/truth.trc");  // no gaps, no noise: half a second is short
-    j.output = at(output);
-    return j;
-  }
-  static testing_support::ScratchFolder* scratch_;
+  /// No gaps, no noise: half a second is short.
+  static TrackJob job(const std::string& output) { return RecordedTest::job(output, "in/truth.trc"); }
 };
-testing_support::ScratchFolder* RunTrack::scratch_ = nullptr;
 
 TEST_F(RunTrack, WritesAnglesTorquesBoundsAndTheAccount) {
   const auto outcome = run_track(job("Q.mot"));

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/motion_arguments.h"
+
+#include "cli/console.h"
+#include "kinemark/io/number.h"
+
+namespace kinemark::cli {
+
+Result<std::pair<std::string, double>> parse_pair(const std::string& text, const char* what) {
+  const auto equals = text.rfind('=');
+  const auto number = equals == std::string::npos ? std::nullopt : io::parse_number(text.substr(equals + 1));
+  if (!number || equals == 0) return fail(Code::usage, fmt::format("'{}' is not NAME={}", text, what));
+  return std::pair{text.substr(0, equals), *number};
+}
+
+void print_motion(const Globals& globals, const pipeline::MotionOutcome& outcome) {
+  for (const auto& finding : outcome.summary.findings) {
+    const bool note = finding.level == report::Verdict::good;
+    if (note && finding.about == "coordinate") continue;
+    say(globals, fmt::format("{}: {}", note ? "note" : "attention", finding.text));
+  }
+  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  if (globals.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
+}
+
+}  // namespace kinemark::cli
