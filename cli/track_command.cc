@@ -108,10 +108,9 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
       "track", "Joint angles and torques from markers by direct marker control, with bounds");
   command->footer(
       "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (what the "
-      "error "
-      "cannot exceed,\nNaN where the markers do not determine the coordinate), Q_tau.sto (N m, N), "
-      "Q_marker_errors.sto and Q_report.json.\nExit status 1: the files are there, but a quality gate was "
-      "missed.");
+      "error cannot exceed,\nNaN where the markers do not determine the coordinate), Q_tau.sto and "
+      "Q_tau_sd.sto (N m, N), Q_rank.sto (directions that the\nlevels fix), Q_marker_errors.sto and "
+      "Q_report.json. Exit status 1: the files are there, but a quality gate was missed.");
   const auto arguments = std::make_shared<TrackArguments>();
   auto& a = *arguments;
   auto& options = a.job.options;

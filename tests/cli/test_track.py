@@ -5,7 +5,7 @@
 import json
 import unittest
 
-from support import CommandTest, run
+from support import CommandTest, run, table
 
 
 class Track(CommandTest):
@@ -17,12 +17,29 @@ class Track(CommandTest):
 
     def test_it_writes_its_files_and_says_so(self):
         ran = self.good(*self.track(), "--json")
-        for name in ("q.mot", "q_sd.sto", "q_bound.sto", "q_tau.sto", "q_marker_errors.sto", "q_report.json"):
+        for name in (
+            "q.mot",
+            "q_sd.sto",
+            "q_bound.sto",
+            "q_tau.sto",
+            "q_tau_sd.sto",
+            "q_rank.sto",
+            "q_marker_errors.sto",
+            "q_report.json",
+        ):
             self.assertTrue((self.folder / name).is_file(), name)
         self.assertIn("rank", ran.err)
         self.assertIn("direct marker control", json.dumps(json.loads(ran.out)))
         self.refused(4, ["q.mot", "use --force"], *self.track())
         self.good(*self.track(), "--force", "--no-error-bars")
+
+    def test_the_rank_of_every_frame_and_the_deviations_of_torques_are_tables(self):
+        self.good(*self.track(level="LASI,RASI,LPSI,RPSI"))
+        names, rows = table(self.folder / "q_rank.sto")
+        self.assertEqual(names, ["time", "rank", "smallest_singular_value"])
+        self.assertEqual(len(rows), 100)
+        self.assertTrue(all(row[1] == 6 for row in rows), "four markers of one body fix its six directions")
+        self.assertEqual(table(self.folder / "q_tau_sd.sto")[0], table(self.folder / "q_tau.sto")[0])
 
     def test_levels_of_priority(self):
         ran = self.good(*self.track(), "--level", "LASI,RASI,LPSI,RPSI", "--level", "*")
@@ -47,7 +64,7 @@ class Track(CommandTest):
     def test_help_names_what_it_writes(self):
         ran = run("track", "--help", cwd=self.folder)
         self.assertEqual(ran.status, 0)
-        for word in ("--level", "--omega", "--step", "--posture", "Q_bound.sto"):
+        for word in ("--level", "--omega", "--step", "--posture", "Q_bound.sto", "Q_rank.sto", "Q_tau_sd.sto"):
             self.assertIn(word, ran.out)
 
 

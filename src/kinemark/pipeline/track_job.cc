@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kinemark/pipeline/internal/motion_run.h"
+#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -61,6 +62,31 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   return run;
 }
 
+/// What the levels fix together, frame by frame.
+data::Table rank_table(const motion::TrackResult& result) {
+  data::Table table;
+  table.name = "Rank of the tasks";
+  table.columns = {"rank", "smallest_singular_value"};
+  for (std::int64_t f = 0; f < result.motion.frames(); ++f) {
+    const auto i = static_cast<std::size_t>(f);
+    table.time_s.push_back(result.motion.time.time_s(f));
+    table.values.insert(table.values.end(),
+                        {static_cast<double>(result.rank[i]), result.smallest_singular[i]});
+  }
+  return table;
+}
+
+/// Standard deviations of the torques: those of the inverse dynamics of the motion as it came out. Where that
+/// cannot be done (closed loops, a few frames) they stay away, and a warning says why.
+void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
+  auto motion = result.motion;
+  const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
+  if (dynamics)
+    result.motion.tau_sd = std::move(motion.tau_sd);
+  else
+    result.warnings.push_back("standard deviations of torques are not known: " + dynamics.error().message);
+}
+
 }  // namespace
 
 Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
@@ -68,8 +94,8 @@ Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
-  std::vector<std::string> files{"_tau.sto", "_marker_errors.sto"};
-  if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto"});
+  std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
+  if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
   files.push_back("_report.json");
   auto staging = internal::stage(job, files);
   if (!staging) return std::unexpected(staging.error());
@@ -81,10 +107,13 @@ Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
     return fail_at(job.markers.string(), result.error());
   }
   outcome.result = std::move(*result);
+  if (job.options.error_bars) add_torque_deviations(inputs->model, job, outcome.result);
   auto run = describe_run(job, *inputs, outcome.result);
   if (!run) return std::unexpected(run.error());
   const auto& motion = outcome.result.motion;
   if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, nullptr, outcome); !s)
+    return std::unexpected(s.error());
+  if (auto s = internal::put(*staging, beside(job.output, "_rank.sto"), rank_table(outcome.result)); !s)
     return std::unexpected(s.error());
   if (auto s = internal::reveal(*staging, progress, "direct marker control", outcome); !s)
     return std::unexpected(s.error());

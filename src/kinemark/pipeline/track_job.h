@@ -8,8 +8,8 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark track` is asked to do. Writes Q.mot, Q_sd.sto, Q_bound.sto, Q_tau.sto, Q_marker_errors.sto
-/// and Q_report.json.
+/// What `kinemark track` is asked to do. Writes Q.mot, Q_sd.sto, Q_bound.sto, Q_tau.sto, Q_tau_sd.sto,
+/// Q_rank.sto, Q_marker_errors.sto and Q_report.json.
 struct TrackJob : MotionJob {
   motion::TrackOptions options;
 };

@@ -26,7 +26,7 @@ TEST_F(RunTrack, WritesAnglesTorquesBoundsAndTheAccount) {
   const auto outcome = run_track(job("Q.mot"));
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status, 0);
-  EXPECT_EQ(outcome->written.size(), 6U);
+  EXPECT_EQ(outcome->written.size(), 8U);
   for (const auto& path : outcome->written) EXPECT_TRUE(fs::exists(path)) << path;
   const auto q = io::read_table(at("Q.mot")).value();
   const auto bound = io::read_table(at("Q_bound.sto")).value();
@@ -42,6 +42,42 @@ TEST_F(RunTrack, WritesAnglesTorquesBoundsAndTheAccount) {
     }
   const auto report = nlohmann::json::parse(io::read_text(at("Q_report.json")).value());
   EXPECT_THAT(report.dump(), HasSubstr("direct marker control"));
+}
+
+TEST_F(RunTrack, TorquesHaveDeviationsThatGrowWithTheNoise) {
+  const auto deviations = [&](const std::string& output, double noise_m) {
+    auto j = job(output + ".mot");
+    j.options.marker_noise_sd_m = noise_m;
+    EXPECT_TRUE(run_track(j));
+    return io::read_table(at(output + "_tau_sd.sto")).value();
+  };
+  const auto quiet = deviations("quiet", 1e-3), loud = deviations("loud", 4e-3);
+  EXPECT_EQ(quiet.columns, io::read_table(at("quiet_tau.sto")).value().columns);
+  double sum_quiet = 0.0, sum_loud = 0.0;
+  for (std::size_t i = 0; i < quiet.values.size(); ++i) {
+    EXPECT_GT(quiet.values[i], 0.0) << i;
+    sum_quiet += quiet.values[i];
+    sum_loud += loud.values[i];
+  }
+  EXPECT_GT(sum_loud, sum_quiet);
+}
+
+TEST_F(RunTrack, TheRankOfEveryFrameIsWritten) {
+  const auto whole = run_track(job("whole.mot")).value();
+  const auto table = io::read_table(at("whole_rank.sto")).value();
+  ASSERT_EQ(table.columns, (std::vector<std::string>{"rank", "smallest_singular_value"}));
+  ASSERT_EQ(table.rows(), whole.result.motion.frames());
+  EXPECT_DOUBLE_EQ(table.time_s[7], whole.result.motion.time.time_s(7));
+  for (std::int64_t f = 0; f < table.rows(); ++f) {
+    EXPECT_EQ(table(f, 0), whole.result.free_speeds);
+    EXPECT_GT(table(f, 1), 0.0);
+  }
+  auto few = job("few.mot");
+  few.options.levels = {{.markers = {"LASI", "RASI"}}};
+  few.options.lock = motion::LockMode::off;
+  ASSERT_TRUE(run_track(few));
+  const auto rank = io::read_table(at("few_rank.sto")).value();
+  for (std::int64_t f = 0; f < rank.rows(); ++f) EXPECT_LE(rank(f, 0), 6.0) << "two points";
 }
 
 TEST_F(RunTrack, SaysWhatIsMissingAndWritesNothing) {
@@ -72,7 +108,7 @@ TEST_F(RunTrack, AMissedGateIsAnExitStatusAndTheFilesAreThere) {
   const auto outcome = run_track(j);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status, 1);
-  EXPECT_EQ(outcome->written.size(), 4U);
+  EXPECT_EQ(outcome->written.size(), 5U);
   EXPECT_TRUE(fs::exists(at("gate.mot")));
   EXPECT_FALSE(fs::exists(at("gate_bound.sto")));
 }
