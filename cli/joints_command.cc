@@ -96,6 +96,10 @@ void add_joints(CLI::App& app, const Globals& globals, Run& run) {
       ->add_flag("--no-continuity", arguments->no_continuity,
                  "articulated: each frame on its own, nothing smoothed or bridged")
       ->group("Estimate");
+  command
+      ->add_flag("--soft-tissue", job.soft_tissue,
+                 "articulated: every marker has a noise of its own, found from the data")
+      ->group("Estimate");
   command->add_flag("--keep-upsampled", job.keep_upsampled, "Use samples that the recorder interpolated, too")
       ->group("Input");
   command

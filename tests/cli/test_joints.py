@@ -114,6 +114,14 @@ class Joints(CommandTest):
         ran = self.good("joints", "slip.csv", "--segments", "segments.toml", "--method", "score")
         self.assertIn("'f0' moved", ran.err)
 
+    def test_soft_tissue(self):
+        printed = json.loads(self.good("joints", "arm.csv", "--segments", "segments.toml", "--soft-tissue", "--json").out)
+        noise = {marker["name"]: marker["sd_m"] for marker in printed["marker_noise"]}
+        self.assertEqual(sorted(noise), ["f0", "f1", "f2", "f3", "u0", "u1", "u2", "u3"])
+        for name, sd in noise.items():
+            self.assertAlmostEqual(1e3 * sd, 0.5, delta=0.2, msg=name)
+        self.refused(2, ["soft tissue", "score"], "joints", "arm.csv", "--method", "score", "--soft-tissue")
+
     def test_no_complete_frame(self):
         self.write("gaps.csv", arm(lose=lambda f, name: int(name[1]) == f % 4)[0])
         options = ("joints", "gaps.csv", "--segments", "segments.toml", "--method")

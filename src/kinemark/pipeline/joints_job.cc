@@ -149,17 +149,20 @@ Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout, std:
 }
 
 Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& markers,
-                                const data::SegmentLayout& layout, const Progress& progress) {
+                                const data::SegmentLayout& layout, JointsOutcome& outcome,
+                                const Progress& progress) {
   if (job.method == "articulated") {
     skeleton::ArticulatedOptions options;
     options.noise_sd_m = job.noise_sd_m;
     options.continuity = job.continuity;
+    options.soft_tissue = job.soft_tissue;
     options.joint = job.kind == skeleton::KindChoice::hinge  ? skeleton::JointChoice::hinge
                     : job.kind == skeleton::KindChoice::ball ? skeleton::JointChoice::ball
                                                              : skeleton::JointChoice::automatic;
     options.threads = job.threads;
     auto fit = skeleton::fit_articulated(markers, layout, options, progress);
     if (!fit) return std::unexpected(fit.error());
+    if (job.soft_tissue) outcome.marker_noise_sd_m = std::move(fit->marker_noise_sd_m);
     return std::move(fit->skeleton);
   }
   skeleton::FunctionalOptions options;
@@ -182,6 +185,10 @@ void describe(const JointsJob& job, JointsOutcome& outcome, const std::string& h
   for (const auto& slip : outcome.slips)
     json["slips"].push_back(
         {{"words", slip.sentence}, {"shift_m", slip.shift_m}, {"sd_m", slip.sd_m}, {"frame", slip.frame}});
+  for (std::size_t m = 0; m < outcome.marker_noise_sd_m.size(); ++m)
+    if (std::isfinite(outcome.marker_noise_sd_m[m]))
+      json["marker_noise"].push_back(
+          {{"name", outcome.skeleton.markers[m]}, {"sd_m", outcome.marker_noise_sd_m[m]}});
   if (!outcome.topology) return;
   auto& topology = json["topology"];
   for (std::size_t m = 0; m < outcome.topology->markers.size(); ++m)
@@ -267,6 +274,9 @@ Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress)
   if (auto s = check_method(job.method); !s) return std::unexpected(s.error());
   if (!(job.noise_sd_m >= 0.0) || !std::isfinite(job.noise_sd_m))
     return fail(Code::usage, fmt::format("marker noise of {} mm; need 0 or more", 1e3 * job.noise_sd_m));
+  if (job.soft_tissue && job.method != "articulated")
+    return fail(Code::usage,
+                fmt::format("soft tissue is a term of the articulated method; '{}' has none", job.method));
   auto trial = io::read_markers(job.input);
   if (!trial) return std::unexpected(trial.error());
   const auto hash = hash_file(job.input);
@@ -293,7 +303,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress)
   const auto targets = list_targets(job.output);
   auto staging = Staging::create(targets, job.force);
   if (!staging) return std::unexpected(staging.error());
-  auto found = estimate(job, markers, *layout, progress);
+  auto found = estimate(job, markers, *layout, outcome, progress);
   if (!found) return fail_at(name, found.error());
   outcome.skeleton = std::move(*found);
   auto slips = skeleton::find_slips(markers, *layout);

@@ -34,6 +34,7 @@ struct JointsJob {
   skeleton::KindChoice kind = skeleton::KindChoice::automatic;
   double noise_sd_m = 0.0;      ///< per axis; 0: found
   bool continuity = true;       ///< articulated: smooth in time and bridge
+  bool soft_tissue = false;     ///< articulated alone: every marker has a noise of its own
   bool keep_upsampled = false;  ///< use the samples that the recorder made as well
   bool keep_defects = false;    ///< use what screening calls swapped, stuck, false
   int threads = 1;              ///< 0: all cores. Any number gives the same bits.
@@ -46,6 +47,7 @@ struct JointsOutcome {
   data::Skeleton skeleton;
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
   std::vector<skeleton::Slip> slips;
+  std::vector<double> marker_noise_sd_m;  ///< M, with soft_tissue; NaN where unknown; empty otherwise
   std::vector<std::string> notes;  ///< what was done before and after, and what is odd; one sentence each
   nlohmann::ordered_json json;     ///< as skeleton.json
   std::vector<std::filesystem::path> written;

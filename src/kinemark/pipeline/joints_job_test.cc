@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/segments_file.h"
@@ -131,6 +132,30 @@ TEST_F(JointsJobTest, ASlipIsToldInNotesAndJson) {
   EXPECT_EQ(outcome->json["slips"].size(), outcome->slips.size());
   EXPECT_TRUE(
       std::ranges::any_of(outcome->notes, [](const std::string& n) { return n.starts_with("Marker '"); }));
+}
+
+TEST_F(JointsJobTest, SoftTissueTellsEveryMarkersNoise) {
+  make({.frames = 120, .markers_per_segment = 5, .stagger_m = 0.03, .noise_sd_m = 0.0005},
+       [](data::Trajectories& markers) {
+         Random skin(5, 1);
+         for (std::int64_t f = 0; f < 120; ++f)
+           for (double& c : markers.x(f, 2)) c += 0.006 * skin.gaussian();
+       });
+  write_segments();
+  job.keep_defects = true;
+  job.soft_tissue = true;
+  EXPECT_EQ(run_joints(job).error().code, Code::usage) << "SCoRE has no such term";
+  job.method = "articulated";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->marker_noise_sd_m.size(), 10U);
+  const auto& told = outcome->json["marker_noise"];
+  ASSERT_EQ(told.size(), 10U);
+  EXPECT_EQ(told[2]["name"], recording.markers.names[2]);
+  EXPECT_NEAR(told[2]["sd_m"].get<double>(), 0.006, 0.002);
+  EXPECT_LT(told[3]["sd_m"].get<double>(), 0.001);
+  job.soft_tissue = false;
+  EXPECT_FALSE(run_joints(job)->json.contains("marker_noise"));
 }
 
 TEST_F(JointsJobTest, OneSentenceForWhatCannotBe) {
