@@ -12,6 +12,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/trajectories_csv.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 using data::SampleState;
 using internal::excerpt;
+using internal::split_csv;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMaxFrame = 1e15;
@@ -50,35 +52,6 @@ constexpr std::array<std::string_view, kinds> kNames = {
 constexpr std::array kStates = {SampleState::missing,      SampleState::measured,  SampleState::interpolated,
                                 SampleState::model_filled, SampleState::upsampled, SampleState::rejected};
 
-/// Cells of a line; quotes around one may hold commas, and two quotes stand for one. False: a quote is open.
-bool split(std::string_view line, std::vector<std::string>& cells) {
-  cells.clear();
-  std::size_t i = 0;
-  while (true) {
-    std::string& cell = cells.emplace_back();
-    if (i < line.size() && line[i] == '"') {
-      for (++i; i < line.size(); ++i) {
-        if (line[i] != '"') {
-          cell += line[i];
-        } else if (i + 1 < line.size() && line[i + 1] == '"') {
-          cell += line[++i];
-        } else {
-          break;
-        }
-      }
-      if (i >= line.size()) return false;
-      ++i;
-      while (i < line.size() && line[i] != ',') ++i;
-    } else {
-      const std::size_t end = std::min(line.find(',', i), line.size());
-      cell = trim(line.substr(i, end - i));
-      i = end;
-    }
-    if (i >= line.size()) return true;
-    ++i;
-  }
-}
-
 /// One line of the file.
 struct Sample {
   std::int64_t frame;
@@ -95,7 +68,7 @@ class Parser {
   explicit Parser(data::Trial& trial) : trial_(trial) {}
 
   Status header(std::string_view line) {
-    if (!split(line, cells_)) return fail(Code::bad_input, "line 1: a quote is not closed");
+    if (!split_csv(line, cells_)) return fail(Code::bad_input, "line 1: a quote is not closed");
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       const auto kind = std::ranges::find(kNames, cells_[c]);
       if (kind == kNames.end()) {
@@ -117,7 +90,7 @@ class Parser {
 
   Status row(std::string_view line, std::int64_t number) {
     line_ = number;
-    if (!split(line, cells_)) return wrong("a quote is not closed");
+    if (!split_csv(line, cells_)) return wrong("a quote is not closed");
     if (cells_.size() != columns_)
       return wrong(fmt::format("has {} cells; the header has {}", cells_.size(), columns_));
     error_.reset();

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/number.h"
+#include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/csv_line.h"
+#include "kinemark/io/text/keypoints_csv.h"
+
+namespace kinemark::io {
+namespace {
+
+using internal::excerpt;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Columns of one point; 0, the column of frame numbers, where there is none.
+struct Columns {
+  std::size_t x = 0, y = 0, likelihood = 0;
+};
+
+class Parser {
+ public:
+  Parser(const KeypointsOptions& options, Keypoints& out) : options_(options), out_(out) {}
+
+  Status header(internal::Lines& lines) {
+    if (auto s = next_header(lines, "scorer"); !s) return s;
+    const std::size_t width = cells_.size();
+    if (auto s = next_header(lines, "bodyparts"); !s) return s;
+    const auto names = cells_;
+    if (auto s = next_header(lines, "coords"); !s) return s;
+    if (names.size() != width || cells_.size() != width)
+      return fail(Code::bad_input,
+                  fmt::format("the lines scorer, bodyparts and coords have {}, {} and {} cells", width,
+                              names.size(), cells_.size()));
+    if (width < 2) return fail(Code::bad_input, "names no point");
+    std::map<std::string, std::size_t, std::less<>> index;
+    for (std::size_t c = 1; c < width; ++c) {
+      if (names[c].empty()) return wrong(lines, fmt::format("column {} belongs to no point", c + 1));
+      const auto [at, is_new] = index.try_emplace(names[c], columns_.size());
+      if (is_new) {
+        columns_.emplace_back();
+        out_.names.push_back(names[c]);
+      }
+      auto& point = columns_[at->second];
+      std::size_t* const column = cells_[c] == "x"            ? &point.x
+                                  : cells_[c] == "y"          ? &point.y
+                                  : cells_[c] == "likelihood" ? &point.likelihood
+                                                              : nullptr;
+      if (column == nullptr)
+        return wrong(lines,
+                     fmt::format("column {} is '{}'; need x, y or likelihood", c + 1, excerpt(cells_[c])));
+      if (*column != 0)
+        return wrong(lines, fmt::format("point '{}' has two columns {}", excerpt(names[c]), cells_[c]));
+      *column = c;
+    }
+    for (std::size_t m = 0; m < columns_.size(); ++m)
+      if (columns_[m].x == 0 || columns_[m].y == 0)
+        return wrong(lines, fmt::format("point '{}' has no column {}", excerpt(out_.names[m]),
+                                        columns_[m].x == 0 ? 'x' : 'y'));
+    width_ = width;
+    return {};
+  }
+
+  Status row(std::string_view line, const internal::Lines& lines) {
+    if (!internal::split_csv(line, cells_)) return wrong(lines, "a quote is not closed");
+    if (cells_.size() != width_)
+      return wrong(lines, fmt::format("has {} cells; the header has {}", cells_.size(), width_));
+    const auto number = parse_number(cells_[0]);
+    if (!number || *number != static_cast<double>(frames_))
+      return wrong(lines,
+                   fmt::format("begins with '{}'; need frame {}: frames are counted from 0 without a gap",
+                               excerpt(cells_[0]), frames_));
+    ++frames_;
+    for (std::size_t m = 0; m < columns_.size(); ++m)
+      if (auto s = point(columns_[m], m, lines); !s) return s;
+    return {};
+  }
+
+  Status finish() const {
+    return frames_ > 0 ? Status() : fail(Code::bad_input, "has a header but no frames");
+  }
+
+ private:
+  static std::unexpected<Error> wrong(const internal::Lines& lines, const std::string& what) {
+    return fail(Code::bad_input, fmt::format("line {}: {}", lines.number(), what));
+  }
+
+  /// Cells of the next line, which begins with this word.
+  Status next_header(internal::Lines& lines, std::string_view word) {
+    std::string_view line;
+    if (!lines.next(line)) return fail(Code::bad_input, fmt::format("ends before a line '{}'", word));
+    if (auto s = internal::check_header_line(line, lines.number()); !s) return s;
+    if (!internal::split_csv(line, cells_)) return wrong(lines, "a quote is not closed");
+    if (cells_[0] == word) return {};
+    if (cells_[0] == "individuals")
+      return fail(Code::not_supported,
+                  fmt::format("line {}: holds several individuals; need a file of one", lines.number()));
+    return wrong(lines, fmt::format("begins with '{}'; need '{}'", excerpt(cells_[0]), word));
+  }
+
+  Status point(const Columns& columns, std::size_t m, const internal::Lines& lines) {
+    double x = kNaN, y = kNaN, likelihood = 1.0;
+    for (const auto& [column, value] :
+         {std::pair{columns.x, &x}, {columns.y, &y}, {columns.likelihood, &likelihood}}) {
+      if (column == 0) continue;
+      const auto read = cells_[column].empty() ? std::optional(kNaN) : parse_number(cells_[column]);
+      if (!read || std::isinf(*read))
+        return wrong(lines,
+                     fmt::format("column {} is '{}'; need a number", column + 1, excerpt(cells_[column])));
+      *value = *read;
+    }
+    if (std::isnan(x) != std::isnan(y))
+      return wrong(lines, fmt::format("point '{}' has {}", excerpt(out_.names[m]),
+                                      std::isnan(x) ? "y but not x" : "x but not y"));
+    if (likelihood < 0.0 || likelihood > 1.0)
+      return wrong(lines, fmt::format("point '{}' has a likelihood of {}; need 0 to 1",
+                                      excerpt(out_.names[m]), likelihood));
+    const bool seen = likelihood >= options_.min_likelihood;
+    out_.image.push_back(seen ? x : kNaN);
+    out_.image.push_back(seen ? y : kNaN);
+    return {};
+  }
+
+  const KeypointsOptions& options_;
+  Keypoints& out_;
+  std::vector<std::string> cells_;
+  std::vector<Columns> columns_;
+  std::size_t width_ = 0;
+  std::int64_t frames_ = 0;
+};
+
+}  // namespace
+
+Status KeypointsOptions::check() const {
+  if (min_likelihood >= 0.0 && min_likelihood <= 1.0) return {};
+  return fail(Code::usage, fmt::format("the least likelihood is {}; need 0 to 1", min_likelihood));
+}
+
+Result<Keypoints> parse_keypoints_csv(std::string_view text, const std::string& name,
+                                      const KeypointsOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  Keypoints keypoints;
+  Parser parser(options, keypoints);
+  internal::Lines lines(text);
+  if (auto s = parser.header(lines); !s) return fail_at(name, s.error());
+  std::string_view line;
+  while (lines.next(line)) {
+    if (internal::is_blank(line)) continue;
+    if (auto s = parser.row(line, lines); !s) return fail_at(name, s.error());
+  }
+  if (auto s = parser.finish(); !s) return fail_at(name, s.error());
+  return keypoints;
+}
+
+Result<Keypoints> read_keypoints_csv(const std::filesystem::path& path, const KeypointsOptions& options) {
+  const auto text = read_text(path);
+  if (!text) return std::unexpected(text.error());
+  return parse_keypoints_csv(*text, path.string(), options);
+}
+
+}  // namespace kinemark::io
