@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+#include "kinemark/data/wrenches.h"
+
+namespace kinemark::pipeline {
+
+struct ExternalForces {
+  data::Wrenches wrenches;
+  std::vector<std::filesystem::path> files;  ///< all that were read, the named one first
+  std::vector<std::string> warnings;
+};
+
+/// Forces on the body at the frames of `time`: the plates of a .c3d file, or an OpenSim ExternalLoads .xml
+/// with its table. NaN where the file knows nothing. Another kind of file: Code::usage.
+[[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
+                                                          const TimeBase& time, double contact_force_n);
+
+/// The same forces at other instants, linear in force and in moment about one point; NaN outside. Instants
+/// that meet a frame to 1 % of a frame are copied.
+[[nodiscard]] data::Wrenches resample(const data::Wrenches& wrenches, const TimeBase& time);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+
+namespace kinemark::pipeline {
+
+/// What there is to tell of the torques of a motion.
+struct TorqueAccount {
+  std::vector<std::filesystem::path> files;  ///< of forces, as read
+  std::vector<std::pair<std::string, std::string>>
+      facts;  ///< which plate acted on which body and when; how
+              ///< long nothing is known; what is left to the root
+  std::vector<std::string> warnings;
+};
+
+/// Fill tau (and tau_sd) of a motion by inverse dynamics, with the forces of a file unless `forces` is empty.
+/// @param errors  of the motion's rates; null: estimated
+[[nodiscard]] Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,
+                                                const std::filesystem::path& forces,
+                                                const motion::DynamicsOptions& options,
+                                                const motion::RateErrors* errors = nullptr);
+
+}  // namespace kinemark::pipeline
