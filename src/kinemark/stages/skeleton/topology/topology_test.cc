@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "kinemark/stages/skeleton/functional/testing/random_chain.h"
 
@@ -135,6 +136,63 @@ TEST(Topology, OptionsAndInputAreChecked) {
   ASSERT_FALSE(blind);
   EXPECT_EQ(blind.error().code, Code::bad_input);
   EXPECT_NE(blind.error().message.find("0 of 6 markers"), std::string::npos) << blind.error().message;
+}
+
+// Markers in another order: the same sets of markers, whatever their numbers.
+TEST(Topology, TheOrderOfMarkersChangesNumbersAlone) {
+  const auto chain = make_chain({.lengths_m = {0.12, 0.15, 0.16}, .per_segment = 4, .noise_sd_m = 0.001});
+  const std::int64_t M = chain.markers.markers();
+  auto mixed = chain.markers;
+  std::vector<int> from(static_cast<std::size_t>(M));
+  for (std::int64_t m = 0; m < M; ++m) from[static_cast<std::size_t>(m)] = static_cast<int>((5 * m + 3) % M);
+  for (std::int64_t m = 0; m < M; ++m) {
+    const int k = from[static_cast<std::size_t>(m)];
+    mixed.names[static_cast<std::size_t>(m)] = chain.markers.names[static_cast<std::size_t>(k)];
+    for (std::int64_t f = 0; f < mixed.frames(); ++f) mixed.x(f, m) = chain.markers.x(f, k);
+  }
+  const auto found = find_topology(mixed).value();
+  ASSERT_EQ(found.layout.segments.size(), 3U);
+  ASSERT_EQ(found.layout.joints.size(), 2U);
+  for (const auto& segment : found.layout.segments) {
+    ASSERT_EQ(segment.markers.size(), 4U);
+    for (const int m : segment.markers)
+      EXPECT_EQ(from[static_cast<std::size_t>(m)] / 4,
+                from[static_cast<std::size_t>(segment.markers[0])] / 4);
+  }
+  // The middle segment has both joints.
+  for (const auto& joint : found.layout.joints) {
+    const auto bone = [&](int s) {
+      const int first = found.layout.segments[static_cast<std::size_t>(s)].markers[0];
+      return from[static_cast<std::size_t>(first)] / 4;
+    };
+    EXPECT_EQ(std::abs(bone(joint.parent) - bone(joint.child)), 1);
+  }
+}
+
+TEST(Topology, TurningAndShiftingTheRoomChangesNothing) {
+  const auto chain = make_chain({.lengths_m = {0.15, 0.16}, .per_segment = 4, .noise_sd_m = 0.001});
+  auto moved = chain.markers;
+  const Eigen::Matrix3d R{{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  for (std::int64_t f = 0; f < moved.frames(); ++f)
+    for (std::int64_t m = 0; m < moved.markers(); ++m)
+      moved.x(f, m) = R * chain.markers.x(f, m) + Eigen::Vector3d(5.0, -3.0, 1.0);
+  const auto a = find_topology(chain.markers).value(), b = find_topology(moved).value();
+  EXPECT_TRUE(right(b, a.layout));
+  EXPECT_NEAR(a.noise_sd_m, b.noise_sd_m, 1e-9);
+  for (std::size_t m = 0; m < a.markers.size(); ++m) EXPECT_NEAR(a.markers[m].nats, b.markers[m].nats, 1e-5);
+}
+
+// A marker is lost, a marker is not a number in one frame, a marker stands alone: the others keep their
+// places.
+TEST(Topology, WhatIsNeverSeenIsOnNoSegment) {
+  auto chain = make_chain({.per_segment = 4, .noise_sd_m = 0.001});
+  for (std::int64_t f = 0; f < chain.markers.frames(); ++f)
+    if (f >= 5) chain.markers.set_missing(f, 6);
+  const auto found = find_topology(chain.markers).value();
+  EXPECT_EQ(found.left_out, std::vector<int>{6});
+  ASSERT_EQ(found.layout.segments.size(), 2U);
+  EXPECT_EQ(found.layout.segments[0].markers, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(found.layout.segments[1].markers, (std::vector<int>{4, 5, 7}));
 }
 
 }  // namespace
