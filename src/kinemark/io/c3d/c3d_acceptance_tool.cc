@@ -7,6 +7,7 @@
 //   the coordinates corpus FOLDER                                  small files of all kinds, to start a
 //   fuzzer from
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +15,7 @@
 #include <fstream>
 
 #include "kinemark/io/c3d/internal/simulated_trial.h"
+#include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 
@@ -97,6 +99,19 @@ int read(const fs::path& path, int repeats, int threads) {
   return 0;
 }
 
+/// All that the plates say, for comparison: nothing subtracted, nothing left out.
+int forces(const fs::path& path) {
+  const auto read = io::read_plate_forces(path, {.contact_force_n = 0.0, .baseline = false});
+  if (!read) return report(std::unexpected(read.error()));
+  fmt::print("{{");
+  for (const data::Wrench& wrench : read->wrenches.items)
+    fmt::print("{}\"{}\": {{\"force\": [{:.9g}], \"moment\": [{:.9g}], \"point\": [{:.9g}]}}",
+               &wrench == &read->wrenches.items.front() ? "" : ", ", wrench.name,
+               fmt::join(wrench.force, ", "), fmt::join(wrench.moment, ", "), fmt::join(wrench.point, ", "));
+  fmt::print("}}\n");
+  return 0;
+}
+
 int corpus(const fs::path& folder) {
   fs::create_directories(folder);
   for (const io::Processor processor : {io::Processor::intel, io::Processor::dec, io::Processor::mips}) {
@@ -126,9 +141,10 @@ int main(int argc, char** argv) {
                             .gaps = words.size() < 6});
   if (words.size() == 4 && words[0] == "read")
     return read(words[1], std::stoi(words[2]), std::stoi(words[3]));
+  if (words.size() == 2 && words[0] == "forces") return forces(words[1]);
   if (words.size() == 2 && words[0] == "corpus") return corpus(words[1]);
-  fmt::print(
-      stderr,
-      "usage: write FILE MARKERS FRAMES CHANNELS [gapless] | read FILE REPEATS THREADS | corpus FOLDER\n");
+  fmt::print(stderr,
+             "usage: write FILE MARKERS FRAMES CHANNELS [gapless] | read FILE REPEATS THREADS | forces FILE "
+             "| corpus FOLDER\n");
   return 2;
 }
