@@ -64,7 +64,7 @@ struct AdaptResult {
   int iterations = 0;
   bool converged = false;
   double rms_before_m = 0.0, rms_after_m = 0.0;  ///< distance of measured and model markers on these frames
-  double noise_sd_m = 0.0;                       ///< per axis: from the residuals, or as given
+  double noise_sd_m = 0.0;  ///< per axis, marker of mean weight: from residuals, or as given
   double tissue_sd_m =
       0.0;  ///< per axis: part of the residual that follows the posture, 0 when none is found
 };
@@ -75,14 +75,15 @@ struct AdaptResult {
 ///
 /// Variable projection: every frame is solved exactly by inverse kinematics, the outer Levenberg-Marquardt
 /// step uses the Schur complement  S = sum Jp'W Jp - Jp'W Jq (Jq'W Jq)^-1 Jq'W Jp.  Frames carry no prior of
-/// their own, so that none adds up. The covariance is the inverse Schur complement times the noise variance;
-/// with soft tissue a sandwich whose middle holds displacements that follow the joint angles next to each
-/// segment.
+/// their own, so that none adds up. The last steps and the covariance take their derivatives at postures
+/// drawn together to the scatter of the joints' motion, so that noise of the postures does not pass for
+/// motion. The covariance is the inverse Schur complement there times the noise variance; with soft tissue a
+/// sandwich whose middle holds displacements that follow the joint angles next to each segment.
 ///
 /// determined: without the marker places' prior the standard deviation stays below half the parameter's
-/// prior. End segments (head, hand, toes) are not; limbs that keep still may be called so although they are
-/// not. Fails for a model with point constraints, no parameters, terms that do not exist, or what solve_ik()
-/// refuses. About 1 ms per frame and step for a whole body with 140 parameters.
+/// prior. End segments (head, hand, toes) and limbs that keep still are not. Fails for a model with point
+/// constraints, no parameters, terms that do not exist, or what solve_ik() refuses. About 1 ms per frame and
+/// step for a whole body with 140 parameters.
 [[nodiscard]] Result<AdaptResult> adapt_model(const data::ModelDescription& model,
                                               const data::Trajectories& markers,
                                               const std::vector<GeometryParameter>& parameters,

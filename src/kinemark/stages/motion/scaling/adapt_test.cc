@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "kinemark/core/random.h"
@@ -98,6 +99,124 @@ TEST(AdaptModel, an_end_segment_is_not_determined) {
   EXPECT_FALSE(foot.determined);
   EXPECT_GT(foot.interval(), 0.2);
   EXPECT_LT(foot.sd, 0.1);
+}
+
+// The angles of a shank that never moved in the thigh are noise: they may not pass for motion.
+TEST(AdaptModel, a_limb_that_keeps_still_is_not_determined_and_its_interval_covers) {
+  const auto list = parameters(leg());
+  double squares = 0.0;
+  constexpr int kSubjects = 6;
+  for (int s = 0; s < kSubjects; ++s) {
+    const auto seed = static_cast<std::uint64_t>(s + 1);
+    const auto who = subject(list, seed);
+    const auto recording = testing_leg::record(
+        who.model, {.frames = 150, .noise_sd_m = 0.001, .knee_still = true, .seed = seed});
+    const auto result = adapt_model(leg(), recording, list).value();
+    EXPECT_TRUE(result.converged) << s;
+    for (const char* name : {"shank_r", "foot_r"}) {
+      const auto k = static_cast<std::size_t>(index_of(result, name));
+      const auto& p = result.parameters[k];
+      EXPECT_THAT(result.not_determined, Contains(name)) << s;
+      EXPECT_NEAR(p.interval(), p.prior_sd, 0.1 * p.prior_sd);
+      squares += std::pow((p.value - 1.0 - who.change[static_cast<Eigen::Index>(k)]) / p.sd, 2);
+    }
+    EXPECT_THAT(result.not_determined, Contains("tibia_r: knee_r to ankle_r"));
+    EXPECT_THAT(result.not_determined, Contains("thigh_r"));  // nor where its still knee lies
+  }
+  EXPECT_LT(std::sqrt(squares / (2.0 * kSubjects)), 1.6);
+}
+
+/// The same recording with every sample's place changed.
+template <class Change>
+data::Trajectories changed(data::Trajectories recording, const Change& change) {
+  for (std::int64_t f = 0; f < recording.frames(); ++f)
+    for (std::int64_t m = 0; m < recording.markers(); ++m) recording.x(f, m) = change(recording.x(f, m));
+  return recording;
+}
+
+void expect_same_sizes(const AdaptResult& a, const AdaptResult& b, double share_of_sd) {
+  ASSERT_EQ(a.parameters.size(), b.parameters.size());
+  for (std::size_t k = 0; k < a.parameters.size(); ++k) {
+    EXPECT_NEAR(a.parameters[k].value, b.parameters[k].value, share_of_sd * a.parameters[k].sd)
+        << a.parameters[k].name;
+    EXPECT_NEAR(a.parameters[k].sd, b.parameters[k].sd, share_of_sd * a.parameters[k].sd)
+        << a.parameters[k].name;
+  }
+}
+
+// Twice the frames with twice the variance are the same evidence.
+TEST(AdaptModel, every_frame_doubled_with_its_noise_changes_nothing) {
+  const auto list = parameters(leg());
+  const auto recording =
+      testing_leg::record(subject(list, 3).model, {.frames = 60, .noise_sd_m = 0.001, .seed = 3});
+  auto twice =
+      data::Trajectories::all_missing(recording.names, {.rate_hz = 120.0, .t0_s = 0.0, .frames = 120});
+  for (std::int64_t f = 0; f < 120; ++f)
+    for (std::int64_t m = 0; m < twice.markers(); ++m) {
+      twice.x(f, m) = recording.x(f / 2, m);
+      twice.state[twice.index(f, m)] = data::SampleState::measured;
+    }
+  AdaptOptions options;
+  options.soft_tissue = false;
+  options.marker_noise_sd_m = 0.001;
+  const auto once = adapt_model(leg(), recording, list, options).value();
+  options.marker_noise_sd_m *= std::sqrt(2.0);
+  expect_same_sizes(once, adapt_model(leg(), twice, list, options).value(), 0.02);
+}
+
+// A prior on the postures of every frame would pull the sizes along with the zero of an angle.
+TEST(AdaptModel, where_an_angle_has_its_zero_does_not_matter) {
+  const auto list = parameters(leg());
+  const auto recording =
+      testing_leg::record(subject(list, 4).model, {.frames = 60, .noise_sd_m = 0.001, .amplitude = 0.2});
+  auto turned = leg();
+  turned.joints[3].parent_from_joint.rotation =
+      Eigen::AngleAxisd(0.8, turned.joints[3].axes[0].axis).toRotationMatrix() *
+      turned.joints[3].parent_from_joint.rotation;
+  expect_same_sizes(adapt_model(leg(), recording, list).value(), adapt_model(turned, recording, list).value(),
+                    0.01);
+}
+
+TEST(AdaptModel, where_the_laboratory_stands_does_not_matter) {
+  const auto list = parameters(leg());
+  const auto recording = testing_leg::record(subject(list, 5).model, {.frames = 60, .noise_sd_m = 0.001});
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const auto moved = changed(recording, [&](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(R * x + Eigen::Vector3d(40.0, -30.0, 5.0));
+  });
+  expect_same_sizes(adapt_model(leg(), recording, list).value(), adapt_model(leg(), moved, list).value(),
+                    0.01);
+}
+
+TEST(AdaptModel, a_factor_of_all_weights_does_not_matter) {
+  const auto list = parameters(leg());
+  const auto recording = testing_leg::record(subject(list, 6).model, {.frames = 60, .noise_sd_m = 0.001});
+  AdaptOptions heavy;
+  heavy.ik.default_marker_weight = 25.0;
+  expect_same_sizes(adapt_model(leg(), recording, list).value(),
+                    adapt_model(leg(), recording, list, heavy).value(), 1e-4);
+}
+
+TEST(AdaptModel, one_frame_determines_no_size) {
+  const auto list = parameters(leg());
+  const auto recording = testing_leg::record(leg(), {.frames = 1, .noise_sd_m = 0.001});
+  const auto result = adapt_model(leg(), recording, list);
+  ASSERT_TRUE(result) << result.error().message;
+  for (const char* name : {"thigh_r", "shank_r", "foot_r"})
+    EXPECT_THAT(result->not_determined, Contains(name));
+}
+
+TEST(AdaptModel, frames_that_nobody_saw_change_nothing) {
+  const auto list = parameters(leg());
+  auto recording = testing_leg::record(subject(list, 7).model, {.frames = 62, .noise_sd_m = 0.001});
+  for (std::int64_t m = 0; m < recording.markers(); ++m)
+    for (const std::int64_t f : {60, 61}) recording.set_missing(f, m);
+  AdaptOptions shorter;
+  shorter.ik.last_time_s = 59.5 / 60.0;
+  const auto with = adapt_model(leg(), recording, list).value();
+  const auto without = adapt_model(leg(), recording, list, shorter).value();
+  EXPECT_EQ(without.frames, 60);
+  expect_same_sizes(with, without, 1e-3);
 }
 
 TEST(AdaptModel, less_motion_means_wider_intervals) {
@@ -218,6 +337,18 @@ TEST(AdaptModel, refuses_what_it_cannot_do) {
   options = {};
   options.marker_noise_sd_m = -1.0;
   EXPECT_THAT(message(leg(), list, options), HasSubstr("marker noise of -1"));
+  options = {};
+  options.start_noise_sd_m = 0.0;
+  EXPECT_THAT(message(leg(), list, options), HasSubstr("start noise of 0 m"));
+  options = {};
+  options.max_iterations = 0;
+  EXPECT_THAT(message(leg(), list, options), HasSubstr("at most 0 iterations"));
+  options = {};
+  options.ik.coordinate_tasks = {{.coordinate = "knee_angle", .weight = 1.0, .values = {0.1, 0.2}}};
+  EXPECT_THAT(message(leg(), list, options), HasSubstr("task of coordinate 'knee_angle' changes with time"));
+  wrong = list;
+  wrong[0].terms[0].direction.x() = std::nan("");
+  EXPECT_THAT(message(leg(), wrong, {}), HasSubstr("that the model does not have"));
   options = {};
   options.ik.first_time_s = 77.0;
   EXPECT_THAT(message(leg(), list, options), HasSubstr("no frame in the time range"));

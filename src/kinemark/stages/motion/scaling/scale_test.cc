@@ -108,6 +108,42 @@ TEST(ScaleModel, measured_over_model_distance_averaged_over_pairs) {
   EXPECT_TRUE(result->model.joints[2].parent_from_joint.translation.isApprox(Vector3d(0, -0.44, 0), 1e-9));
 }
 
+// A pair counts in the frames that show both; its deviation is that of these frames.
+TEST(ScaleModel, a_pair_is_measured_in_the_frames_that_show_both) {
+  const auto model = leg();
+  auto recording = static_trial(model);
+  const auto thi = find_recorded(recording, "THI"), knm = find_recorded(recording, "KNM");
+  const Vector3d along = (recording.x(0, thi) - recording.x(0, knm)).normalized();
+  for (std::int64_t f = 0; f < recording.frames(); ++f) {
+    if (f % 2 == 0)
+      recording.x(f, thi) = Vector3d::Constant(5.0);
+    else
+      recording.x(f, thi) += (f % 4 == 1 ? 0.003 : -0.003) * along;
+    if (f % 2 == 0) recording.set_missing(f, f % 4 == 0 ? thi : knm);
+  }
+  ScaleOptions options;
+  options.measurements = {thigh_measurement()};
+  options.measurements[0].pairs = {{"THI", "KNM"}};
+  const auto result = scale_model(model, &recording, options);
+  ASSERT_TRUE(result) << result.error().message;
+  const auto& pair = result->measurements[0].pairs[0];
+  EXPECT_NEAR(pair.measured_m, pair.model_m, 1e-9);
+  EXPECT_NEAR(pair.measured_sd_m, 0.003, 1e-9);
+  EXPECT_NEAR(result->factors[1].factors.y(), 1.0, 1e-8);
+}
+
+TEST(ScaleModel, a_factor_is_the_mean_of_its_pairs) {
+  const auto model = leg();
+  auto recording = static_trial(model);
+  ScaleOptions options;
+  options.measurements = {thigh_measurement()};
+  // One pair 10 % longer, the other as it is.
+  const auto thi = find_recorded(recording, "THI"), knm = find_recorded(recording, "KNM");
+  for (std::int64_t f = 0; f < recording.frames(); ++f)
+    recording.x(f, thi) += 0.1 * (recording.x(f, thi) - recording.x(f, knm));
+  EXPECT_NEAR(scale_model(model, &recording, options)->measurements[0].factor, 1.05, 1e-9);
+}
+
 TEST(ScaleModel, later_steps_win_and_axes_are_kept_apart) {
   const auto model = leg();
   const auto recording = static_trial(model);
@@ -167,6 +203,16 @@ TEST(ScaleModel, says_what_is_wrong) {
   options.first_time_s = -1e300;
   options.measurements[0].pairs[1].second = "GONE";
   EXPECT_THAT(message(&recording), HasSubstr("needs marker 'GONE', which the model does not have"));
+  options.measurements[0] = thigh_measurement();
+  auto together = model;
+  for (auto& marker : together.markers)
+    if (marker.name == "KNM") marker.x_in_body = together.markers[3].x_in_body;
+  EXPECT_THAT(scale_model(together, &recording, options).error().message,
+              HasSubstr("'THI' and 'KNM' are at one place in the model"));
+  auto lacking = recording;
+  lacking.names[3] = "renamed";
+  EXPECT_THAT(scale_model(model, &lacking, options).error().message,
+              HasSubstr("needs marker 'THI', which the recording does not have"));
   options.measurements[0].pairs.clear();
   EXPECT_THAT(message(&recording), HasSubstr("has no marker pair"));
   options.measurements[0] = thigh_measurement();

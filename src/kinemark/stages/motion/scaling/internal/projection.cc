@@ -77,14 +77,33 @@ ProjectedSums Projection::solve(const Eigen::VectorXd& x, Eigen::MatrixXd& state
   });
   ProjectedSums total(layout_.columns);
   for (const auto& part : partial) {
-    total.normal.S += part.normal.S;
-    total.normal.g += part.normal.g;
-    total.normal.weighted_squares += part.normal.weighted_squares;
-    total.normal.squares += part.normal.squares;
-    total.normal.seen += part.normal.seen;
+    total.normal += part.normal;
     total.cost += part.cost;
     total.moved_speeds += part.moved_speeds;
   }
+  return total;
+}
+
+NormalSums Projection::sums_at(const Eigen::MatrixXd& best, const Eigen::MatrixXd& quiet) const {
+  std::vector<NormalSums> partial(at((problem_.frames + kGrain - 1) / kGrain), NormalSums(layout_.columns));
+  parallel_for(problem_.frames, kGrain, threads_, [&](std::int64_t begin, std::int64_t end) {
+    FrameEquations equations(problem_, layout_);
+    Eigen::Matrix3Xd y(3, problem_.model.marker_count());
+    Eigen::VectorXd weight(problem_.model.marker_count());
+    for (std::int64_t f = begin; f < end; ++f) {
+      problem_.observe(markers_, f, y, weight);
+      if (weight.sum() == 0.0) continue;
+      equations.visit(y, weight, best.col(f));
+      const Eigen::Matrix3Xd residual = equations.residual;
+      const Eigen::VectorXd balance = equations.posture_gradient();
+      equations.visit(y, weight, quiet.col(f));
+      equations.residual = residual;
+      equations.add_to(partial[at(begin / kGrain)]);
+      equations.add_posture_part(equations.posture_gradient() - balance, partial[at(begin / kGrain)]);
+    }
+  });
+  NormalSums total(layout_.columns);
+  for (const auto& part : partial) total += part;
   return total;
 }
 

@@ -35,6 +35,10 @@ class Projection {
   /// A geometry that is no model (numbers that are not finite) costs NaN, and nothing changes.
   ProjectedSums solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states);
 
+  /// The normal equations with derivatives at the quiet states and residuals at the best ones, none of which
+  /// change, with the geometry of the last solve().
+  [[nodiscard]] NormalSums sums_at(const Eigen::MatrixXd& best, const Eigen::MatrixXd& quiet) const;
+
   /// Start every frame from its neighbours' postures as well, with the geometry of the last solve(), and keep
   /// what is clearly better. Returns how many frames had been caught in a false minimum.
   std::int64_t free_caught_frames(Eigen::MatrixXd& states) const;

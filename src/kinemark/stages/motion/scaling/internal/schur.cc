@@ -71,6 +71,15 @@ Vector3d GeometryLayout::velocity(const Term& term, const model::Workspace& w) {
   return term.moves == Moves::child_frame ? Vector3d(-d) : d;
 }
 
+NormalSums& NormalSums::operator+=(const NormalSums& other) {
+  S += other.S;
+  g += other.g;
+  weighted_squares += other.weighted_squares;
+  squares += other.squares;
+  seen += other.seen;
+  return *this;
+}
+
 FrameEquations::FrameEquations(const Problem& problem, const GeometryLayout& layout)
     : w(problem.model),
       derivative(at(problem.model.marker_count())),
@@ -143,6 +152,18 @@ void FrameEquations::add_to(NormalSums& sums) const {
     }
   }
   sums.S.selfadjointView<Eigen::Lower>().rankUpdate(LinvW.transpose(), -1.0);
+}
+
+VectorXd FrameEquations::posture_gradient() const {
+  VectorXd gradient = VectorXd::Zero(J.cols());
+  for (Eigen::Index m = 0; m < weight.size(); ++m)
+    if (weight[m] != 0.0)
+      gradient.noalias() += J.middleRows<3>(3 * m).transpose() * (weight[m] * residual.col(m));
+  return gradient;
+}
+
+void FrameEquations::add_posture_part(const VectorXd& gradient, NormalSums& sums) const {
+  sums.g.noalias() -= LinvW.transpose() * llt.matrixL().solve(gradient);
 }
 
 }  // namespace kinemark::motion::internal

@@ -43,6 +43,7 @@ struct NormalSums {
   Eigen::VectorXd g;
   double weighted_squares = 0.0, squares = 0.0;
   std::int64_t seen = 0;
+  NormalSums& operator+=(const NormalSums& other);
 };
 
 /// Scratch of one thread for one geometry.
@@ -53,6 +54,12 @@ class FrameEquations {
   /// Pose, residuals, derivatives and the factor of the posture's normal matrix.
   void visit(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, const Eigen::VectorXd& x);
   void add_to(NormalSums& sums) const;
+
+  /// Jq'W r, nv numbers: what tasks balance at the best posture.
+  [[nodiscard]] Eigen::VectorXd posture_gradient() const;
+  /// Take the part of the gradient off that a posture which is not the best would follow, - W'L^-T L^-1
+  /// given.
+  void add_posture_part(const Eigen::VectorXd& gradient, NormalSums& sums) const;
 
   /// Derivative of one marker by one parameter.
   struct Column {

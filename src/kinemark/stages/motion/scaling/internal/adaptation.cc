@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/scaling/internal/adaptation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "kinemark/stages/motion/error_bars.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr int kStartIterations = 8;  // with strong priors, on few frames
+constexpr std::int64_t kStartFrames = 80;
+constexpr int kNoiseRounds = 4;  // until the noise agrees with the residuals
+constexpr double kSameNoise = 0.03;
+constexpr double kLeastGain = 1e-7;  // of the cost
+constexpr double kNoPlacePrior_m = 1.0;
+constexpr double kLeastNoise_m = 1e-5;
+constexpr double kSettled = 0.1;  // standard deviations that the last step may leave to go
+constexpr double kNear = 0.3;     // standard deviations that a step must win before settle() takes over
+constexpr int kSettleSteps = 20;
+constexpr int kQuietRounds = 3;
+constexpr double kSameMotion = 0.1;  // shares of motion that need no further round
+constexpr double kFarthest = 3.0;    // prior deviations that a parameter may go in one step
+
+MatrixXd inverse(const NormalSums& sums, const VectorXd& prior) {
+  MatrixXd S = sums.S.selfadjointView<Eigen::Lower>();
+  S.diagonal() += prior;
+  S.diagonal().array() += 1e-14 * S.diagonal().maxCoeff();
+  return S.llt().solve(MatrixXd::Identity(S.rows(), S.cols()));
+}
+
+}  // namespace
+
+Adaptation::Adaptation(const data::ModelDescription& model, const data::Trajectories& markers,
+                       const std::vector<GeometryParameter>& parameters, const AdaptOptions& options,
+                       Problem problem, MatrixXd states, const Progress& progress)
+    : parameters_(parameters),
+      options_(options),
+      projection_(model, parameters, std::move(problem), options.ik, markers, options.threads),
+      states_(std::move(states)),
+      markers_(markers),
+      progress_(progress),
+      x_(VectorXd::Zero(static_cast<Index>(parameters.size()))) {}
+
+Status Adaptation::run(AdaptResult& result) {
+  result.frames = markers_.frames();
+  projection_.set_frames(1);
+  result.rms_before_m = projection_.solve(x_, states_).rms();
+  noise_m_ = options_.start_noise_sd_m;
+  projection_.set_frames(std::max<std::int64_t>(1, markers_.frames() / kStartFrames));
+  if (auto s = iterate(kStartIterations, 0.0, result); !s) return s;
+  projection_.set_frames(1);
+  sums_ = projection_.solve(x_, states_);
+  if (projection_.free_caught_frames(states_) > 0) sums_ = projection_.solve(x_, states_);
+  noise_m_ = options_.marker_noise_sd_m > 0.0 ? options_.marker_noise_sd_m : residual_noise();
+  for (int round = 0; round < kNoiseRounds; ++round) {
+    if (auto s = iterate(options_.max_iterations, kNear, result); !s) return s;
+    const double seen = options_.marker_noise_sd_m > 0.0 ? noise_m_ : residual_noise();
+    const bool same = std::abs(seen - noise_m_) < kSameNoise * noise_m_;
+    noise_m_ = seen;
+    if (projection_.free_caught_frames(states_) == 0 && same) break;
+  }
+  result.noise_sd_m = noise_m_;
+  if (auto s = find_covariance(result); !s) return s;
+  result.rms_after_m = sums_.rms();
+  return {};
+}
+
+/// Weight of every parameter's prior in units of the squares.
+VectorXd Adaptation::priors(double place_sd) const {
+  VectorXd weight(x_.size());
+  for (Index k = 0; k < weight.size(); ++k) {
+    const auto& parameter = parameters_[at(k)];
+    const bool free_place = place_sd > 0.0 && parameter.kind == ParameterKind::marker_place;
+    const double sd = free_place ? std::max(place_sd, parameter.prior_sd) : parameter.prior_sd;
+    weight[k] = noise_m_ * noise_m_ / (sd * sd);
+  }
+  return weight;
+}
+
+double Adaptation::residual_noise() const {
+  const double freedom = 3.0 * static_cast<double>(sums_.normal.seen) -
+                         static_cast<double>(sums_.moved_speeds) - static_cast<double>(x_.size());
+  return std::max(kLeastNoise_m, std::sqrt(sums_.normal.weighted_squares / std::max(1.0, freedom)));
+}
+
+double Adaptation::cost(const ProjectedSums& sums, const VectorXd& x, const VectorXd& prior) const {
+  return sums.cost + (prior.array() * x.array().square()).sum();
+}
+
+/// Levenberg-Marquardt on the Schur complement, from where we are, until a step wins less than least_sd
+/// standard deviations of a parameter would.
+Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
+  const VectorXd prior = priors();
+  sums_ = projection_.solve(x_, states_);
+  double now = cost(sums_, x_, prior), damping = 1e-4;
+  result.converged = false;
+  if (!std::isfinite(now)) return fail(Code::bad_input, "the recording gives distances that are not finite");
+  for (int i = 0; i < limit; ++i) {
+    if (progress_ && !progress_(result.iterations, result.iterations + limit - i))
+      return fail(Code::cancelled, "adapting the model was stopped");
+    ++result.iterations;
+    MatrixXd S = sums_.normal.S.selfadjointView<Eigen::Lower>();
+    S.diagonal() += prior;
+    const VectorXd g = sums_.normal.g - prior.cwiseProduct(x_);
+    bool better = false;
+    double won = 0.0, ahead = std::numeric_limits<double>::infinity();
+    for (int trial = 0; trial < 8 && !better; ++trial) {
+      MatrixXd A = S;
+      A.diagonal() += damping * (S.diagonal().array() + 1e-6 * S.diagonal().maxCoeff()).matrix();
+      const Eigen::LLT<MatrixXd> llt(A);
+      const VectorXd step = llt.solve(g);
+      if (llt.info() != Eigen::Success || !step.allFinite()) {
+        damping *= 10.0;
+        continue;
+      }
+      // What the quadratic model promises of the first, boldest step.
+      if (!std::isfinite(ahead)) ahead = 2.0 * g.dot(step) - step.dot(S * step);
+      const VectorXd x_try = x_ + step;
+      MatrixXd states_try = states_;
+      auto sums = projection_.solve(x_try, states_try);
+      const double then = cost(sums, x_try, prior);
+      if (then < now) {
+        better = true;
+        won = now - then;
+        now = then;
+        x_ = x_try;
+        states_ = std::move(states_try);
+        sums_ = std::move(sums);
+        damping = std::max(1e-9, 0.1 * damping);
+      } else {
+        damping *= 10.0;
+      }
+    }
+    if (better && won > std::max(kLeastGain * now, least_sd * least_sd * noise_m_ * noise_m_)) continue;
+    if (!better) sums_ = projection_.solve(x_, states_);  // the trials have moved its model
+    result.converged = better || ahead <= std::max(kLeastGain * now, std::pow(kSettled * noise_m_, 2));
+    break;
+  }
+  return {};
+}
+
+/// Steps to where the quiet postures' equations balance. The gradient that iterate() brings to zero
+/// multiplies residuals by derivatives at postures that hold the noise of the same markers: along directions
+/// that only motion could tell it is noise times noise. Derivatives at the quiet postures are blind there,
+/// and the priors decide. What is motion is measured anew where that has led: iterate() may have gone astray
+/// so far that the postures' variances are those of another body.
+Status Adaptation::settle(AdaptResult& result) {
+  sums_ = projection_.solve(x_, states_);
+  Quiet quiet;
+  bool settled = true;
+  for (int round = 0; round < kQuietRounds; ++round) {
+    const VectorXd before = quiet.motion();
+    quiet = Quiet::measure(projection_.problem(), projection_.layout(), markers_, states_, result.noise_sd_m,
+                           options_.threads);
+    if (round > 0 && (quiet.motion() - before).cwiseAbs().maxCoeff() < kSameMotion) break;
+    settled = false;
+    for (int i = 0; i < kSettleSteps && !settled; ++i) {
+      if (progress_ && !progress_(result.iterations, result.iterations + kSettleSteps - i))
+        return fail(Code::cancelled, "adapting the model was stopped");
+      const auto left_sd = step_by(quiet);
+      if (!left_sd) break;
+      ++result.iterations;
+      settled = *left_sd <= kSettled;
+    }
+  }
+  of_motion_ = projection_.sums_at(states_, quiet.apply(projection_.problem(), states_));
+  result.converged = result.converged && settled;
+  return {};
+}
+
+/// One Newton step of settle(): its length in standard deviations, or nothing where there is no such step.
+std::optional<double> Adaptation::step_by(const Quiet& quiet) {
+  const NormalSums sums = projection_.sums_at(states_, quiet.apply(projection_.problem(), states_));
+  const VectorXd prior = priors();
+  MatrixXd S = sums.S.selfadjointView<Eigen::Lower>();
+  S.diagonal() += prior;
+  VectorXd step = S.llt().solve(sums.g - prior.cwiseProduct(x_));
+  if (!step.allFinite()) return std::nullopt;
+  for (Index k = 0; k < step.size(); ++k)
+    step *= std::min(1.0, kFarthest * parameters_[at(k)].prior_sd / std::max(std::abs(step[k]), 1e-300));
+  const VectorXd x_try = x_ + step;
+  MatrixXd states_try = states_;
+  auto there = projection_.solve(x_try, states_try);
+  if (!std::isfinite(there.cost)) return std::nullopt;
+  x_ = x_try;
+  states_ = std::move(states_try);
+  sums_ = std::move(there);
+  return std::sqrt(step.dot(S * step)) / noise_m_;
+}
+
+/// Covariance with and without the prior of the places.
+Status Adaptation::find_covariance(AdaptResult& result) {
+  TissueModel tissue;
+  std::optional<TissuePass> pass;
+  const auto look = [&] {
+    const auto variances = estimate_variances(projection_.problem(), markers_, states_, options_.threads);
+    pass.emplace(projection_.problem(), projection_.layout(), markers_, states_, options_.threads);
+    tissue = pass->detect(variances);
+  };
+  if (options_.soft_tissue) look();
+  if (tissue.found) {
+    // Samples that depend on each other count less against the priors.
+    noise_m_ = result.noise_sd_m * std::sqrt(tissue.inflation);
+    if (auto s = iterate(options_.max_iterations, kNear, result); !s) return s;
+    result.noise_sd_m = options_.marker_noise_sd_m > 0.0 ? options_.marker_noise_sd_m : residual_noise();
+  }
+  if (auto s = settle(result); !s) return s;
+  if (tissue.found) look();
+  result.tissue_sd_m = tissue.found ? tissue.sd_m : 0.0;
+  const double s2 = noise_m_ * noise_m_;
+  const auto covariance = [&](double place_sd) {
+    const VectorXd prior = priors(place_sd);
+    const MatrixXd inverse_S = inverse(of_motion_, prior);
+    if (!tissue.found) return MatrixXd(s2 * inverse_S);
+    MatrixXd middle = pass->middle(tissue, inverse_S);
+    middle.diagonal() += s2 * prior;
+    return MatrixXd(inverse_S * middle * inverse_S);
+  };
+  result.covariance = covariance(0.0);
+  data_covariance_ = covariance(kNoPlacePrior_m);
+  if (!result.covariance.allFinite() || !data_covariance_.allFinite())
+    return fail(Code::bad_input,
+                "these data give no finite deviations of sizes; give more frames or markers");
+  return {};
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The estimate of adapt_model(), step by step. Theory: docs/theory/scaling.md
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/scaling/adapt.h"
+#include "kinemark/stages/motion/scaling/geometry.h"
+#include "kinemark/stages/motion/scaling/internal/projection.h"
+#include "kinemark/stages/motion/scaling/internal/scatter.h"
+#include "kinemark/stages/motion/scaling/internal/tissue.h"
+
+namespace kinemark::motion::internal {
+
+/// Holds references to all but the problem and the states; they must outlive it.
+class Adaptation {
+ public:
+  /// States: columns are the problem's frames, the postures to start from.
+  Adaptation(const data::ModelDescription& model, const data::Trajectories& markers,
+             const std::vector<GeometryParameter>& parameters, const AdaptOptions& options, Problem problem,
+             Eigen::MatrixXd states, const Progress& progress);
+
+  /// Fills what it estimates: everything of the result but what describe() says.
+  Status run(AdaptResult& result);
+
+  [[nodiscard]] const Eigen::VectorXd& change() const { return x_; }
+  /// Covariance as it would be without the prior of the marker places.
+  [[nodiscard]] const Eigen::MatrixXd& data_covariance() const { return data_covariance_; }
+  [[nodiscard]] const Problem& problem() const { return projection_.problem(); }
+  [[nodiscard]] const Eigen::MatrixXd& states() const { return states_; }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd priors(double place_sd = 0.0) const;
+  [[nodiscard]] double residual_noise() const;
+  [[nodiscard]] double cost(const ProjectedSums& sums, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& prior) const;
+  Status iterate(int limit, double least_sd, AdaptResult& result);
+  Status settle(AdaptResult& result);
+  std::optional<double> step_by(const Quiet& quiet);
+  Status find_covariance(AdaptResult& result);
+
+  const std::vector<GeometryParameter>& parameters_;
+  const AdaptOptions& options_;
+  Projection projection_;
+  Eigen::MatrixXd states_;
+  const data::Trajectories& markers_;
+  const Progress& progress_;
+  Eigen::VectorXd x_;
+  Eigen::MatrixXd data_covariance_;
+  ProjectedSums sums_{0};
+  NormalSums of_motion_{0};  ///< at the quiet postures
+  double noise_m_ = 0.0;
+};
+
+}  // namespace kinemark::motion::internal
