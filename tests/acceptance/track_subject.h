@@ -17,6 +17,9 @@
 
 namespace kinemark::track_subject {
 
+/// The larger one; NaN when one is NaN, so that no bound passes it.
+inline double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
 inline model::Model human() {
   return model::Model::compile(
              io::read_osim(testing_support::project_folder() / "models" / "human.osim").value())

@@ -113,8 +113,9 @@ std::string joint_margin(const TaiChiDrawing& drawing, std::string_view coordina
   SvgPlot plot(std::string(coordinate), "s", fmt::format("{}: error and its bound, deg", coordinate));
   const auto shift = drawing.whole.first_frame - drawing.least_squares.first_frame;
   VectorXd bound = VectorXd::Constant(ours.frames(), kNaN);
-  for (std::int64_t f = 0; f < ours.frames() && !ours.q_bound.empty(); ++f)
-    bound[f] = ours.q_bound[ours.index(f, c)] * kDegPerRad;
+  const auto& goal_bound = drawing.whole.goal_bound;
+  for (std::int64_t f = 0; f < ours.frames() && !goal_bound.empty(); ++f)
+    bound[f] = goal_bound[ours.index(f, c)] * kDegPerRad;
   const VectorXd fitted = angle_deg(drawing.least_squares.motion, coordinate).segment(shift, ours.frames());
   VectorXd error = (angle_deg(ours, coordinate) - fitted).cwiseAbs();
   for (double& e : error) e = std::abs(std::remainder(e, 360.0));

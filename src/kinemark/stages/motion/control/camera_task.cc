@@ -12,8 +12,10 @@
 #include "kinemark/camera/projection.h"
 #include "kinemark/math/digital_filter.h"
 #include "kinemark/model/kinematics.h"
+#include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/goal_curve.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
+#include "kinemark/stages/motion/control/internal/smooth_step.h"
 
 namespace kinemark::motion {
 namespace {
@@ -21,6 +23,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using internal::GoalCurve;
+using internal::smooth_step;
 
 constexpr double kNoLowpass = 0.45;           // of the rate, as for markers
 constexpr double kLowest = 1e-3;              // of the rate: its kernel has some thousand frames
@@ -31,11 +34,6 @@ constexpr double kDifference = 1e-5;          // of the depth: rounding and trun
 constexpr double kStandstill_m_per_s = 1e-9;  // slower, the image does not bend
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-double smooth_step(double u) {
-  const double s = std::clamp(u, 0.0, 1.0);
-  return s * s * (3.0 - 2.0 * s);
-}
 
 /// How much of a view remains at this angle: bounded where the point nears the plane of the lens.
 double facing(const Vector3d& x_in_cam) {
@@ -73,13 +71,10 @@ class CameraTask : public Task {
     if (!status_) return status_;
     if (!seen()) return fail(Code::bad_input, "no camera sees it in two frames in a row");
     if (!point_.x_in_body.allFinite()) return fail(Code::bad_input, "its place in the body is not a number");
-    const auto& bodies = model.description().bodies;
-    const auto it = std::ranges::find(bodies, point_.body, &data::BodyDescription::name);
-    const bool ground = point_.body.empty() || point_.body == "ground";
-    if (!ground && it == bodies.end())
-      return fail(Code::bad_input, fmt::format("the model has no body '{}'", point_.body));
-    body_ = ground ? data::kGround : model.body_of(static_cast<int>(it - bodies.begin()));
-    if (body_ < 0 || model.bodies()[at(body_)].support.empty())
+    const auto body = internal::body_by_name(model, point_.body);
+    if (!body) return std::unexpected(body.error());
+    body_ = *body;
+    if (internal::is_welded(model, body_))
       return fail(Code::bad_input, "its body is welded to the ground; no image can move it");
     return {};
   }
@@ -245,7 +240,7 @@ Result<std::vector<std::shared_ptr<Task>>> camera_tasks(const model::Model& mode
   for (std::size_t m = 0; m < described.markers.size(); ++m) {
     const auto& marker = model.markers()[m];
     const auto& name = described.markers[m].name;
-    if (marker.body < 0 || model.bodies()[at(marker.body)].support.empty()) continue;
+    if (internal::is_welded(model, marker.body)) continue;
     if (std::ranges::find(tracks.names, name) == tracks.names.end()) continue;
     const auto& body = described.bodies[at(model.bodies()[at(marker.body)].description_idx)];
     auto task = std::make_shared<CameraTask>(BodyPoint{.body = body.name, .x_in_body = marker.x_in_body},

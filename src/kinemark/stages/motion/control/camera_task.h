@@ -36,8 +36,8 @@ struct CameraTaskOptions {
 /// What is wrong with tracks, point or options is said by bind(). Copies what it needs of `tracks`.
 /// evaluate() costs three projections per camera.
 ///
-/// LockMode::automatic asks tasks what they move at time 0: where no camera sees the point at that time, lock
-/// nothing (LockMode::off).
+/// LockMode::automatic asks tasks what they move at nine instants of the recording: where no camera sees the
+/// point at any of them, lock nothing (LockMode::off).
 /// @param point  x_in_body in m, finite; the body must be able to move
 /// @param name   of the track
 [[nodiscard]] std::shared_ptr<Task> camera_task(BodyPoint point, const data::ImageTracks& tracks,

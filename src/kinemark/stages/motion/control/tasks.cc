@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/model/kinematics.h"
+#include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/goal_curve.h"
 
 namespace kinemark::motion {
@@ -18,15 +19,6 @@ using Eigen::Vector3d;
 using internal::GoalCurve;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Tree index of a body by name; the ground for "" and "ground".
-Result<int> find_body(const model::Model& model, const std::string& name) {
-  if (name.empty() || name == "ground") return data::kGround;
-  const auto& bodies = model.description().bodies;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b].name == name) return model.body_of(static_cast<int>(b));
-  return fail(Code::bad_input, fmt::format("the model has no body '{}'", name));
-}
 
 Status check_lever(double lever) {
   if (std::isfinite(lever) && lever > 0.0) return {};
@@ -54,9 +46,9 @@ class OrientationTask : public Task {
 
   [[nodiscard]] Status bind(const model::Model& model) override {
     if (auto status = check_lever(lever_m_); !status) return status;
-    const auto body = find_body(model, body_);
+    const auto body = internal::body_by_name(model, body_);
     if (!body) return std::unexpected(body.error());
-    if (*body < 0 || model.bodies()[at(*body)].support.empty())
+    if (internal::is_welded(model, *body))
       return fail(Code::bad_input, "the body is welded to the ground; it cannot be turned");
     idx_ = *body;
     Eigen::MatrixXd values(4, static_cast<Eigen::Index>(goals_.size()));
@@ -177,7 +169,7 @@ class DistanceTask : public Task {
   [[nodiscard]] Status bind(const model::Model& model) override {
     if (auto status = check_lever(weight_); !status) return status;
     for (const auto& [point, idx] : {std::pair{&a_, &idx_a_}, std::pair{&b_, &idx_b_}}) {
-      const auto body = find_body(model, point->body);
+      const auto body = internal::body_by_name(model, point->body);
       if (!body) return std::unexpected(body.error());
       *idx = *body;
     }

@@ -117,6 +117,24 @@ TEST(Tasks, TheyBringTheBodyToTheirGoals) {
   EXPECT_LT(result->rms_goal_error_m, 1e-3);  // the trunk above is not disturbed
 }
 
+// A distance along a straight arm does not feel the elbow; anywhere else it does.
+TEST(Tasks, WhatATaskMovesIsLookedForInMoreThanOnePose) {
+  const auto model = body();
+  auto markers = testing_body::record(model, 60);
+  for (std::int64_t f = 0; f < 60; ++f)  // a body that stands still in its rest pose
+    for (const char* name : {"U1", "U2", "F1", "F2", "K1"}) markers.set_missing(f, markers.find(name));
+  const TimeBase still{.rate_hz = 100.0, .t0_s = 0.0, .frames = 1};
+  TrackOptions options{.levels = {{.markers = {"T1", "T2", "T3", "T4", "H1", "H2", "S1", "S2", "S3"}}},
+                       .step_s = 2e-3};
+  const auto none = track_markers(model, markers, options).value();
+  EXPECT_THAT(none.locked_coordinates, ::testing::Contains("elbow"));
+  options.levels.push_back({.tasks = {distance_task({"upper_arm", {0.0, -0.01, 0.0}},
+                                                    {"forearm", {0.01, -0.2, 0.0}}, {0.35}, still)}});
+  const auto track = track_markers(model, markers, options).value();
+  EXPECT_THAT(track.locked_coordinates, ::testing::Not(::testing::Contains("elbow")));
+  EXPECT_THAT(track.locked_coordinates, ::testing::Contains("arm_flex"));  // no distance in the arm moves it
+}
+
 TEST(Tasks, SayWhatIsWrongWithThem) {
   const auto model = body();
   const TimeBase time{.rate_hz = 100.0, .t0_s = 0.0, .frames = 3};

@@ -9,33 +9,21 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemark/core/parallel.h"
-#include "kinemark/model/state.h"
-#include "kinemark/stages/motion/control/internal/bounds.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
-#include "kinemark/stages/motion/control/internal/readout.h"
-#include "kinemark/stages/motion/control/internal/walker.h"
+#include "kinemark/stages/motion/control/internal/recorder.h"
+#include "kinemark/stages/motion/control/internal/track_bars.h"
 
 namespace kinemark::motion {
 namespace {
 
-using data::FrameStatus;
 using internal::GoalFilter;
 using internal::Plan;
+using internal::Track;
 using internal::Walker;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kProgressEvery = 100;  // frames
-constexpr double kDeterminedShare = 0.95;     // of the frames
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-/// Everything about the frames that the error bars need once the body has been through.
-struct Track {
-  Eigen::MatrixXd states;    // one column per frame
-  data::Trajectories goals;  // laid out like the recording
-  Eigen::MatrixXd weights;   // M x F, faded
-};
 
 void fill_window(const Plan& plan, const data::Trajectories& markers, internal::SampleWindow& samples) {
   const int M = plan.problem.model.marker_count();
@@ -71,166 +59,6 @@ void fill_goals(const Plan& plan, const data::Trajectories& markers, const GoalF
       track.goals.state[track.goals.index(p.first_frame + f, p.data_marker[at(m)])] =
           data::SampleState::measured;
     }
-  }
-}
-
-/// Runs the body through the recording and keeps what it does.
-class Recorder {
- public:
-  Recorder(const Plan& plan, const data::Trajectories& markers, Walker& walker, Track& track,
-           TrackResult& result)
-      : plan_(plan),
-        markers_(markers),
-        walker_(walker),
-        track_(track),
-        result_(result),
-        readout_(plan.problem.model) {
-    auto& motion = result.motion;
-    const auto F = plan.problem.frames;
-    const auto n = static_cast<std::int64_t>(motion.coordinates.size());
-    for (auto* column : {&motion.q, &motion.v, &motion.a, &motion.tau}) column->assign(at(F * n), 0.0);
-    motion.marker_error.assign(at(3 * F * plan.problem.model.marker_count()), kNaN);
-    motion.status.assign(at(F), FrameStatus::no_markers);
-    track.states.resize(plan.problem.model.state_count(), F);
-    result.rank.assign(at(F), 0);
-    result.smallest_singular.assign(at(F), 0.0);
-  }
-
-  /// False when the caller stopped it.
-  bool run(const Eigen::VectorXd& x, const Progress& progress) {
-    walker_.begin(x, 0);
-    store();
-    for (std::int64_t f = 1; f < plan_.problem.frames; ++f) {
-      if (progress && f % kProgressEvery == 0 && !progress(f, plan_.problem.frames)) return false;
-      walker_.next();
-      store();
-    }
-    if (goals_ == 0) result_.rms_goal_error_m = kNaN;
-    result_.restarts = walker_.restarts();
-    result_.steps = walker_.controller().steps();
-    return true;
-  }
-
- private:
-  void store() {
-    auto& motion = result_.motion;
-    const std::int64_t f = walker_.frame();
-    auto& body = walker_.controller();
-    readout_.find(body.x(), body.v(), body.a());
-    const auto keep = [&](Array<double>& to, const Eigen::VectorXd& from) {
-      std::copy(from.data(), from.data() + from.size(), to.data() + motion.index(f, 0));
-    };
-    keep(motion.q, readout_.q());
-    keep(motion.v, readout_.rate());
-    keep(motion.a, readout_.acceleration());
-    keep(motion.tau, readout_.tau());
-    track_.states.col(f) = body.x();
-    result_.rank[at(f)] = body.rank();
-    result_.smallest_singular[at(f)] = body.smallest_singular();
-    const auto M = static_cast<std::int64_t>(plan_.problem.model.marker_count());
-    const auto& place = body.workspace().marker;
-    for (std::int64_t m = 0; m < M; ++m) {
-      const auto in_data = plan_.problem.data_marker[at(m)];
-      if (!markers_.present(plan_.problem.first_frame + f, in_data)) continue;
-      const Eigen::Vector3d error = markers_.x(plan_.problem.first_frame + f, in_data) - place.col(m);
-      std::copy(error.data(), error.data() + 3, motion.marker_error.data() + (f * M + m) * 3);
-      if (walker_.goal().weight[m] <= 0.0) continue;
-      const double miss = (walker_.goal().x.col(m) - place.col(m)).norm();
-      goal_squares_ += miss * miss;
-      ++goals_;
-      result_.max_goal_error_m = std::max(result_.max_goal_error_m, miss);
-      result_.rms_goal_error_m = std::sqrt(goal_squares_ / static_cast<double>(goals_));
-    }
-    if (walker_.flagged()) {
-      motion.status[at(f)] = FrameStatus::not_converged;
-      ++result_.flagged_frames;
-    } else if (walker_.any_goal()) {
-      motion.status[at(f)] =
-          body.rank() < result_.free_speeds ? FrameStatus::underdetermined : FrameStatus::converged;
-    }
-  }
-
-  const Plan& plan_;
-  const data::Trajectories& markers_;
-  Walker& walker_;
-  Track& track_;
-  TrackResult& result_;
-  internal::Readout readout_;
-  double goal_squares_ = 0.0;
-  std::int64_t goals_ = 0;
-};
-
-/// Noise of the goals: from what the filter removed, and from how the markers of a segment disagree with the
-/// body; the larger of both.
-MarkerVariances goal_noise(const Plan& plan, const data::Trajectories& markers, const Track& track,
-                           const GoalFilter& filter, const TrackOptions& options) {
-  const auto& p = plan.problem;
-  const Eigen::Index M = p.model.marker_count();
-  MarkerVariances noise;
-  if (options.marker_noise_sd_m > 0.0) {
-    const double gain = options.derivatives != nullptr ? 1.0 : filter.noise_in_goal();
-    noise.own.setConstant(M, gain * options.marker_noise_sd_m * options.marker_noise_sd_m);
-    noise.common.setZero(static_cast<Eigen::Index>(p.model.bodies().size()));
-    return noise;
-  }
-  noise = estimate_variances(p, track.goals, track.states, options.threads);
-  if (options.derivatives != nullptr || filter.noise_in_rest() < 1e-3) return noise;
-  for (Eigen::Index m = 0; m < M; ++m) {
-    double squares = 0.0;
-    std::int64_t count = 0;
-    for (std::int64_t f = 0; f < p.frames; ++f) {
-      if (track.weights(m, f) < p.weight[m]) continue;
-      const auto frame = p.first_frame + f;
-      squares +=
-          (markers.x(frame, p.data_marker[at(m)]) - track.goals.x(frame, p.data_marker[at(m)])).squaredNorm();
-      ++count;
-    }
-    if (count == 0) continue;
-    const double white = squares / (3.0 * static_cast<double>(count) * filter.noise_in_rest());
-    noise.own[m] = std::max(noise.own[m], white * filter.noise_in_goal());
-  }
-  return noise;
-}
-
-void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances& noise, int threads,
-                    TrackResult& result) {
-  auto& motion = result.motion;
-  const auto& p = plan.problem;
-  const auto n = static_cast<std::int64_t>(motion.coordinates.size());
-  motion.q_sd.assign(motion.q.size(), kNaN);
-  motion.q_bound.assign(motion.q.size(), kNaN);
-  motion.determined.assign(motion.q.size(), 0);
-  parallel_for(p.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
-    internal::Bounds bounds(plan);
-    internal::GoalValues goal(p.model.marker_count());
-    for (std::int64_t f = begin; f < end; ++f) {
-      goal.weight = track.weights.col(f);
-      for (Eigen::Index m = 0; m < goal.weight.size(); ++m)
-        if (goal.weight[m] > 0.0) goal.x.col(m) = track.goals.x(p.first_frame + f, p.data_marker[at(m)]);
-      const Eigen::Map<const Eigen::VectorXd> q(motion.q.data() + motion.index(f, 0), n);
-      bounds.find(track.states.col(f), q, goal, motion.time.time_s(f), noise);
-      result.rank[at(f)] = bounds.rank();
-      result.smallest_singular[at(f)] = bounds.smallest_singular();
-      for (std::int64_t c = 0; c < n; ++c) {
-        motion.q_sd[motion.index(f, c)] = bounds.sd()[c];
-        motion.q_bound[motion.index(f, c)] = bounds.bound()[c];
-        motion.determined[motion.index(f, c)] = bounds.determined()[at(c)];
-      }
-    }
-  });
-  for (std::int64_t c = 0; c < n; ++c) {
-    std::int64_t fixed = 0;
-    for (std::int64_t f = 0; f < p.frames; ++f) fixed += motion.determined[motion.index(f, c)];
-    if (static_cast<double>(fixed) < kDeterminedShare * static_cast<double>(p.frames))
-      result.undetermined_coordinates.push_back(motion.coordinates[at(c)]);
-  }
-  for (std::int64_t f = 0; f < p.frames; ++f) {
-    const auto* row = motion.determined.data() + motion.index(f, 0);
-    auto& status = motion.status[at(f)];
-    if (status != FrameStatus::converged && status != FrameStatus::underdetermined) continue;
-    // The rank of a step lacks what rests at a limit; what the markers determine is the better answer.
-    const bool all = std::all_of(row, row + n, [](auto d) { return d != 0; });
-    status = all ? FrameStatus::converged : FrameStatus::underdetermined;
   }
 }
 
@@ -351,14 +179,14 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
   Walker walker(*plan, filter, plan->problem.frames, result.motion.time.t0_s);
   if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, markers.markers());
   fill_window(*plan, markers, walker.samples());
-  Recorder recorder(*plan, markers, walker, track, result);
+  internal::Recorder recorder(*plan, markers, walker, track, result);
   const auto begin = std::chrono::steady_clock::now();
   if (!recorder.run(start, progress)) return fail(Code::cancelled, "direct marker control was stopped");
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (options.error_bars) {
-    const auto noise = goal_noise(*plan, markers, track, filter, options);
-    add_error_bars(*plan, track, noise, options.threads, result);
+    const auto noise = internal::goal_noise(*plan, markers, track, filter, options);
+    internal::add_error_bars(*plan, track, noise, options.threads, result);
     summarise(*plan, markers, &noise, result);
   } else {
     summarise(*plan, markers, nullptr, result);

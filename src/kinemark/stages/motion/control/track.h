@@ -26,6 +26,9 @@ struct TrackResult {
   /// Per frame: smallest pivot over all levels, near the smallest singular value of what they fix, kg^-1/2; 0
   /// where they fix nothing. Without error bars NaN where one level fixes everything: not computed.
   std::vector<double> smallest_singular;
+  /// F x n, with error bars: bound of equation 16 on the distance to the coordinates that the goals ask for,
+  /// level by level. It takes goals for exact and knows norms only; motion.q_bound is the bound on the error.
+  Array<double> goal_bound;
   int free_speeds = 0;                                ///< directions there are: speeds that are not locked
   std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
   std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames

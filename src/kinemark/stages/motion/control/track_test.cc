@@ -133,6 +133,68 @@ TEST(Track, AMarkerThatVanishesAndReturnsLeavesNoJump) {
   }
 }
 
+// F2 is the only marker that the elbow moves. After half a second without it the forearm is anywhere.
+TEST(Track, AMarkerThatAloneMovesACoordinateReturnsWithoutAJerk) {
+  auto description = testing_body::description();
+  std::erase_if(description.markers, [](const auto& m) { return m.name == "F1"; });
+  const auto model = model::Model::compile(std::move(description)).value();
+  auto markers = record(model, 200, 1e-3, 5);
+  for (std::int64_t f = 80; f < 130; ++f) markers.set_missing(f, markers.find("F2"));
+  const auto track = track_markers(model, markers, {.step_s = 2e-3}).value();
+  const auto& motion = track.motion;
+  const auto elbow = motion.find("elbow");
+  const auto at = [&](std::int64_t f) { return motion.index(f, elbow); };
+  const double off = std::abs(motion.q[at(130)] - testing_body::coordinates(model, 130)[9]);
+  ASSERT_GT(off, 0.1);
+  double most = 0.0;
+  for (std::int64_t f = 130; f < 150; ++f) most = std::max(most, std::abs(motion.a[at(f)]));
+  EXPECT_LT(most, 15.0 * off / (0.1 * 0.1));  // a pull of omega = 100 / s begins with 100 times off / 0.1^2
+  EXPECT_NEAR(motion.q[at(150)], testing_body::coordinates(model, 150)[9], 0.02);
+  // Undetermined in the gap; on the way back the deviation says how far there is to go.
+  for (std::int64_t f = 82; f < 128; ++f) EXPECT_EQ(motion.determined[at(f)], 0) << f;
+  std::int64_t on_the_way = 0;
+  for (std::int64_t f = 130; f < 150; ++f) {
+    if (motion.determined[at(f)] == 0) continue;
+    const double miss = std::abs(motion.q[at(f)] - testing_body::coordinates(model, f)[9]);
+    EXPECT_LE(miss, motion.q_bound[at(f)]) << f;
+    EXPECT_LE(miss, 5.0 * motion.q_sd[at(f)]) << f;
+    on_the_way += miss > 0.05;
+  }
+  EXPECT_GT(on_the_way, 2);
+}
+
+TEST(Track, EquationSixteenHoldsForExactGoalsAtEveryLevel) {
+  const auto model = body();
+  const auto markers = record(model, 120);
+  const std::vector<std::vector<TrackLevel>> cases{
+      {}, {{.markers = {"T1", "T2", "T3", "T4"}}, {.markers = {"U1", "U2", "H1"}}, {.markers = {"*"}}}};
+  for (const auto& levels : cases) {
+    const auto track = track_markers(model, markers,
+                                     {.levels = levels,
+                                      .step_s = 2e-3,
+                                      .cutoff_hz = 0.0,
+                                      .lock = LockMode::off,
+                                      .marker_noise_sd_m = 1e-9})
+                           .value();
+    const auto& motion = track.motion;
+    ASSERT_EQ(track.goal_bound.size(), motion.q.size());
+    double largest = 0.0;
+    for (std::int64_t f = 2; f < 118; ++f) {
+      const Eigen::VectorXd q = testing_body::coordinates(model, f);
+      for (std::int64_t c = 6; c < motion.size(); ++c) {
+        const auto i = motion.index(f, c);
+        const double miss = std::abs(motion.q[i] - q[c]);
+        largest = std::max(largest, miss);
+        EXPECT_LE(miss, 1.001 * track.goal_bound[i] + 1e-7) << levels.size() << ' ' << f << ' ' << c;
+        // Equation 15 without the norms of equation 16 is never wider.
+        EXPECT_LE(motion.q_bound[i], track.goal_bound[i] + 1e-6);
+        EXPECT_GE(motion.q_bound[i], 0.0);
+      }
+    }
+    EXPECT_GT(largest, 1e-7);
+  }
+}
+
 TEST(Track, HoldsWhatNoMarkerMoves) {
   const auto model = body();
   auto description = testing_body::description();
@@ -276,6 +338,19 @@ TEST(Track, GoalsOutOfReachAreFlaggedAndNeverAnExplosion) {
   EXPECT_FALSE(track.warnings.empty());
   for (const double v : track.motion.v) ASSERT_LT(std::abs(v), 2e3);
   EXPECT_NEAR(track.motion.q[track.motion.index(115, 9)], testing_body::coordinates(model, 115)[9], 5e-3);
+}
+
+TEST(Track, GoalsThatTheModelCannotReachAreApproached) {
+  const auto model = body();
+  auto markers = record(model, 100);
+  // A hand 0.25 m further off than the arm is long: below what is flagged.
+  for (std::int64_t f = 0; f < 100; ++f)
+    for (const char* name : {"F1", "F2"}) markers.x(f, markers.find(name)).y() -= 0.25;
+  const auto track = track_markers(model, markers, {.step_s = 2e-3}).value();
+  EXPECT_EQ(track.restarts, 0);
+  EXPECT_EQ(track.flagged_frames, 0);
+  EXPECT_GT(track.max_goal_error_m, 0.02);
+  for (const double v : track.motion.v) ASSERT_LT(std::abs(v), 100.0);
 }
 
 TEST(Track, SaysWhatIsWrong) {

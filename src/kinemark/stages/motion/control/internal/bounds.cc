@@ -40,7 +40,7 @@ Bounds::Bounds(const Plan& plan)
   z_.setZero(n);
   still_.setZero(n);
   sd_.setZero(plan.problem.model.coordinate_count());
-  bound_ = sd_;
+  bound_ = goal_bound_ = sd_;
 }
 
 void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise) {
@@ -147,16 +147,18 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
     }
     for (Eigen::Index b = 0; b < noise.common.size(); ++b)
       variance += noise.common[b] * common.segment<3>(3 * b).squaredNorm();
-    sd_[c] = std::sqrt(variance);
+    const double lag = C_.col(c).dot(z_);
+    sd_[c] = std::sqrt(variance + lag * lag);
     sure = sure && sd_[c] <= kLargestSd;
-    bound_[c] = sure ? bound + kNoiseSds * sd_[c] : nan;
+    bound_[c] = sure ? std::abs(lag) + kNoiseSds * std::sqrt(variance) : nan;
+    goal_bound_[c] = sure ? bound : nan;
     // Held by goals alone that do not say how sure they are.
     if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;
     determined_[at(c)] = sure ? 1 : 0;
   }
   for (const int c : plan_.locked) {  // held by us: nothing is known
     determined_[at(c)] = 0;
-    sd_[c] = bound_[c] = nan;
+    sd_[c] = bound_[c] = goal_bound_[c] = nan;
   }
 }
 

@@ -6,8 +6,10 @@
 // controller did. Level by level, in z = L'dq: the first level explains z_1 = A_1^+ dx_1, the next what is
 // left of its own error, z_2 = A_2|1^+ (dx_2 - A_2 z_1), and so on; when all levels together have full
 // column rank, z is their sum, and so
-//     |dq_c| <= sum over levels of |row c of L^-T A_i|..^+| |dx_i - A_i (z_1 + ... )|.
-// The same matrices turn the covariance of the goals into that of the angles.
+//     dq_c = sum over levels of (row c of L^-T A_i|..^+) (dx_i - A_i (z_1 + ... ))      (equation 15)
+// and with norms in place of the products the bound of equation 16. The same matrices turn the covariance of
+// the goals into that of the angles. Equation 15 leaves no freedom in dq_c: it is what the body lacks of the
+// angles that its goals ask for, zero where it fits them best, and large while it is on its way.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -27,16 +29,20 @@ class Bounds {
  public:
   explicit Bounds(const Plan& plan);
 
-  /// The bound counts this many standard deviations of the goals' own noise on top of equation 16, which
-  /// takes goals for exact.
+  /// Equations 15 and 16 take goals for exact; bound() counts this many standard deviations of their noise.
   static constexpr double kNoiseSds = 5.0;
 
   /// For pose x with coordinates q and the goals that it follows.
   void find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
             const MarkerVariances& noise);
 
-  [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }  ///< NaN where not determined or not known
-  [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }  ///< likewise
+  /// Of the goals' noise and, as if it were another error, what equation 15 says. NaN where not determined or
+  /// not known.
+  [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }
+  /// On the error of a coordinate: equation 15 and the goals' noise. NaN where not determined.
+  [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }
+  /// Equation 16: on the distance to the coordinate that the goals ask for. NaN where not determined.
+  [[nodiscard]] const Eigen::VectorXd& goal_bound() const { return goal_bound_; }
   [[nodiscard]] const std::vector<std::uint8_t>& determined() const { return determined_; }
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] double smallest_singular() const { return smallest_; }
@@ -57,7 +63,7 @@ class Bounds {
   TaskRows rows_;
   Eigen::MatrixXd M_, J_, V_, E_, C_, explained_, G_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd z_, still_, sd_, bound_;
+  Eigen::VectorXd z_, still_, sd_, bound_, goal_bound_;
   std::vector<std::uint8_t> determined_;
   int rank_ = 0;
   double smallest_ = 0.0;

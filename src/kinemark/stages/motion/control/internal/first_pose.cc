@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "kinemark/core/random.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 #include "kinemark/stages/motion/internal/start.h"
 
@@ -12,9 +11,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr std::int64_t kLookedAt = 100;  // poses, for what no goal moves
-constexpr int kPosesAround = 20;
-constexpr double kAround = 0.5;  // rad
-constexpr std::uint64_t kStream = 0x706f7365;
+constexpr std::int64_t kInstants = 8;    // of the recording, at which tasks are asked
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -47,15 +44,19 @@ Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, Loc
     if (weight.sum() > 0.0)
       find_start(p, plan.start_options, solver, y, weight, 0, plan.start_options.starts, x);
     if (lock == LockMode::automatic) {
-      std::vector<Eigen::VectorXd> poses;
+      Looks looks;
       Eigen::VectorXd pose = x;
       const std::int64_t stride = std::max<std::int64_t>(1, p.frames / kLookedAt);
       for (std::int64_t f = anchor; f < p.frames; f += stride) {
         p.observe(goals, f, y, weight);
         if (weight.sum() > 0.0) solver.solve(y, weight, 0, pose);
-        poses.push_back(pose);
+        looks.followed.push_back(pose);
       }
-      lock_idle(plan, poses);
+      looks.around = poses_around(plan, x);
+      looks.times_s.clear();
+      for (std::int64_t i = 0; i <= kInstants; ++i)
+        looks.times_s.push_back(goals.time.time_s(p.first_frame + i * (p.frames - 1) / kInstants));
+      lock_idle(plan, looks);
     }
   }
   plan.apply_locks(x);
@@ -77,18 +78,10 @@ Eigen::VectorXd find_first_pose(Plan& plan, const Eigen::Matrix3Xd& goal, const 
     find_start(p, plan.start_options, solver, goal, weight, 0, plan.start_options.starts, x);
   }
   if (lock == LockMode::automatic) {
-    std::vector<Eigen::VectorXd> poses{x};
-    Random random(plan.start_options.seed, kStream);
-    for (int i = 0; i < kPosesAround; ++i) {
-      Eigen::VectorXd pose = x;
-      for (const auto& c : p.model.coordinates()) {
-        const double u = random.uniform(-kAround, kAround);
-        if (c.speed_idx < 0 || p.fixed_speed[at(c.speed_idx)] != 0) continue;
-        pose[c.state_idx] = std::clamp(pose[c.state_idx] + u, p.lower[c.speed_idx], p.upper[c.speed_idx]);
-      }
-      poses.push_back(std::move(pose));
-    }
-    lock_idle(plan, poses);
+    Looks looks{.followed = poses_around(plan, x)};
+    looks.around = looks.followed;
+    looks.followed.push_back(x);
+    lock_idle(plan, looks);
   }
   plan.apply_locks(x);
   FrameSolver solver(p, plan.start_options);

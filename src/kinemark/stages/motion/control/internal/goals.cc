@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kinemark/math/digital_filter.h"
+#include "kinemark/stages/motion/control/internal/smooth_step.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -54,11 +55,6 @@ std::vector<double> make_kernel(double cutoff, std::int64_t reach) {
   const double level = (m4 + m2 / 3.0) / determinant, bend = (-m0 / 3.0 - m2) / determinant;
   for (std::int64_t k = 0; k <= reach; ++k) kernel[at(k)] *= level + bend * static_cast<double>(k * k);
   return kernel;
-}
-
-double smooth_step(double u) {
-  const double s = std::clamp(u, 0.0, 1.0);
-  return s * s * (3.0 - 2.0 * s);
 }
 
 }  // namespace

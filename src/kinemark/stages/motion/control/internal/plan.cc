@@ -10,9 +10,11 @@
 #include <map>
 #include <set>
 
+#include "kinemark/core/random.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/stages/motion/control/internal/body_name.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -21,7 +23,10 @@ constexpr double kRestPull = 1e-6;   // m^2/rad^2, on the first pose only: where
 constexpr double kIdleLever = 0.01;  // m per rad
 constexpr double kIdleShare = 0.05;  // of the poses
 constexpr int kMostSteps = 100000;   // per frame
-constexpr double kNoMass = 1e-12;    // kg, kg m^2
+constexpr int kPosesAround = 20;
+constexpr double kAround = 0.5;  // rad or m
+constexpr std::uint64_t kStream = 0x706f7365;
+constexpr double kNoMass = 1e-12;  // kg, kg m^2
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -43,18 +48,13 @@ Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model
   return level_of;
 }
 
-bool is_fixed(const model::Model& model, int marker) {
-  const int body = model.markers()[at(marker)].body;
-  return body == data::kGround || model.bodies()[at(body)].support.empty();
-}
-
 /// Which markers take part; the others get the weight 0.
 Status choose_markers(const model::Model& model, const std::map<std::string, std::size_t>& level_of,
                       IkOptions& options, std::vector<std::string>& warnings) {
   for (int m = 0; m < model.marker_count(); ++m) {
     const auto& name = model.description().markers[at(m)].name;
     const bool named = level_of.contains(name);
-    if (is_fixed(model, m)) {
+    if (is_welded(model, model.markers()[at(m)].body)) {
       if (named)
         return fail(Code::bad_input,
                     fmt::format("marker '{}' sits on a body that is welded to the ground; it cannot be moved "
@@ -129,8 +129,8 @@ Status set_gains(const TrackOptions& options, Plan& plan) {
   return {};
 }
 
-Status set_rest(const TrackOptions& options, Plan& plan) {
-  const auto& model = plan.problem.model;
+/// Coordinates to return to: the model's defaults but for those that are wished for.
+Result<Eigen::VectorXd> rest_coordinates(const model::Model& model, const TrackOptions& options) {
   Eigen::VectorXd q(model.coordinate_count());
   for (int c = 0; c < q.size(); ++c) q[c] = model.description().coordinates[at(c)].default_value;
   for (const auto& wish : options.rest_pose) {
@@ -145,12 +145,7 @@ Status set_rest(const TrackOptions& options, Plan& plan) {
                   fmt::format("the rest pose of coordinate '{}' is not a number", wish.coordinate));
     q[c] = wish.value;
   }
-  for (int c = 0; c < q.size(); ++c) {
-    const int speed = model.coordinates()[at(c)].speed_idx;
-    if (speed >= 0) q[c] = std::clamp(q[c], plan.problem.lower[speed], plan.problem.upper[speed]);
-  }
-  plan.rest = model::state_from_coordinates(model, q);
-  return {};
+  return q;
 }
 
 Status lock_named(const TrackOptions& options, Plan& plan) {
@@ -205,14 +200,13 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   std::vector<std::string> warnings;
   if (auto status = choose_markers(model, *level_of, ik, warnings); !status)
     return std::unexpected(status.error());
-  for (int c = 0; c < model.coordinate_count(); ++c) {
-    if (model.coordinates()[at(c)].speed_idx < 0) continue;
-    const auto& described = model.description().coordinates[at(c)];
-    double value = described.default_value;
-    for (const auto& wish : options.rest_pose)
-      if (wish.coordinate == described.name) value = wish.value;
-    ik.coordinate_tasks.push_back({.coordinate = described.name, .weight = kRestPull, .value = value});
-  }
+  auto rest = rest_coordinates(model, options);
+  if (!rest) return std::unexpected(rest.error());
+  for (int c = 0; c < model.coordinate_count(); ++c)
+    if (model.coordinates()[at(c)].speed_idx >= 0)
+      ik.coordinate_tasks.push_back({.coordinate = model.description().coordinates[at(c)].name,
+                                     .weight = kRestPull,
+                                     .value = (*rest)[c]});
   auto problem = make_problem(model, markers, ik);
   if (!problem) return std::unexpected(problem.error());
   plan.problem = std::move(*problem);
@@ -222,37 +216,75 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   plan.feed_forward = options.feed_forward;
   plan.max_speed = options.max_speed;
   plan.max_error_m = options.max_error_m;
+  plan.ease_s = std::max(options.fade_s, 1.0 / plan.rate_hz);
   if (auto status = place_levels(*level_of, levels, plan); !status) return std::unexpected(status.error());
   if (auto status = set_gains(options, plan); !status) return std::unexpected(status.error());
-  if (auto status = set_rest(options, plan); !status) return std::unexpected(status.error());
+  for (int c = 0; c < rest->size(); ++c) {
+    const int speed = model.coordinates()[at(c)].speed_idx;
+    if (speed >= 0) (*rest)[c] = std::clamp((*rest)[c], plan.problem.lower[speed], plan.problem.upper[speed]);
+  }
+  plan.rest = model::state_from_coordinates(plan.problem.model, *rest);
   if (auto status = lock_named(options, plan); !status) return std::unexpected(status.error());
   return plan;
 }
 
-void lock_idle(Plan& plan, const std::vector<Eigen::VectorXd>& poses) {
+std::vector<Eigen::VectorXd> poses_around(const Plan& plan, const Eigen::VectorXd& x) {
+  const auto& p = plan.problem;
+  Random random(plan.start_options.seed, kStream);
+  std::vector<Eigen::VectorXd> poses;
+  for (int i = 0; i < kPosesAround; ++i) {
+    Eigen::VectorXd pose = x;
+    for (const auto& c : p.model.coordinates()) {
+      const double u = random.uniform(-kAround, kAround);
+      if (c.speed_idx < 0 || p.fixed_speed[at(c.speed_idx)] != 0) continue;
+      pose[c.state_idx] = std::clamp(pose[c.state_idx] + u, p.lower[c.speed_idx], p.upper[c.speed_idx]);
+    }
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+void lock_idle(Plan& plan, const Looks& looks) {
   const auto& model = plan.problem.model;
   model::Workspace w(model);
   Eigen::MatrixXd J;
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(model.speed_count());
-  Eigen::VectorXi idle = Eigen::VectorXi::Zero(model.speed_count());
   TaskRows rows;
-  for (const auto& x : poses) {
-    model::kinematics(model, w, x);
-    model::velocities(model, w, still);
-    model::marker_jacobian(model, w, J);
-    Eigen::VectorXd squares = J.colwise().squaredNorm().transpose();
-    for (const auto& level : plan.levels)
-      for (const auto& task : level.tasks) {
-        rows.resize(task->rows(), model.speed_count());
-        task->evaluate(model, w, 0.0, rows);
-        squares += (rows.weight.asDiagonal() * rows.jacobian.cwiseAbs2()).colwise().sum().transpose();
+  Eigen::VectorXd squares, most;
+  // Poses in which each speed moves no goal.
+  const auto idle_in = [&](const std::vector<Eigen::VectorXd>& poses, bool with_markers) {
+    Eigen::VectorXi idle = Eigen::VectorXi::Zero(model.speed_count());
+    for (const auto& x : poses) {
+      model::kinematics(model, w, x);
+      model::velocities(model, w, still);
+      squares.setZero(model.speed_count());
+      if (with_markers) {
+        model::marker_jacobian(model, w, J);
+        squares = J.colwise().squaredNorm().transpose();
       }
-    for (Eigen::Index k = 0; k < idle.size(); ++k) idle[k] += squares[k] < kIdleLever * kIdleLever;
-  }
+      for (const auto& level : plan.levels)
+        for (const auto& task : level.tasks) {
+          most.setZero(model.speed_count());
+          for (const double time_s : looks.times_s) {
+            rows.resize(task->rows(), model.speed_count());
+            task->evaluate(model, w, time_s, rows);
+            for (Eigen::Index k = 0; k < most.size(); ++k)
+              most[k] = std::max(most[k], rows.weight.dot(rows.jacobian.col(k).cwiseAbs2()));
+          }
+          squares += most;
+        }
+      for (Eigen::Index k = 0; k < idle.size(); ++k) idle[k] += squares[k] < kIdleLever * kIdleLever;
+    }
+    return idle;
+  };
+  const Eigen::VectorXi followed = idle_in(looks.followed, true), around = idle_in(looks.around, false);
+  const auto often = [](int idle, const std::vector<Eigen::VectorXd>& poses) {
+    return poses.empty() || idle > kIdleShare * static_cast<double>(poses.size());
+  };
   for (int c = 0; c < model.coordinate_count(); ++c) {
     const int speed = model.coordinates()[at(c)].speed_idx;
     if (speed < 0 || plan.problem.fixed_speed[at(speed)] != 0) continue;
-    if (idle[speed] <= kIdleShare * static_cast<double>(poses.size())) continue;
+    if (!often(followed[speed], looks.followed) || !often(around[speed], looks.around)) continue;
     plan.problem.fixed_speed[at(speed)] = 1;
     plan.locked.push_back(c);
   }

@@ -34,6 +34,7 @@ struct Plan {
   bool feed_forward = true;
   double posture_kp = 0.0, posture_kd = 0.0;
   double max_speed = 0.0, max_error_m = 0.0;
+  double ease_s = 0.0;      ///< in which the body is led to a marker that returns
   Eigen::VectorXd rest;     ///< state; free joints as the model's default until the start is known
   std::vector<int> locked;  ///< coordinates that we lock, not the model
 
@@ -47,9 +48,21 @@ struct Plan {
 /// The filter of the goals as the options ask for it.
 [[nodiscard]] GoalFilter make_filter(double rate_hz, const TrackOptions& options);
 
-/// Lock the coordinates of joints that move the goals by less than 1 cm per rad (or m) in 5 % of the poses or
-/// more.
-void lock_idle(Plan& plan, const std::vector<Eigen::VectorXd>& poses);
+/// Poses in which goals are looked at for what they move.
+struct Looks {
+  std::vector<Eigen::VectorXd> followed;  ///< of the body as it follows the goals
+  /// Tasks that are no points may be blind in all of `followed` (a distance along a straight arm): they are
+  /// looked at in these too, any poses within the limits around one of the others.
+  std::vector<Eigen::VectorXd> around;
+  std::vector<double> times_s{0.0};  ///< at which tasks are asked; what moves at any of them counts
+};
+
+/// Random poses within the limits, up to half a radian from x; locked and fixed coordinates stay.
+[[nodiscard]] std::vector<Eigen::VectorXd> poses_around(const Plan& plan, const Eigen::VectorXd& x);
+
+/// Lock the coordinates of joints that move the goals by less than 1 cm per rad (or m) in more than 5 % of
+/// the poses.
+void lock_idle(Plan& plan, const Looks& looks);
 
 /// Every speed that may move has mass behind it in pose x.
 [[nodiscard]] Status check_mass(const Plan& plan, const Eigen::VectorXd& x);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "kinemark/model/kinematics.h"
+
 namespace kinemark::motion::internal {
 
 Walker::Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity, double t0_s)
@@ -14,6 +16,9 @@ Walker::Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity
       solver_(plan.problem, plan.start_options),
       cell_(plan.problem.model.marker_count()),
       goal_(plan.problem.model.marker_count()),
+      before_(goal_),
+      led_(goal_),
+      returning_(plan.problem.model.marker_count(), plan.ease_s),
       last_good_(plan.rest),
       t0_s_(t0_s) {}
 
@@ -35,6 +40,7 @@ void Walker::begin(const Eigen::VectorXd& x, std::int64_t first) {
   build_cell(first);
   cell_.at(0.0, goal_);
   controller_.start(x, goal_, time_s());
+  returning_.start(goal_.weight);
   flagged_ = !controller_.evaluate(goal_, time_s());
   if (flagged_) restart();
   judge();
@@ -44,14 +50,7 @@ void Walker::begin(const Eigen::VectorXd& x, std::int64_t first) {
 void Walker::next() {
   flagged_ = false;
   build_cell(frame_);
-  const double t = time_s();
-  for (int s = 1; s <= plan_.steps_per_frame; ++s) {
-    controller_.advance(plan_.step_s);
-    cell_.at(static_cast<double>(s) / plan_.steps_per_frame, goal_);
-    if (controller_.evaluate(goal_, t + s * plan_.step_s)) continue;
-    flagged_ = true;
-    break;
-  }
+  for (int s = 1; s <= plan_.steps_per_frame && !flagged_; ++s) flagged_ = !step(s);
   ++frame_;
   if (flagged_) {
     cell_.at(1.0, goal_);
@@ -61,8 +60,33 @@ void Walker::next() {
   if (!flagged_) last_good_ = controller_.x();
 }
 
+bool Walker::step(int s) {
+  const double begun = time_s() + (s - 1) * plan_.step_s, now = time_s() + s * plan_.step_s;
+  cell_.at(static_cast<double>(s) / plan_.steps_per_frame, goal_);
+  lead_new_markers(begun, static_cast<double>(s - 1) / plan_.steps_per_frame);
+  controller_.advance(plan_.step_s);
+  led_ = goal_;
+  returning_.apply(now, led_);
+  return controller_.evaluate(led_, now);
+}
+
+void Walker::lead_new_markers(double time_s, double u) {
+  bool looked = false;
+  auto& w = controller_.workspace();
+  for (int m = 0; m < static_cast<int>(goal_.weight.size()); ++m) {
+    if (!returning_.is_new(m, goal_.weight)) continue;
+    if (!looked) cell_.at(u, before_);
+    looked = true;
+    const Eigen::Vector3d place = w.marker.col(m);
+    const int body = plan_.problem.model.markers()[static_cast<std::size_t>(m)].body;
+    returning_.lead(m, time_s, place - before_.x.col(m),
+                    model::point_velocity(w, body, place) - before_.v.col(m));
+  }
+}
+
 void Walker::restart() {
   ++restarts_;
+  returning_.start(goal_.weight);
   Eigen::VectorXd x = last_good_;
   if (any_goal()) solver_.solve(goal_.x, goal_.weight, 0, x);
   if (!x.allFinite()) x = last_good_;

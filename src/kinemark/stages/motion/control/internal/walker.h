@@ -6,6 +6,7 @@
 #include "kinemark/stages/motion/control/internal/controller.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
 #include "kinemark/stages/motion/control/internal/plan.h"
+#include "kinemark/stages/motion/control/internal/returning.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 
 namespace kinemark::motion::internal {
@@ -29,6 +30,7 @@ class Walker {
   [[nodiscard]] std::int64_t frame() const { return frame_; }
   [[nodiscard]] double time_s() const { return t0_s_ + static_cast<double>(frame_) / plan_.rate_hz; }
   [[nodiscard]] Controller& controller() { return controller_; }
+  /// As measured; the body is led to those of markers that return.
   [[nodiscard]] const GoalValues& goal() const { return goal_; }
   [[nodiscard]] bool any_goal() const { return goal_.weight.maxCoeff() > 0.0; }
   /// The body ran away on the way here, or is farther from its goals than the plan allows.
@@ -38,6 +40,10 @@ class Walker {
  private:
   void build_cell(std::int64_t first);
   void restart();
+  /// Step s of a frame, 1 to steps_per_frame. False when the body ran away.
+  bool step(int s);
+  /// Where and how fast the body carries markers that are new now.
+  void lead_new_markers(double time_s, double u);
   void judge();
 
   const Plan& plan_;
@@ -46,7 +52,8 @@ class Walker {
   Controller controller_;
   FrameSolver solver_;
   GoalCell cell_;
-  GoalValues goal_;
+  GoalValues goal_, before_, led_;
+  ReturningMarkers returning_;
   const data::Derivatives* derivatives_ = nullptr;
   std::int64_t markers_in_derivatives_ = 0;
   Eigen::VectorXd last_good_;

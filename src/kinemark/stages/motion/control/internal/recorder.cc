@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/control/internal/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kinemark::motion::internal {
+namespace {
+
+using data::FrameStatus;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kProgressEvery = 100;  // frames
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Recorder::Recorder(const Plan& plan, const data::Trajectories& markers, Walker& walker, Track& track,
+                   TrackResult& result)
+    : plan_(plan),
+      markers_(markers),
+      walker_(walker),
+      track_(track),
+      result_(result),
+      readout_(plan.problem.model) {
+  auto& motion = result.motion;
+  const auto F = plan.problem.frames;
+  const auto n = static_cast<std::int64_t>(motion.coordinates.size());
+  for (auto* column : {&motion.q, &motion.v, &motion.a, &motion.tau}) column->assign(at(F * n), 0.0);
+  motion.marker_error.assign(at(3 * F * plan.problem.model.marker_count()), kNaN);
+  motion.status.assign(at(F), FrameStatus::no_markers);
+  track.states.resize(plan.problem.model.state_count(), F);
+  result.rank.assign(at(F), 0);
+  result.smallest_singular.assign(at(F), 0.0);
+}
+
+bool Recorder::run(const Eigen::VectorXd& x, const Progress& progress) {
+  walker_.begin(x, 0);
+  store();
+  for (std::int64_t f = 1; f < plan_.problem.frames; ++f) {
+    if (progress && f % kProgressEvery == 0 && !progress(f, plan_.problem.frames)) return false;
+    walker_.next();
+    store();
+  }
+  if (goals_ == 0) result_.rms_goal_error_m = kNaN;
+  result_.restarts = walker_.restarts();
+  result_.steps = walker_.controller().steps();
+  return true;
+}
+
+void Recorder::store() {
+  auto& motion = result_.motion;
+  const std::int64_t f = walker_.frame();
+  auto& body = walker_.controller();
+  readout_.find(body.x(), body.v(), body.a());
+  const auto keep = [&](Array<double>& to, const Eigen::VectorXd& from) {
+    std::copy(from.data(), from.data() + from.size(), to.data() + motion.index(f, 0));
+  };
+  keep(motion.q, readout_.q());
+  keep(motion.v, readout_.rate());
+  keep(motion.a, readout_.acceleration());
+  keep(motion.tau, readout_.tau());
+  track_.states.col(f) = body.x();
+  result_.rank[at(f)] = body.rank();
+  result_.smallest_singular[at(f)] = body.smallest_singular();
+  store_marker_errors(f);
+  if (walker_.flagged()) {
+    motion.status[at(f)] = FrameStatus::not_converged;
+    ++result_.flagged_frames;
+  } else if (walker_.any_goal()) {
+    motion.status[at(f)] =
+        body.rank() < result_.free_speeds ? FrameStatus::underdetermined : FrameStatus::converged;
+  }
+}
+
+void Recorder::store_marker_errors(std::int64_t f) {
+  const auto M = static_cast<std::int64_t>(plan_.problem.model.marker_count());
+  const auto& place = walker_.controller().workspace().marker;
+  for (std::int64_t m = 0; m < M; ++m) {
+    const auto in_data = plan_.problem.data_marker[at(m)];
+    if (!markers_.present(plan_.problem.first_frame + f, in_data)) continue;
+    const Eigen::Vector3d error = markers_.x(plan_.problem.first_frame + f, in_data) - place.col(m);
+    std::copy(error.data(), error.data() + 3, result_.motion.marker_error.data() + (f * M + m) * 3);
+    if (walker_.goal().weight[m] <= 0.0) continue;
+    const double miss = (walker_.goal().x.col(m) - place.col(m)).norm();
+    goal_squares_ += miss * miss;
+    ++goals_;
+    result_.max_goal_error_m = std::max(result_.max_goal_error_m, miss);
+    result_.rms_goal_error_m = std::sqrt(goal_squares_ / static_cast<double>(goals_));
+  }
+}
+
+}  // namespace kinemark::motion::internal

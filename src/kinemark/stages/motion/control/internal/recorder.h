@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/motion/control/internal/readout.h"
+#include "kinemark/stages/motion/control/internal/walker.h"
+#include "kinemark/stages/motion/control/track.h"
+
+namespace kinemark::motion::internal {
+
+/// Everything about the frames that the error bars need once the body has been through.
+struct Track {
+  Eigen::MatrixXd states;    // one column per frame
+  data::Trajectories goals;  // laid out like the recording
+  Eigen::MatrixXd weights;   // M x F, faded
+};
+
+/// Runs the body through the recording and keeps what it does: coordinates, rates, torques, rank, errors and
+/// status of `result`, and the states of `track`. All references must outlive the recorder.
+class Recorder {
+ public:
+  /// `result` knows its coordinates, markers and time.
+  Recorder(const Plan& plan, const data::Trajectories& markers, Walker& walker, Track& track,
+           TrackResult& result);
+
+  /// From pose x at the first frame. False when the caller stopped it.
+  bool run(const Eigen::VectorXd& x, const Progress& progress);
+
+ private:
+  void store();
+  void store_marker_errors(std::int64_t f);
+
+  const Plan& plan_;
+  const data::Trajectories& markers_;
+  Walker& walker_;
+  Track& track_;
+  TrackResult& result_;
+  Readout readout_;
+  double goal_squares_ = 0.0;
+  std::int64_t goals_ = 0;
+};
+
+}  // namespace kinemark::motion::internal
