@@ -112,7 +112,9 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
           "least-squares (frame by frame) or smoother (the whole recording at once)")
       ->default_str("least-squares")
       ->group("Estimate");
-  command->add_flag("--torques", job.torques, "Also write Q_tau.sto and Q_tau_sd.sto (N m, N)")
+  command
+      ->add_flag("--torques", job.torques,
+                 "Also write Q_tau.sto and Q_tau_sd.sto (N m, N); --forces implies it")
       ->group("Estimate");
   command->add_option("--loss-scale", arguments->loss_scale_mm, "Where huber and cauchy begin to bend, mm")
       ->capture_default_str()

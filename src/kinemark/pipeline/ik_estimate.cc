@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/ik_estimate.h"
 
-#include <fmt/core.h>
-
-#include <string>
 #include <utility>
 
-#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
 
 namespace kinemark::pipeline {
@@ -33,34 +29,28 @@ motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
 
 }  // namespace
 
-Result<motion::IkResult> estimate_motion(const IkJob& job, const model::Model& model,
-                                         const data::Trajectories& markers, const Progress& progress) {
-  motion::IkResult result;
+Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
+                                       const data::Trajectories& markers, const Progress& progress) {
+  MotionEstimate estimate;
   motion::RateErrors errors;
   if (job.estimator == Estimator::smoother) {
     auto smooth = motion::smooth_motion(model, markers,
                                         {.ik = job.options, .error_bars = job.options.error_bars}, progress);
-    if (!smooth) return std::unexpected(smooth.error());
+    if (!smooth) return fail_at(job.markers.string(), smooth.error());
     errors = std::move(smooth->errors);
-    result = in_terms_of_ik(std::move(*smooth));
+    estimate.ik = in_terms_of_ik(std::move(*smooth));
   } else {
     auto solved = motion::solve_ik(model, markers, job.options, progress);
-    if (!solved) return std::unexpected(solved.error());
-    result = std::move(*solved);
+    if (!solved) return fail_at(job.markers.string(), solved.error());
+    estimate.ik = std::move(*solved);
   }
-  if (!job.torques) return result;
-  const motion::DynamicsOptions options{.error_bars = job.options.error_bars, .threads = job.options.threads};
-  const auto dynamics = motion::inverse_dynamics(model, result.motion, options, nullptr,
-                                                 errors.covariance.empty() ? nullptr : &errors);
-  if (!dynamics) return std::unexpected(dynamics.error());
-  result.warnings.insert(result.warnings.end(), dynamics->warnings.begin(), dynamics->warnings.end());
-  for (const auto& root : dynamics->roots)
-    result.warnings.push_back(
-        fmt::format("torques are without force plates: '{}' is carried by {:.0f} N and {:.0f} N m RMS (body "
-                    "weight {:.0f} "
-                    "N), so that the torques of limbs on the ground lack what the ground does",
-                    root.body, root.force_rms_n, root.moment_rms_nm, dynamics->body_weight_n));
-  return result;
+  if (!job.torques) return estimate;
+  auto torques = add_torques(model, estimate.ik.motion, job.forces,
+                             {.error_bars = job.options.error_bars, .threads = job.options.threads},
+                             errors.covariance.empty() ? nullptr : &errors);
+  if (!torques) return std::unexpected(torques.error());
+  estimate.torques = std::move(*torques);
+  return estimate;
 }
 
 }  // namespace kinemark::pipeline

@@ -8,13 +8,19 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/ik_job.h"
+#include "kinemark/pipeline/torques/torques.h"
 
 namespace kinemark::pipeline {
 
+struct MotionEstimate {
+  motion::IkResult ik;
+  TorqueAccount torques;  ///< empty unless they were asked for
+};
+
 /// Least squares or the whole-trajectory smoother, told in the terms of the former; with torques (and, for
-/// least squares, estimated rates) in the motion when the job asks for them.
-[[nodiscard]] Result<motion::IkResult> estimate_motion(const IkJob& job, const model::Model& model,
-                                                       const data::Trajectories& markers,
-                                                       const Progress& progress);
+/// least squares, estimated rates) in the motion when the job asks for them. Failures name the file.
+[[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
+                                                     const data::Trajectories& markers,
+                                                     const Progress& progress);
 
 }  // namespace kinemark::pipeline

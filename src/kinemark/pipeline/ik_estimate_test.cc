@@ -28,10 +28,10 @@ double rms_error(const data::JointMotion& motion, const data::JointMotion& truth
 TEST(IkEstimate, TheSmootherBeatsLeastSquaresOnASmoothMotion) {
   const Recorded recorded;
   IkJob job;
-  const auto plain = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value();
+  const auto plain = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value().ik;
   EXPECT_TRUE(plain.motion.v.empty());
   job.estimator = Estimator::smoother;
-  const auto smooth = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value();
+  const auto smooth = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value().ik;
   EXPECT_EQ(smooth.markers.size(), plain.markers.size());
   EXPECT_EQ(smooth.motion.v.size(), smooth.motion.q.size());
   EXPECT_GT(smooth.rms_marker_error_m, 0.0);
@@ -45,11 +45,12 @@ TEST(IkEstimate, TorquesComeWithEitherEstimator) {
     IkJob job;
     job.estimator = estimator;
     job.torques = true;
-    const auto result = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value();
+    const auto estimate = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value();
+    const auto& result = estimate.ik;
     ASSERT_EQ(result.motion.tau.size(), result.motion.q.size());
     ASSERT_EQ(result.motion.tau_sd.size(), result.motion.q.size());
-    ASSERT_FALSE(result.warnings.empty());
-    EXPECT_NE(result.warnings.back().find("without force plates"), std::string::npos);
+    ASSERT_FALSE(estimate.torques.warnings.empty());
+    EXPECT_NE(estimate.torques.warnings.back().find("without force plates"), std::string::npos);
     const auto table = torques_table(result.motion);
     EXPECT_EQ(table.rows(), 60);
     EXPECT_EQ(table.columns.size(), result.motion.coordinates.size());

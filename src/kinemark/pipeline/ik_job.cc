@@ -101,6 +101,7 @@ Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
   const auto& [model, trial] = *inputs;
   if (auto s = apply_tasks(job, model, trial.markers); !s) return std::unexpected(s.error());
 
+  job.torques = job.torques || !job.forces.empty();
   std::vector<fs::path> further;
   if (!job.report.empty()) further.push_back(job.report);
   if (job.torques) further.push_back(beside(job.output, "_tau.sto"));
@@ -109,11 +110,12 @@ Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
   if (!staging) return std::unexpected(staging.error());
 
   IkOutcome outcome;
-  auto result = estimate_motion(job, model, trial.markers, progress);
-  if (!result) return fail_at(job.markers.string(), result.error());
-  outcome.result = std::move(*result);
+  auto estimate = estimate_motion(job, model, trial.markers, progress);
+  if (!estimate) return std::unexpected(estimate.error());
+  outcome.result = std::move(estimate->ik);
   auto run = describe_run(job, *inputs, outcome.result);
   if (!run) return std::unexpected(run.error());
+  if (auto s = internal::add_torque_account(*run, estimate->torques); !s) return std::unexpected(s.error());
   const auto& motion = outcome.result.motion;
   const data::Trajectories solved = solved_markers(trial.markers, outcome.result);
   if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, &solved, outcome); !s)

@@ -23,7 +23,7 @@ struct IkJob : MotionJob {
   std::filesystem::path report;  ///< page to write as well
   motion::IkOptions options;
   Estimator estimator = Estimator::least_squares;
-  bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto
+  bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
 };
 
 struct IkOutcome : MotionOutcome {

@@ -42,6 +42,56 @@ TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
   EXPECT_GT(static_cast<double>(inside) / static_cast<double>(all), 0.97);
 }
 
+TEST_F(RunIk, ForcesOfAFileAreInTheTorquesAndInTheAccount) {
+  // 100 N up and 7 N m about the vertical on the pelvis, for most of the recording.
+  data::Table table;
+  table.columns = {"fx", "fy", "fz", "px", "py", "pz", "mx", "my", "mz"};
+  for (const double time : {-1.0, 0.4}) {
+    table.time_s.push_back(time);
+    table.values.insert(table.values.end(), {0.0, 100.0, 0.0, 0.2, 0.3, 0.4, 0.0, 7.0, 0.0});
+  }
+  ASSERT_TRUE(io::write_table(at("push.sto"), table));
+  ASSERT_TRUE(io::write_text(
+      at("push.xml"),
+      "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"push\"><applied_to_body>pelvis"
+      "</applied_to_body><force_identifier>f</force_identifier><point_identifier>p</point_identifier>"
+      "<torque_identifier>m</torque_identifier></ExternalForce></objects><datafile>push.sto</datafile>"
+      "</ExternalLoads></OpenSimDocument>",
+      false));
+  auto without = job("free.mot");
+  without.torques = true;
+  ASSERT_TRUE(run_ik(without));
+  auto with = job("pushed.mot");
+  with.forces = at("push.xml");
+  const auto outcome = run_ik(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto free = io::read_table(at("free_tau.sto")).value(),
+             pushed = io::read_table(at("pushed_tau.sto")).value();
+  EXPECT_TRUE(fs::exists(at("pushed_tau_sd.sto")));
+  const auto up = free.find("pelvis_ty_force"), knee = free.find("knee_angle_r_moment");
+  ASSERT_GE(up, 0);
+  ASSERT_GE(knee, 0);
+  for (std::int64_t r = 0; r < free.rows(); ++r) {
+    if (free.time_s[static_cast<std::size_t>(r)] > 0.41) {
+      EXPECT_TRUE(std::isnan(pushed(r, up))) << r;
+      continue;
+    }
+    EXPECT_NEAR(pushed(r, up), free(r, up) - 100.0, 1e-6);
+    EXPECT_NEAR(pushed(r, knee), free(r, knee), 1e-6);  // a push on the root is no torque of the knee
+  }
+  const auto report = nlohmann::json::parse(io::read_text(at("pushed_report.json")).value()).dump();
+  EXPECT_THAT(report, HasSubstr("force of push"));
+  EXPECT_THAT(report, HasSubstr("on pelvis 0.000 to 0.400 s"));
+  EXPECT_THAT(report, HasSubstr("push.sto"));
+  EXPECT_THAT(report, HasSubstr("forces not known for"));
+  with.output = at("none.mot");
+  with.forces = at("gone.c3d");
+  const auto gone = run_ik(with);
+  EXPECT_EQ(gone.error().code, Code::io);
+  EXPECT_THAT(gone.error().message, HasSubstr("gone.c3d"));
+  EXPECT_FALSE(fs::exists(at("none.mot")));
+}
+
 TEST_F(RunIk, AReportMadeLaterIsTheReportMadeAtOnce) {
   auto with_page = job("R.mot");
   with_page.report = at("at_once.html");

@@ -74,6 +74,14 @@ Result<report::IkRun> begin_run(const MotionJob& job, const MotionInputs& inputs
   return run;
 }
 
+Status add_torque_account(report::IkRun& run, const TorqueAccount& account) {
+  run.options.insert(run.options.end(), account.facts.begin(), account.facts.end());
+  run.warnings.insert(run.warnings.end(), account.warnings.begin(), account.warnings.end());
+  for (const auto& file : account.files)
+    if (auto s = add_input(run, "forces", file); !s) return s;
+  return {};
+}
+
 Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
   if (path.empty()) return {};
   const auto hash = hash_file(path);

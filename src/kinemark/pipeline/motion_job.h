@@ -14,6 +14,7 @@ namespace kinemark::pipeline {
 struct MotionJob {
   std::filesystem::path model, markers;
   std::filesystem::path output;  ///< Q.mot; all other results go beside it
+  std::filesystem::path forces;  ///< what pushed the body, for torques: .c3d, or ExternalLoads .xml
   double rate_hz = 0.0;          ///< of a marker file that tells none (.v3d); 0: not given
   double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;    ///< quality gate: length of the mean distance vector

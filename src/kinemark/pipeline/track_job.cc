@@ -107,9 +107,20 @@ Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
     return fail_at(job.markers.string(), result.error());
   }
   outcome.result = std::move(*result);
-  if (job.options.error_bars) add_torque_deviations(inputs->model, job, outcome.result);
+  TorqueAccount account;
+  if (!job.forces.empty()) {
+    // What the controller pushes with knows nothing of the ground: torques anew, from the motion and the
+    // forces.
+    auto torques = add_torques(inputs->model, outcome.result.motion, job.forces,
+                               {.error_bars = job.options.error_bars, .threads = job.options.threads});
+    if (!torques) return std::unexpected(torques.error());
+    account = std::move(*torques);
+  } else if (job.options.error_bars) {
+    add_torque_deviations(inputs->model, job, outcome.result);
+  }
   auto run = describe_run(job, *inputs, outcome.result);
   if (!run) return std::unexpected(run.error());
+  if (auto s = internal::add_torque_account(*run, account); !s) return std::unexpected(s.error());
   const auto& motion = outcome.result.motion;
   if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, nullptr, outcome); !s)
     return std::unexpected(s.error());

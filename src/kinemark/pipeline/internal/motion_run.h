@@ -16,6 +16,7 @@
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/motion_job.h"
 #include "kinemark/pipeline/staging.h"
+#include "kinemark/pipeline/torques/torques.h"
 
 namespace kinemark::pipeline::internal {
 
@@ -30,6 +31,8 @@ struct MotionInputs {
 
 /// What is known of a run before anything is solved, with the hashes of model and markers.
 [[nodiscard]] Result<report::IkRun> begin_run(const MotionJob& job, const MotionInputs& inputs);
+/// Files of forces, and what there is to tell of the torques.
+[[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);
 /// Nothing when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
 
