@@ -137,6 +137,50 @@ TEST(InverseDynamics, BarsCoverTheTruth) {
   EXPECT_GT(std::sqrt(squares / all), 0.45);
 }
 
+/// Where the prior is true - white jerk, here in every coordinate - the bars are neither wide nor narrow.
+TEST(InverseDynamics, BarsOfAMotionThatThePriorDescribesAreHonest) {
+  constexpr int kFrames = 200, kSteps = 10;
+  constexpr double kSd = 0.005, kJerk = 2.0;  // rad or m; per s^2.5
+  int inside = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Moving moving(kFrames, kSd, seed);
+    Random random(seed, 9);
+    constexpr double h = 1.0 / (kRate * kSteps);
+    for (int c = 0; c < 12; ++c) {
+      double q = moving.exact.q[moving.exact.index(0, c)], v = 0.0, a = 0.0;
+      for (std::int64_t f = 0; f < kFrames; ++f) {
+        const auto i = moving.exact.index(f, c);
+        moving.exact.q[i] = q;
+        moving.exact.v[i] = v;
+        moving.exact.a[i] = a;
+        moving.noisy.q[i] = q + kSd * random.gaussian();
+        for (int k = 0; k < kSteps; ++k) {
+          a += kJerk * std::sqrt(h) * random.gaussian();
+          v += a * h;
+          q += v * h;
+        }
+      }
+    }
+    for (std::int64_t f = 0; f < kFrames; ++f)
+      for (auto* motion : {&moving.exact, &moving.noisy}) {
+        motion->q[motion->index(f, 12)] = 0.6 * motion->q[motion->index(f, 11)] + 0.05;
+        if (motion->v.empty()) continue;
+        motion->v[motion->index(f, 12)] = 0.6 * motion->v[motion->index(f, 11)];
+        motion->a[motion->index(f, 12)] = 0.6 * motion->a[motion->index(f, 11)];
+      }
+    (void)inverse_dynamics(moving.model, moving.exact, {.error_bars = false}).value();
+    (void)inverse_dynamics(moving.model, moving.noisy).value();
+    for (std::int64_t f = 0; f < kFrames; ++f)
+      for (int c = 6; c < 12; ++c, ++all) {  // the root's angles may pass their singular posture
+        const auto i = moving.exact.index(f, c);
+        inside += std::abs(moving.noisy.tau[i] - moving.exact.tau[i]) < moving.noisy.tau_sd[i];
+      }
+  }
+  RecordProperty("inside", std::to_string(static_cast<double>(inside) / all));
+  EXPECT_GT(inside, 0.60 * all);
+  EXPECT_LT(inside, 0.76 * all);
+}
+
 TEST(InverseDynamics, AnyNumberOfThreadsGivesTheSameBits) {
   Moving one(60, 0.005, 1), many(60, 0.005, 1);
   (void)inverse_dynamics(one.model, one.noisy, {.threads = 1}).value();
