@@ -315,8 +315,8 @@ TEST(ChooseKinds, FindsLinesPlanesAndSolids) {
 
 // 60 % missing leaves few frames or none with both segments whole.
 TEST(ChooseKinds, SolidsStaySolidWhereNoFrameShowsBothSegments) {
-  RandomChain limb = make_random_chain({.frames = 200, .noise_sd_m = 0.002});
-  for (int f = 0; f < 200; ++f) hide(limb.samples, f, f % 2 == 0 ? (f / 2) % 3 : 3 + (f / 2) % 3);
+  RandomChain limb = make_random_chain({.frames = 100, .noise_sd_m = 0.002});
+  for (int f = 0; f < 100; ++f) hide(limb.samples, f, f % 2 == 0 ? (f / 2) % 3 : 3 + (f / 2) % 3);
   const auto chosen = choose_kinds(limb.samples, limb.chain.layout, 0.0);
   ASSERT_TRUE(chosen.has_value()) << chosen.error().message;
   EXPECT_THAT(*chosen, Each(SegmentKind::solid));
