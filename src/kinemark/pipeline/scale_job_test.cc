@@ -53,6 +53,29 @@ class RunScale : public ::testing::Test {
 };
 testing_support::ScratchFolder* RunScale::scratch_ = nullptr;
 
+/// What scaling changes, after a model was written and read.
+void expect_same_geometry(const data::ModelDescription& ours, const data::ModelDescription& read) {
+  ASSERT_EQ(read.joints.size(), ours.joints.size());
+  for (std::size_t j = 0; j < ours.joints.size(); ++j) {
+    const auto &a = ours.joints[j], &b = read.joints[j];
+    EXPECT_LT((a.parent_from_joint.translation - b.parent_from_joint.translation).norm(), 1e-9) << a.name;
+    EXPECT_LT((a.child_from_joint.translation - b.child_from_joint.translation).norm(), 1e-9) << a.name;
+    ASSERT_EQ(a.axes.size(), b.axes.size()) << a.name;
+    for (std::size_t k = 0; k < a.axes.size(); ++k)
+      for (const double angle : {-0.7, 0.4})
+        EXPECT_NEAR(a.axes[k].function(angle).f, b.axes[k].function(angle).f, 1e-9) << a.name;
+  }
+  ASSERT_EQ(read.bodies.size(), ours.bodies.size());
+  for (std::size_t i = 0; i < ours.bodies.size(); ++i) {
+    EXPECT_NEAR(read.bodies[i].mass, ours.bodies[i].mass, 1e-9) << ours.bodies[i].name;
+    EXPECT_LT((read.bodies[i].com_in_body - ours.bodies[i].com_in_body).norm(), 1e-9) << ours.bodies[i].name;
+    EXPECT_LT((read.bodies[i].inertia_about_com - ours.bodies[i].inertia_about_com).norm(), 1e-9);
+  }
+  ASSERT_EQ(read.markers.size(), ours.markers.size());
+  for (std::size_t m = 0; m < ours.markers.size(); ++m)
+    EXPECT_LT((read.markers[m].x_in_body - ours.markers[m].x_in_body).norm(), 1e-9) << ours.markers[m].name;
+}
+
 TEST_F(RunScale, finds_the_size_from_motion_and_writes_model_and_report) {
   ScaleJob j = job("M.osim");
   j.mass_kg = 60.0;
@@ -72,6 +95,7 @@ TEST_F(RunScale, finds_the_size_from_motion_and_writes_model_and_report) {
   double mass = 0.0;
   for (const auto& body : written->bodies) mass += body.mass;
   EXPECT_NEAR(mass, 60.0, 1e-6);
+  expect_same_geometry(outcome->model, *written);
   const auto report = nlohmann::json::parse(io::read_text(at("M_report.json")).value());
   EXPECT_EQ(report["format"], "kinemark-scale");
   EXPECT_NEAR(report["mass_kg"].get<double>(), 60.0, 1e-6);
