@@ -60,9 +60,15 @@ Progress show_progress(const Globals& globals, std::string what) {
     state->next = now + (terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(1000));
     const double elapsed = std::chrono::duration<double>(now - state->start).count();
     const double rate = static_cast<double>(done) / elapsed;
-    std::fprintf(stderr, "%s%s: %lld of %lld, %.0f per second, %.0f s left%s", terminal ? "\r" : "",
-                 what.c_str(), static_cast<long long>(done), static_cast<long long>(total), rate,
-                 static_cast<double>(total - done) / rate, terminal ? "\033[K" : "\n");
+    // Work in large pieces goes slower than one a second; before the first is done nothing is known.
+    const std::string pace =
+        done == 0 ? std::string()
+                  : fmt::format(", {:.{}f} per {}, {:.0f} s left", rate < 1.0 ? 60.0 * rate : rate,
+                                rate < 1.0 ? 1 : 0, rate < 1.0 ? "minute" : "second",
+                                static_cast<double>(total - done) / rate);
+    std::fprintf(stderr, "%s%s: %lld of %lld%s%s", terminal ? "\r" : "", what.c_str(),
+                 static_cast<long long>(done), static_cast<long long>(total), pace.c_str(),
+                 terminal ? "\033[K" : "\n");
     return true;
   };
 }

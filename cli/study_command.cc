@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/io/file.h"
 #include "kinemark/pipeline/macaque/macaque_figures.h"
 #include "kinemark/pipeline/macaque/study_macaque_job.h"
 #include "kinemark/pipeline/poizner/study_figures.h"
@@ -17,113 +21,137 @@
 namespace kinemark::cli {
 namespace {
 
-int run_poizner(const Globals& globals, const std::string& seeds, const std::string& figures) {
-  pipeline::PoiznerJob job;
-  job.threads = globals.threads;
-  if (seeds.empty()) {
-    job.seeds = {globals.seed};
-  } else {
-    auto parsed = pipeline::parse_seeds(seeds);
-    if (!parsed) return report_error(parsed.error());
-    job.seeds = std::move(*parsed);
-  }
-  const auto study = pipeline::study_poizner(job, show_progress(globals, "rigs"));
-  if (!study) return report_error(study.error());
-  if (!figures.empty()) {
-    if (auto s = pipeline::write_study_page(pipeline::study_page(*study), figures, globals.force); !s)
-      return report_error(s.error());
-    say(globals, "wrote " + figures);
-  }
-  say(globals, pipeline::study_text(study->table));
-  if (globals.json) fmt::print("{}\n", pipeline::study_json(study->table).dump(2));
-  return study->table.pass() ? 0 : 1;
-}
-
-struct TaiChiArguments {
-  pipeline::TaiChiFiles files;
+/// What every study is asked.
+struct StudyArguments {
   std::string seeds, figures;
 };
 
-int run_tai_chi(const Globals& globals, TaiChiArguments& arguments) {
-  arguments.files.threads = globals.threads;
-  arguments.files.seeds = {globals.seed};
+void add_options(CLI::App& command, StudyArguments& arguments, const std::string& seeds_are) {
+  command.add_option("--figures", arguments.figures, "Page with figures and the table to write, .html");
+  command.add_option("--seeds", arguments.seeds,
+                     seeds_are + ": 3, 1-10 or 1,4,7-9; that of --seed when absent");
+}
+
+/// Run a study for its seeds, write its page, print its table. The page's file is made sure of first, as a
+/// study takes minutes.
+/// @param run      seeds in, Result of a study out
+/// @param page_of  its page, a Result
+template <class RunStudy, class PageOf>
+int run_study(const Globals& globals, const StudyArguments& arguments, const RunStudy& run,
+              const PageOf& page_of) {
+  std::vector<std::uint64_t> seeds{globals.seed};
   if (!arguments.seeds.empty()) {
-    if (!arguments.files.data.empty())
-      return report_error({Code::usage, "--seeds draws simulated subjects; it does not go with --data"});
     auto parsed = pipeline::parse_seeds(arguments.seeds);
     if (!parsed) return report_error(parsed.error());
-    arguments.files.seeds = std::move(*parsed);
+    seeds = std::move(*parsed);
   }
-  const auto study = pipeline::run_study_taichi(arguments.files, show_progress(globals, "parts"));
-  if (!study) return report_error(study.error());
-  if (!study->recorded)
-    say(globals, "note: no recording was named (--data); simulated subjects stand in for it");
+  std::optional<io::OutputFile> file;
   if (!arguments.figures.empty()) {
-    const auto page = pipeline::taichi_page(*study);
-    if (auto s = pipeline::write_study_page(page, arguments.figures, globals.force); !s)
-      return report_error(s.error());
-    say(globals, "wrote " + arguments.figures);
+    auto created = io::OutputFile::create(arguments.figures, globals.force);
+    if (!created) return report_error(created.error());
+    file.emplace(std::move(*created));
+  }
+  const auto study = run(seeds);
+  if (!study) return report_error(study.error());
+  if (file) {
+    const Result<pipeline::StudyPage> page = page_of(*study);
+    if (!page) return report_error(page.error());
+    if (auto s = file->write(pipeline::study_html(*page)); !s) return report_error(s.error());
+    if (auto s = file->commit(); !s) return report_error(s.error());
   }
   say(globals, pipeline::study_text(study->table));
+  if (file) say(globals, "wrote " + arguments.figures);
   if (globals.json) fmt::print("{}\n", pipeline::study_json(study->table).dump(2));
   return study->table.pass() ? 0 : 1;
 }
 
-void add_tai_chi(CLI::App& command, const Globals& globals, Run& run) {
-  auto* taichi = command.add_subcommand(
-      "taichi", "Demircan, Sentis, De Sapio & Khatib 2008: tai chi by direct marker control");
-  taichi->footer("The column 'classic' is least squares. Exit status 1 when a row fails.");
-  const auto arguments = std::make_shared<TaiChiArguments>();
-  taichi->add_option("--data", arguments->files.data,
-                     "Recording of the 21 landmarks (taichi.v3d); simulated subjects when absent");
-  taichi->add_option("--rate", arguments->files.rate_hz,
-                     "Frame rate of a recording that tells none (.v3d), Hz; 179 when absent");
-  taichi->add_option("--figures", arguments->figures, "Page with figures and the table to write, .html");
-  taichi->add_option("--seeds", arguments->seeds,
-                     "Subjects to simulate: 3, 1-10 or 1,4,7-9; that of --seed when absent");
-  taichi->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_tai_chi(globals, *arguments); };
+int run_poizner(const Globals& globals, const StudyArguments& arguments) {
+  return run_study(
+      globals, arguments,
+      [&](const std::vector<std::uint64_t>& seeds) {
+        return pipeline::study_poizner({.seeds = seeds, .threads = globals.threads},
+                                       show_progress(globals, "rigs"));
+      },
+      [](const pipeline::PoiznerStudy& study) -> Result<pipeline::StudyPage> {
+        return pipeline::study_page(study);
+      });
+}
+
+void add_poizner(CLI::App& command, const Globals& globals, Run& run) {
+  auto* poizner =
+      command.add_subcommand("poizner", "Poizner, Wooten & Salot 1986: still tree, wheel, signing arm");
+  poizner->footer("The worst of all rigs is held against each bound. Exit status 1 when a row fails.");
+  const auto arguments = std::make_shared<StudyArguments>();
+  add_options(*poizner, *arguments, "Rigs to draw");
+  poizner->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_poizner(globals, *arguments); };
   });
 }
 
-int run_macaque(const Globals& globals, const std::string& seeds, const std::string& figures) {
-  pipeline::MacaqueJob job;
-  job.threads = globals.threads;
-  job.seeds = {globals.seed};
-  if (!seeds.empty()) {
-    auto parsed = pipeline::parse_seeds(seeds);
-    if (!parsed) return report_error(parsed.error());
-    job.seeds = std::move(*parsed);
-  }
-  const auto study = pipeline::study_macaque(job, show_progress(globals, "recordings"));
-  if (!study) return report_error(study.error());
-  if (!figures.empty()) {
-    const auto page = pipeline::macaque_page(*study);
-    if (!page) return report_error(page.error());
-    if (auto s = pipeline::write_study_page(*page, figures, globals.force); !s)
-      return report_error(s.error());
-    say(globals, "wrote " + figures);
-  }
-  say(globals, pipeline::study_text(study->table));
-  if (globals.json) fmt::print("{}\n", pipeline::study_json(study->table).dump(2));
-  return study->table.pass() ? 0 : 1;
+int run_macaque(const Globals& globals, const StudyArguments& arguments) {
+  return run_study(
+      globals, arguments,
+      [&](const std::vector<std::uint64_t>& seeds) {
+        pipeline::MacaqueJob job;
+        job.seeds = seeds;
+        job.threads = globals.threads;
+        return pipeline::study_macaque(job, show_progress(globals, "recordings"));
+      },
+      pipeline::macaque_page);
 }
 
 void add_macaque(CLI::App& command, const Globals& globals, Run& run) {
   auto* macaque = command.add_subcommand(
       "macaque", "The macaque report's elbow (after Kirk, O'Brien & Forsyth 2005): noise x missing data");
   macaque->footer(
-      "The column 'classic' is the report's method, or SCoRE where the row says so. Errors of all seeds are "
-      "pooled. Exit status 1 when a row fails.");
-  struct Arguments {
-    std::string seeds, figures;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  macaque->add_option("--figures", arguments->figures, "Page with figures and the table to write, .html");
-  macaque->add_option("--seeds", arguments->seeds,
-                      "Recordings of each cell: 3, 1-10 or 1,4,7-9; that of --seed when absent");
+      "The column 'classic' is the report's method, or SCoRE where the row says so. Errors of all seeds are\n"
+      "pooled. About a minute a seed on one core. Exit status 1 when a row fails.");
+  const auto arguments = std::make_shared<StudyArguments>();
+  add_options(*macaque, *arguments, "Recordings of each cell");
   macaque->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_macaque(globals, arguments->seeds, arguments->figures); };
+    run = [&globals, arguments] { return run_macaque(globals, *arguments); };
+  });
+}
+
+struct TaiChiArguments : StudyArguments {
+  pipeline::TaiChiFiles files;
+};
+
+int run_tai_chi(const Globals& globals, const TaiChiArguments& arguments) {
+  if (!arguments.seeds.empty() && !arguments.files.data.empty())
+    return report_error({Code::usage, "--seeds draws simulated subjects; it does not go with --data"});
+  return run_study(
+      globals, arguments,
+      [&](const std::vector<std::uint64_t>& seeds) {
+        auto files = arguments.files;
+        files.threads = globals.threads;
+        files.seeds = seeds;
+        if (files.data.empty())
+          say(globals, "note: no recording was named (--data); simulated subjects stand in for it");
+        return pipeline::run_study_taichi(files, show_progress(globals, "parts"));
+      },
+      [](const pipeline::TaiChiStudy& study) -> Result<pipeline::StudyPage> {
+        return pipeline::taichi_page(study);
+      });
+}
+
+void add_tai_chi(CLI::App& command, const Globals& globals, Run& run) {
+  auto* taichi = command.add_subcommand(
+      "taichi", "Demircan, Sentis, De Sapio & Khatib 2008: tai chi by direct marker control");
+  taichi->footer(
+      "The column 'classic' is least squares. One to two minutes a subject on one core. Exit status 1 when "
+      "a\n"
+      "row fails.");
+  const auto arguments = std::make_shared<TaiChiArguments>();
+  taichi->add_option("--data", arguments->files.data,
+                     "Recording of the 21 landmarks (taichi.v3d); simulated subjects when absent");
+  taichi
+      ->add_option("--rate", arguments->files.rate_hz,
+                   "Frame rate of a recording that tells none (.v3d), Hz; 179 when absent")
+      ->check(CLI::PositiveNumber);
+  add_options(*taichi, *arguments, "Subjects to simulate");
+  taichi->callback([&globals, arguments, &run] {
+    run = [&globals, arguments] { return run_tai_chi(globals, *arguments); };
   });
 }
 
@@ -132,19 +160,7 @@ void add_macaque(CLI::App& command, const Globals& globals, Run& run) {
 void add_study(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("study", "The founding papers' tables beside ours");
   command->require_subcommand(1);
-  auto* poizner =
-      command->add_subcommand("poizner", "Poizner, Wooten & Salot 1986: still tree, wheel, signing arm");
-  poizner->footer("The worst of all rigs is held against each bound. Exit status 1 when a row fails.");
-  struct Arguments {
-    std::string seeds, figures;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  poizner->add_option("--figures", arguments->figures, "Page with figures and the table to write, .html");
-  poizner->add_option("--seeds", arguments->seeds,
-                      "Rigs to draw: 3, 1-10 or 1,4,7-9; that of --seed when absent");
-  poizner->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_poizner(globals, arguments->seeds, arguments->figures); };
-  });
+  add_poizner(*command, globals, run);
   add_macaque(*command, globals, run);
   add_tai_chi(*command, globals, run);
 }

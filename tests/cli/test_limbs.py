@@ -68,6 +68,8 @@ class LimbsTest(CommandTest):
         self.good("simulate", "arm", "-o", "a", "--frames", 3)
         self.refused(4, "a/markers.c3d", "simulate", "arm", "-o", "a", "--frames", 3)
         self.good("--force", "simulate", "arm", "-o", "a", "--frames", 3)
+        # Refused before minutes are spent on the study.
+        self.refused(4, "a/markers.c3d", "study", "macaque", "--figures", "a/markers.c3d")
 
     def test_json_names_the_files(self):
         ran = self.good("--json", "simulate", "arm", "-o", "a", "--frames", 3)

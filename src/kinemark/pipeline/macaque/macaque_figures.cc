@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/pipeline/study/html_text.h"
 #include "kinemark/pipeline/study/svg_plot.h"
 #include "kinemark/pipeline/study/svg_scene.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
@@ -32,10 +33,8 @@ constexpr const char* kBound = "#888888";
 constexpr double kPerM = 1e3;    // mm
 constexpr double kLeast = 0.01;  // shown: without noise SCoRE is right to rounding, which dwarfs all the rest
 
-/// A paragraph below a picture, no wider than it.
-std::string words(const std::string& text) {
-  return fmt::format("<p style=\"max-width:640px\">{}</p>", html_text(text));
-}
+/// A paragraph below a picture.
+std::string words(const std::string& text) { return fmt::format("<p>{}</p>", html_text(text)); }
 
 /// A curve over cells: what to show of each, NaN where there is nothing.
 struct Curve {
@@ -184,11 +183,13 @@ Result<StudyFigure> arm_picture(std::uint64_t seed) {
   const Vector3d truth = at(limb->centre_in_world, static_cast<std::size_t>(frame));
   return StudyFigure{
       "The report's arm",
-      scene.svg() + words(fmt::format(
-                        "Collinear markers, 2 mm of noise, frame {} of {}: the elbow is {:.1f} mm off by "
-                        "the report's method (gold) and {:.1f} mm by ours (blue).",
-                        frame + 1, limb->markers.frames(), kPerM * (theirs->centre(frame, 0) - truth).norm(),
-                        kPerM * (ours->skeleton.centre(frame, 0) - truth).norm()))};
+      scene.svg() +
+          words(fmt::format(
+              "Collinear markers, 2 mm of noise, frame {} of {}, the one of median error: the elbow is "
+              "{:.1f} mm off by "
+              "the report's method (gold) and {:.1f} mm by ours (blue). Squares of the floor: {:.0f} mm.",
+              frame + 1, limb->markers.frames(), kPerM * (theirs->centre(frame, 0) - truth).norm(),
+              kPerM * (ours->skeleton.centre(frame, 0) - truth).norm(), kPerM * scene.square()))};
 }
 
 Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
@@ -210,12 +211,15 @@ Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
   scene.line("#9ec3e6", path, 1.0);
   for (const auto frame : {low.second, halfway.second, high.second}) draw_arm(scene, *limb, frame);
   scene.words("shoulder", Vector3d::Zero());
+  scene.words("at the food", path.col(low.second));
+  scene.words("at the mouth", path.col(high.second));
   return StudyFigure{
       "The sleeve",
       scene.svg() +
-          words(
+          words(fmt::format(
               "A monkey's arm reaching for food, on the way, and at the mouth. LEDs that the cameras see are "
-              "full, the others hollow; blue: the wrist's path.")};
+              "full, the others hollow; blue: the wrist's path. Squares of the floor: {:.0f} mm.",
+              kPerM * scene.square()))};
 }
 
 }  // namespace
@@ -226,9 +230,10 @@ Result<StudyPage> macaque_page(const MacaqueStudy& study) {
   StudyPage page{
       .title = "Study: joint centres of a macaque's arm",
       .heading = "The elbow of a macaque",
-      .words = fmt::format("Curves and table: {} recording{} a cell. Single frames: seed {}. Bound: "
-                           "Cramer-Rao, in the frames called determined.",
-                           study.table.seeds.size(), study.table.seeds.size() == 1 ? "" : "s", seed),
+      .words = fmt::format(
+          "Where is the elbow, when only markers on the skin are seen? Curves and table: {} recording{} a "
+          "cell. Single frames: seed {}. Bound: Cramer-Rao, in the frames called determined.",
+          study.table.seeds.size(), study.table.seeds.size() == 1 ? "" : "s", seed),
       .classic = "report's method",
       .figures = {},
       .table = study.table};

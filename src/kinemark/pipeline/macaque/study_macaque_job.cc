@@ -56,6 +56,13 @@ Status collect(const Cells& cells, const std::vector<std::uint64_t>& seeds,
 
 }  // namespace
 
+void ElbowResult::add(const ElbowErrors& of_seed) {
+  errors += of_seed;
+  // Not std::max: what is no number stays none, whichever seed it comes from.
+  const double ratio = of_seed.ours.over_bound();
+  if (!std::isnan(worst_over_bound) && !(ratio <= worst_over_bound)) worst_over_bound = ratio;
+}
+
 const ElbowResult* MacaqueStudy::find(double noise_mm, double missing, bool staggered,
                                       bool pose_correlated) const {
   const auto at = std::ranges::find_if(elbow, [&](const ElbowResult& r) {
@@ -96,11 +103,7 @@ Result<MacaqueStudy> study_macaque(const MacaqueJob& job, const Progress& progre
   auto status = collect(elbow, job.seeds, outcomes.elbow,
                         [&](const ElbowCell& cell, const ElbowErrors& errors, bool is_new) {
                           if (is_new) out.elbow.push_back({cell, {}, 0.0});
-                          out.elbow.back().errors += errors;
-                          // Not std::max: what is no number stays none.
-                          const double ratio = errors.ours.over_bound();
-                          double& worst = out.elbow.back().worst_over_bound;
-                          if (!(ratio <= worst)) worst = ratio;
+                          out.elbow.back().add(errors);
                         });
   if (!status) return std::unexpected(status.error());
   status = collect(sleeve, job.seeds, outcomes.sleeve,

@@ -28,7 +28,9 @@ struct MacaqueJob {
 struct ElbowResult {
   ElbowCell cell;
   ElbowErrors errors;
-  double worst_over_bound = 0.0;  ///< of a seed, ours
+  double worst_over_bound = 0.0;  ///< of a seed, ours; NaN as soon as one seed has none
+  /// Add one seed's errors.
+  void add(const ElbowErrors& of_seed);
 };
 
 struct SleeveResult {

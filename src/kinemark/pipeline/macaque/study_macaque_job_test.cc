@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "kinemark/pipeline/macaque/macaque_figures.h"
 #include "kinemark/pipeline/macaque/macaque_rows.h"
@@ -68,6 +69,24 @@ TEST(StudyMacaque, SeedsArePooled) {
   two += one;
   EXPECT_DOUBLE_EQ(cell->errors.ours.rms_answered_m(), two.ours.rms_answered_m());
   EXPECT_EQ(both.table.seeds, job.seeds);
+}
+
+TEST(ElbowResult, KeepsTheWorstSeedAndASeedWithoutANumber) {
+  const auto of = [](double ratio) {
+    ElbowErrors errors;
+    errors.ours.bounded = 10;
+    errors.ours.squares_bounded = ratio * ratio;
+    errors.ours.bound_squares = 1.0;
+    return errors;
+  };
+  ElbowResult result;
+  result.add(of(1.2));
+  result.add(of(0.9));
+  EXPECT_DOUBLE_EQ(result.worst_over_bound, 1.2);
+  EXPECT_EQ(result.errors.ours.bounded, 20);
+  result.add({});  // a seed without one bounded frame
+  result.add(of(1.0));
+  EXPECT_TRUE(std::isnan(result.worst_over_bound));
 }
 
 /// A study of one cell with these errors of ours in mm on every frame, and a bound of 1 mm.
@@ -152,6 +171,46 @@ TEST(MacaqueRows, SleeveIsAnsweredInEveryFrame) {
   EXPECT_FALSE(row(macaque_rows(study, 10), "flagged / other")->pass());
   study.sleeve[0].errors.smoothed.beyond_5sd = 1;
   EXPECT_FALSE(row(macaque_rows(study, 10), "continuity: errors beyond")->pass());
+}
+
+TEST(MacaqueRows, CellsThatWereNotAskedForHaveNoRow) {
+  EXPECT_TRUE(macaque_rows({}, 10).empty());
+  auto study = made_up(1.0, 1.0);
+  std::erase_if(study.elbow, [](const ElbowResult& r) { return r.cell.missing > 0.0; });
+  const auto rows = macaque_rows(study, 10);
+  EXPECT_NE(row(rows, "2 mm noise, 0 % missing"), nullptr);
+  EXPECT_EQ(row(rows, "20 % missing"), nullptr);
+  EXPECT_EQ(row(rows, "4 of 5"), nullptr);  // without the 40 % nobody knows how much may be missing
+  EXPECT_EQ(row(rows, "staggered"), nullptr);
+  EXPECT_EQ(row(rows, "sleeve"), nullptr);
+}
+
+TEST(MacaqueRows, IntervalsThatAreTooWideFailAsThoseThatAreTooNarrow) {
+  for (const auto& [within_1sd, within_2sd, good] :
+       {std::tuple{205, 286, true}, std::tuple{150, 286, false}, std::tuple{240, 286, false},
+        std::tuple{205, 260, false}, std::tuple{205, 300, false}}) {
+    auto study = made_up(1.0, 1.0);
+    for (auto& r : study.elbow) {
+      r.errors.ours.within_1sd = within_1sd;
+      r.errors.ours.within_2sd = within_2sd;
+    }
+    const auto rows = macaque_rows(study, 10);
+    EXPECT_EQ(row(rows, "within one")->pass() && row(rows, "within two")->pass(), good)
+        << within_1sd << " " << within_2sd;
+  }
+}
+
+TEST(StudyMacaque, SameSeedSameTableForAnyNumberOfThreads) {
+  auto job = few_cells();
+  job.missing = {0.0};
+  job.frames = 40;
+  job.threads = 1;
+  const auto one = study_macaque(job).value();
+  job.threads = 3;
+  const auto three = study_macaque(job).value();
+  ASSERT_EQ(one.table.rows.size(), three.table.rows.size());
+  for (std::size_t i = 0; i < one.table.rows.size(); ++i)
+    EXPECT_EQ(one.table.rows[i].ours, three.table.rows[i].ours) << one.table.rows[i].quantity;
 }
 
 TEST(StudyMacaque, StopsWhenAskedAndNeedsASeed) {

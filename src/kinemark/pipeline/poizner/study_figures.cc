@@ -37,7 +37,8 @@ Matrix3Xd rates(const Matrix3Xd& path) {
 }
 
 std::string wheel_plane(const WheelOutcome& wheel) {
-  SvgPlot plot("Wheel in its best-fit plane", "mm", "mm", true);
+  SvgPlot plot("Wheel in its best-fit plane", "first axis of the plane, mm", "second axis of the plane, mm",
+               true);
   const PlaneView ours = best_fit_plane(wheel.our_path);
   // Both on our plane, each about its own centre.
   const Matrix3Xd classic = wheel.classic_path.colwise() - wheel.classic_path.rowwise().mean();
@@ -52,7 +53,7 @@ std::string wheel_plane(const WheelOutcome& wheel) {
 }
 
 std::string wheel_displacement(const WheelOutcome& wheel) {
-  SvgPlot plot("Displacement of the wheel's LED", "s", "mm");
+  SvgPlot plot("Displacement of the wheel's LED", "time, s", "displacement, mm");
   constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
   constexpr std::array<const char*, 3> kColours{"#1f5fa8", "#2e8b57", "#a83232"};
   const VectorXd t = times(wheel.our_path.cols());
@@ -64,7 +65,7 @@ std::string wheel_displacement(const WheelOutcome& wheel) {
 }
 
 std::string arm_paths(const ArmOutcome& arm) {
-  SvgPlot plot("Paths of the arm, seen from the cameras", "mm", "mm", true);
+  SvgPlot plot("Paths of the arm, seen from the cameras", "x, mm", "y, mm", true);
   constexpr std::array<const char*, 4> kColours{"#666666", "#2e8b57", "#a83232", "#1f5fa8"};
   for (std::size_t led = 0; led < arm.our_paths.size(); ++led)
     plot.line(arm.leds[led].name, kColours[led % kColours.size()], row_mm(arm.our_paths[led].position, 0),
@@ -72,9 +73,9 @@ std::string arm_paths(const ArmOutcome& arm) {
   return plot.svg();
 }
 
-std::string hand_curve(const char* title, const char* unit, const Matrix3Xd& truth, const Matrix3Xd& ours,
+std::string hand_curve(const char* title, const char* y_label, const Matrix3Xd& truth, const Matrix3Xd& ours,
                        const Matrix3Xd& classic) {
-  SvgPlot plot(title, "s", unit);
+  SvgPlot plot(title, "time, s", y_label);
   const VectorXd t = times(ours.cols());
   const auto size = [](const Matrix3Xd& v) { return VectorXd(v.colwise().norm().transpose()); };
   plot.line("1986", kClassic, t, size(classic));
@@ -102,11 +103,13 @@ StudyPage study_page(const PoiznerStudy& study) {
                            wheel_plane(seed.wheels[static_cast<std::size_t>(wheel)])});
   out.figures.push_back({"Wheel at 8 deg, displacement", wheel_displacement(seed.wheels.front())});
   out.figures.push_back({"Arm signing LOOK-AT[Continuative]", arm_paths(arm)});
-  out.figures.push_back({"Speed of the hand", hand_curve("Speed of the hand", "m/s", arm.true_velocity[hand],
-                                                         arm.our_paths[hand].velocity, classic_velocity)});
-  out.figures.push_back({"Acceleration of the hand",
-                         hand_curve("Acceleration of the hand", "m/s^2", arm.true_acceleration[hand],
-                                    arm.our_paths[hand].acceleration, rates(classic_velocity))});
+  out.figures.push_back(
+      {"Speed of the hand", hand_curve("Speed of the hand", "speed, m/s", arm.true_velocity[hand],
+                                       arm.our_paths[hand].velocity, classic_velocity)});
+  out.figures.push_back(
+      {"Acceleration of the hand",
+       hand_curve("Acceleration of the hand", "acceleration, m/s²", arm.true_acceleration[hand],
+                  arm.our_paths[hand].acceleration, rates(classic_velocity))});
   return out;
 }
 

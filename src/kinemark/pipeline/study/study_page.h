@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "kinemark/core/result.h"
 #include "kinemark/pipeline/study/study_table.h"
 
 namespace kinemark::pipeline {
 
-/// A picture of a study's page.
+/// A picture of a study's page, 640 pixels wide at most.
 struct StudyFigure {
   std::string caption;  ///< plain text
   std::string body;     ///< HTML, such as SvgPlot::svg() and a paragraph
@@ -26,16 +25,10 @@ struct StudyPage {
   StudyTable table;
 };
 
-/// Text whose `&`, `<`, `>` and `"` HTML shows as they are.
-[[nodiscard]] std::string html_text(std::string_view text);
-
 /// The table alone, an HTML element: rows that fail have the class "fails".
 [[nodiscard]] std::string study_table_html(const StudyTable& table, std::string_view classic);
 
 /// One self-contained page: heading, figures, table. Nothing is fetched.
 [[nodiscard]] std::string study_html(const StudyPage& page);
-
-/// Write study_html(): the file appears whole or not at all, and replaces another only with `force`.
-[[nodiscard]] Status write_study_page(const StudyPage& page, const std::filesystem::path& path, bool force);
 
 }  // namespace kinemark::pipeline

@@ -5,8 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "kinemark/io/file.h"
-#include "support/scratch.h"
+#include <string>
+
+#include "kinemark/pipeline/study/html_text.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -30,7 +31,7 @@ StudyPage example() {
 TEST(StudyPage, HoldsFiguresAndTheTable) {
   const auto html = study_html(example());
   EXPECT_THAT(html, HasSubstr("<title>Study: arms &amp; legs</title>"));
-  EXPECT_THAT(html, HasSubstr("<p>a &lt; b</p>"));
+  EXPECT_THAT(html, HasSubstr("<p class=\"words\">a &lt; b</p>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>Errors</figcaption><svg id=\"one\"></svg>"));
   EXPECT_THAT(html, HasSubstr("<th>1986 method</th>"));
   EXPECT_THAT(html, HasSubstr("<tr><th>error</th><td>mm</td><td>30</td><td></td><td>2</td>"));
@@ -38,13 +39,28 @@ TEST(StudyPage, HoldsFiguresAndTheTable) {
   EXPECT_THAT(html, Not(HasSubstr("http")));  // nothing is fetched
 }
 
-TEST(StudyPage, IsWrittenWholeAndReplacesOnlyByForce) {
-  const testing_support::ScratchFolder scratch;
-  const auto path = scratch / "page.html";
-  ASSERT_TRUE(write_study_page(example(), path, false));
-  EXPECT_EQ(io::read_text(path).value(), study_html(example()));
-  EXPECT_EQ(write_study_page(example(), path, false).error().code, Code::io);
-  EXPECT_TRUE(write_study_page(example(), path, true));
+TEST(StudyPage, FiguresComeBeforeTheTableInTheOrderGiven) {
+  auto page = example();
+  page.figures.push_back({"Later & last", "<p>second</p>"});
+  const auto html = study_html(page);
+  const auto first = html.find(">Errors<"), second = html.find(">Later &amp; last<"),
+             table = html.find("<table>");
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, table);
+}
+
+TEST(StudyPage, NumbersOfNoUnitHaveNone) {
+  auto page = example();
+  page.table.rows = {{.quantity = "ratio", .unit = "1", .ours = 1.05}};
+  EXPECT_THAT(study_html(page), HasSubstr("<th>ratio</th><td></td><td></td><td></td><td>1.05</td>"));
+}
+
+TEST(HtmlText, ShowsWhatHtmlWouldTakeForItsOwn) {
+  EXPECT_EQ(html_text("a < b & \"c\" > d"), "a &lt; b &amp; &quot;c&quot; &gt; d");
+  EXPECT_EQ(html_text("&amp;"), "&amp;amp;");
+  EXPECT_EQ(html_text("m/s²"), "m/s²");
+  EXPECT_EQ(html_text(""), "");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -50,7 +51,8 @@ Result<std::vector<std::uint64_t>> parse_seeds(std::string_view text) {
     if (!first || !last || *last < *first || *last - *first >= kMost ||
         out.size() + (*last - *first) >= kMost)
       return wrong();
-    for (std::uint64_t seed = *first; seed <= *last; ++seed) out.push_back(seed);
+    // Counted, as no seed is larger than the last of all.
+    for (std::uint64_t i = 0; i <= *last - *first; ++i) out.push_back(*first + i);
     at = comma + 1;
   }
   return out;
@@ -75,14 +77,25 @@ nlohmann::ordered_json study_json(const StudyTable& table) {
   return {{"seeds", table.seeds}, {"rows", rows}, {"pass", table.pass()}};
 }
 
+std::string_view unit_words(const StudyRow& row) { return row.unit == "1" ? std::string_view() : row.unit; }
+
 std::string study_text(const StudyTable& table) {
-  std::string out = fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12}\n", "", "unit", "paper",
-                                "classic", "ours", "limit", "bound");
+  constexpr std::size_t kColumns = 7;
+  std::vector<std::array<std::string, kColumns>> lines{
+      {"", "unit", "paper", "classic", "ours", "limit", "bound"}};
   for (const auto& row : table.rows)
-    out += fmt::format("{:<62} {:>6} {:>8} {:>8} {:>8} {:>8} {:>12} {}\n", row.quantity, row.unit,
-                       cell(row.paper), cell(row.classic), cell(row.ours), cell(row.limit), bound(row),
-                       row.pass() ? "" : "FAILS");
-  return out;
+    lines.push_back({row.quantity, std::string(unit_words(row)), cell(row.paper), cell(row.classic),
+                     cell(row.ours), cell(row.limit), bound(row)});
+  std::array<std::size_t, kColumns> width{};
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < kColumns; ++i) width[i] = std::max(width[i], line[i].size());
+  std::string out;
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    out += fmt::format("{:<{}}", lines[row][0], width[0]);
+    for (std::size_t i = 1; i < kColumns; ++i) out += fmt::format("  {:>{}}", lines[row][i], width[i]);
+    out += row > 0 && !table.rows[row - 1].pass() ? "  FAILS\n" : "\n";
+  }
+  return out + "limit: the best that any method can reach on these data; bound: what is asked of ours\n";
 }
 
 }  // namespace kinemark::pipeline

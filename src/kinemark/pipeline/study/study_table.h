@@ -39,7 +39,9 @@ struct StudyTable {
 /// {"seeds": [...], "rows": [{quantity, unit, paper, classic, ours, limit, bound, pass}], "pass": ...}; bound
 /// is a number (at most) or [at least, at most]; what is absent is null.
 [[nodiscard]] nlohmann::ordered_json study_json(const StudyTable& table);
-/// The table for people.
+/// The unit for people: none for a plain number, whose unit is "1".
+[[nodiscard]] std::string_view unit_words(const StudyRow& row);
+/// The table for people, columns as wide as they need to be, and a line that says what they are.
 [[nodiscard]] std::string study_text(const StudyTable& table);
 
 }  // namespace kinemark::pipeline

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 namespace kinemark::pipeline {
 namespace {
@@ -57,6 +59,50 @@ TEST(StudyTable, SaysTheSameInJsonAndInWords) {
   EXPECT_THAT(text, HasSubstr("<= 3"));
   EXPECT_THAT(text.substr(text.find("share")), HasSubstr("FAILS"));
   EXPECT_THAT(text.substr(0, text.find("share")), Not(HasSubstr("FAILS")));
+}
+
+TEST(StudyTable, ColumnsAreAsWideAsTheirWidestCell) {
+  const std::string long_name(90, 'q');
+  const StudyTable table{
+      .seeds = {1},
+      .rows = {{.quantity = long_name, .unit = "1", .ours = 1.0},
+               {.quantity = "b", .unit = "mm", .ours = 123456.0, .at_least = 0.5, .at_most = 2.0}}};
+  std::istringstream text(study_text(table));
+  std::string head, first, second, legend;
+  std::getline(text, head);
+  std::getline(text, first);
+  std::getline(text, second);
+  std::getline(text, legend);
+  EXPECT_EQ(head.size(), first.size());
+  EXPECT_EQ(second.size(), head.size() + std::string("  FAILS").size());
+  const auto end_of = [](const std::string& line, const char* word) {
+    return line.find(word) + std::string(word).size();
+  };
+  EXPECT_EQ(end_of(head, "ours"), end_of(second, "1.235e+05"));
+  EXPECT_EQ(end_of(head, "bound"), end_of(second, "0.5 to 2"));
+  EXPECT_EQ(first.find(" 1 ", long_name.size()), first.find_last_of('1') - 1);  // the value, not the unit
+  EXPECT_THAT(legend, HasSubstr("asked of ours"));
+}
+
+TEST(StudyTable, BoundsAreAskedOfOursAlone) {
+  StudyRow row{.quantity = "x", .paper = 9.0, .classic = 9.0, .ours = 2.0, .limit = 9.0, .at_most = 2.0};
+  EXPECT_TRUE(row.pass());  // a bound that is met exactly is met
+  row.at_most.reset();
+  row.at_least = 2.0;
+  EXPECT_TRUE(row.pass());
+  row.ours = std::nan("");
+  row.at_least.reset();
+  EXPECT_TRUE(row.pass());  // nothing was asked
+}
+
+TEST(StudyTable, SeedsAreBoundedAndKeepTheirOrder) {
+  EXPECT_THAT(parse_seeds("7,1-2,7").value(), ElementsAre(7, 1, 2, 7));
+  EXPECT_EQ(parse_seeds("1-1000").value().size(), 1000U);
+  EXPECT_EQ(parse_seeds("1-1001").error().code, Code::usage);
+  EXPECT_EQ(parse_seeds("1-600,1-600").error().code, Code::usage);
+  EXPECT_THAT(parse_seeds("18446744073709551615").value(), ElementsAre(18446744073709551615U));
+  EXPECT_EQ(parse_seeds("18446744073709551614-18446744073709551615").value().size(), 2U);
+  EXPECT_FALSE(parse_seeds("18446744073709551616"));
 }
 
 }  // namespace

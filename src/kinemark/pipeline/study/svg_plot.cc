@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/pipeline/study/html_text.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -75,7 +76,8 @@ void make_equal(Axis& x, Axis& y) {
 }
 
 std::string text(double x, double y, const char* anchor, const std::string& words) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor, words);
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
+                     html_text(words));
 }
 
 std::string ticks(const Axis& x, const Axis& y) {
@@ -133,8 +135,10 @@ std::string SvgPlot::svg() const {
   if (equal_) make_equal(x, y);
   std::string out =
       fmt::format("<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\"><title>{2}</title>",
-                  kWidth, kHeight, title_);
+                  kWidth, kHeight, html_text(title_));
   out += ticks(x, y);
+  out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}\" class=\"axis\"/>", x.from, y.to, y.from,
+                     x.to);
   for (const auto& [low, high] : boxes_)
     out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"box\"/>",
                        x.at(low.x()), y.at(high.y()), x.at(high.x()) - x.at(low.x()),
@@ -164,7 +168,7 @@ std::string SvgPlot::svg() const {
   out += text(0.5 * (kLeft + kWidth - kRight), kHeight - 8.0, "middle", x_label_);
   out += fmt::format(
       "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text></svg>",
-      0.5 * (y.to + y.from), y_label_);
+      0.5 * (y.to + y.from), html_text(y_label_));
   return out;
 }
 

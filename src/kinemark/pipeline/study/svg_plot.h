@@ -8,7 +8,9 @@
 
 namespace kinemark::pipeline {
 
-/// A line plot as an SVG element: axes with round ticks, lines with a legend, dots, boxes.
+/// A line plot as an SVG element: axes with round ticks, lines with a legend, dots, boxes. Words are plain
+/// text:
+/// `<` and `&` mean themselves.
 class SvgPlot {
  public:
   /// @param equal  one unit is as long on both axes

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "kinemark/core/check.h"
@@ -84,6 +85,49 @@ TEST(SvgPlot, BoxesAreDashedRectangles) {
   SvgPlot plot("", "", "", true);
   plot.box({-1.0, -1.0}, {1.0, 1.0});
   EXPECT_EQ(count(plot.svg(), "<rect"), 1U);
+}
+
+TEST(SvgPlot, WordsMeanThemselves) {
+  SvgPlot plot("a & b", "x < 1", "\"y\"");
+  plot.line("p > q", "red", Eigen::VectorXd::LinSpaced(2, 0.0, 1.0), Eigen::VectorXd::LinSpaced(2, 0.0, 1.0));
+  const auto svg = plot.svg();
+  for (const char* words :
+       {"<title>a &amp; b</title>", ">x &lt; 1</text>", ">&quot;y&quot;</text>", ">p &gt; q</text>"})
+    EXPECT_THAT(svg, HasSubstr(words));
+}
+
+TEST(SvgPlot, EverythingDrawnLiesWithinTheFrame) {
+  SvgPlot plot("", "", "");
+  plot.line("up", "red", Eigen::VectorXd::LinSpaced(50, -3.0, 4.0),
+            Eigen::VectorXd::LinSpaced(50, 1e-9, -1e6));
+  plot.dots("blue", Eigen::VectorXd::Constant(1, 9.0), Eigen::VectorXd::Constant(1, 5e5));
+  const auto svg = plot.svg();
+  // Numbers of the line's path and of the dot, in pixels of a picture of 640 x 400.
+  const auto path = svg.find("stroke=\"red\" stroke-width=\"1.2\"");
+  ASSERT_NE(path, std::string::npos);
+  const auto from = svg.find("d=\"M", path) + 4;
+  std::string numbers = svg.substr(from, svg.find('"', from) - from);
+  for (char& c : numbers)
+    if (c == 'L') c = ' ';
+  std::istringstream in(numbers);
+  int points = 0;
+  for (double x = 0.0, y = 0.0; in >> x >> y; ++points) {
+    EXPECT_GE(x, 64.0);
+    EXPECT_LE(x, 624.0);
+    EXPECT_GE(y, 0.0);
+    EXPECT_LE(y, 354.0);
+  }
+  EXPECT_EQ(points, 50);
+}
+
+TEST(SvgPlot, ScalesOfAllSizesHaveAFewRoundTicks) {
+  for (const double scale : {1e-12, 1e-3, 1.0, 7e4, 1e15}) {
+    SvgPlot plot("", "", "");
+    plot.line("", "red", Eigen::VectorXd::LinSpaced(3, 0.0, 1.0), Eigen::VectorXd::LinSpaced(3, 0.0, scale));
+    const auto ticks = count(plot.svg(), "text-anchor=\"end\"");
+    EXPECT_GE(ticks, 3U) << scale;
+    EXPECT_LE(ticks, 8U) << scale;
+  }
 }
 
 }  // namespace

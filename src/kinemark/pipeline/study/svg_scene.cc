@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/pipeline/study/html_text.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -20,7 +21,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kWidth = 640.0, kHeight = 480.0, kMargin = 24.0;
-constexpr int kSquares = 8;  // of the floor, each way
+constexpr int kSquares = 8;  // of the floor, each way, at most but for the rim
+
+/// The next of 1, 2, 5, 10, 20, ...
+double round_up(double v) {
+  const double power = std::pow(10.0, std::floor(std::log10(v)));
+  for (const double m : {1.0, 2.0, 5.0})
+    if (m * power >= v * (1.0 - 1e-9)) return m * power;
+  return 10.0 * power;
+}
 
 }  // namespace
 
@@ -56,8 +65,7 @@ void SvgScene::words(std::string text, const Vector3d& x) {
 
 Vector2d SvgScene::project(const Vector3d& x) const { return {right_.dot(x), -up_.dot(x)}; }
 
-std::vector<SvgScene::Thing> SvgScene::grid() const {
-  std::vector<Thing> out;
+SvgScene::Ground SvgScene::ground() const {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const auto& thing : things_)
     for (const auto x : thing.x.colwise())
@@ -65,14 +73,28 @@ std::vector<SvgScene::Thing> SvgScene::grid() const {
         low = low.cwiseMin(x.head<2>());
         high = high.cwiseMax(x.head<2>());
       }
-  if (!has_floor_ || !(low.x() <= high.x())) return out;
-  const Vector2d middle = 0.5 * (low + high);
-  const double half = std::max(0.55 * (high - low).maxCoeff(), 1e-6);
-  for (int i = 0; i <= kSquares; ++i) {
-    const double at = -half + 2.0 * half * i / kSquares;
+  if (!has_floor_ || !(low.x() <= high.x())) return {};
+  const double half = std::max(0.55 * (high - low).maxCoeff(), 1e-6),
+               square = round_up(2.0 * half / kSquares);
+  return {.middle = 0.5 * (low + high),
+          .square = square,
+          .squares = 2 * static_cast<int>(std::ceil(half / square))};
+}
+
+double SvgScene::square() const { return ground().square; }
+
+std::vector<SvgScene::Thing> SvgScene::grid() const {
+  std::vector<Thing> out;
+  const Ground g = ground();
+  if (g.squares == 0) return out;
+  const double half = 0.5 * g.square * g.squares;
+  for (int i = 0; i <= g.squares; ++i) {
+    const double at = g.square * i - half;
     Matrix3Xd along(3, 2), across(3, 2);
-    along << middle.x() - half, middle.x() + half, middle.y() + at, middle.y() + at, floor_z_, floor_z_;
-    across << middle.x() + at, middle.x() + at, middle.y() - half, middle.y() + half, floor_z_, floor_z_;
+    along << g.middle.x() - half, g.middle.x() + half, g.middle.y() + at, g.middle.y() + at, floor_z_,
+        floor_z_;
+    across << g.middle.x() + at, g.middle.x() + at, g.middle.y() - half, g.middle.y() + half, floor_z_,
+        floor_z_;
     out.push_back({"#e2e2e2", "", along, 1.0, false});
     out.push_back({"#e2e2e2", "", across, 1.0, false});
   }
@@ -97,13 +119,13 @@ std::string SvgScene::svg() const {
   const Vector2d shift = 0.5 * Vector2d(kWidth, kHeight) - 0.5 * scale * (low + high);
   std::string out =
       fmt::format("<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\"><title>{2}</title>",
-                  kWidth, kHeight, title_);
+                  kWidth, kHeight, html_text(title_));
   for (const auto& thing : all) {
     if (!thing.x.allFinite()) continue;
     const Vector2d first = scale * project(thing.x.col(0)) + shift;
     if (!thing.text.empty()) {
-      out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", first.x() + 8.0, first.y() - 6.0,
-                         thing.text);
+      out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"halo\">{}</text>", first.x() + 8.0,
+                         first.y() - 6.0, html_text(thing.text));
     } else if (thing.x.cols() == 1) {
       out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" stroke=\"{}\"/>",
                          first.x(), first.y(), thing.size, thing.hollow ? "#fff" : thing.colour,

@@ -18,6 +18,9 @@ class SvgScene {
 
   /// A square grid at this height under everything that is drawn; shadows fall on it.
   void floor(double z);
+  /// Side of a square of the floor, 1, 2 or 5 times a power of ten; 0 without a floor or without anything on
+  /// it.
+  [[nodiscard]] double square() const;
   /// Points as columns; shadow: also a grey line on the floor below.
   void line(std::string colour, const Eigen::Matrix3Xd& x, double width, bool shadow = false);
   /// hollow: a ring instead of a disc.
@@ -36,6 +39,12 @@ class SvgScene {
     bool hollow = false;
   };
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& x) const;
+  struct Ground {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    double square = 0.0;
+    int squares = 0;  // each way
+  };
+  [[nodiscard]] Ground ground() const;
   [[nodiscard]] std::vector<Thing> grid() const;
 
   std::string title_;

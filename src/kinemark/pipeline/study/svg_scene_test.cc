@@ -59,6 +59,29 @@ TEST(SvgScene, DotsAndWords) {
   EXPECT_THAT(svg, HasSubstr(">elbow</text>"));
 }
 
+TEST(SvgScene, SquaresOfTheFloorAreRoundAndLieUnderEverything) {
+  for (const double size : {0.003, 0.31, 1.0, 47.0}) {
+    SvgScene scene("", 0.0, 90.0);
+    EXPECT_EQ(scene.square(), 0.0);
+    scene.line("black", bar({0, 0, 0}, {size, size, size}), 3.0);
+    EXPECT_EQ(scene.square(), 0.0);  // no floor yet
+    scene.floor(0.0);
+    const double square = scene.square(),
+                 first = square / std::pow(10.0, std::floor(std::log10(square) + 1e-9));
+    EXPECT_TRUE(std::abs(first - 1.0) < 1e-6 || std::abs(first - 2.0) < 1e-6 || std::abs(first - 5.0) < 1e-6)
+        << square;
+    EXPECT_GE(8.0 * square, size);
+    EXPECT_LE(square, size);
+  }
+}
+
+TEST(SvgScene, WordsMeanThemselves) {
+  SvgScene scene("a & b", 0.0, 0.0);
+  scene.words("x < y", {0, 0, 0});
+  EXPECT_THAT(scene.svg(), HasSubstr("<title>a &amp; b</title>"));
+  EXPECT_THAT(scene.svg(), HasSubstr(">x &lt; y</text>"));
+}
+
 TEST(SvgScene, NothingFiniteIsAnEmptyPicture) {
   SvgScene scene("", 0.0, 0.0);
   scene.floor(0.0);
