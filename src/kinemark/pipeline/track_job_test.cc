@@ -80,6 +80,44 @@ TEST_F(RunTrack, TheRankOfEveryFrameIsWritten) {
   for (std::int64_t f = 0; f < rank.rows(); ++f) EXPECT_LE(rank(f, 0), 6.0) << "two points";
 }
 
+TEST_F(RunTrack, ForcesOfAFileAreInTheTorquesNotInTheAngles) {
+  const auto pushed_by = [&](const std::string& name, double newtons) {
+    data::Table table;
+    table.columns = {"fx", "fy", "fz", "px", "py", "pz"};
+    for (const double time : {-1.0, 1.0}) {
+      table.time_s.push_back(time);
+      table.values.insert(table.values.end(), {0.0, newtons, 0.0, 0.2, 0.3, 0.4});
+    }
+    EXPECT_TRUE(io::write_table(at(name + ".sto"), table));
+    EXPECT_TRUE(io::write_text(
+        at(name + ".xml"),
+        "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"push\"><applied_to_body>pelvis"
+        "</applied_to_body><force_identifier>f</force_identifier><point_identifier>p</point_identifier>"
+        "</ExternalForce></objects><datafile>" +
+            name + ".sto</datafile></ExternalLoads></OpenSimDocument>",
+        false));
+    auto j = job(name + ".mot");
+    j.forces = at(name + ".xml");
+    const auto outcome = run_track(j);
+    EXPECT_TRUE(outcome) << outcome.error().message;
+    EXPECT_TRUE(fs::exists(at(name + "_tau_sd.sto")));
+    return io::read_table(at(name + "_tau.sto")).value();
+  };
+  const auto none = pushed_by("none_pushes", 0.0), push = pushed_by("push", 100.0);
+  EXPECT_EQ(io::read_table(at("none_pushes.mot")).value().values,
+            io::read_table(at("push.mot")).value().values);
+  const auto up = none.find("pelvis_ty_force"), knee = none.find("knee_angle_r_moment");
+  ASSERT_GE(up, 0);
+  ASSERT_GE(knee, 0);
+  for (std::int64_t r = 0; r < none.rows(); ++r) {
+    EXPECT_NEAR(push(r, up), none(r, up) - 100.0, 1e-6);
+    EXPECT_NEAR(push(r, knee), none(r, knee), 1e-6);
+  }
+  const auto report = io::read_text(at("push_report.json")).value();
+  EXPECT_THAT(report, HasSubstr("force of push"));
+  EXPECT_THAT(report, HasSubstr("push.sto"));
+}
+
 TEST_F(RunTrack, SaysWhatIsMissingAndWritesNothing) {
   auto j = job("none.mot");
   j.model.clear();
