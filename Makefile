@@ -40,12 +40,13 @@ fuzz:  ## fuzz the readers, SECONDS=60 each
 	cmake --build --preset asan --parallel $(JOBS)
 	python3 tools/fuzz --seconds $(SECONDS)
 
-lint:  ## clang-tidy, layers, licences, layout
+lint:  ## clang-tidy, layers, licences, READMEs, layout
 	tools/setup
 	cmake --preset asan
 	tools/check_format
 	tools/check_layers.py
 	tools/check_spdx.py
+	tools/check_readmes.py
 	tools/check_tidy --build build/asan
 
 format:  ## lay out all C++ files

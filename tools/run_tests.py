@@ -272,6 +272,7 @@ STAGES = {
     "format": script("tools/check_format"),
     "layers": script(sys.executable, "tools/check_layers.py"),
     "licences": script(sys.executable, "tools/check_spdx.py"),
+    "readmes": script(sys.executable, "tools/check_readmes.py"),
     "tools": tools,
     "build": build("ci"),
     "tests": unit_tests("ci"),
