@@ -26,7 +26,11 @@ struct BundleState {
   std::vector<Eigen::Vector2d> grid_shift;  // per node: the same grid stood before every camera
 };
 
-/// Normal equations of the bundle with poses and grid nodes eliminated.
+/// Place of a node of a grid that is off by `shift`, in the grid, m.
+[[nodiscard]] Eigen::Vector3d on_grid(const GridSightings& grid, int node, const Eigen::Vector2d& shift);
+
+/// What the bundle minimises (bundle_problem.cc), and its normal equations with poses and grid nodes
+/// eliminated (bundle_normal.cc).
 ///
 /// Global unknowns: free parameters camera by camera, then six of each grid's pose. Rows of a sighting are
 /// the three parts of math::eliminate_scale, over its standard deviation.
