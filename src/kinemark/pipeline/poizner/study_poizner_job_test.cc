@@ -11,6 +11,7 @@
 #include <string>
 
 #include "kinemark/pipeline/poizner/study_figures.h"
+#include "kinemark/pipeline/poizner/study_rows.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -32,6 +33,20 @@ TEST(StudyPoizner, OneRigMakesTheWholeTable) {
     if (row.classic && row.at_most && row.quantity.find("ratio") == std::string::npos) {
       EXPECT_LT(row.ours, *row.classic + 0.6) << row.quantity;
     }
+  }
+  // A rig without a number is not hidden by one that has it, whichever comes first.
+  for (const std::size_t without : {0U, 1U}) {
+    auto seeds = study->seeds;
+    seeds.push_back(seeds.front());
+    seeds[without].chi2_per_dof = std::nan("");
+    seeds[without].wheels.front().ours.sd_m = std::nan("");
+    int fail = 0;
+    for (const auto& row : study_rows(seeds))
+      if (!row.pass()) {
+        EXPECT_TRUE(std::isnan(row.ours)) << row.quantity;
+        ++fail;
+      }
+    EXPECT_EQ(fail, 3) << without;  // chi2 smallest and largest, scatter of the diameter
   }
   const auto json = study_json(study->table);
   EXPECT_EQ(json["rows"].size(), study->table.rows.size());

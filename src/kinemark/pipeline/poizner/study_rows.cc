@@ -27,8 +27,16 @@ double median(std::vector<double> values) {
   return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
 }
 
-double largest(const std::vector<double>& values) { return *std::ranges::max_element(values); }
-double smallest(const std::vector<double>& values) { return *std::ranges::min_element(values); }
+/// NaN when one of the values is: a rig without a number is not hidden by others.
+double largest(const std::vector<double>& values) {
+  const auto none = std::ranges::find_if(values, [](double v) { return std::isnan(v); });
+  return none != values.end() ? *none : *std::ranges::max_element(values);
+}
+
+double smallest(const std::vector<double>& values) {
+  const auto none = std::ranges::find_if(values, [](double v) { return std::isnan(v); });
+  return none != values.end() ? *none : *std::ranges::min_element(values);
+}
 
 void add_tree(const Seeds& seeds, std::vector<StudyRow>& rows) {
   constexpr std::array<double, 3> kMost{0.50, 0.43, 0.76};
