@@ -61,7 +61,7 @@ Result<Eigen::MatrixXd> calibration(const C3dForcePlate& plate, std::size_t size
   if (plate.calibration_rows != static_cast<int>(size) || plate.plate.calibration.size() != size * size)
     return fail(Code::bad_input, fmt::format("is of type {} but has no CAL_MATRIX of {} x {} numbers",
                                              plate.plate.type, size, size));
-  const Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(plate.plate.calibration.data(), n, n);
+  Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(plate.plate.calibration.data(), n, n);
   if (!m.allFinite() || m.isZero(0.0))
     return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of what is no number");
   return m;
