@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/image_tracks.h"
+
+namespace kinemark::pipeline {
+
+/// Labelled points in the images of calibrated cameras: a rig, and for each
+/// camera in use a file of points.
+struct ImageFiles {
+  struct OfCamera {
+    std::string camera; ///< name in the rig
+    std::filesystem::path points;
+  };
+  std::filesystem::path rig;
+  std::vector<OfCamera> cameras; ///< none: no images
+  double noise_sd_px = 1.0;      ///< of a point, per axis; > 0
+  double min_likelihood = 0.6;   ///< 0 to 1: less likely points are not seen
+
+  [[nodiscard]] bool any() const { return !cameras.empty() || !rig.empty(); }
+  /// Both a rig and cameras, each once; numbers in range.
+  [[nodiscard]] Status check() const;
+};
+
+/// "2 cameras, 1 px", for the record.
+[[nodiscard]] std::string images_in_words(const ImageFiles &files);
+
+/// The images as tracks: points of all files, in the order in which they are
+/// named first, at the frames of `time`. Every file has exactly as many frames.
+/// Cameras that the rig lacks or that are no pinhole cameras, and files that
+/// differ in length, are bad input.
+[[nodiscard]] Result<data::ImageTracks> read_images(const ImageFiles &files,
+                                                    const TimeBase &time);
+
+} // namespace kinemark::pipeline
