@@ -25,97 +25,66 @@ struct MotionArguments {
 };
 
 /// "NAME=NUMBER"; `what` names the number in the failure.
-[[nodiscard]] Result<std::pair<std::string, double>>
-parse_pair(const std::string &text, const char *what);
+[[nodiscard]] Result<std::pair<std::string, double>> parse_pair(const std::string& text, const char* what);
 
 /// Files, weights, error bars and gates. Job is an IkJob or a TrackJob.
 template <class Job>
-void add_motion_options(CLI::App &command, Job &job, MotionArguments &a) {
-  command
-      .add_option("-m,--model", job.model,
-                  "Body model, .osim; torques need masses")
+void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
+  command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
+  command.add_option("-t,--markers", job.markers, "Marker file, .c3d, .trc, .nwb, .csv or .v3d")
       ->group("Input");
-  command
-      .add_option("-t,--markers", job.markers,
-                  "Marker file, .c3d, .trc, .nwb, .csv or .v3d")
-      ->group("Input");
-  command
-      .add_option("--rate", job.rate_hz,
-                  "Frame rate of a marker file that tells none (.v3d), Hz")
+  command.add_option("--rate", job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
       ->group("Input");
   command
       .add_option("--forces", job.forces,
                   "What pushed the body, for torques: .c3d with force plates, "
                   "or OpenSim ExternalLoads .xml")
       ->group("Input");
-  command
-      .add_option("--start", job.options.first_time_s, "First time to use, s")
-      ->group("Input");
-  command.add_option("--end", job.options.last_time_s, "Last time to use, s")
-      ->group("Input");
-  command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")
-      ->group("Images");
+  command.add_option("--start", job.options.first_time_s, "First time to use, s")->group("Input");
+  command.add_option("--end", job.options.last_time_s, "Last time to use, s")->group("Input");
+  command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command
       .add_option("--images", a.images,
                   "Points that a camera of the rig saw, CAMERA=FILE.csv as "
                   "DeepLabCut writes it. Repeatable.")
       ->group("Images");
-  command
-      .add_option("--image-noise", job.images.noise_sd_px,
-                  "Noise of a point per axis, px")
+  command.add_option("--image-noise", job.images.noise_sd_px, "Noise of a point per axis, px")
       ->capture_default_str()
       ->group("Images");
-  command
-      .add_option("--min-likelihood", job.images.min_likelihood,
-                  "Less likely points are not seen")
+  command.add_option("--min-likelihood", job.images.min_likelihood, "Less likely points are not seen")
       ->capture_default_str()
       ->group("Images");
-  command.add_option("-o,--output", job.output, "Motion file to write, Q.mot")
-      ->group("Output");
-  command
-      .add_option("--weight", a.weights,
-                  "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
+  command.add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
+  command.add_option("--weight", a.weights, "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
       ->group("Markers");
-  command
-      .add_option(
-          "--noise", a.noise_mm,
-          "Marker noise per axis, mm; 0 estimates it from the residuals")
+  command.add_option("--noise", a.noise_mm, "Marker noise per axis, mm; 0 estimates it from the residuals")
       ->capture_default_str()
       ->group("Markers");
-  command
-      .add_flag("--no-error-bars", a.no_error_bars,
-                "Skip standard deviations and bounds")
+  command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations and bounds")
       ->group("Output");
-  command
-      .add_flag("--no-limits", a.no_limits,
-                "Let clamped coordinates leave their range")
+  command.add_flag("--no-limits", a.no_limits, "Let clamped coordinates leave their range")
       ->group("Estimate");
   command.add_option("--max-rms", a.max_rms_mm, "Gate: RMS marker error, mm")
       ->capture_default_str()
       ->group("Quality gates");
-  command
-      .add_option("--max-offset", a.max_offset_mm,
-                  "Gate: mean marker offset, mm")
+  command.add_option("--max-offset", a.max_offset_mm, "Gate: mean marker offset, mm")
       ->capture_default_str()
       ->group("Quality gates");
 }
 
 /// Into the job what was given on the command line.
 template <class Job>
-[[nodiscard]] Status apply(const Globals &globals, const MotionArguments &a,
-                           Job &job) {
-  for (const auto &text : a.weights) {
+[[nodiscard]] Status apply(const Globals& globals, const MotionArguments& a, Job& job) {
+  for (const auto& text : a.weights) {
     const auto weight = parse_pair(text, "WEIGHT");
-    if (!weight)
-      return std::unexpected(weight.error());
+    if (!weight) return std::unexpected(weight.error());
     job.options.marker_weights.push_back({weight->first, weight->second});
   }
-  for (const auto &text : a.images) {
+  for (const auto& text : a.images) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       return fail(Code::usage, fmt::format("'{}' is not CAMERA=FILE", text));
-    job.images.cameras.push_back(
-        {text.substr(0, equals), text.substr(equals + 1)});
+    job.images.cameras.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   job.options.marker_noise_sd_m = 1e-3 * a.noise_mm;
   job.options.limits = !a.no_limits;
@@ -130,7 +99,6 @@ template <class Job>
 }
 
 /// Findings, files, and the summary with --json.
-void print_motion(const Globals &globals,
-                  const pipeline::MotionOutcome &outcome);
+void print_motion(const Globals& globals, const pipeline::MotionOutcome& outcome);
 
-} // namespace kinemark::cli
+}  // namespace kinemark::cli

@@ -16,7 +16,7 @@ namespace kinemark::pipeline {
 
 struct MotionEstimate {
   motion::IkResult ik;
-  TorqueAccount torques; ///< empty unless they were asked for
+  TorqueAccount torques;  ///< empty unless they were asked for
 };
 
 /// Least squares or the whole-trajectory smoother, told in the terms of the
@@ -24,9 +24,9 @@ struct MotionEstimate {
 /// when the job asks for them. Failures name the file. With images the smoother
 /// takes its evidence from them and its start from the markers; least squares
 /// cannot use them.
-[[nodiscard]] Result<MotionEstimate>
-estimate_motion(const IkJob &job, const model::Model &model,
-                const data::Trajectories &markers, const Progress &progress,
-                const data::ImageTracks *images = nullptr);
+[[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
+                                                     const data::Trajectories& markers,
+                                                     const Progress& progress,
+                                                     const data::ImageTracks* images = nullptr);
 
-} // namespace kinemark::pipeline
+}  // namespace kinemark::pipeline

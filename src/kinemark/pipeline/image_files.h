@@ -15,13 +15,13 @@ namespace kinemark::pipeline {
 /// camera in use a file of points.
 struct ImageFiles {
   struct OfCamera {
-    std::string camera; ///< name in the rig
+    std::string camera;  ///< name in the rig
     std::filesystem::path points;
   };
   std::filesystem::path rig;
-  std::vector<OfCamera> cameras; ///< none: no images
-  double noise_sd_px = 1.0;      ///< of a point, per axis; > 0
-  double min_likelihood = 0.6;   ///< 0 to 1: less likely points are not seen
+  std::vector<OfCamera> cameras;  ///< none: no images
+  double noise_sd_px = 1.0;       ///< of a point, per axis; > 0
+  double min_likelihood = 0.6;    ///< 0 to 1: less likely points are not seen
 
   [[nodiscard]] bool any() const { return !cameras.empty() || !rig.empty(); }
   /// Both a rig and cameras, each once; numbers in range.
@@ -29,13 +29,12 @@ struct ImageFiles {
 };
 
 /// "2 cameras, 1 px", for the record.
-[[nodiscard]] std::string images_in_words(const ImageFiles &files);
+[[nodiscard]] std::string images_in_words(const ImageFiles& files);
 
 /// The images as tracks: points of all files, in the order in which they are
 /// named first, at the frames of `time`. Every file has exactly as many frames.
 /// Cameras that the rig lacks or that are no pinhole cameras, and files that
 /// differ in length, are bad input.
-[[nodiscard]] Result<data::ImageTracks> read_images(const ImageFiles &files,
-                                                    const TimeBase &time);
+[[nodiscard]] Result<data::ImageTracks> read_images(const ImageFiles& files, const TimeBase& time);
 
-} // namespace kinemark::pipeline
+}  // namespace kinemark::pipeline
