@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share that turn markers into a motion of the model: `ik`
-// and `track`.
+// What the commands share that turn markers into a motion of the model: `ik` and `track`.
 #pragma once
 
 #include <fmt/core.h>
@@ -37,16 +36,14 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Input");
   command
       .add_option("--forces", job.forces,
-                  "What pushed the body, for torques: .c3d with force plates, "
-                  "or OpenSim ExternalLoads .xml")
+                  "What pushed the body, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
       ->group("Input");
   command.add_option("--start", job.options.first_time_s, "First time to use, s")->group("Input");
   command.add_option("--end", job.options.last_time_s, "Last time to use, s")->group("Input");
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command
       .add_option("--images", a.images,
-                  "Points that a camera of the rig saw, CAMERA=FILE.csv as "
-                  "DeepLabCut writes it. Repeatable.")
+                  "Points that a camera of the rig saw, CAMERA=FILE.csv as DeepLabCut writes it. Repeatable.")
       ->group("Images");
   command.add_option("--image-noise", job.images.noise_sd_px, "Noise of a point per axis, px")
       ->capture_default_str()

@@ -86,7 +86,7 @@ void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome
     say(globals, fmt::format("note: Held at rest because no tracked marker moves them: {}",
                              names(result.locked_coordinates)));
   if (!result.undetermined_coordinates.empty())
-    say(globals, fmt::format("note: Not determined in 95 % of the frames: {}",
+    say(globals, fmt::format("note: Determined in fewer than 95 % of the frames: {}",
                              names(result.undetermined_coordinates)));
   print_motion(globals, outcome);
 }

@@ -113,6 +113,29 @@ class Joints(CommandTest):
         self.write("slip.csv", arm(frames=300, slip=0.015)[0])
         ran = self.good("joints", "slip.csv", "--segments", "segments.toml", "--method", "score")
         self.assertIn("'f0' moved", ran.err)
+        # The articulated fit has a sentence of its own: a marker is told once.
+        ran = self.good("joints", "slip.csv", "--segments", "segments.toml")
+        self.assertIn("marker 'f0' sits", ran.err)
+        self.assertNotIn("'f0' moved", ran.err)
+        self.assertNotIn("?.", ran.err)
+
+    def test_the_rate_of_a_file_that_tells_none(self):
+        rows = [line.split(",") for line in arm()[0].splitlines()[1:]]
+        names = list(dict.fromkeys(row[2] for row in rows))
+        columns = [(name, axis) for name in names for axis in range(3)]
+        place = {(int(row[0]), row[2]): row[3:6] for row in rows}
+        head = [
+            ["", *("made.c3d" for _ in columns)],
+            ["", *(name for name, _ in columns)],
+            ["", *("LANDMARK" for _ in columns)],
+            ["", *("PROCESSED" for _ in columns)],
+            ["ITEM", *("XYZ"[axis] for _, axis in columns)],
+        ]
+        body = [[str(f + 1), *(place[f, name][axis] for name, axis in columns)] for f in range(120)]
+        self.write("arm.v3d", "\n".join("\t".join(row) for row in head + body) + "\n")
+        self.refused(2, ["arm.v3d", "--rate"], "joints", "arm.v3d", "--segments", "segments.toml")
+        given = ("joints", "arm.v3d", "--segments", "segments.toml", "--rate", "60", "--json")
+        self.assertEqual(json.loads(self.good(*given).out)["rate_hz"], 60)
 
     def test_soft_tissue(self):
         printed = json.loads(self.good("joints", "arm.csv", "--segments", "segments.toml", "--soft-tissue", "--json").out)

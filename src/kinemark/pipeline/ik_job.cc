@@ -27,11 +27,9 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
   const auto offset = motion::find_common_offset(model, markers, job.options);
   const Eigen::Vector3d shift = offset ? offset->shift_m : Eigen::Vector3d(-mean);
   return fmt::format(
-      "The measured markers lie {:.3f} m away from the model: "
-      "shifted by ({:+.3f}, {:+.3f}, {:+.3f}) m they "
+      "The measured markers lie {:.3f} m away from the model: shifted by ({:+.3f}, {:+.3f}, {:+.3f}) m they "
       "would fit with "
-      "{:.1f} mm RMS instead of {:.1f} mm. Check that recording "
-      "and model share origin, axes and unit.",
+      "{:.1f} mm RMS instead of {:.1f} mm. Check that recording and model share origin, axes and unit.",
       shift.norm(), shift.x(), shift.y(), shift.z(), 1e3 * (offset ? offset->rms_after_m : 0.0),
       1e3 * result.rms_marker_error_m);
 }
@@ -46,10 +44,10 @@ void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInput
   internal::add_gate(run, "not_converged", static_cast<double>(failed), 0.0, "frames",
                      fmt::format("{} of {} frames did not converge.", failed, result.motion.frames()));
   if (!std::isnan(result.max_loop_gap_m) && result.max_loop_gap_m > 0.0)
-    internal::add_gate(run, "loop_gap", 1e3 * result.max_loop_gap_m, 1e-3, "mm",
-                       fmt::format("The widest gap of a closed loop is {:.2g} "
-                                   "mm; at most 0.001 mm is accepted.",
-                                   1e3 * result.max_loop_gap_m));
+    internal::add_gate(
+        run, "loop_gap", 1e3 * result.max_loop_gap_m, 1e-3, "mm",
+        fmt::format("The widest gap of a closed loop is {:.2g} mm; at most 0.001 mm is accepted.",
+                    1e3 * result.max_loop_gap_m));
 }
 
 Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInputs& inputs,

@@ -11,8 +11,7 @@
 
 namespace kinemark::pipeline {
 
-/// Labelled points in the images of calibrated cameras: a rig, and for each
-/// camera in use a file of points.
+/// Labelled points in the images of calibrated cameras: a rig, and for each camera in use a file of points.
 struct ImageFiles {
   struct OfCamera {
     std::string camera;  ///< name in the rig
@@ -31,10 +30,9 @@ struct ImageFiles {
 /// "2 cameras, 1 px", for the record.
 [[nodiscard]] std::string images_in_words(const ImageFiles& files);
 
-/// The images as tracks: points of all files, in the order in which they are
-/// named first, at the frames of `time`. Every file has exactly as many frames.
-/// Cameras that the rig lacks or that are no pinhole cameras, and files that
-/// differ in length, are bad input.
+/// The images as tracks: points of all files, in the order in which they are named first, at the frames of
+/// `time`. Every file has exactly as many frames. Cameras that the rig lacks or that are no pinhole cameras,
+/// and files that differ in length, are bad input.
 [[nodiscard]] Result<data::ImageTracks> read_images(const ImageFiles& files, const TimeBase& time);
 
 }  // namespace kinemark::pipeline

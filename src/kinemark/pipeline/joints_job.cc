@@ -277,7 +277,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress)
   if (job.soft_tissue && job.method != "articulated")
     return fail(Code::usage,
                 fmt::format("soft tissue is a term of the articulated method; '{}' has none", job.method));
-  auto trial = io::read_markers(job.input);
+  auto trial = io::read_markers(job.input, {.rate_hz = io::needs_rate(job.input) ? job.rate_hz : 0.0});
   if (!trial) return std::unexpected(trial.error());
   const auto hash = hash_file(job.input);
   if (!hash) return std::unexpected(hash.error());
@@ -309,7 +309,10 @@ Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress)
   auto slips = skeleton::find_slips(markers, *layout);
   if (!slips) return fail_at(name, slips.error());
   outcome.slips = std::move(*slips);
-  for (const auto& slip : outcome.slips) outcome.notes.push_back(slip.sentence + ".");
+  // The articulated fit tells itself which markers moved on their segment.
+  for (const auto& slip : outcome.slips)
+    if (job.method != "articulated" || slip.marker < 0)
+      outcome.notes.push_back(slip.sentence + (slip.sentence.ends_with('?') ? "" : "."));
   judge(outcome);
   describe(job, outcome, hash->hex);
   if (auto s = write_outputs(outcome, *trial, *layout, *staging); !s) return std::unexpected(s.error());

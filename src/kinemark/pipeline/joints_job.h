@@ -24,7 +24,8 @@ namespace kinemark::pipeline {
 
 /// What `kinemark joints` is asked to do. Paths that are empty are not used.
 struct JointsJob {
-  std::filesystem::path input;     ///< .c3d, .trc, .csv or .nwb
+  std::filesystem::path input;     ///< .c3d, .trc, .csv, .nwb or .v3d
+  double rate_hz = 0.0;            ///< of a marker file that tells none (.v3d); 0: not given
   std::filesystem::path segments;  ///< TOML, see read_segments(); empty: found in the data
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
   /// file: the centres in its format, and NAME_skeleton.json beside it.

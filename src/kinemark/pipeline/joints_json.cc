@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
@@ -28,25 +29,29 @@ Json matrix(const Eigen::Matrix3d& m) {
   return rows;
 }
 
-/// How many frames have each state, and the RMS of the centre's SD (root of the trace) where there is one.
+/// How many frames have each state, and the RMS of the centre's SD (root of the trace) where there is one;
+/// the same without the direction known worst, which is a hinge's axis.
 struct Frames {
   std::array<std::int64_t, 4> count{};
-  double sd_m = 0.0;
+  double sd_m = 0.0, across_sd_m = 0.0;
 };
 
 Frames count_frames(const data::Skeleton& skeleton, std::int64_t joint) {
   Frames frames;
-  double squares = 0.0, n = 0.0;
+  double squares = 0.0, across = 0.0, n = 0.0;
   for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
     const auto state = skeleton.state[skeleton.index(f, joint)];
     ++frames.count[static_cast<std::size_t>(state)];
     if (state == data::CentreState::undetermined) continue;
-    const double trace = skeleton.centre_covariance(f, joint).trace();
-    if (!std::isfinite(trace)) continue;
-    squares += trace;
+    const Eigen::Matrix3d C = skeleton.centre_covariance(f, joint);
+    if (!C.allFinite()) continue;
+    squares += C.trace();
+    across += C.trace() -
+              Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues()[2];
     n += 1.0;
   }
   frames.sd_m = n > 0.0 ? std::sqrt(squares / n) : std::nan("");
+  frames.across_sd_m = n > 0.0 ? std::sqrt(across / n) : std::nan("");
   return frames;
 }
 
@@ -75,6 +80,7 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
     out["axis_sd_deg"] = number(joint.axis_sd_rad * kDegPerRad);
   }
   out["centre_sd_m"] = number(frames.sd_m);
+  if (hinge) out["centre_sd_across_axis_m"] = number(frames.across_sd_m);
   for (const auto state : {data::CentreState::determined, data::CentreState::bridged,
                            data::CentreState::ambiguous, data::CentreState::undetermined})
     out["frames"][std::string(data::to_string(state))] = frames.count[static_cast<std::size_t>(state)];
@@ -144,7 +150,10 @@ std::vector<std::string> skeleton_words(const data::Skeleton& skeleton) {
     std::string line = fmt::format("{} ({}, {}): {}", joint.name, data::to_string(joint.kind),
                                    joint.method.empty() ? "not found" : joint.method, joint.words);
     line += fmt::format("; placed in {} of {} frames", placed, skeleton.frames());
-    if (std::isfinite(frames.sd_m)) line += fmt::format(", SD {:.1f} mm", 1e3 * frames.sd_m);
+    const bool hinge = joint.kind == data::JointKind::hinge;
+    if (std::isfinite(frames.sd_m))
+      line += hinge ? fmt::format(", SD {:.1f} mm across the axis", 1e3 * frames.across_sd_m)
+                    : fmt::format(", SD {:.1f} mm", 1e3 * frames.sd_m);
     const auto ambiguous = frames.count[static_cast<std::size_t>(data::CentreState::ambiguous)];
     if (ambiguous > 0) line += fmt::format(", {} ambiguous", ambiguous);
     lines.push_back(std::move(line));

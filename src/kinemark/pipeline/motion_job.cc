@@ -122,8 +122,7 @@ void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m,
   add_gate(run, "mean_marker_offset", 1e3 * offset_m, 1e3 * job.max_offset_m, "mm",
            std::move(offset_sentence));
   add_gate(run, "marker_rms", 1e3 * rms_m, 1e3 * job.max_rms_m, "mm",
-           fmt::format("The RMS distance between measured and model markers is "
-                       "{:.1f} mm; at most {:.1f} mm "
+           fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most {:.1f} mm "
                        "is accepted.",
                        1e3 * rms_m, 1e3 * job.max_rms_m));
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What all commands share that turn markers into a motion of the model: `ik`
-// and `track`.
+// What all commands share that turn markers into a motion of the model: `ik` and `track`.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +15,7 @@ namespace kinemark::pipeline {
 struct MotionJob {
   std::filesystem::path model, markers;
   std::filesystem::path output;  ///< Q.mot; all other results go beside it
-  std::filesystem::path forces;  ///< what pushed the body, for torques: .c3d, or
-                                 ///< ExternalLoads .xml
+  std::filesystem::path forces;  ///< what pushed the body, for torques: .c3d, or ExternalLoads .xml
   ImageFiles images;             ///< seen besides the markers; none: nothing
   double rate_hz = 0.0;          ///< of a marker file that tells none (.v3d); 0: not given
   double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers

@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
   options.emplace_back("posture", fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.posture_kp, o.posture_kd));
   options.emplace_back("limits of clamped coordinates", o.limits ? "kept" : "ignored");
   if (job.images.any()) options.emplace_back("images in the lowest level", images_in_words(job.images));
-  options.emplace_back("not determined in 95 % of the frames", list(result.undetermined_coordinates));
+  options.emplace_back("determined in fewer than 95 % of the frames", list(result.undetermined_coordinates));
   return options;
 }
 
@@ -56,11 +56,11 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   internal::add_marker_gates(*run, job, offset_m,
                              fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
                              result.rms_marker_error_m);
-  internal::add_gate(*run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
-                     fmt::format("{} of {} frames are flagged: goals out of "
-                                 "reach, or a body that ran away ({} "
-                                 "times started anew).",
-                                 result.flagged_frames, result.motion.frames(), result.restarts));
+  internal::add_gate(
+      *run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
+      fmt::format("{} of {} frames are flagged: goals out of reach, or a body that ran away ({} "
+                  "times started anew).",
+                  result.flagged_frames, result.motion.frames(), result.restarts));
   return run;
 }
 
@@ -78,9 +78,8 @@ data::Table rank_table(const motion::TrackResult& result) {
   return table;
 }
 
-/// Standard deviations of the torques: those of the inverse dynamics of the
-/// motion as it came out. Where that cannot be done (closed loops, a few
-/// frames) they stay away, and a warning says why.
+/// Standard deviations of the torques: those of the inverse dynamics of the motion as it came out. Where that
+/// cannot be done (closed loops, a few frames) they stay away, and a warning says why.
 void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
   auto motion = result.motion;
   const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
@@ -126,8 +125,8 @@ Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
   outcome.result = std::move(*result);
   TorqueAccount account;
   if (!job.forces.empty()) {
-    // What the controller pushes with knows nothing of the ground: torques
-    // anew, from the motion and the forces.
+    // What the controller pushes with knows nothing of the ground: torques anew, from the motion and the
+    // forces.
     auto torques = add_torques(inputs->model, outcome.result.motion, job.forces,
                                {.error_bars = job.options.error_bars, .threads = job.options.threads});
     if (!torques) return std::unexpected(torques.error());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as external loads and as a model: a description or one sentence; what was read must be valid and, once written, read
-// back.
+// Any bytes as external loads and as a model: a description or one sentence; what was read must be valid and,
+// once written, read back.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

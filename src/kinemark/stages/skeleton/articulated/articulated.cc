@@ -11,6 +11,7 @@
 
 #include "kinemark/core/units.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
+#include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
 #include "kinemark/stages/skeleton/articulated/internal/continuity.h"
 #include "kinemark/stages/skeleton/articulated/internal/findings.h"
 #include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
@@ -113,6 +114,23 @@ bool shows_axis(const internal::JointMotionSeen& seen) {
 bool is_hinge(const Work& w, const internal::JointMotionSeen& seen) {
   return shows_axis(seen) && (w.options.joint == JointChoice::hinge ||
                               (w.options.joint == JointChoice::automatic && seen.one_axis));
+}
+
+Status pass_over(Work& w, const Progress& progress) {
+  auto pass = internal::pass_over(w.fit, w.input.samples, w.options.threads, progress);
+  if (!pass) return std::unexpected(pass.error());
+  w.pass = std::move(*pass);
+  return {};
+}
+
+/// Hinges whose place along the axis the motion leaves open; one that was asked for may turn about others
+/// too, and then its place is known.
+std::vector<HingeAxis> find_open_hinges(const Work& w) {
+  std::vector<HingeAxis> out;
+  for (int j = 0; j < w.fit.chain.joints(); ++j)
+    if (const auto seen = internal::look_at_joint(w.fit, w.pass, j); seen.one_axis && is_hinge(w, seen))
+      out.push_back({.joint = j, .in_parent = seen.axis_in_parent, .in_child = seen.axis_in_child});
+  return out;
 }
 
 data::SkeletonJoint describe_joint(const Work& w, int j, const internal::JointMotionSeen& seen,
@@ -249,8 +267,19 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
   summary.white_jerk = path.place.empty() ? 0.0 : w.continuity.prior[at(j)].white_jerk;
 }
 
+/// Along a hinge's axis its place is not known, nor is that part of a length from it.
+double open_variance(const Work& w, const data::Skeleton& skeleton, const ChainFit::Length& length,
+                     int chain_joint) {
+  const auto& joint = skeleton.joints[at(w.tree.joint_order[at(chain_joint)])];
+  if (joint.kind != data::JointKind::hinge) return 0.0;
+  const bool on_parent = joint.parent_segment == w.tree.segment_order[at(length.segment)];
+  const double along = length.way.dot(on_parent ? joint.axis_in_parent : joint.axis_in_child);
+  return std::pow(along * w.fit.chain.scale(), 2);
+}
+
 void write_lengths(const Work& w, data::Skeleton& skeleton) {
   for (const auto& l : w.fit.lengths()) {
+    const double open = open_variance(w, skeleton, l, l.joint_a) + open_variance(w, skeleton, l, l.joint_b);
     int a = w.tree.joint_order[at(l.joint_a)], b = w.tree.joint_order[at(l.joint_b)];
     if (a > b) std::swap(a, b);
     const int segment = w.tree.segment_order[at(l.segment)];
@@ -258,7 +287,7 @@ void write_lengths(const Work& w, data::Skeleton& skeleton) {
                                 .joint_a = a,
                                 .joint_b = b,
                                 .length_m = l.length_m,
-                                .sd_m = l.sd_m});
+                                .sd_m = std::sqrt(l.sd_m * l.sd_m + open)});
   }
 }
 
@@ -359,13 +388,15 @@ Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const 
   if (auto s = check_input(markers, layout, options); !s) return std::unexpected(s.error());
   Work w{.markers = markers, .layout = layout, .options = options, .tree = internal::JointTree(layout)};
   w.input = internal::arrange(markers, layout, w.tree);
-  auto fit = fit_chain(w.input.samples, w.input.layout, fit_options(w));
+  auto fit = fit_chain(w.input.samples, w.input.layout, fit_options(w), progress);
   if (!fit) return std::unexpected(fit.error());
   w.fit = std::move(*fit);
   blank_dropped_markers(w.fit, w.input.samples);
-  auto pass = internal::pass_over(w.fit, w.input.samples, options.threads, progress);
-  if (!pass) return std::unexpected(pass.error());
-  w.pass = std::move(*pass);
+  if (auto s = pass_over(w, progress); !s) return std::unexpected(s.error());
+  if (const auto hinges = find_open_hinges(w); !hinges.empty()) {
+    hold_hinges(w.input.samples, hinges, w.fit);
+    if (auto s = pass_over(w, progress); !s) return std::unexpected(s.error());
+  }
   const std::size_t J = layout.joints.size();
   if (options.continuity)
     w.continuity =

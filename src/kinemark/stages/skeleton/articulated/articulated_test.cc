@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -183,6 +184,34 @@ TEST(FitArticulated, AHingeIsKnownButForItsPlaceAlongTheAxis) {
   EXPECT_GT(C.determinant(), 0.0);
   const Eigen::Vector3d e = error_of(limb, fit.skeleton, 100, 0);
   EXPECT_LT(e.squaredNorm(), 25.0 * C.trace());
+  // Across the axis the place is right, and along it where the markers are.
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvectors().col(2);
+  EXPECT_LT((e - axis.dot(e) * axis).norm(), 0.003);
+  const auto along = [](const data::SkeletonSegment& segment, const Eigen::Vector3d& centre,
+                        const Eigen::Vector3d& of) {
+    return of.dot(centre - segment.x_in_segment.rowwise().mean());
+  };
+  EXPECT_NEAR(along(fit.skeleton.segments[0], joint.centre_in_parent, joint.axis_in_parent) +
+                  along(fit.skeleton.segments[1], joint.centre_in_child, joint.axis_in_child),
+              0.0, 0.002);
+}
+
+TEST(FitArticulated, StopsWhenAskedBeforeTheFirstFrameIsSolved) {
+  const Limb limb = make_limb({.frames = 200, .markers_per_segment = 4, .stagger_m = 0.03, .seed = 7});
+  std::int64_t asked = 0;
+  const auto stop_at = [&asked](std::int64_t last) {
+    return [&asked, last](std::int64_t done, std::int64_t) {
+      EXPECT_EQ(done, 0);
+      return ++asked < last;
+    };
+  };
+  for (const std::int64_t last : {1, 3, 5}) {
+    asked = 0;
+    const auto fit = fit_articulated(limb.markers, limb.layout, {}, stop_at(last));
+    ASSERT_FALSE(fit.has_value());
+    EXPECT_EQ(fit.error().code, Code::cancelled);
+    EXPECT_EQ(asked, last);
+  }
 }
 
 TEST(FitArticulated, LinesHaveNoHingeEvenWhenAsked) {

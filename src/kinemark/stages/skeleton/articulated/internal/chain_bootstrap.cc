@@ -82,7 +82,7 @@ Bootstrap bootstrap(const ChainSamples& samples, const GlobalFrames& frames, con
     }
     Chain chain = truth;
     GlobalFrames poses = first_poses(made, chain, all, fit.marker_weight, fit.noise_sd_m, 15);
-    GlobalFit refit(chain, made, poses);
+    GlobalFit refit(chain, made, poses, fit.noise_sd_m);
     chi2 += refit.run(15) / (fit.noise_sd_m * fit.noise_sd_m);
     dof += refit.degrees_of_freedom();
     out.bias += difference(truth, chain) / replicates;

@@ -92,7 +92,7 @@ class Rounds {
 
   // Geometry, noise and covariance from `frames`.
   void fit(GlobalFrames& frames, bool last) {
-    GlobalFit globals(fit_.chain, samples_, frames);
+    GlobalFit globals(fit_.chain, samples_, frames, fit_.noise_sd_m);
     double cost = globals.run(30);
     measure_noise(globals, cost);
     if (options_.robust_dof > 0.0) {
@@ -159,6 +159,7 @@ class Rounds {
   void measure_noise(GlobalFit& globals, double cost) {
     if (options_.noise_sd_m > 0.0) return;
     fit_.noise_sd_m = std::max(std::sqrt(cost / std::max(globals.degrees_of_freedom(), 1.0)), kLeastNoise);
+    globals.set_noise(fit_.noise_sd_m);
   }
 
   const ChainSamples& samples_;
@@ -169,7 +170,9 @@ class Rounds {
 }  // namespace
 
 Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layout,
-                           const ChainFitOptions& options) {
+                           const ChainFitOptions& options, const Progress& progress) {
+  const auto stopped = [&] { return progress && !progress(0, samples.frames); };
+  const auto cancelled = [] { return fail(Code::cancelled, "stopped while finding the geometry"); };
   if (const Status status = check_options(samples, layout, options); !status)
     return std::unexpected(status.error());
   std::vector<std::int64_t> kept;
@@ -180,7 +183,7 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
   const std::vector<int> dropped = drop_loose_markers(drawn, layout);
   std::vector<SegmentKind> kind = options.kind;
   if (kind.empty()) {
-    auto chosen = choose_kinds(drawn, layout, options.noise_sd_m);
+    auto chosen = choose_kinds(drawn, layout, options.noise_sd_m, stopped);
     if (!chosen) return std::unexpected(chosen.error());
     kind = std::move(*chosen);
   }
@@ -209,12 +212,15 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
       fit.chain.segments() == 2 && kind[0] == SegmentKind::line && kind[1] == SegmentKind::line;
   const int count = two_lines ? 1 : std::max(options.rounds, 1);
   for (int round = 0; round < count; ++round) {
+    if (stopped()) return cancelled();
     rounds.fit(frames, round + 1 == count);
+    if (stopped()) return cancelled();
     if (round == 0 && try_twins(drawn, frames, fit)) {
       frames = first_poses(drawn, fit.chain, frames.frame, fit.marker_weight, fit.noise_sd_m, 25);
       rounds.fit(frames, round + 1 == count);
     }
     if (round + 1 == count) break;
+    if (stopped()) return cancelled();
     GlobalFrames next = determined_frames(drawn, fit);
     if (next.size() < 20) {
       fit.warnings.emplace_back(
@@ -289,7 +295,8 @@ std::vector<ChainFit::Length> ChainFit::lengths() const {
           gradient[g] = sign * way[what.axis] / std::max(length, 1e-12);
         }
         const double variance = gradient.dot(global_covariance * gradient);
-        out.push_back({joints[a], joints[b], s, length, std::sqrt(std::max(variance, 0.0))});
+        out.push_back({joints[a], joints[b], s, length, std::sqrt(std::max(variance, 0.0)),
+                       way / std::max(length, 1e-12)});
       }
     }
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_frame.h"
@@ -51,13 +52,15 @@ struct ChainFit {
   struct Length {
     int joint_a = 0, joint_b = 0, segment = 0;
     double length_m = 0.0, sd_m = 0.0;
+    Vector3d way = Vector3d::Zero();  ///< unit vector from a to b in the segment's axes
   };
   [[nodiscard]] std::vector<Length> lengths() const;
 };
 
-/// Fit the geometry. Errors: a segment without a marker, no frame that shows enough, in one sentence.
+/// Fit the geometry. `progress` is asked before every step of the fit whether to go on, with none of the
+/// frames done. Errors: a segment without a marker, no frame that shows enough, in one sentence.
 [[nodiscard]] Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layout,
-                                         const ChainFitOptions& options = {});
+                                         const ChainFitOptions& options = {}, const Progress& progress = {});
 
 /// One of the poses that fit a frame.
 struct ChainMode {

@@ -28,8 +28,64 @@ void hold_loose_turns(const Chain& chain, Eigen::MatrixXd& H) {
 
 }  // namespace
 
-GlobalFit::GlobalFit(Chain& chain, const ChainSamples& samples, GlobalFrames& frames)
-    : chain_(chain), samples_(samples), frames_(frames), solver_(chain) {}
+Vector3d joint_from_markers(const Chain& chain, int joint, bool in_parent) {
+  const std::vector<int> markers =
+      chain.layout.markers_of(in_parent ? chain.layout.parent[joint] : joint + 1);
+  Vector3d mean = Vector3d::Zero();
+  for (const int k : markers) mean += chain.marker.col(k);
+  const Vector3d place = in_parent ? Vector3d(chain.joint.col(joint)) : Vector3d(Vector3d::Zero());
+  return place - mean / static_cast<double>(markers.size());
+}
+
+GlobalFit::GlobalFit(Chain& chain, const ChainSamples& samples, GlobalFrames& frames, double sigma_m)
+    : chain_(chain), samples_(samples), frames_(frames), solver_(chain) {
+  set_noise(sigma_m);
+}
+
+void GlobalFit::set_noise(double sigma_m) { prior_weight_ = std::pow(sigma_m / kJointPriorSd_m, 2); }
+
+Matrix3d GlobalFit::prior_information(int j, bool in_parent) const {
+  Matrix3d out = prior_weight_ * Matrix3d::Identity();
+  const double hold = prior_weight_ * std::pow(kJointPriorSd_m / kHingeHold_m, 2);
+  for (const HingeAxis& hinge : hinges_) {
+    const Vector3d& axis = in_parent ? hinge.in_parent : hinge.in_child;
+    if (hinge.joint == j) out += hold * axis * axis.transpose();
+  }
+  return out;
+}
+
+double GlobalFit::prior_cost(const Chain& chain) const {
+  if (!(prior_weight_ > 0.0)) return 0.0;
+  double sum = 0.0;
+  for (int j = 0; j < chain.joints(); ++j)
+    for (const bool in_parent : {true, false}) {
+      const Vector3d d = joint_from_markers(chain, j, in_parent);
+      sum += d.dot(prior_information(j, in_parent) * d);
+    }
+  return sum;
+}
+
+void GlobalFit::add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const {
+  if (!(prior_weight_ > 0.0)) return;
+  const auto& globals = chain_.globals();
+  Eigen::Matrix3Xd by_globals(3, static_cast<Eigen::Index>(globals.size()));
+  for (int j = 0; j < chain_.joints(); ++j)
+    for (const bool in_parent : {true, false}) {
+      const int s = in_parent ? chain_.layout.parent[j] : j + 1;
+      const auto count = static_cast<double>(chain_.layout.markers_of(s).size());
+      by_globals.setZero();
+      for (std::size_t g = 0; g < globals.size(); ++g) {
+        if (globals[g].segment != s) continue;
+        if (globals[g].marker >= 0)
+          by_globals(globals[g].axis, static_cast<Eigen::Index>(g)) = -1.0 / count;
+        else if (in_parent && globals[g].joint == j)
+          by_globals(globals[g].axis, static_cast<Eigen::Index>(g)) = 1.0;
+      }
+      const Eigen::MatrixX3d weighed = by_globals.transpose() * prior_information(j, in_parent);
+      S.noalias() += weighed * by_globals;
+      right.noalias() -= weighed * joint_from_markers(chain_, j, in_parent);
+    }
+}
 
 double GlobalFit::refine_all(FrameSolver& solver, std::vector<ChainPose>& poses, int iterations) {
   double total = 0.0;
@@ -68,11 +124,12 @@ void GlobalFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep
     for (Eigen::Index c = 0; c < n; ++c) solve_upper(H, G.col(c));
     by_globals_[i] = G;
   }
+  add_prior(S, right);
 }
 
 double GlobalFit::run(int iterations, const Eigen::VectorXd& push) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.globals().size());
-  double cost = refine_all(solver_, frames_.pose, 40);
+  double cost = refine_all(solver_, frames_.pose, 40) + prior_cost(chain_);
   double lambda = 1e-6;
   Eigen::MatrixXd S;
   Eigen::VectorXd right;
@@ -104,7 +161,7 @@ double GlobalFit::run(int iterations, const Eigen::VectorXd& push) {
         if (big > 0.5) frame_step *= 0.5 / big;
         move_pose(trial, frame_step, poses[i]);
       }
-      const double value = refine_all(trial_solver, poses, 20);
+      const double value = refine_all(trial_solver, poses, 20) + prior_cost(trial);
       const double pushed = push.size() == n ? 2.0 * push.dot(step) : 0.0;
       if (value + pushed <= cost + 1e-18) {
         gain = cost - value - pushed;
@@ -120,7 +177,7 @@ double GlobalFit::run(int iterations, const Eigen::VectorXd& push) {
     }
     if (!better || gain < 1e-9 * cost + 1e-20) break;
   }
-  return cost;
+  return cost - prior_cost(chain_);
 }
 
 Eigen::VectorXd GlobalFit::integrated_gradient(double sigma_m) {

@@ -4,12 +4,22 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "kinemark/stages/skeleton/articulated/internal/chain.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_frame.h"
+#include "kinemark/stages/skeleton/articulated/internal/hinge_axis.h"
 
 namespace kinemark::skeleton {
+
+/// SD per axis of a joint about the mean of a segment's markers before anything is seen, m.
+constexpr double kJointPriorSd_m = 0.3;
+/// The same along the axis of a joint that is held there, m.
+constexpr double kHingeHold_m = 1e-3;
+
+/// A joint's place from the mean of the markers of one of its segments, in that segment's axes, m.
+[[nodiscard]] Vector3d joint_from_markers(const Chain& chain, int joint, bool in_parent);
 
 /// Frames that inform the geometry, with their poses.
 struct GlobalFrames {
@@ -22,11 +32,14 @@ struct GlobalFrames {
 /// Fits the geometry of `chain`, in place. Keeps references to all three.
 class GlobalFit {
  public:
-  GlobalFit(Chain& chain, const ChainSamples& samples, GlobalFrames& frames);
+  /// Beforehand every joint is taken to lie about the mean of its segments' markers, by kJointPriorSd_m. With
+  /// noise `sigma_m` that says nothing beside what frames tell, and holds what they leave open (the place
+  /// along a hinge's axis). 0: nothing is known beforehand.
+  GlobalFit(Chain& chain, const ChainSamples& samples, GlobalFrames& frames, double sigma_m = 0.0);
 
   /// Damped Gauss-Newton with variable projection: S dg = sum (b_g - G^T H^-1 b), S = sum (H_gg - G^T H^-1
   /// G), each trial with all poses refined. `push` (empty: none) is added to the gradient of half the cost.
-  /// Returns the cost, m^2.
+  /// Returns the cost, m^2, without the prior's part.
   double run(int iterations, const Eigen::VectorXd& push = {});
   /// Gradient of sigma^2 / 2 sum log det H by the globals, by differences: what turns the profile likelihood
   /// into the integrated one. For lines only: a solid's turn that the data hardly fix is not Gaussian, and
@@ -39,6 +52,10 @@ class GlobalFit {
   /// sum over frames of 3 n_seen - rank, less the globals less their gauge.
   [[nodiscard]] double degrees_of_freedom();
   [[nodiscard]] double cost();
+  /// Noise against which the prior weighs, m.
+  void set_noise(double sigma_m);
+  /// Hold joints along their axes at the place nearest to their markers, by kHingeHold_m.
+  void hold(std::vector<HingeAxis> hinges) { hinges_ = std::move(hinges); }
   /// Noise variance of each marker over the common one, from residuals and their leverage, shrunk towards 1.
   [[nodiscard]] std::vector<double> marker_variance(double sigma_m);
   /// Student weights from the residuals.
@@ -47,11 +64,16 @@ class GlobalFit {
  private:
   double refine_all(FrameSolver& solver, std::vector<ChainPose>& poses, int iterations);
   void accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep);
+  void add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const;
+  [[nodiscard]] Matrix3d prior_information(int joint, bool in_parent) const;
+  [[nodiscard]] double prior_cost(const Chain& chain) const;
 
   Chain& chain_;
   const ChainSamples& samples_;
   GlobalFrames& frames_;
   FrameSolver solver_;
+  std::vector<HingeAxis> hinges_;
+  double prior_weight_ = 0.0;                // (noise / kJointPriorSd_m)^2
   std::vector<Eigen::MatrixXd> by_globals_;  // H^-1 G, frame by frame
   std::vector<Eigen::VectorXd> step_;        // H^-1 b
 };

@@ -17,6 +17,7 @@ namespace {
 
 using data::SegmentKind;
 
+constexpr double kNever = -std::numeric_limits<double>::infinity();  // a trial that was not made
 constexpr double kPi = std::numbers::pi;
 constexpr double kFirm = 50.0;  // information beyond which a turn's integral is Gaussian
 constexpr double kLineBonusOfFrame = 0.5;
@@ -112,7 +113,7 @@ double across_line(const ChainSamples& samples, std::span<const int> markers, do
 }
 
 Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const ChainLayout& layout,
-                                              double sigma_m) {
+                                              double sigma_m, const std::function<bool()>& stopped) {
   // Kinds that a segment may have: what two markers and a joint show is never more than a plane.
   const int segments = layout.segments();
   std::vector<std::vector<SegmentKind>> allowed(segments);
@@ -163,12 +164,15 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
       sum += k == SegmentKind::line ? line_bonus : k == SegmentKind::plane ? kPlaneBonus : 0.0;
     return sum;
   };
+  bool cancelled = false;
   std::vector<std::pair<std::vector<SegmentKind>, double>> known;
   const auto value = [&](const std::vector<SegmentKind>& kind) {
     for (const auto& [tried, worth] : known) {
       if (tried == kind) return worth;
     }
-    const double worth = try_kinds(samples, layout, kind, sigma, frames).evidence + bonus(kind);
+    cancelled = cancelled || (stopped && stopped());
+    const double worth =
+        cancelled ? kNever : try_kinds(samples, layout, kind, sigma, frames).evidence + bonus(kind);
     known.emplace_back(kind, worth);
     return worth;
   };
@@ -194,6 +198,7 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
       }
     }
   }
+  if (cancelled) return fail(Code::cancelled, "stopped while choosing the kinds of segments");
   return best;
 }
 

@@ -3,6 +3,8 @@
 // Line, plane or solid: what the data say of each segment.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "kinemark/core/result.h"
@@ -23,7 +25,9 @@ namespace kinemark::skeleton {
 
 /// Kind of every segment. A line is taken unless another kind is better by some tens of nats: its error is
 /// the smaller one where the two are near. `sigma_m` 0: estimated with all segments solid.
+/// `stopped` (empty: never) is asked before every trial; true ends the work with Code::cancelled.
 [[nodiscard]] Result<std::vector<data::SegmentKind>> choose_kinds(const ChainSamples& samples,
-                                                                  const ChainLayout& layout, double sigma_m);
+                                                                  const ChainLayout& layout, double sigma_m,
+                                                                  const std::function<bool()>& stopped = {});
 
 }  // namespace kinemark::skeleton

@@ -20,6 +20,20 @@ constexpr std::size_t kEnoughFrames = 40;
 constexpr double kWide = 50.0;    // second extent of a segment's markers over the noise, chi-square
 constexpr double kTurned = 0.05;  // of the most that two segments can turn against each other
 
+// Move a joint in the axes of its parent or of its child.
+void move_joint(Chain& chain, int joint, bool in_parent, const Vector3d& change) {
+  if (in_parent && joint > 0) {
+    chain.joint.col(joint) += change;
+    return;
+  }
+  // The origin moves: everything else moves the other way.
+  const int s = in_parent ? chain.layout.parent[joint] : joint + 1;
+  for (const int k : chain.layout.markers_of(s)) chain.marker.col(k) -= change;
+  for (int j = 1; j < chain.joints(); ++j) {
+    if (chain.layout.parent[j] == s) chain.joint.col(j) -= change;
+  }
+}
+
 // Reflect a segment's joint (or its origin) at the plane that lies best through its markers.
 void mirror_joint(Chain& chain, int joint, bool in_parent) {
   const int s = in_parent ? chain.layout.parent[joint] : joint + 1;
@@ -36,16 +50,7 @@ void mirror_joint(Chain& chain, int joint, bool in_parent) {
   const Vector3d normal = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors().col(0);
   const bool at_origin = !in_parent || joint == 0;
   const Vector3d p = at_origin ? Vector3d::Zero() : Vector3d(chain.joint.col(joint));
-  const Vector3d change = -2.0 * normal.dot(p - mean) * normal;
-  if (!at_origin) {
-    chain.joint.col(joint) += change;
-    return;
-  }
-  // The origin moves: everything else moves the other way.
-  for (const int k : markers) chain.marker.col(k) -= change;
-  for (int j = 1; j < chain.joints(); ++j) {
-    if (chain.layout.parent[j] == s) chain.joint.col(j) -= change;
-  }
+  move_joint(chain, joint, in_parent, -2.0 * normal.dot(p - mean) * normal);
 }
 
 // Where most frames show both segments' poses, and these turn against each other about more than one axis,
@@ -172,7 +177,7 @@ bool try_twins(const ChainSamples& samples, const GlobalFrames& frames, ChainFit
   const double share = static_cast<double>(frames.size()) / static_cast<double>(n);
   const auto refit = [&](Chain& chain, GlobalFrames& poses) {
     poses = first_poses(samples, chain, some, fit.marker_weight, fit.noise_sd_m, 15);
-    return GlobalFit(chain, samples, poses).run(10);
+    return GlobalFit(chain, samples, poses, fit.noise_sd_m).run(10);
   };
   Chain best = fit.chain;
   GlobalFrames best_poses;
@@ -199,6 +204,25 @@ bool try_twins(const ChainSamples& samples, const GlobalFrames& frames, ChainFit
   }
   if (taken) fit.chain = best;
   return taken;
+}
+
+void hold_hinges(const ChainSamples& samples, const std::vector<HingeAxis>& hinges, ChainFit& fit) {
+  for (const HingeAxis& hinge : hinges) {
+    const double above = hinge.in_parent.dot(joint_from_markers(fit.chain, hinge.joint, true));
+    const double below = hinge.in_child.dot(joint_from_markers(fit.chain, hinge.joint, false));
+    const double along = -0.5 * (above + below);
+    move_joint(fit.chain, hinge.joint, true, along * hinge.in_parent);
+    move_joint(fit.chain, hinge.joint, false, along * hinge.in_child);
+  }
+  GlobalFrames frames = first_poses(samples, fit.chain, fit.frames, fit.marker_weight, fit.noise_sd_m, 25);
+  GlobalFit globals(fit.chain, samples, frames, fit.noise_sd_m);
+  globals.hold(hinges);
+  globals.run(20);
+  if (fit.robust_dof > 0.0) {
+    globals.reweigh(fit.marker_weight, fit.robust_dof, fit.noise_sd_m);
+    globals.run(10);
+  }
+  fit.global_covariance = fit.noise_sd_m * fit.noise_sd_m * globals.covariance(fit.noise_sd_m);
 }
 
 }  // namespace kinemark::skeleton

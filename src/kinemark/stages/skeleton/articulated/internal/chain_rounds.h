@@ -25,4 +25,8 @@ namespace kinemark::skeleton {
 /// `fit.chain` (true) and notes by how much the best different one is worse.
 bool try_twins(const ChainSamples& samples, const GlobalFrames& frames, ChainFit& fit);
 
+/// Where a hinge lies along its axis the motion leaves open. Refits the geometry with these joints held there
+/// to the point of the axis that is nearest to the markers of both segments; noise and weights stay.
+void hold_hinges(const ChainSamples& samples, const std::vector<HingeAxis>& hinges, ChainFit& fit);
+
 }  // namespace kinemark::skeleton
