@@ -49,7 +49,7 @@ VectorXd angle_deg(const data::JointMotion& motion, std::string_view coordinate)
 
 /// Figure 2: one coordinate by every method.
 std::string angles(const TaiChiDrawing& drawing, std::string_view coordinate) {
-  SvgPlot plot(std::string(coordinate), "s", fmt::format("{}, deg", coordinate));
+  SvgPlot plot(std::string(coordinate), "time, s", fmt::format("{}, deg", coordinate));
   const auto& fitted = drawing.least_squares.motion;
   plot.line("least squares", kLeastSquares, times(fitted.time), angle_deg(fitted, coordinate), 3.0);
   const auto add = [&](const char* name, const char* colour, const motion::TrackResult& tracked) {
@@ -79,7 +79,7 @@ Eigen::MatrixX3d errors(const data::JointMotion& motion, std::string_view landma
 std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int axis) {
   constexpr std::array<const char*, 3> kAxis{"forward", "up", "right"};
   const auto m = drawing.goals.find(landmark);
-  SvgPlot plot(std::string(landmark), "s",
+  SvgPlot plot(std::string(landmark), "time, s",
                fmt::format("{}, {}, m", landmark, kAxis[static_cast<std::size_t>(axis)]));
   VectorXd goal(drawing.goals.frames());
   for (std::int64_t f = 0; f < drawing.goals.frames(); ++f) goal[f] = drawing.goals.x(f, m)[axis];
@@ -100,7 +100,7 @@ std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int ax
 std::string margins(const data::JointMotion& motion, const char* title) {
   constexpr std::array<std::pair<const char*, const char*>, 4> kFour{
       {{"RShoulder", "#1f5fa8"}, {"LWrist", "#2e8b57"}, {"LElbow", "#a83232"}, {"RWrist", "#b8860b"}}};
-  SvgPlot plot(title, "s", "landmark to goal, mm");
+  SvgPlot plot(title, "time, s", "landmark to goal, mm");
   for (const auto& [landmark, colour] : kFour)
     plot.line(landmark, colour, times(motion.time), 1e3 * errors(motion, landmark).rowwise().norm());
   return plot.svg();
@@ -110,7 +110,7 @@ std::string margins(const data::JointMotion& motion, const char* title) {
 std::string joint_margin(const TaiChiDrawing& drawing, std::string_view coordinate) {
   const auto& ours = drawing.whole.motion;
   const auto c = ours.find(coordinate);
-  SvgPlot plot(std::string(coordinate), "s", fmt::format("{}: error and its bound, deg", coordinate));
+  SvgPlot plot(std::string(coordinate), "time, s", fmt::format("{}: error and its bound, deg", coordinate));
   const auto shift = drawing.whole.first_frame - drawing.least_squares.first_frame;
   VectorXd bound = VectorXd::Constant(ours.frames(), kNaN);
   const auto& goal_bound = drawing.whole.goal_bound;
