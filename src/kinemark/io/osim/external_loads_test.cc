@@ -211,7 +211,8 @@ TEST(ExternalLoads, BytesTurnedIntoAnything) {
     std::string xml = good;
     const auto at = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(xml.size())));
     // Any byte, or a letter, which more often leaves well-formed XML.
-    xml[at] = static_cast<char>(round % 2 == 0 ? random.uniform(0.0, 256.0) : random.uniform(97.0, 123.0));
+    const double byte = round % 2 == 0 ? random.uniform(0.0, 256.0) : random.uniform(97.0, 123.0);
+    xml[at] = static_cast<char>(static_cast<int>(byte));
     const auto loads = parse_external_loads(xml, "l.xml");
     if (!loads) {
       EXPECT_FALSE(loads.error().message.empty());
