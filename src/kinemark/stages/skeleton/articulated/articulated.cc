@@ -16,6 +16,7 @@
 #include "kinemark/stages/skeleton/articulated/internal/findings.h"
 #include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
 #include "kinemark/stages/skeleton/articulated/internal/recording_pass.h"
+#include "kinemark/stages/skeleton/articulated/internal/widening.h"
 
 namespace kinemark::skeleton {
 namespace {
@@ -177,47 +178,13 @@ double common_variance(const Work& w, int j) {
   return n > 0.0 ? sum / n : 0.0;
 }
 
-/// Along a hinge's axis nothing is known: add there, in the world, what the segments' size allows.
-void widen_along_axis(const Work& w, data::Skeleton& skeleton, int layout_joint, double size_m) {
+void widen_hinge(const Work& w, data::Skeleton& skeleton, int j) {
+  const int layout_joint = w.tree.joint_order[at(j)];
   const data::SkeletonJoint& joint = skeleton.joints[at(layout_joint)];
-  const auto chain_joint =
-      static_cast<int>(std::ranges::find(w.tree.joint_order, layout_joint) - w.tree.joint_order.begin());
-  const int segment = w.fit.chain.layout.parent[at(chain_joint)];
   const bool turned = w.tree.holder[at(layout_joint)] != joint.parent_segment;
-  const Vector3d axis = turned ? joint.axis_in_child : joint.axis_in_parent;
-  // Between sampled poses the axis is that of the last one: it points where the width goes, not where the
-  // joint is.
-  std::size_t next = 0;
-  const auto& sampled = w.pass.sampled;
-  for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
-    while (next + 1 < sampled.size() && sampled[next + 1].frame <= f) ++next;
-    if (next >= sampled.size() ||
-        skeleton.state[skeleton.index(f, layout_joint)] == CentreState::undetermined)
-      continue;
-    const Vector3d in_world = sampled[next].pose.rotation[at(segment)] * axis;
-    const Matrix3d C = skeleton.centre_covariance(f, layout_joint);
-    const double more = size_m * size_m - in_world.dot(C * in_world);
-    if (more > 0.0)
-      internal::store_symmetric(skeleton.covariance.data() + 6 * skeleton.index(f, layout_joint),
-                                C + more * in_world * in_world.transpose());
-  }
-  const auto widen = [&](Matrix3d& C, const Vector3d& a) {
-    if (const double more = size_m * size_m - a.dot(C * a); more > 0.0) C += more * a * a.transpose();
-  };
-  auto& changed = skeleton.joints[at(layout_joint)];
-  widen(changed.covariance_in_parent, changed.axis_in_parent);
-  widen(changed.covariance_in_child, changed.axis_in_child);
-}
-
-/// A joint that did not move may lie anywhere about its segments: noise only looks like motion.
-void widen_all_around(data::Skeleton& skeleton, int layout_joint, double size_m) {
-  const Matrix3d more = size_m * size_m * Matrix3d::Identity();
-  for (std::int64_t f = 0; f < skeleton.frames(); ++f)
-    if (skeleton.state[skeleton.index(f, layout_joint)] != CentreState::undetermined)
-      internal::store_symmetric(skeleton.covariance.data() + 6 * skeleton.index(f, layout_joint),
-                                skeleton.centre_covariance(f, layout_joint) + more);
-  skeleton.joints[at(layout_joint)].covariance_in_parent += more;
-  skeleton.joints[at(layout_joint)].covariance_in_child += more;
+  internal::widen_along_axis(w.pass.sampled, w.fit.chain.layout.parent[at(j)],
+                             turned ? joint.axis_in_child : joint.axis_in_parent, layout_joint,
+                             w.fit.chain.scale(), skeleton);
 }
 
 /// One joint's centres, by its own frames or by its path.
@@ -351,9 +318,9 @@ ArticulatedFit assemble(const Work& w) {
   for (int j = 0; j < J; ++j) {
     const int joint = w.tree.joint_order[at(j)];
     if (seen[at(j)].still)
-      widen_all_around(skeleton, joint, w.fit.chain.scale());
+      internal::widen_all_around(joint, w.fit.chain.scale(), skeleton);
     else if (skeleton.joints[at(joint)].kind == data::JointKind::hinge)
-      widen_along_axis(w, skeleton, joint, w.fit.chain.scale());
+      widen_hinge(w, skeleton, j);
   }
   out.marker_noise_sd_m.assign(w.markers.names.size(), std::numeric_limits<double>::quiet_NaN());
   for (int m = 0; m < w.fit.chain.markers(); ++m)

@@ -152,6 +152,7 @@ class Rounds {
       fit_.noise_sd_m *= std::sqrt(excess);
     }
     fit_.chi2 = cost / (fit_.noise_sd_m * fit_.noise_sd_m);
+    fit_.global_covariance_scale = wider;
     fit_.global_covariance = wider * fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
   }
 

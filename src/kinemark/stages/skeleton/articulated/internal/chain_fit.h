@@ -39,6 +39,8 @@ struct ChainFit {
   double residual_dof = 0.0;
   double chi2 = 0.0;              ///< of these frames' residuals, in units of noise_sd_m^2
   double covariance_scale = 1.0;  ///< of a frame's own covariance, where turns are weak
+  double global_covariance_scale =
+      1.0;  ///< in it already: where the geometry's bias was estimated, 1 or more
   double robust_dof = 0.0;
   double alternative_max = 1e-3;
   /// chi-square by which the best mirrored geometry is worse: below about 10 the data do not tell them apart.

@@ -222,7 +222,8 @@ void hold_hinges(const ChainSamples& samples, const std::vector<HingeAxis>& hing
     globals.reweigh(fit.marker_weight, fit.robust_dof, fit.noise_sd_m);
     globals.run(10);
   }
-  fit.global_covariance = fit.noise_sd_m * fit.noise_sd_m * globals.covariance(fit.noise_sd_m);
+  fit.global_covariance =
+      fit.global_covariance_scale * fit.noise_sd_m * fit.noise_sd_m * globals.covariance(fit.noise_sd_m);
 }
 
 }  // namespace kinemark::skeleton
