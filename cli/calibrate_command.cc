@@ -7,7 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/calibrate_job.h"
+#include "kinemark/pipeline/rig/calibrate_job.h"
 
 namespace kinemark::cli {
 namespace {

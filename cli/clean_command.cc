@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/clean_job.h"
+#include "kinemark/pipeline/clean/clean_job.h"
 
 namespace kinemark::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/convert_job.h"
+#include "kinemark/pipeline/files/convert_job.h"
 
 namespace kinemark::cli {
 

@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/motion_arguments.h"
-#include "kinemark/pipeline/ik_job.h"
+#include "kinemark/pipeline/motion/ik_job.h"
 
 namespace kinemark::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/joints_job.h"
+#include "kinemark/pipeline/joints/joints_job.h"
 
 namespace kinemark::cli {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "cli/command.h"
 #include "kinemark/core/result.h"
-#include "kinemark/pipeline/motion_job.h"
+#include "kinemark/pipeline/motion/motion_job.h"
 
 namespace kinemark::cli {
 

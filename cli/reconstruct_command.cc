@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/reconstruct_job.h"
+#include "kinemark/pipeline/rig/reconstruct_job.h"
 
 namespace kinemark::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/recover_job.h"
+#include "kinemark/pipeline/files/recover_job.h"
 
 namespace kinemark::cli {
 

@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/report_job.h"
+#include "kinemark/pipeline/motion/report_job.h"
 
 namespace kinemark::cli {
 

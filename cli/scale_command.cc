@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/scale_job.h"
+#include "kinemark/pipeline/scale/scale_job.h"
 
 namespace kinemark::cli {
 namespace {

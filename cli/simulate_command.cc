@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/simulate_job.h"
+#include "kinemark/pipeline/simulate/simulate_job.h"
 
 namespace kinemark::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/simulate_limb_job.h"
+#include "kinemark/pipeline/simulate/simulate_limb_job.h"
 
 namespace kinemark::cli {
 namespace {

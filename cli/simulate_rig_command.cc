@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/simulate_rig_job.h"
+#include "kinemark/pipeline/simulate/simulate_rig_job.h"
 
 namespace kinemark::cli {
 namespace {

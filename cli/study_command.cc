@@ -10,13 +10,13 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/io/file.h"
-#include "kinemark/pipeline/macaque/macaque_figures.h"
-#include "kinemark/pipeline/macaque/study_macaque_job.h"
-#include "kinemark/pipeline/poizner/study_figures.h"
-#include "kinemark/pipeline/poizner/study_poizner_job.h"
-#include "kinemark/pipeline/study/study_page.h"
-#include "kinemark/pipeline/study_taichi_job.h"
-#include "kinemark/pipeline/taichi/taichi_figures.h"
+#include "studies/macaque/macaque_figures.h"
+#include "studies/macaque/study_macaque_job.h"
+#include "studies/poizner/study_figures.h"
+#include "studies/poizner/study_poizner_job.h"
+#include "studies/common/study_page.h"
+#include "studies/taichi/study_taichi_job.h"
+#include "studies/taichi/taichi_figures.h"
 
 namespace kinemark::cli {
 namespace {
@@ -41,7 +41,7 @@ int run_study(const Globals& globals, const StudyArguments& arguments, const Run
               const PageOf& page_of) {
   std::vector<std::uint64_t> seeds{globals.seed};
   if (!arguments.seeds.empty()) {
-    auto parsed = pipeline::parse_seeds(arguments.seeds);
+    auto parsed = studies::parse_seeds(arguments.seeds);
     if (!parsed) return report_error(parsed.error());
     seeds = std::move(*parsed);
   }
@@ -54,14 +54,14 @@ int run_study(const Globals& globals, const StudyArguments& arguments, const Run
   const auto study = run(seeds);
   if (!study) return report_error(study.error());
   if (file) {
-    const Result<pipeline::StudyPage> page = page_of(*study);
+    const Result<studies::StudyPage> page = page_of(*study);
     if (!page) return report_error(page.error());
-    if (auto s = file->write(pipeline::study_html(*page)); !s) return report_error(s.error());
+    if (auto s = file->write(studies::study_html(*page)); !s) return report_error(s.error());
     if (auto s = file->commit(); !s) return report_error(s.error());
   }
-  say(globals, pipeline::study_text(study->table));
+  say(globals, studies::study_text(study->table));
   if (file) say(globals, "wrote " + arguments.figures);
-  if (globals.json) fmt::print("{}\n", pipeline::study_json(study->table).dump(2));
+  if (globals.json) fmt::print("{}\n", studies::study_json(study->table).dump(2));
   return study->table.pass() ? 0 : 1;
 }
 
@@ -69,11 +69,11 @@ int run_poizner(const Globals& globals, const StudyArguments& arguments) {
   return run_study(
       globals, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
-        return pipeline::study_poizner({.seeds = seeds, .threads = globals.threads},
+        return studies::study_poizner({.seeds = seeds, .threads = globals.threads},
                                        show_progress(globals, "rigs"));
       },
-      [](const pipeline::PoiznerStudy& study) -> Result<pipeline::StudyPage> {
-        return pipeline::study_page(study);
+      [](const studies::PoiznerStudy& study) -> Result<studies::StudyPage> {
+        return studies::study_page(study);
       });
 }
 
@@ -92,12 +92,12 @@ int run_macaque(const Globals& globals, const StudyArguments& arguments) {
   return run_study(
       globals, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
-        pipeline::MacaqueJob job;
+        studies::MacaqueJob job;
         job.seeds = seeds;
         job.threads = globals.threads;
-        return pipeline::study_macaque(job, show_progress(globals, "recordings"));
+        return studies::study_macaque(job, show_progress(globals, "recordings"));
       },
-      pipeline::macaque_page);
+      studies::macaque_page);
 }
 
 void add_macaque(CLI::App& command, const Globals& globals, Run& run) {
@@ -114,7 +114,7 @@ void add_macaque(CLI::App& command, const Globals& globals, Run& run) {
 }
 
 struct TaiChiArguments : StudyArguments {
-  pipeline::TaiChiFiles files;
+  studies::TaiChiFiles files;
 };
 
 int run_tai_chi(const Globals& globals, const TaiChiArguments& arguments) {
@@ -128,10 +128,10 @@ int run_tai_chi(const Globals& globals, const TaiChiArguments& arguments) {
         files.seeds = seeds;
         if (files.data.empty())
           say(globals, "note: no recording was named (--data); simulated subjects stand in for it");
-        return pipeline::run_study_taichi(files, show_progress(globals, "parts"));
+        return studies::run_study_taichi(files, show_progress(globals, "parts"));
       },
-      [](const pipeline::TaiChiStudy& study) -> Result<pipeline::StudyPage> {
-        return pipeline::taichi_page(study);
+      [](const studies::TaiChiStudy& study) -> Result<studies::StudyPage> {
+        return studies::taichi_page(study);
       });
 }
 

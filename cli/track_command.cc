@@ -9,7 +9,7 @@
 #include "cli/console.h"
 #include "cli/motion_arguments.h"
 #include "kinemark/io/number.h"
-#include "kinemark/pipeline/track_job.h"
+#include "kinemark/pipeline/motion/track_job.h"
 
 namespace kinemark::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/file_facts.h"
+#include "kinemark/pipeline/files/file_facts.h"
 
 namespace kinemark::cli {
 namespace {

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""Check the layer rule over the #include lines of src/kinemark and the front ends.
+"""Check the layer rule over the #include lines of src/kinemark, the studies and the front ends.
 
     tools/check_layers.py [ROOT]
 
 A folder may include itself and the folders that ALLOWED lists for it, nothing else. So a stage never includes
-another stage, folders of layer 3 do not know each other, and only pipeline/ joins stages. Besides:
+another stage, folders of layer 3 do not know each other, and only pipeline/ and the studies join stages. A study
+includes no other study but `common`, and the library includes none. Besides:
 
 - a header in `internal/` is included only from the folder that owns it, or from below it;
 - tests of layer 3 may also read their models and recordings through io/;
@@ -33,8 +34,10 @@ ALLOWED = {
     **{folder: ("core", "math", "data") for folder in LAYER_3},
     "stages": ("core", "math", "data", *LAYER_3),
     "pipeline": ("core", "math", "data", *LAYER_3, "stages"),
+    # The founding papers beside ours: they stand beside the library and join stages as they need.
+    "studies": ("core", "math", "data", *LAYER_3, "stages", "pipeline"),
     # Front ends: no algorithm lives there, so they reach stages through pipeline/ only.
-    "front end": ("core", "math", "data", *LAYER_3, "pipeline"),
+    "front end": ("core", "math", "data", *LAYER_3, "pipeline", "studies"),
 }
 FRONT_ENDS = ("cli", "server", "python")
 SUFFIXES = {".h", ".cc"}
@@ -48,6 +51,8 @@ def folder_of(path):
     parts = PurePosixPath(path).parts
     if parts[0] in FRONT_ENDS:
         return "front end"
+    if parts[0] == "studies":
+        return f"studies/{parts[1]}" if len(parts) > 2 else None
     if parts[:2] != ("src", "kinemark") or len(parts) < 4:
         return None
     if parts[2] == "stages":
@@ -68,6 +73,8 @@ def is_test(path):
 def may_include(source, target, from_test=False):
     """Whether a file of the folder `source` may include one of the folder `target`."""
     if source == target or (from_test and source in LAYER_3 and target == "io"):
+        return True
+    if source.startswith("studies/") and target == "studies/common":
         return True
     return target.split("/")[0] in ALLOWED[source.split("/")[0]]
 
@@ -90,7 +97,7 @@ def includes_of(text):
 
 
 def sources(root):
-    for top in ("src/kinemark", *FRONT_ENDS):
+    for top in ("src/kinemark", "studies", *FRONT_ENDS):
         for path in sorted((root / top).rglob("*")):
             if path.suffix in SUFFIXES and path.is_file():
                 yield path.relative_to(root).as_posix()
@@ -100,7 +107,7 @@ def find_target(root, path, included):
     """The project's file that an #include line names, relative to the root; None when it is not ours."""
     if included.startswith("kinemark/"):
         return f"src/{included}"
-    if included.split("/")[0] in FRONT_ENDS:
+    if included.split("/")[0] in ("studies", *FRONT_ENDS):
         return included
     beside = posixpath.normpath(PurePosixPath(path).parent / included)
     return beside if (root / beside).is_file() else None

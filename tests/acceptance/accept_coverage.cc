@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/human_model.h"
+#include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/simulation/subject.h"
 #include "support/acceptance.h"

@@ -16,7 +16,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/state.h"
-#include "kinemark/pipeline/ik_setup_options.h"
+#include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"

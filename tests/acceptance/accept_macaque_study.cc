@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "kinemark/pipeline/macaque/study_macaque_job.h"
+#include "studies/macaque/study_macaque_job.h"
 #include "support/acceptance.h"
 
 /// accept_macaque_study quick | all [SEEDS]   quick: few cells, one seed
 int main(int argc, char** argv) {
   using namespace kinemark;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  pipeline::MacaqueJob job;
+  studies::MacaqueJob job;
   if (arguments.empty() || arguments.front() == "quick") {
     job.noise_mm = {1.0, 2.0};
     job.missing = {0.0, 0.2, 0.4};
@@ -21,9 +21,9 @@ int main(int argc, char** argv) {
     job.sleeve_noise_mm = {1.0};
     job.sleeve_s = 8.0;
   } else if (arguments.size() > 1) {
-    job.seeds = pipeline::parse_seeds(arguments[1]).value();
+    job.seeds = studies::parse_seeds(arguments[1]).value();
   }
-  const auto study = pipeline::study_macaque(job).value();
+  const auto study = studies::study_macaque(job).value();
   for (const auto& row : study.table.rows) {
     std::string asked;
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemark/pipeline/poizner/study_poizner_job.h"
+#include "studies/poizner/study_poizner_job.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
@@ -34,7 +34,7 @@ double median(std::vector<double> values) {
 struct Anchor {
   const char* what;
   double value;
-  std::function<double(const pipeline::PoiznerSeed&)> get;
+  std::function<double(const studies::PoiznerSeed&)> get;
 };
 
 std::vector<Anchor> anchors() {
@@ -79,9 +79,9 @@ std::vector<Anchor> anchors() {
 
 /// The whole table for seeds 1 to `last`.
 void study(int last) {
-  pipeline::PoiznerJob job;
-  job.seeds = pipeline::parse_seeds(fmt::format("1-{}", last)).value();
-  const auto done = pipeline::study_poizner(job).value();
+  studies::PoiznerJob job;
+  job.seeds = studies::parse_seeds(fmt::format("1-{}", last)).value();
+  const auto done = studies::study_poizner(job).value();
   for (const auto& row : done.table.rows) {
     std::string asked;
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
@@ -119,13 +119,13 @@ struct Still {
   double mean_error_m = 0.0, error_over_predicted = 0.0;
 };
 
-Still still(int seeds, const pipeline::CalibratedRigOptions& options,
-            const pipeline::StillStudyOptions& how = {}) {
+Still still(int seeds, const studies::CalibratedRigOptions& options,
+            const studies::StillStudyOptions& how = {}) {
   Still out;
   double squares = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const auto rig = pipeline::calibrate_rig(static_cast<std::uint64_t>(seed), options).value();
-    const auto found = pipeline::study_still_tree(rig, how).value();
+    const auto rig = studies::calibrate_rig(static_cast<std::uint64_t>(seed), options).value();
+    const auto found = studies::study_still_tree(rig, how).value();
     out.mean_error_m += found.ours.mean_error_m() / seeds;
     squares += found.error_over_predicted * found.error_over_predicted / seeds;
   }
@@ -143,7 +143,7 @@ void print_predicted(const std::string& what, const Still& found) {
 void stress() {
   constexpr int kSeeds = 4;
   const Still normal = still(kSeeds, {});
-  pipeline::CalibratedRigOptions wrong;
+  studies::CalibratedRigOptions wrong;
   wrong.rig.crosstalk = 0.02;
   wrong.rig.ripple = 0.001;
   const Still rich = still(kSeeds, wrong);
@@ -153,7 +153,7 @@ void stress() {
   wrong.bundle.warp_degree = 7;
   wrong.bundle.crosstalk = wrong.bundle.escalate = false;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const auto refused = pipeline::calibrate_rig(seed, wrong);
+    const auto refused = studies::calibrate_rig(seed, wrong);
     print_row(!refused && refused.error().message.find("chi2") != std::string::npos,
               fmt::format("wrong detector, plain model, seed {}", seed), "refused by chi2",
               refused ? "accepted" : refused.error().message.substr(0, 70));
@@ -161,22 +161,22 @@ void stress() {
   // Offsets hold the stray light of LEDs as bright as those of the calibration, so both are dimmed; the grid
   // is not.
   for (const double light : {0.5, 0.3}) {
-    pipeline::CalibratedRigOptions dim;
+    studies::CalibratedRigOptions dim;
     dim.intensity = light;
     dim.grid_in_bundle = false;
     print_predicted(fmt::format("{} of the light", light), still(kSeeds, dim, {.intensity = light}));
   }
-  pipeline::CalibratedRigOptions few;
+  studies::CalibratedRigOptions few;
   few.tree_poses = 30;
   print_predicted("30 tree poses", still(kSeeds, few));
-  pipeline::CalibratedRigOptions bare;
+  studies::CalibratedRigOptions bare;
   bare.grid_in_bundle = false;
   print_predicted("no grid", still(kSeeds, bare));
 
   for (const bool dark : {false, true}) {
-    pipeline::CalibratedRigOptions with;
+    studies::CalibratedRigOptions with;
     with.rig.dark_slot = dark;
-    const auto rig = pipeline::calibrate_rig(1, with).value();
+    const auto rig = studies::calibrate_rig(1, with).value();
     simulation::WheelOptions wheel;
     wheel.leds = dark ? 7 : 8;
     simulation::RigRecordingOptions how;
@@ -188,16 +188,16 @@ void stress() {
     options.flicker = dark ? trajectory::Flicker::dark_slot : trajectory::Flicker::regress;
     const auto smooth =
         trajectory::smooth_counts(recorded.counts, rig.bundle.rig, start.points, options).value();
-    pipeline::Coverage positions, rates;
+    studies::Coverage positions, rates;
     double worst = 0.0;
     for (std::int64_t led = 0; led < recorded.counts.led_count(); ++led) {
-      const auto path = pipeline::turned_path(smooth.points, smooth.derivatives, led, rig.truth_from_ours);
-      pipeline::add_coverage(path, recorded.truth, recorded.derivatives, led, 10, how.frames - 10, positions,
+      const auto path = studies::turned_path(smooth.points, smooth.derivatives, led, rig.truth_from_ours);
+      studies::add_coverage(path, recorded.truth, recorded.derivatives, led, 10, how.frames - 10, positions,
                              rates);
       const auto errors =
-          pipeline::motion_errors(path.position, path.velocity, path.acceleration, recorded.truth,
+          studies::motion_errors(path.position, path.velocity, path.acceleration, recorded.truth,
                                   recorded.derivatives, led, 10, how.frames - 10);
-      const auto told = pipeline::told_errors(path, 10, how.frames - 10);
+      const auto told = studies::told_errors(path, 10, how.frames - 10);
       worst = std::max(worst, errors.position / told.position);
     }
     print_row(worst <= 1.3,
@@ -216,9 +216,9 @@ double seconds(const std::function<void()>& work) {
 
 void speed() {
   double best = 1e9;
-  pipeline::CalibratedRig rig = pipeline::calibrate_rig(1).value();
+  studies::CalibratedRig rig = studies::calibrate_rig(1).value();
   for (std::uint64_t run = 0; run < 3; ++run)
-    best = std::min(best, pipeline::calibrate_rig(1).value().bundle_s);
+    best = std::min(best, studies::calibrate_rig(1).value().bundle_s);
   print_row(best <= 2.0, "bundle of 300 poses x 10 frames, one thread", "<= 2 s",
             fmt::format("{:.2f} s", best));
   simulation::RigRecordingOptions how;

@@ -10,7 +10,7 @@
 
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/scale_setup.h"
-#include "kinemark/pipeline/scale_job.h"
+#include "kinemark/pipeline/scale/scale_job.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
 

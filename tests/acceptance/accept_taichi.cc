@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "acceptance/taichi_recording.h"
-#include "kinemark/pipeline/taichi/least_squares.h"
-#include "kinemark/pipeline/taichi/subject.h"
+#include "studies/taichi/least_squares.h"
+#include "studies/taichi/subject.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "support/acceptance.h"
 
@@ -105,10 +105,10 @@ void check_reader(const io::V3dFile& file) {
 }
 
 void check_medians(const data::Trajectories& landmarks, bool clavicles, double most_mm) {
-  auto description = pipeline::scale_by_medians(acceptance::human(), landmarks).value();
+  auto description = studies::scale_by_medians(acceptance::human(), landmarks).value();
   if (clavicles) motion::add_clavicles(description).value();
   const auto model = model::Model::compile(description).value();
-  const auto ik = motion::solve_ik(model, landmarks, pipeline::landmark_ik_options(description)).value();
+  const auto ik = motion::solve_ik(model, landmarks, studies::landmark_ik_options(description)).value();
   print_row(kMillimetres * ik.rms_marker_error_m <= most_mm && landmarks.frames() == 1002,
             fmt::format("tai chi, least squares, 21 landmarks, scaled by medians, {} coordinates",
                         model.coordinate_count()),
@@ -128,7 +128,7 @@ int main() {
     return testing_support::exit_status();
   }
   check_reader(*file);
-  const auto landmarks = pipeline::prepare_landmarks(file->trial.markers).value();
+  const auto landmarks = studies::prepare_landmarks(file->trial.markers).value();
   check_medians(landmarks, false, 12.0);
   check_medians(landmarks, true, 7.5);
   return testing_support::exit_status();

@@ -11,19 +11,19 @@
 #include "acceptance/taichi_recording.h"
 #include "kinemark/core/random.h"
 #include "kinemark/core/units.h"
-#include "kinemark/pipeline/taichi/control_runs.h"
-#include "kinemark/pipeline/taichi/least_squares.h"
-#include "kinemark/pipeline/taichi/study_taichi.h"
-#include "kinemark/pipeline/taichi/subject.h"
+#include "studies/taichi/control_runs.h"
+#include "studies/taichi/least_squares.h"
+#include "studies/taichi/study_taichi.h"
+#include "studies/taichi/subject.h"
 #include "support/acceptance.h"
 
 namespace {
 
 using namespace kinemark;
 using acceptance::kMillimetres;
-using pipeline::ControlComparison;
-using pipeline::ControlSetting;
-using pipeline::LandmarkSet;
+using studies::ControlComparison;
+using studies::ControlSetting;
+using studies::LandmarkSet;
 using testing_support::print_row;
 
 /// The sized model, the recording, and what the model itself can do.
@@ -36,10 +36,10 @@ struct Scene {
 Scene prepare(const std::filesystem::path& data) {
   auto landmarks = acceptance::tai_chi_landmarks(data);
   const auto description =
-      pipeline::scale_by_medians(acceptance::human(), landmarks, {.lock_unseen = true}).value();
+      studies::scale_by_medians(acceptance::human(), landmarks, {.lock_unseen = true}).value();
   auto model = model::Model::compile(description).value();
-  auto ik = motion::solve_ik(model, landmarks, pipeline::landmark_ik_options(description)).value();
-  auto made = pipeline::carried_landmarks(model, ik.motion);
+  auto ik = motion::solve_ik(model, landmarks, studies::landmark_ik_options(description)).value();
+  auto made = studies::carried_landmarks(model, ik.motion);
   return {.model = std::move(model),
           .landmarks = std::move(landmarks),
           .made = std::move(made),
@@ -74,7 +74,7 @@ void check_reachable(const ControlComparison& c, const std::string& step, double
 
 void whole(const Scene& scene) {
   const auto body =
-      pipeline::study_set(scene.model, scene.landmarks, scene.made, pipeline::whole_body_set(), true).value();
+      studies::study_set(scene.model, scene.landmarks, scene.made, studies::whole_body_set(), true).value();
   check_recorded(body.recorded_fine, "1 ms", 0.5);
   check_recorded(body.recorded_coarse, "1/60 s", 1.0);
   check_reachable(body.reachable_fine, "1 ms", 0.05);
@@ -83,10 +83,10 @@ void whole(const Scene& scene) {
 
 void sets(const Scene& scene) {
   const auto one =
-      pipeline::study_set(scene.model, scene.landmarks, scene.made, pipeline::whole_body_set(), false)
+      studies::study_set(scene.model, scene.landmarks, scene.made, studies::whole_body_set(), false)
           .value();
   const auto three =
-      pipeline::study_set(scene.model, scene.landmarks, scene.made, pipeline::three_level_set(), true)
+      studies::study_set(scene.model, scene.landmarks, scene.made, studies::three_level_set(), true)
           .value();
   const bool whole_ok = !three.recorded_fine.failed() && !three.recorded_coarse.failed() &&
                         !three.reachable_fine.failed() && !three.reachable_coarse->failed();
@@ -99,13 +99,13 @@ void sets(const Scene& scene) {
           kMillimetres * three.recorded_fine.control_rms_m, kDegPerRad * three.recorded_fine.angle_rms_rad,
           kMillimetres * one.recorded_fine.control_rms_m, kDegPerRad * one.recorded_fine.angle_rms_rad,
           kMillimetres * three.reachable_fine.control_rms_m));
-  for (const auto& set : {pipeline::paper_set(), pipeline::pelvis_paper_set(), pipeline::upper_body_set(),
-                          pipeline::upper_body_pelvis_set()}) {
-    const auto outcome = pipeline::study_set(scene.model, scene.landmarks, scene.made, set, false).value();
+  for (const auto& set : {studies::paper_set(), studies::pelvis_paper_set(), studies::upper_body_set(),
+                          studies::upper_body_pelvis_set()}) {
+    const auto outcome = studies::study_set(scene.model, scene.landmarks, scene.made, set, false).value();
     const auto& c = outcome.recorded_fine;
-    const bool paper = set.name == pipeline::paper_set().name;
+    const bool paper = set.name == studies::paper_set().name;
     const bool upper =
-        set.name == pipeline::upper_body_set().name || set.name == pipeline::upper_body_pelvis_set().name;
+        set.name == studies::upper_body_set().name || set.name == studies::upper_body_pelvis_set().name;
     const bool enough = c.determined >= (upper ? 15 : 0);
     const bool rank_ok = !paper || (c.rank_min >= 11 && c.rank_max <= 12);
     print_row(
@@ -146,7 +146,7 @@ void stability(const Scene& scene, const LandmarkSet& set, const std::string& na
     for (Eigen::Index c = 0; c < rest.size(); ++c)
       if (scene.ik.motion.is_rotation[static_cast<std::size_t>(c)])
         rest[c] += random.uniform(-kOff_rad, kOff_rad);
-    const auto tracked = pipeline::run_control(scene.model, scene.landmarks, set, setting, rest);
+    const auto tracked = studies::run_control(scene.model, scene.landmarks, set, setting, rest);
     if (tracked && tracked->flagged_frames == 0) continue;
     ++failures;
     if (first.empty())
@@ -173,10 +173,10 @@ int main(int argc, char** argv) {
   if (part == "sets") sets(scene);
   if (part == "stability") {
     const int runs = argc > 2 ? std::stoi(argv[2]) : 100;
-    stability(scene, pipeline::whole_body_set(), "whole body, one level", runs, false);
-    stability(scene, pipeline::paper_set(), "the paper's two subsets", runs, false);
-    stability(scene, pipeline::pelvis_paper_set(), "pelvis level, then the paper's two subsets", runs, false);
-    stability(scene, pipeline::whole_body_set(), "whole body, one level", (runs + 3) / 4, true);
+    stability(scene, studies::whole_body_set(), "whole body, one level", runs, false);
+    stability(scene, studies::paper_set(), "the paper's two subsets", runs, false);
+    stability(scene, studies::pelvis_paper_set(), "pelvis level, then the paper's two subsets", runs, false);
+    stability(scene, studies::whole_body_set(), "whole body, one level", (runs + 3) / 4, true);
   }
   return testing_support::exit_status();
 }

@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include "acceptance/taichi_recording.h"
-#include "kinemark/pipeline/taichi/geometry_fit.h"
-#include "kinemark/pipeline/taichi/subject.h"
+#include "studies/taichi/geometry_fit.h"
+#include "studies/taichi/subject.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "support/acceptance.h"
 
@@ -13,18 +13,18 @@ namespace {
 
 using namespace kinemark;
 using acceptance::kMillimetres;
-using pipeline::Freedom;
+using studies::Freedom;
 using testing_support::print_row;
 
 void check_fit(const data::ModelDescription& model, const data::Trajectories& landmarks, Freedom freedom,
                const std::string& what, double most_mm) {
   const auto frames = landmarks.frames();
-  const auto fit = pipeline::fit_geometry(model, landmarks, freedom, 0, frames).value();
+  const auto fit = studies::fit_geometry(model, landmarks, freedom, 0, frames).value();
   print_row(kMillimetres * fit.rms_m <= most_mm, "tai chi, least squares, " + what,
             fmt::format("RMS <= {} mm", most_mm),
             fmt::format("{:.2f} mm, at most {:.1f} mm; {} numbers adapted", kMillimetres * fit.rms_m,
                         kMillimetres * fit.max_m, fit.parameters));
-  const auto held = pipeline::fit_geometry(model, landmarks, freedom, 0, frames / 2).value();
+  const auto held = studies::fit_geometry(model, landmarks, freedom, 0, frames / 2).value();
   print_row(
       held.rms_first_m > 0.0 && held.rms_second_m > 0.0, "tai chi, held out, " + what, "reported",
       fmt::format("adapted on the first half: first {:.2f} mm, second {:.2f} mm (adapted on all: second "
@@ -39,7 +39,7 @@ int main() {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("geometry adapted to the tai chi recording");
   const auto landmarks = acceptance::tai_chi_landmarks(*data);
-  auto model = pipeline::scale_by_medians(acceptance::human(), landmarks).value();
+  auto model = studies::scale_by_medians(acceptance::human(), landmarks).value();
   check_fit(model, landmarks, Freedom::centres, "joints adapted", 9.0);
   check_fit(model, landmarks, Freedom::places, "joints and places adapted", 7.5);
   motion::add_clavicles(model).value();

@@ -9,7 +9,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/v3d.h"
-#include "kinemark/pipeline/taichi/landmarks.h"
+#include "studies/taichi/landmarks.h"
 #include "support/test_data.h"
 
 namespace kinemark::acceptance {
@@ -26,7 +26,7 @@ inline Result<io::V3dFile> read_tai_chi(const std::filesystem::path& data) {
 }
 
 inline data::Trajectories tai_chi_landmarks(const std::filesystem::path& data) {
-  return pipeline::prepare_landmarks(read_tai_chi(data).value().trial.markers).value();
+  return studies::prepare_landmarks(read_tai_chi(data).value().trial.markers).value();
 }
 
 }  // namespace kinemark::acceptance

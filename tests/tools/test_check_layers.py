@@ -161,11 +161,28 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("does not exist", self.only_problem("cli/ik.cc", '#include "cli/gone.h"\n'))
 
     def test_a_header_that_cmake_makes_counts_as_its_template(self):
-        template = {"src/kinemark/pipeline/version.h.in": ""}
-        with Tree({**RIGHT, **template, "cli/main.cc": '#include "kinemark/pipeline/version.h"\n'}) as root:
+        template = {"src/kinemark/data/names.h.in": ""}
+        with Tree({**RIGHT, **template, "cli/main.cc": '#include "kinemark/data/names.h"\n'}) as root:
             self.assertEqual(layers.check(root)[0], [])
-        with Tree({**RIGHT, **template, "src/kinemark/core/a.h": '#include "kinemark/pipeline/version.h"\n'}) as root:
-            self.assertIn("core may not include pipeline", layers.check(root)[0][0])
+        with Tree({**RIGHT, **template, "src/kinemark/core/a.h": '#include "kinemark/data/names.h"\n'}) as root:
+            self.assertIn("core may not include data", layers.check(root)[0][0])
+
+    def test_studies_stand_beside_the_library(self):
+        common = {"studies/common/page.h": '#include "kinemark/pipeline/run.h"\n#include "kinemark/stages/motion/ik.h"\n'}
+        self.assertEqual(
+            self.problems(
+                **common,
+                **{
+                    "studies/wheel/study.h": '#include "studies/common/page.h"\n',
+                    "cli/study.cc": '#include "studies/wheel/study.h"\n',
+                },
+            ),
+            [],
+        )
+        other = {"studies/arm/study.h": "", "studies/wheel/study.h": '#include "studies/arm/study.h"\n'}
+        self.assertIn("studies/wheel may not include studies/arm", self.problems(**other)[0])
+        up = {**common, "src/kinemark/pipeline/run.cc": '#include "studies/common/page.h"\n'}
+        self.assertIn("pipeline may not include studies/common", self.problems(**up)[0])
 
     def test_catches_a_folder_without_a_layer(self):
         self.assertIn("has no layer", self.only_problem("src/kinemark/misc/a.cc", ""))

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "kinemark/pipeline/simulate_job.h"
+#include "kinemark/pipeline/simulate/simulate_job.h"
 
 namespace kinemark::pipeline::testing {
 

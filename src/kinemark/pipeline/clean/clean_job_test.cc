@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/clean/clean_job.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include <cmath>
+
+#include "kinemark/core/random.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/testing/test_files.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using data::SampleState;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class RunClean : public ::testing::Test {
+ protected:
+  /// Two seconds of three markers on a forearm and one elsewhere, 0.5 mm of noise, a gap of 0.2 s in the
+  /// first.
+  static data::Trial recording() {
+    data::Trial trial;
+    trial.markers = data::Trajectories::all_missing({"WRA", "WRB", "FRM", "HEAD"},
+                                                    {.rate_hz = 100.0, .t0_s = 0.0, .frames = 200});
+    Random noise(11, 0);
+    for (std::int64_t f = 0; f < 200; ++f)
+      for (std::int64_t m = 0; m < 4; ++m) {
+        trial.markers.x(f, m) = truth(f, m);
+        for (int axis = 0; axis < 3; ++axis) trial.markers.x(f, m)[axis] += 5e-4 * noise.gaussian();
+        trial.markers.state[trial.markers.index(f, m)] = SampleState::measured;
+      }
+    for (std::int64_t f = 90; f < 110; ++f) trial.markers.set_missing(f, 0);
+    return trial;
+  }
+  static Eigen::Vector3d truth(std::int64_t f, std::int64_t m) {
+    const double t = 0.01 * static_cast<double>(f), angle = std::sin(3.0 * t);
+    const Eigen::Vector3d arm[] = {{0.25, 0.0, 0.03}, {0.25, 0.0, -0.03}, {0.12, 0.04, 0.0}};
+    if (m == 3) return {0.0, 0.5 + 0.01 * std::sin(t), 0.1};
+    return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()) * arm[m] + Eigen::Vector3d(0.1 * t, 1.0, 0.0);
+  }
+  void SetUp() override { ASSERT_TRUE(io::write_markers(at("in.c3d"), recording(), false)); }
+  fs::path at(const std::string& name) const { return scratch_ / name; }
+  CleanJob job(const std::string& output) const {
+    CleanJob j;
+    j.input = at("in.c3d");
+    j.output = at(output);
+    return j;
+  }
+  static std::int64_t count(const data::Trajectories& t, SampleState state) {
+    return std::ranges::count(t.state, state);
+  }
+  testing_support::ScratchFolder scratch_;
+};
+
+TEST_F(RunClean, SmoothsWithoutFillingUnlessAsked) {
+  const auto outcome = run_clean(job("out.c3d"));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto& cleaned = outcome->trial.markers;
+  EXPECT_EQ(count(cleaned, SampleState::missing), 20);
+  double raw = 0.0, smooth = 0.0;
+  const auto before = recording().markers;
+  for (std::int64_t f = 10; f < 190; ++f) {
+    raw += (before.x(f, 1) - truth(f, 1)).squaredNorm();
+    smooth += (cleaned.x(f, 1) - truth(f, 1)).squaredNorm();
+  }
+  EXPECT_LT(smooth, 0.25 * raw);
+  EXPECT_EQ(io::read_markers(at("out.c3d")).value().markers.count_missing(), 20);
+}
+
+TEST_F(RunClean, AFilledGapIsNearTheTruthAndStaysMarkedInTheFile) {
+  auto j = job("out.c3d");
+  j.gaps.method = trajectory::GapMethod::automatic;
+  const auto outcome = run_clean(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto& cleaned = outcome->trial.markers;
+  EXPECT_EQ(count(cleaned, SampleState::missing), 0);
+  for (std::int64_t f = 90; f < 110; ++f) {
+    EXPECT_NE(cleaned.state[cleaned.index(f, 0)], SampleState::measured);
+    EXPECT_NE(cleaned.made_by(f, 0), "");
+    EXPECT_LT((cleaned.x(f, 0) - truth(f, 0)).norm(), 0.005) << f;
+  }
+  ASSERT_EQ(outcome->report.gaps.size(), 1U);
+  EXPECT_TRUE(outcome->report.gaps[0].filled);
+  EXPECT_EQ(outcome->report.gaps[0].marker, "WRA");
+  const auto back = io::read_markers(at("out.c3d")).value().markers;
+  for (std::int64_t f = 90; f < 110; ++f)
+    EXPECT_EQ(back.state[back.index(f, 0)], cleaned.state[cleaned.index(f, 0)]);
+  EXPECT_EQ(back.state[back.index(50, 0)], SampleState::measured);
+}
+
+TEST_F(RunClean, NwbHoldsStatesCovariancesAndDerivatives) {
+  auto j = job("out.nwb");
+  j.gaps.method = trajectory::GapMethod::cubic;
+  j.derivatives = true;
+  ASSERT_TRUE(run_clean(j));
+  const auto file = io::read_nwb(at("out.nwb"));
+  ASSERT_TRUE(file) << file.error().message;
+  ASSERT_TRUE(file->derivatives);
+  EXPECT_EQ(file->trajectories.made_by(100, 0), "cubic");
+  EXPECT_EQ(file->derivatives->filters[1].method, "kalman");
+  const double v = file->derivatives->velocity[3 * file->trajectories.index(60, 1)];
+  const double sd = file->derivatives->velocity_sd[3 * file->trajectories.index(60, 1)];
+  const double slope = (truth(61, 1).x() - truth(59, 1).x()) / 0.02;
+  EXPECT_GT(sd, 0.0);
+  EXPECT_NEAR(v, slope, 5.0 * sd + 1e-3);
+  EXPECT_FALSE(fs::exists(at("out_derivatives.sto"))) << "they are in the file";
+}
+
+TEST_F(RunClean, OtherFormatsGetATableOfDerivatives) {
+  auto j = job("out.trc");
+  j.derivatives = true;
+  ASSERT_TRUE(run_clean(j));
+  const auto table = io::read_table(at("out_derivatives.sto")).value();
+  EXPECT_EQ(table.columns.size(), 4U * 18U);
+  const double slope = (truth(61, 1).z() - truth(59, 1).z()) / 0.02;
+  EXPECT_NEAR(table(60, table.find("WRB_vz")), slope, 0.05);
+  EXPECT_GT(table(60, table.find("WRB_vz_sd")), 0.0);
+}
+
+TEST_F(RunClean, DefectsAreToldAndRejectedOnlyWhenAsked) {
+  auto trial = recording();
+  trial.markers.x(50, 3).x() += 0.2;
+  ASSERT_TRUE(io::write_markers(at("in.c3d"), trial, true));
+  auto j = job("told.c3d");
+  const auto told = run_clean(j).value();
+  ASSERT_EQ(told.report.defects.size(), 1U);
+  EXPECT_EQ(told.report.defects[0].kind, "spike");
+  EXPECT_EQ(told.report.defects[0].done, "left as it is");
+  j = job("rejected.c3d");
+  j.reject_defects = true;
+  const auto rejected = run_clean(j).value();
+  EXPECT_TRUE(rejected.report.defects[0].handled);
+  EXPECT_FALSE(rejected.trial.markers.present(50, 3));
+}
+
+TEST_F(RunClean, WritesTheAccountAndThePage) {
+  auto j = job("out.c3d");
+  j.report = at("page.html");
+  const auto outcome = run_clean(j).value();
+  EXPECT_EQ(outcome.written.size(), 3U);
+  const auto json = nlohmann::json::parse(io::read_text(at("out_report.json")).value());
+  EXPECT_EQ(json["schema"], "kinemark.clean_report");
+  EXPECT_THAT(io::read_text(at("page.html")).value(), HasSubstr("kinemark.clean_report"));
+}
+
+TEST_F(RunClean, AnyNumberOfThreadsGivesTheSameFile) {
+  auto j = job("one.csv");
+  j.gaps.method = trajectory::GapMethod::automatic;
+  ASSERT_TRUE(run_clean(j));
+  j.output = at("two.csv");
+  j.threads = 2;
+  ASSERT_TRUE(run_clean(j));
+  EXPECT_EQ(io::read_text(at("one.csv")).value(), io::read_text(at("two.csv")).value());
+}
+
+TEST_F(RunClean, FailuresLeaveNothingBehind) {
+  auto j = job("out.c3d");
+  j.input = at("none.c3d");
+  EXPECT_EQ(run_clean(j).error().code, Code::io);
+  j = job("out.c3d");
+  j.filter.cutoff_hz = 60.0;  // above half the rate
+  j.filter.method = trajectory::FilterMethod::butterworth;
+  EXPECT_THAT(run_clean(j).error().message, HasSubstr("in.c3d"));
+  j = job("out.xyz");
+  EXPECT_FALSE(run_clean(j));
+  j = job("out.c3d");
+  EXPECT_EQ(run_clean(j, [](std::int64_t, std::int64_t) { return false; }).error().code, Code::cancelled);
+  EXPECT_EQ(scratch_.count_files(), 1) << "only in.c3d";
+}
+
+TEST(RecorderMadeNames, ComeBack) {
+  for (const auto made :
+       {RecorderMade::keep, RecorderMade::mark, RecorderMade::missing, RecorderMade::decimate})
+    EXPECT_EQ(parse_recorder_made(to_string(made)).value(), made);
+  EXPECT_THAT(parse_recorder_made("drop").error().message, HasSubstr("keep, mark, missing or decimate"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/staging.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kinemark/io/file.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+TEST(Staging, FilesAppearTogetherOnCommit) {
+  const testing_support::ScratchFolder scratch;
+  {
+    auto staging = Staging::create({scratch / "a", scratch / "b"}, false).value();
+    ASSERT_TRUE(io::write_text(staging.path(0), "A", false));
+    ASSERT_TRUE(io::write_text(staging.path(1), "B", false));
+    EXPECT_FALSE(fs::exists(scratch / "a"));
+    ASSERT_TRUE(staging.commit());
+  }
+  EXPECT_EQ(io::read_text(scratch / "a").value(), "A");
+  EXPECT_EQ(io::read_text(scratch / "b").value(), "B");
+  EXPECT_EQ(scratch.count_files(), 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), fs::directory_iterator()), 2)
+      << "no folder stays";
+}
+
+TEST(Staging, NothingStaysWithoutCommitAndOldFilesSurvive) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "a", "old", false));
+  {
+    auto staging = Staging::create({scratch / "a", scratch / "b"}, true).value();
+    ASSERT_TRUE(io::write_text(staging.path(0), "new", false));
+  }
+  EXPECT_EQ(io::read_text(scratch / "a").value(), "old");
+  EXPECT_EQ(scratch.count_files(), 1);
+}
+
+TEST(Staging, RefusesWhatExistsAndWhatCannotBe) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "b", "old", false));
+  EXPECT_THAT(Staging::create({scratch / "a", scratch / "b"}, false).error().message,
+              HasSubstr("b: exists already"));
+  EXPECT_THAT(Staging::create({scratch.path()}, true).error().message, HasSubstr("is a folder"));
+  EXPECT_EQ(Staging::create({scratch / "no" / "a"}, true).error().code, Code::io);
+  EXPECT_THAT(Staging::create({scratch / "a", scratch / "x" / ".." / "a"}, true).error().message,
+              HasSubstr("would be written twice"));
+}
+
+TEST(Staging, AFolderThatCannotBeWrittenIsFoundBeforeTheWork) {
+  const testing_support::ScratchFolder scratch;
+  const auto staging = Staging::create({scratch / "a", scratch / "no" / "b"}, false);
+  ASSERT_FALSE(staging);
+  EXPECT_THAT(staging.error().message, HasSubstr("no/b: cannot be written"));
+  EXPECT_TRUE(fs::is_empty(scratch.path())) << "the hidden folder beside a is gone again";
+}
+
+TEST(Staging, AFailureNamesTheTargetNotTheHiddenFile) {
+  const testing_support::ScratchFolder scratch;
+  const auto staging = Staging::create({scratch / "a", scratch / "b"}, false).value();
+  const auto told = staging.failure({Code::io, staging.path(1).string() + ": cannot be written"});
+  EXPECT_EQ(told.error().message, (scratch / "b").string() + ": cannot be written");
+  EXPECT_EQ(told.error().code, Code::io);
+}
+
+TEST(Staging, TargetsInSeveralFoldersAreStagedBesideEach) {
+  const testing_support::ScratchFolder scratch;
+  fs::create_directory(scratch / "sub");
+  auto staging = Staging::create({scratch / "a", scratch / "sub" / "b"}, false).value();
+  EXPECT_EQ(staging.path(0).parent_path().parent_path(), scratch.path());
+  EXPECT_EQ(staging.path(1).parent_path().parent_path(), scratch / "sub");
+  ASSERT_TRUE(io::write_text(staging.path(1), "B", false));
+  ASSERT_TRUE(staging.commit());
+  EXPECT_EQ(io::read_text(scratch / "sub" / "b").value(), "B");
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

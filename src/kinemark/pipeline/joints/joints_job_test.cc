@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/joints/joints_job.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "kinemark/core/random.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/joints/segments_file.h"
+#include "kinemark/stages/simulation/limb.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+/// A chain written to a file, the truth, and a job that reads it.
+class JointsJobTest : public ::testing::Test {
+ protected:
+  void make(const simulation::ChainOptions& options,
+            const std::function<void(data::Trajectories&)>& change = {}) {
+    recording = simulation::simulate_chain(options).value();
+    if (change) change(recording.markers);
+    data::Trial trial;
+    trial.markers = recording.markers;
+    job.input = scratch / "chain.csv";
+    ASSERT_TRUE(io::write_markers(job.input, trial, true));
+    job.method = "score";
+  }
+  void write_segments() {
+    job.segments = scratch / "segments.toml";
+    ASSERT_TRUE(io::write_text(job.segments, segments_text(recording.layout, recording.markers.names), true));
+  }
+  [[nodiscard]] double rms_mm(const data::Skeleton& skeleton, std::int64_t joint) const {
+    double squares = 0.0, n = 0.0;
+    for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
+      if (skeleton.state[skeleton.index(f, joint)] == data::CentreState::undetermined) continue;
+      const Eigen::Map<const Eigen::Vector3d> truth(recording.centre_in_world.data() +
+                                                    3 * skeleton.index(f, joint));
+      squares += (skeleton.centre(f, joint) - truth).squaredNorm();
+      n += 1.0;
+    }
+    return 1e3 * std::sqrt(squares / n);
+  }
+  testing_support::ScratchFolder scratch;
+  simulation::LimbRecording recording;
+  JointsJob job;
+};
+
+const simulation::ChainOptions kSolid{
+    .frames = 150, .markers_per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005};
+
+TEST_F(JointsJobTest, WritesAFolderThatReadsBack) {
+  make(kSolid);
+  write_segments();
+  job.output = scratch / "out";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5);
+  EXPECT_EQ(outcome->written.size(), 4U);
+  const auto centres = io::read_markers(job.output / "centres.csv");
+  ASSERT_TRUE(centres) << centres.error().message;
+  EXPECT_EQ(centres->markers.names, (std::vector<std::string>{recording.layout.joints[0].name}));
+  EXPECT_EQ(centres->markers.frames(), 150);
+  EXPECT_EQ(centres->markers.made_by(0, 0), "SCoRE: determined");
+  ASSERT_FALSE(centres->markers.covariance.empty());
+  EXPECT_NEAR(centres->markers.covariance[0], outcome->skeleton.covariance[0], 1e-15);
+  const auto json = nlohmann::json::parse(io::read_text(job.output / "skeleton.json").value());
+  EXPECT_EQ(json["schema"], "kinemark.skeleton");
+  EXPECT_EQ(json["joints"][0]["frames"]["determined"], 150);
+  EXPECT_EQ(json["segments"].size(), 2U);
+  EXPECT_EQ(json["joints"][0]["method"], "SCoRE");
+  EXPECT_TRUE(read_segments(job.output / "segments.toml", recording.markers.names));
+  EXPECT_EQ(run_joints(job).error().code, Code::io) << "nothing is replaced unasked";
+  job.force = true;
+  EXPECT_TRUE(run_joints(job));
+}
+
+TEST_F(JointsJobTest, FindsSegmentsItself) {
+  make({.frames = 200,
+        .lengths_m = {0.12, 0.15, 0.16},
+        .markers_per_segment = 4,
+        .stagger_m = 0.02,
+        .noise_sd_m = 0.001});
+  job.output = scratch / "centres.trc";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_TRUE(outcome->topology);
+  ASSERT_EQ(outcome->skeleton.joints.size(), 2U);
+  EXPECT_LT(rms_mm(outcome->skeleton, 0), 3.0);
+  EXPECT_LT(rms_mm(outcome->skeleton, 1), 3.0);
+  EXPECT_EQ(outcome->written.back().filename(), "centres_skeleton.json");
+  EXPECT_EQ(outcome->json["topology"]["markers"].size(), 12U);
+}
+
+TEST_F(JointsJobTest, EveryMethodRuns) {
+  make(kSolid);
+  write_segments();
+  for (const std::string method :
+       {"score", "sara", "gamage", "gamage-plain", "cylinder", "constant-distance", "articulated"}) {
+    job.method = method;
+    const auto outcome = run_joints(job);
+    ASSERT_TRUE(outcome) << method << ": " << outcome.error().message;
+    EXPECT_EQ(outcome->json["method"], method);
+    EXPECT_EQ(skeleton_words(outcome->skeleton).size(), 1U);
+    if (method != "sara" && method != "cylinder" && method != "constant-distance") {
+      EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5) << method;
+    }
+  }
+  job.method = "best";
+  EXPECT_EQ(run_joints(job).error().code, Code::usage);
+}
+
+TEST_F(JointsJobTest, ASlipIsToldInNotesAndJson) {
+  make({.frames = 400, .markers_per_segment = 5, .stagger_m = 0.03, .noise_sd_m = 0.0005},
+       [](data::Trajectories& markers) {
+         for (std::int64_t f = 200; f < 400; ++f) {
+           const Eigen::Vector3d along = (markers.x(f, 2) - markers.x(f, 1)).normalized();
+           markers.x(f, 0) += 0.015 * along;
+         }
+       });
+  write_segments();
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome);
+  ASSERT_FALSE(outcome->slips.empty());
+  EXPECT_EQ(outcome->slips[0].marker, 0);
+  EXPECT_EQ(outcome->json["slips"].size(), outcome->slips.size());
+  EXPECT_TRUE(
+      std::ranges::any_of(outcome->notes, [](const std::string& n) { return n.starts_with("Marker '"); }));
+}
+
+TEST_F(JointsJobTest, SoftTissueTellsEveryMarkersNoise) {
+  make({.frames = 120, .markers_per_segment = 5, .stagger_m = 0.03, .noise_sd_m = 0.0005},
+       [](data::Trajectories& markers) {
+         Random skin(5, 1);
+         for (std::int64_t f = 0; f < 120; ++f)
+           for (double& c : markers.x(f, 2)) c += 0.006 * skin.gaussian();
+       });
+  write_segments();
+  job.keep_defects = true;
+  job.soft_tissue = true;
+  EXPECT_EQ(run_joints(job).error().code, Code::usage) << "SCoRE has no such term";
+  job.method = "articulated";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->marker_noise_sd_m.size(), 10U);
+  const auto& told = outcome->json["marker_noise"];
+  ASSERT_EQ(told.size(), 10U);
+  EXPECT_EQ(told[2]["name"], recording.markers.names[2]);
+  EXPECT_NEAR(told[2]["sd_m"].get<double>(), 0.006, 0.002);
+  EXPECT_LT(told[3]["sd_m"].get<double>(), 0.001);
+  job.soft_tissue = false;
+  EXPECT_FALSE(run_joints(job)->json.contains("marker_noise"));
+}
+
+TEST_F(JointsJobTest, OneSentenceForWhatCannotBe) {
+  const auto message = [&] {
+    const auto outcome = run_joints(job);
+    EXPECT_FALSE(outcome);
+    return outcome ? std::string() : outcome.error().message;
+  };
+  make({.frames = 60, .markers_per_segment = 1});
+  EXPECT_NE(message().find("2 markers in all"), std::string::npos);
+  make({.frames = 60, .markers_per_segment = 4, .stagger_m = 0.02, .noise_sd_m = 0.0005});
+  job.segments = scratch / "one.toml";
+  ASSERT_TRUE(io::write_text(
+      job.segments, "[[segment]]\nname = \"all\"\nmarkers = [\"s0m0\", \"s0m1\", \"s0m2\"]\n", true));
+  EXPECT_NE(message().find("one segment"), std::string::npos);
+  write_segments();
+  job.method = "constant-distance";
+  make({.frames = 60, .markers_per_segment = 4, .stagger_m = 0.02, .missing = 0.9});
+  job.method = "constant-distance";
+  EXPECT_NE(message().find("no frames show all 8 markers"), std::string::npos);
+  job.noise_sd_m = -1.0;
+  EXPECT_NE(message().find("-1000 mm"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

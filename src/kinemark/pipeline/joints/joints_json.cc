@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+
+#include "kinemark/core/units.h"
+#include "kinemark/pipeline/joints/joints_job.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+template <class Vector>
+Json numbers(const Vector& values) {
+  Json out = Json::array();
+  for (const double v : values) out.push_back(number(v));
+  return out;
+}
+
+Json matrix(const Eigen::Matrix3d& m) {
+  Json rows = Json::array();
+  for (int row = 0; row < 3; ++row) rows.push_back(numbers(Eigen::Vector3d(m.row(row).transpose())));
+  return rows;
+}
+
+/// How many frames have each state, and the RMS of the centre's SD (root of the trace) where there is one;
+/// the same without the direction known worst, which is a hinge's axis.
+struct Frames {
+  std::array<std::int64_t, 4> count{};
+  double sd_m = 0.0, across_sd_m = 0.0;
+};
+
+Frames count_frames(const data::Skeleton& skeleton, std::int64_t joint) {
+  Frames frames;
+  double squares = 0.0, across = 0.0, n = 0.0;
+  for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
+    const auto state = skeleton.state[skeleton.index(f, joint)];
+    ++frames.count[static_cast<std::size_t>(state)];
+    if (state == data::CentreState::undetermined) continue;
+    const Eigen::Matrix3d C = skeleton.centre_covariance(f, joint);
+    if (!C.allFinite()) continue;
+    squares += C.trace();
+    across += C.trace() -
+              Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    n += 1.0;
+  }
+  frames.sd_m = n > 0.0 ? std::sqrt(squares / n) : std::nan("");
+  frames.across_sd_m = n > 0.0 ? std::sqrt(across / n) : std::nan("");
+  return frames;
+}
+
+Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
+  const auto& joint = skeleton.joints[j];
+  const auto name = [&](int s) { return skeleton.segments[static_cast<std::size_t>(s)].name; };
+  const Frames frames = count_frames(skeleton, static_cast<std::int64_t>(j));
+  const bool hinge = joint.kind == data::JointKind::hinge;
+  Json out;
+  out["name"] = joint.name;
+  out["kind"] = data::to_string(joint.kind);
+  out["parent"] = name(joint.parent_segment);
+  out["child"] = name(joint.child_segment);
+  out["method"] = joint.method;
+  out["words"] = joint.words;
+  out["range_of_motion_deg"] = number(joint.range_of_motion_rad * kDegPerRad);
+  const bool in_parent = joint.covariance_in_parent.allFinite(),
+             in_child = joint.covariance_in_child.allFinite();
+  out["centre_in_parent_m"] = in_parent ? numbers(joint.centre_in_parent) : Json(nullptr);
+  out["centre_in_child_m"] = in_child ? numbers(joint.centre_in_child) : Json(nullptr);
+  out["covariance_in_parent_m2"] = in_parent ? matrix(joint.covariance_in_parent) : Json(nullptr);
+  out["covariance_in_child_m2"] = in_child ? matrix(joint.covariance_in_child) : Json(nullptr);
+  if (hinge) {
+    out["axis_in_parent"] = numbers(joint.axis_in_parent);
+    out["axis_in_child"] = numbers(joint.axis_in_child);
+    out["axis_sd_deg"] = number(joint.axis_sd_rad * kDegPerRad);
+  }
+  out["centre_sd_m"] = number(frames.sd_m);
+  if (hinge) out["centre_sd_across_axis_m"] = number(frames.across_sd_m);
+  for (const auto state : {data::CentreState::determined, data::CentreState::bridged,
+                           data::CentreState::ambiguous, data::CentreState::undetermined})
+    out["frames"][std::string(data::to_string(state))] = frames.count[static_cast<std::size_t>(state)];
+  return out;
+}
+
+}  // namespace
+
+data::Trajectories centre_trajectories(const data::Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const auto& joint : skeleton.joints) names.push_back(joint.name);
+  auto out = data::Trajectories::all_missing(std::move(names), skeleton.time);
+  out.covariance = skeleton.covariance;
+  for (std::int64_t f = 0; f < out.frames(); ++f)
+    for (std::int64_t j = 0; j < out.markers(); ++j) {
+      const auto state = skeleton.state[skeleton.index(f, j)];
+      if (state == data::CentreState::undetermined) continue;
+      out.x(f, j) = skeleton.centre(f, j);
+      out.state[out.index(f, j)] = state == data::CentreState::bridged ? data::SampleState::interpolated
+                                                                       : data::SampleState::model_filled;
+      out.set_method(
+          f, j,
+          fmt::format("{}: {}", skeleton.joints[static_cast<std::size_t>(j)].method, data::to_string(state)));
+    }
+  return out;
+}
+
+nlohmann::ordered_json skeleton_json(const data::Skeleton& skeleton) {
+  Json out;
+  out["schema"] = "kinemark.skeleton";
+  out["frames"] = skeleton.frames();
+  out["rate_hz"] = skeleton.time.rate_hz;
+  out["noise_sd_m"] = number(skeleton.noise_sd_m);
+  out["segments"] = Json::array();
+  for (const auto& segment : skeleton.segments) {
+    Json s;
+    s["name"] = segment.name;
+    s["kind"] = data::to_string(segment.kind);
+    s["markers"] = Json::array();
+    for (std::size_t k = 0; k < segment.markers.size(); ++k)
+      s["markers"].push_back(
+          {{"name", skeleton.markers[static_cast<std::size_t>(segment.markers[k])]},
+           {"x_in_segment_m",
+            numbers(Eigen::Vector3d(segment.x_in_segment.col(static_cast<Eigen::Index>(k))))}});
+    out["segments"].push_back(std::move(s));
+  }
+  out["joints"] = Json::array();
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) out["joints"].push_back(joint_json(skeleton, j));
+  out["lengths"] = Json::array();
+  for (const auto& length : skeleton.lengths)
+    out["lengths"].push_back({{"name", length.name},
+                              {"from", skeleton.joints[static_cast<std::size_t>(length.joint_a)].name},
+                              {"to", skeleton.joints[static_cast<std::size_t>(length.joint_b)].name},
+                              {"length_m", number(length.length_m)},
+                              {"sd_m", number(length.sd_m)}});
+  out["warnings"] = skeleton.warnings;
+  return out;
+}
+
+std::vector<std::string> skeleton_words(const data::Skeleton& skeleton) {
+  std::vector<std::string> lines;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const auto& joint = skeleton.joints[j];
+    const Frames frames = count_frames(skeleton, static_cast<std::int64_t>(j));
+    const auto placed =
+        skeleton.frames() - frames.count[static_cast<std::size_t>(data::CentreState::undetermined)];
+    std::string line = fmt::format("{} ({}, {}): {}", joint.name, data::to_string(joint.kind),
+                                   joint.method.empty() ? "not found" : joint.method, joint.words);
+    line += fmt::format("; placed in {} of {} frames", placed, skeleton.frames());
+    const bool hinge = joint.kind == data::JointKind::hinge;
+    if (std::isfinite(frames.sd_m))
+      line += hinge ? fmt::format(", SD {:.1f} mm across the axis", 1e3 * frames.across_sd_m)
+                    : fmt::format(", SD {:.1f} mm", 1e3 * frames.sd_m);
+    const auto ambiguous = frames.count[static_cast<std::size_t>(data::CentreState::ambiguous)];
+    if (ambiguous > 0) line += fmt::format(", {} ambiguous", ambiguous);
+    lines.push_back(std::move(line));
+  }
+  for (const auto& length : skeleton.lengths)
+    lines.push_back(
+        fmt::format("{}: {:.1f} mm (SD {:.1f})", length.name, 1e3 * length.length_m, 1e3 * length.sd_m));
+  return lines;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/joints/segments_file.h"
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/rig/toml_fields.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Need = io::TomlFields::Need;
+
+constexpr std::size_t kMostBytes = 16UL << 20;
+
+/// Index of a marker by its name or by what follows a prefix; -1: none, -2: several.
+int find_marker(const std::vector<std::string>& markers, std::string_view name) {
+  const auto exact = std::ranges::find(markers, name);
+  if (exact != markers.end()) return static_cast<int>(exact - markers.begin());
+  int found = -1;
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    const auto colon = markers[m].rfind(':');
+    if (colon == std::string::npos || std::string_view(markers[m]).substr(colon + 1) != name) continue;
+    if (found >= 0) return -2;
+    found = static_cast<int>(m);
+  }
+  return found;
+}
+
+Result<data::SegmentLayout::Segment> read_segment(const toml::table& table, const std::string& where,
+                                                  const std::vector<std::string>& markers) {
+  data::SegmentLayout::Segment segment;
+  const auto* list = table["markers"].as_array();
+  if (list == nullptr || list->empty())
+    return fail(Code::bad_input, where + ": needs markers = [\"NAME\", ...]");
+  segment.name = table["name"].value_or(std::string());
+  if (segment.name.empty()) return fail(Code::bad_input, where + ": needs a name");
+  for (const auto& [key, value] : table)
+    if (key.str() != "name" && key.str() != "markers")
+      return fail(Code::bad_input,
+                  fmt::format("{}: '{}' is not a key; use name and markers", where, key.str()));
+  for (const auto& item : *list) {
+    const auto name = item.value<std::string>();
+    if (!name)
+      return fail(Code::bad_input, fmt::format("{}: markers of '{}' must be names", where, segment.name));
+    const int m = find_marker(markers, *name);
+    if (m < 0)
+      return fail(Code::bad_input,
+                  fmt::format("{}: segment '{}': {} in the recording is called '{}'", where, segment.name,
+                              m == -1 ? "no marker" : "more than one marker", *name));
+    segment.markers.push_back(m);
+  }
+  return segment;
+}
+
+int find_segment(const data::SegmentLayout& layout, const std::string& name) {
+  const auto at = std::ranges::find(layout.segments, name, &data::SegmentLayout::Segment::name);
+  return at == layout.segments.end() ? -1 : static_cast<int>(at - layout.segments.begin());
+}
+
+Result<data::SegmentLayout::Joint> read_joint(const toml::table& table, const std::string& where,
+                                              const data::SegmentLayout& layout) {
+  data::SegmentLayout::Joint joint;
+  std::string parent, child;
+  io::TomlFields fields(table, where);
+  fields.text("name", joint.name).text("parent", parent, Need::required).text("child", child, Need::required);
+  if (auto s = fields.finish(); !s) return std::unexpected(s.error());
+  joint.parent = find_segment(layout, parent);
+  joint.child = find_segment(layout, child);
+  for (const auto& [index, name] : {std::pair{joint.parent, parent}, {joint.child, child}})
+    if (index < 0) return fail(Code::bad_input, fmt::format("{}: no segment is called '{}'", where, name));
+  if (joint.name.empty()) joint.name = parent + "-" + child;
+  return joint;
+}
+
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+Result<data::SegmentLayout> parse_segments(std::string_view text, const std::string& name,
+                                           const std::vector<std::string>& markers) {
+  toml::table root;
+  try {
+    root = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    return fail(Code::bad_input,
+                fmt::format("{}: line {}: {}", name, error.source().begin.line, error.description()));
+  }
+  for (const auto& [key, value] : root)
+    if ((key.str() != "segment" && key.str() != "joint") || !value.is_array_of_tables())
+      return fail(Code::bad_input,
+                  fmt::format("{}: '{}': only [[segment]] and [[joint]] tables are read", name, key.str()));
+  data::SegmentLayout layout;
+  const auto* segments = root["segment"].as_array();
+  if (segments == nullptr) return fail(Code::bad_input, name + ": holds no [[segment]]");
+  int n = 0;
+  for (const auto& item : *segments) {
+    auto segment = read_segment(*item.as_table(), fmt::format("{}: segment {}", name, ++n), markers);
+    if (!segment) return std::unexpected(segment.error());
+    layout.segments.push_back(std::move(*segment));
+  }
+  n = 0;
+  if (const auto* joints = root["joint"].as_array())
+    for (const auto& item : *joints) {
+      auto joint = read_joint(*item.as_table(), fmt::format("{}: joint {}", name, ++n), layout);
+      if (!joint) return std::unexpected(joint.error());
+      layout.joints.push_back(std::move(*joint));
+    }
+  if (layout.joints.empty())
+    for (std::size_t s = 1; s < layout.segments.size(); ++s)
+      layout.joints.push_back({layout.segments[s - 1].name + "-" + layout.segments[s].name,
+                               static_cast<int>(s) - 1, static_cast<int>(s)});
+  if (auto s = layout.validate(static_cast<std::int64_t>(markers.size())); !s)
+    return fail_at(name, s.error());
+  return layout;
+}
+
+Result<data::SegmentLayout> read_segments(const std::filesystem::path& path,
+                                          const std::vector<std::string>& markers) {
+  const auto text = io::read_text(path, kMostBytes);
+  if (!text) return std::unexpected(text.error());
+  return parse_segments(*text, path.string(), markers);
+}
+
+std::string segments_text(const data::SegmentLayout& layout, const std::vector<std::string>& markers) {
+  std::string text;
+  for (const auto& segment : layout.segments) {
+    text += fmt::format("[[segment]]\nname = {}\nmarkers = [", toml_string(segment.name));
+    for (std::size_t i = 0; i < segment.markers.size(); ++i)
+      text += (i ? ", " : "") + toml_string(markers[static_cast<std::size_t>(segment.markers[i])]);
+    text += "]\n\n";
+  }
+  for (const auto& joint : layout.joints)
+    text += fmt::format("[[joint]]\nname = {}\nparent = {}\nchild = {}\n\n", toml_string(joint.name),
+                        toml_string(layout.segments[static_cast<std::size_t>(joint.parent)].name),
+                        toml_string(layout.segments[static_cast<std::size_t>(joint.child)].name));
+  return text;
+}
+
+}  // namespace kinemark::pipeline

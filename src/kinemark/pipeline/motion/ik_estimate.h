@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What `kinemark ik` computes: coordinates by the estimator that the job names, torques when asked.
+#pragma once
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/image_tracks.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/pipeline/motion/ik_job.h"
+#include "kinemark/pipeline/motion/torques.h"
+
+namespace kinemark::pipeline {
+
+struct MotionEstimate {
+  motion::IkResult ik;
+  TorqueAccount torques;  ///< empty unless they were asked for
+};
+
+/// Least squares or the whole-trajectory smoother, told in the terms of the former; with torques (and, for
+/// least squares, estimated rates) in the motion when the job asks for them. Failures name the file. With
+/// images the smoother takes its evidence from them and its start from the markers; least squares cannot use
+/// them.
+[[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
+                                                     const data::Trajectories& markers,
+                                                     const Progress& progress,
+                                                     const data::ImageTracks* images = nullptr);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/pipeline/motion/motion_job.h"
+#include "kinemark/stages/motion/ik.h"
+
+namespace kinemark::pipeline {
+
+/// How coordinates are found: frame by frame, or over the whole recording at once.
+enum class Estimator : std::uint8_t { least_squares, smoother };
+
+/// What `kinemark ik` is asked to do. Paths that are empty are not used. Writes Q.mot, Q_sd.sto,
+/// Q_marker_errors.sto and Q_report.json.
+struct IkJob : MotionJob {
+  std::filesystem::path
+      setup;  ///< OpenSim InverseKinematicsTool file; fills what the other fields leave open
+  std::filesystem::path tasks;   ///< OpenSim IKTaskSet file
+  std::filesystem::path report;  ///< page to write as well
+  motion::IkOptions options;
+  Estimator estimator = Estimator::least_squares;
+  bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
+};
+
+struct IkOutcome : MotionOutcome {
+  motion::IkResult result;
+};
+
+/// Read, solve, check and write. Either all files appear or, on a failure, none.
+[[nodiscard]] Result<IkOutcome> run_ik(IkJob job, const Progress& progress = {});
+
+}  // namespace kinemark::pipeline

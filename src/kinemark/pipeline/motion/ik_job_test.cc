@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/ik_job.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/motion/report_job.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+using RunIk = testing::RecordedTest<IkJob>;
+
+TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
+  const auto outcome = run_ik(job("Q.mot"));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->written.size(), 4U);
+  const auto q = io::read_table(at("Q.mot")).value();
+  const auto sd = io::read_table(at("Q_sd.sto")).value();
+  const auto truth = io::read_table(at("in/truth.mot")).value();
+  ASSERT_EQ(q.columns, sd.columns);
+  std::int64_t inside = 0, all = 0;
+  for (std::int64_t r = 0; r < q.rows(); ++r)
+    for (std::size_t k = 0; k < q.columns.size(); ++k) {
+      const auto column = static_cast<std::int64_t>(k);
+      if (std::isnan(sd(r, column))) continue;
+      const double error = q(r, column) - truth(r, truth.find(q.columns[k]));
+      inside += std::abs(error) < 3.0 * sd(r, column);
+      ++all;
+    }
+  ASSERT_GT(all, 1000);
+  EXPECT_GT(static_cast<double>(inside) / static_cast<double>(all), 0.97);
+}
+
+TEST_F(RunIk, ForcesOfAFileAreInTheTorquesAndInTheAccount) {
+  // 100 N up and 7 N m about the vertical on the pelvis, for most of the recording.
+  data::Table table;
+  table.columns = {"fx", "fy", "fz", "px", "py", "pz", "mx", "my", "mz"};
+  for (const double time : {-1.0, 0.4}) {
+    table.time_s.push_back(time);
+    table.values.insert(table.values.end(), {0.0, 100.0, 0.0, 0.2, 0.3, 0.4, 0.0, 7.0, 0.0});
+  }
+  ASSERT_TRUE(io::write_table(at("push.sto"), table));
+  ASSERT_TRUE(io::write_text(
+      at("push.xml"),
+      "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"push\"><applied_to_body>pelvis"
+      "</applied_to_body><force_identifier>f</force_identifier><point_identifier>p</point_identifier>"
+      "<torque_identifier>m</torque_identifier></ExternalForce></objects><datafile>push.sto</datafile>"
+      "</ExternalLoads></OpenSimDocument>",
+      false));
+  auto without = job("free.mot");
+  without.torques = true;
+  ASSERT_TRUE(run_ik(without));
+  auto with = job("pushed.mot");
+  with.forces = at("push.xml");
+  const auto outcome = run_ik(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto free = io::read_table(at("free_tau.sto")).value(),
+             pushed = io::read_table(at("pushed_tau.sto")).value();
+  EXPECT_TRUE(fs::exists(at("pushed_tau_sd.sto")));
+  const auto up = free.find("pelvis_ty_force"), knee = free.find("knee_angle_r_moment");
+  ASSERT_GE(up, 0);
+  ASSERT_GE(knee, 0);
+  for (std::int64_t r = 0; r < free.rows(); ++r) {
+    if (free.time_s[static_cast<std::size_t>(r)] > 0.41) {
+      EXPECT_TRUE(std::isnan(pushed(r, up))) << r;
+      continue;
+    }
+    EXPECT_NEAR(pushed(r, up), free(r, up) - 100.0, 1e-6);
+    EXPECT_NEAR(pushed(r, knee), free(r, knee), 1e-6);  // a push on the root is no torque of the knee
+  }
+  const auto report = nlohmann::json::parse(io::read_text(at("pushed_report.json")).value()).dump();
+  EXPECT_THAT(report, HasSubstr("force of push"));
+  EXPECT_THAT(report, HasSubstr("on pelvis 0.000 to 0.400 s"));
+  EXPECT_THAT(report, HasSubstr("push.sto"));
+  EXPECT_THAT(report, HasSubstr("forces not known for"));
+  with.output = at("none.mot");
+  with.forces = at("gone.c3d");
+  const auto gone = run_ik(with);
+  EXPECT_EQ(gone.error().code, Code::io);
+  EXPECT_THAT(gone.error().message, HasSubstr("gone.c3d"));
+  EXPECT_FALSE(fs::exists(at("none.mot")));
+}
+
+TEST_F(RunIk, AReportMadeLaterIsTheReportMadeAtOnce) {
+  auto with_page = job("R.mot");
+  with_page.report = at("at_once.html");
+  ASSERT_TRUE(run_ik(with_page));
+  ASSERT_TRUE(write_report(at("R.mot"), at("later.html"), false));
+  ASSERT_TRUE(write_report(at("R_report.json"), at("from_json.html"), false));
+  EXPECT_EQ(io::read_text(at("later.html")).value(), io::read_text(at("from_json.html")).value());
+  const auto once = io::read_text(at("at_once.html")).value(),
+             later = io::read_text(at("later.html")).value();
+  EXPECT_NEAR(static_cast<double>(once.size()), static_cast<double>(later.size()),
+              0.05 * static_cast<double>(once.size()));
+  EXPECT_EQ(once.find("http://"), later.find("http://"));
+  EXPECT_EQ(write_report(at("R.mot"), at("later.html"), false).error().code, Code::io) << "exists already";
+}
+
+TEST_F(RunIk, AReportOfMissingOrForeignFilesIsOneSentence) {
+  EXPECT_EQ(write_report(at("nothing.mot"), at("n.html"), false).error().code, Code::io);
+  ASSERT_TRUE(io::write_text(at("X_report.json"), "{ not json", false));
+  EXPECT_THAT(write_report(at("X.mot"), at("n.html"), false).error().message, HasSubstr("is not JSON"));
+  EXPECT_FALSE(fs::exists(at("n.html")));
+}
+
+TEST_F(RunIk, AMissedGateStillWritesAndEndsWithOne) {
+  auto strict = job("strict.mot");
+  strict.max_rms_m = 1e-5;
+  const auto outcome = run_ik(strict).value();
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_TRUE(fs::exists(at("strict.mot")));
+  std::string told;
+  for (const auto& finding : outcome.summary.findings) told += finding.text;
+  EXPECT_THAT(told, HasSubstr("at most 0.0 mm is accepted"));
+}
+
+TEST_F(RunIk, ExclusionsCarryTheirReason) {
+  auto trial = io::read_markers(at("in/markers.c3d")).value();
+  for (std::int64_t f = 0; f < trial.markers.frames(); ++f) trial.markers.set_missing(f, 0);
+  trial.markers.names[1] = "stranger";
+  if (!trial.residual_m.empty()) trial.residual_m.clear();
+  if (!trial.camera_mask.empty()) trial.camera_mask.clear();
+  const std::string unseen = trial.markers.names[0], weightless = trial.markers.names[2];
+  ASSERT_TRUE(io::write_markers(at("odd.trc"), trial, false));
+  auto odd = job("odd.mot");
+  odd.markers = at("odd.trc");
+  odd.options.marker_weights = {{weightless, 0.0}};
+  const auto outcome = run_ik(odd).value();
+  std::map<std::string, std::string> why;
+  for (const auto& marker : outcome.summary.markers) why[marker.name] = marker.why_excluded;
+  EXPECT_EQ(why[unseen], "never seen");
+  EXPECT_EQ(why[weightless], "given the weight 0");
+  EXPECT_EQ(why["stranger"], "in the recording, not in the model");
+}
+
+TEST_F(RunIk, NothingIsWrittenWhenItFailsOrIsStopped) {
+  auto gone = job("gone.mot");
+  gone.markers = at("in/none.c3d");
+  EXPECT_EQ(run_ik(gone).error().code, Code::io);
+  auto early = job("gone.mot");
+  early.options.first_time_s = 100.0;
+  EXPECT_THAT(run_ik(early).error().message, HasSubstr("markers.c3d"));
+  const auto stopped = run_ik(job("gone.mot"), [](std::int64_t, std::int64_t) { return false; });
+  EXPECT_EQ(stopped.error().code, Code::cancelled);
+  for (const char* file : {"gone.mot", "gone_sd.sto", "gone_report.json"}) EXPECT_FALSE(fs::exists(at(file)));
+}
+
+TEST_F(RunIk, AsksForWhatIsNotGiven) {
+  IkJob empty;
+  EXPECT_EQ(run_ik(empty).error().code, Code::usage);
+  empty = job("Q2.mot");
+  empty.output.clear();
+  EXPECT_THAT(run_ik(empty).error().message, HasSubstr("no output"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/torques.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "kinemark/pipeline/motion/external_forces.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+
+bool known(const data::Wrench& wrench, std::int64_t f) {
+  return Eigen::Map<const Vector3d>(wrench.force.data() + 3 * f).allFinite() &&
+         Eigen::Map<const Vector3d>(wrench.moment.data() + 3 * f).allFinite();
+}
+
+std::string length(std::int64_t frames, const TimeBase& time) {
+  return fmt::format("{:.3f} s ({} of {} frames)", static_cast<double>(frames) / time.rate_hz, frames,
+                     time.frames);
+}
+
+/// "foot_r 0.400 to 1.050 s, foot_l 1.600 to 2.100 s".
+std::string contacts_of(const std::string& wrench, const std::vector<motion::Contact>& contacts,
+                        const TimeBase& time) {
+  constexpr int kMost = 20;
+  std::string text;
+  int count = 0;
+  for (const auto& contact : contacts) {
+    if (contact.wrench != wrench) continue;
+    if (++count > kMost) continue;
+    text += fmt::format("{}{} {:.3f} to {:.3f} s", text.empty() ? "" : ", ", contact.body,
+                        time.time_s(contact.first_frame), time.time_s(contact.last_frame));
+  }
+  if (count > kMost) text += fmt::format(" and {} more", count - kMost);
+  return text.empty() ? "on nothing" : "on " + text;
+}
+
+void tell_forces(const data::Wrenches& wrenches, const motion::DynamicsSummary& dynamics,
+                 TorqueAccount& account) {
+  std::int64_t unknown = 0;
+  for (std::int64_t f = 0; f < wrenches.frames(); ++f) {
+    bool all = true;
+    for (const auto& wrench : wrenches.items) all = all && known(wrench, f);
+    unknown += !all;
+  }
+  for (const auto& wrench : wrenches.items)
+    account.facts.emplace_back("force of " + wrench.name,
+                               contacts_of(wrench.name, dynamics.contacts, wrenches.time));
+  account.facts.emplace_back("forces not known for", length(unknown, wrenches.time));
+}
+
+/// Plates push the body up; when they do not, recording and model have different axes.
+void check_vertical(const data::Wrenches& wrenches, const model::Model& model, TorqueAccount& account) {
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& wrench : wrenches.items)
+    for (std::int64_t f = 0; f < wrenches.frames(); ++f)
+      if (known(wrench, f)) sum += Eigen::Map<const Vector3d>(wrench.force.data() + 3 * f);
+  const Vector3d up = -model.gravity().normalized();
+  const double most = 1e3 * static_cast<double>(wrenches.frames());  // N, as far as people push
+  if (!(sum.norm() > 1e-2 * most) || !up.allFinite() || sum.normalized().dot(up) > 0.7) return;
+  const Vector3d mean = sum.normalized();
+  account.warnings.push_back(fmt::format(
+      "the forces push along ({:.2f}, {:.2f}, {:.2f}) on average, up in the model is ({:.0f}, {:.0f}, "
+      "{:.0f}); forces, markers and model need the same axes",
+      mean.x(), mean.y(), mean.z(), up.x() + 0.0, up.y() + 0.0, up.z() + 0.0));
+}
+
+void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, TorqueAccount& account) {
+  for (const auto& root : dynamics.roots) {
+    const auto carried = fmt::format("{:.0f} N and {:.0f} N m RMS (body weight {:.0f} N)", root.force_rms_n,
+                                     root.moment_rms_nm, dynamics.body_weight_n);
+    account.facts.emplace_back(fmt::format("left to the root '{}'", root.body), carried);
+    if (!with_forces)
+      account.warnings.push_back(
+          fmt::format("torques are without force plates: '{}' is carried by {}, so that the torques of limbs "
+                      "on the ground lack "
+                      "what the ground does",
+                      root.body, carried));
+    else if (root.force_rms_n > 0.1 * dynamics.body_weight_n)
+      account.warnings.push_back(
+          fmt::format("with the given forces '{}' still needs {}: ground that no plate measures, or a misfit "
+                      "of model, motion "
+                      "and plates",
+                      root.body, carried));
+  }
+}
+
+}  // namespace
+
+Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,
+                                  const std::filesystem::path& forces, const motion::DynamicsOptions& options,
+                                  const motion::RateErrors* errors) {
+  TorqueAccount account;
+  ExternalForces external;
+  const bool with_forces = !forces.empty();
+  if (with_forces) {
+    auto read = read_external_forces(forces, motion.time, options.contact_force_n);
+    if (!read) return std::unexpected(read.error());
+    external = std::move(*read);
+    account.files = external.files;
+    for (const auto& warning : external.warnings)
+      account.warnings.push_back(fmt::format("{}: {}", forces.filename().string(), warning));
+    check_vertical(external.wrenches, model, account);
+  }
+  const auto dynamics =
+      motion::inverse_dynamics(model, motion, options, with_forces ? &external.wrenches : nullptr, errors);
+  if (!dynamics)
+    return with_forces ? fail_at(forces.string(), dynamics.error()) : std::unexpected(dynamics.error());
+  account.warnings.insert(account.warnings.end(), dynamics->warnings.begin(), dynamics->warnings.end());
+  if (with_forces) tell_forces(external.wrenches, *dynamics, account);
+  tell_roots(*dynamics, with_forces, account);
+  return account;
+}
+
+}  // namespace kinemark::pipeline

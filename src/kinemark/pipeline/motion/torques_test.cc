@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A person of one piece stands on force plates: what the files say must carry the weight to the newton.
+#include "kinemark/pipeline/motion/torques.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/table_file.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+
+constexpr double kMass = 70.0, kGravity = 9.81, kRate = 100.0;
+const Vector3d kPlace(0.4, -0.3, 0.9);  // of the mass centre
+
+model::Model statue() {
+  data::ModelDescription m;
+  m.name = "statue";
+  m.gravity = {0.0, 0.0, -kGravity};
+  m.bodies.push_back({.name = "foot", .mass = kMass, .inertia_about_com = Eigen::Matrix3d::Identity()});
+  data::JointDescription root{.name = "root", .child_body_idx = 0};
+  const char* names[] = {"rx", "ry", "rz", "tx", "ty", "tz"};
+  for (int c = 0; c < 6; ++c) {
+    m.coordinates.push_back({.name = names[c], .is_rotation = c < 3});
+    root.axes.push_back({.is_rotation = c < 3, .axis = Vector3d::Unit(c % 3), .coordinate_idx = c});
+  }
+  m.joints.push_back(root);
+  return model::Model::compile(m).value();
+}
+
+data::JointMotion stand(const model::Model& model, std::int64_t frames) {
+  data::JointMotion motion;
+  motion.time = {.rate_hz = kRate, .t0_s = 0.5, .frames = frames};
+  for (const auto& c : model.description().coordinates) {
+    motion.coordinates.push_back(c.name);
+    motion.is_rotation.push_back(c.is_rotation);
+  }
+  for (std::int64_t f = 0; f < frames; ++f) {
+    motion.q.insert(motion.q.end(), {0.0, 0.0, 0.0});
+    motion.q.insert(motion.q.end(), kPlace.data(), kPlace.data() + 3);
+  }
+  motion.v.assign(motion.q.size(), 0.0);
+  motion.a.assign(motion.q.size(), 0.0);
+  return motion;
+}
+
+/// A recording from 0 s whose one plate carries `weight` under the mass centre until 0.8 s.
+void write_plate(const std::filesystem::path& path, double weight) {
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = kRate, .frames = 120});
+  for (std::int64_t f = 0; f < 120; ++f) {
+    trial.markers.x(f, 0) = kPlace;
+    trial.markers.state[trial.markers.index(f, 0)] = data::SampleState::measured;
+  }
+  data::ForcePlate plate{.type = 2, .origin_in_plate = {0.0, 0.0, -0.05}, .channel_idx = {0, 1, 2, 3, 4, 5}};
+  const Vector3d centre(0.35, -0.2, 0.0);
+  const double corners[4][2] = {
+      {0.2, -0.3}, {-0.2, -0.3}, {-0.2, 0.3}, {0.2, 0.3}};  // y and z of the plate turned
+  for (std::size_t c = 0; c < 4; ++c)
+    plate.corners_in_world[c] = centre + Vector3d(corners[c][0], corners[c][1], 0.0);
+  trial.force_plates.push_back(plate);
+  trial.analog.names = {"fx", "fy", "fz", "mx", "my", "mz"};
+  trial.analog.units = {"N", "N", "N", "Nmm", "Nmm", "Nmm"};
+  trial.analog.rate_hz = 10.0 * kRate;
+  trial.analog.samples = 1200;
+  for (int i = 0; i < 1200; ++i) {
+    // In the plate: x as in the laboratory, y and z the other way round.
+    const Vector3d force(0.0, 0.0, i < 800 ? -weight : 0.0),
+        arm(kPlace.x() - centre.x(), centre.y() - kPlace.y(), -0.05);
+    const Vector3d moment = 1e3 * arm.cross(force);
+    trial.analog.values.insert(trial.analog.values.end(), force.data(), force.data() + 3);
+    trial.analog.values.insert(trial.analog.values.end(), moment.data(), moment.data() + 3);
+  }
+  ASSERT_TRUE(io::write_c3d(path, trial));
+}
+
+TEST(Torques, APlateOfARecordingCarriesTheWeight) {
+  const testing_support::ScratchFolder scratch;
+  write_plate(scratch / "stand.c3d", kMass * kGravity);
+  const auto model = statue();
+  auto motion = stand(model, 20);  // 0.5 to 0.69 s
+  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  for (std::size_t i = 0; i < motion.tau.size(); ++i) EXPECT_NEAR(motion.tau[i], 0.0, 1e-3) << i;
+  EXPECT_THAT(account.warnings, IsEmpty());
+  EXPECT_THAT(account.files, ElementsAre(scratch / "stand.c3d"));
+  EXPECT_THAT(account.facts,
+              ElementsAre(Pair("force of plate 1", "on foot 0.500 to 0.690 s"),
+                          Pair("forces not known for", "0.000 s (0 of 20 frames)"),
+                          Pair("left to the root 'foot'", HasSubstr("N m RMS (body weight 687 N)"))));
+}
+
+TEST(Torques, WhatNoPlateMeasuresIsSaid) {
+  const testing_support::ScratchFolder scratch;
+  write_plate(scratch / "stand.c3d", kMass * kGravity);
+  const auto model = statue();
+  auto motion = stand(model, 100);  // 0.5 to 1.49 s; the plate until 0.8 s, the file until 1.19 s
+  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  EXPECT_NEAR(motion.tau[6 * 10 + 5], 0.0, 1e-3);
+  EXPECT_NEAR(motion.tau[6 * 50 + 5], kMass * kGravity, 1e-3);
+  EXPECT_TRUE(std::isnan(motion.tau[6 * 80 + 5]));
+  EXPECT_THAT(account.facts, Contains(Pair("forces not known for", "0.300 s (30 of 100 frames)")));
+  EXPECT_THAT(account.warnings, Contains(HasSubstr("30 of 100 frames have no torques")));
+  EXPECT_THAT(account.warnings, Contains(HasSubstr("with the given forces 'foot' still needs 5")));
+}
+
+TEST(Torques, WithoutAFileTheRootCarriesTheWeight) {
+  const auto model = statue();
+  auto motion = stand(model, 10);
+  const auto account = add_torques(model, motion, {}, {.error_bars = false}).value();
+  EXPECT_NEAR(motion.tau[5], kMass * kGravity, 1e-9);
+  EXPECT_THAT(account.files, IsEmpty());
+  EXPECT_THAT(account.warnings,
+              ElementsAre(HasSubstr("torques are without force plates: 'foot' is carried by 687 N")));
+}
+
+TEST(Torques, ExternalLoadsOfOpenSimCarryTheWeightToo) {
+  const testing_support::ScratchFolder scratch;
+  data::Table table;
+  table.columns = {"r_vx", "r_vy", "r_vz", "r_px", "r_py", "r_pz", "r_mx", "r_my", "r_mz"};
+  for (int i = 0; i <= 20; ++i) {
+    table.time_s.push_back(0.4 + 0.05 * i);
+    // Away from the mass centre, with the moment that makes up for it.
+    const Vector3d point = kPlace + Vector3d(0.1, -0.2, -0.9), force(0.0, 0.0, kMass * kGravity);
+    const Vector3d moment = (kPlace - point).cross(force);
+    for (const Vector3d& v : {force, point, moment})
+      table.values.insert(table.values.end(), v.data(), v.data() + 3);
+  }
+  ASSERT_TRUE(io::write_table(scratch / "grf.sto", table));
+  ASSERT_TRUE(io::write_text(
+      scratch / "loads.xml",
+      "<OpenSimDocument><ExternalLoads><objects><ExternalForce "
+      "name=\"right\"><applied_to_body>foot</applied_to_body>"
+      "<force_identifier>r_v</force_identifier><point_identifier>r_p</point_identifier><torque_identifier>r_m"
+      "</torque_identifier></ExternalForce></objects><datafile>grf.sto</datafile></ExternalLoads></"
+      "OpenSimDocument>",
+      false));
+  const auto model = statue();
+  auto motion = stand(model, 20);
+  const auto account = add_torques(model, motion, scratch / "loads.xml", {.error_bars = false}).value();
+  for (std::size_t i = 0; i < motion.tau.size(); ++i) EXPECT_NEAR(motion.tau[i], 0.0, 1e-9) << i;
+  EXPECT_THAT(account.files, ElementsAre(scratch / "loads.xml", scratch / "grf.sto"));
+  EXPECT_THAT(account.facts, Contains(Pair("force of right", "on foot 0.500 to 0.690 s")));
+}
+
+TEST(Torques, ForcesInOtherAxesAreNoticed) {
+  const testing_support::ScratchFolder scratch;
+  write_plate(scratch / "stand.c3d", kMass * kGravity);
+  data::ModelDescription description = statue().description();
+  description.gravity = {0.0, -kGravity, 0.0};  // y up, the recording z up
+  const auto model = model::Model::compile(description).value();
+  auto motion = stand(model, 10);
+  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  EXPECT_THAT(account.warnings,
+              Contains(HasSubstr(
+                  "the forces push along (0.00, 0.00, 1.00) on average, up in the model is (0, 1, 0)")));
+}
+
+TEST(Torques, ABodyThatTheModelLacksIsNamedWithItsFile) {
+  const testing_support::ScratchFolder scratch;
+  const auto model = statue();
+  auto motion = stand(model, 10);
+  EXPECT_EQ(add_torques(model, motion, scratch / "none.c3d", {.error_bars = false}).error().code, Code::io);
+  data::Table table;
+  table.columns = {"tx", "ty", "tz"};
+  table.time_s = {0.0, 2.0};
+  table.values.assign(6, 1.0);
+  ASSERT_TRUE(io::write_table(scratch / "t.sto", table));
+  ASSERT_TRUE(io::write_text(
+      scratch / "loads.xml",
+      "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"a\"><applied_to_body>tail"
+      "</applied_to_body><torque_identifier>t</torque_identifier></ExternalForce></objects>"
+      "<datafile>t.sto</datafile></ExternalLoads></OpenSimDocument>",
+      false));
+  EXPECT_THAT(add_torques(model, motion, scratch / "loads.xml", {.error_bars = false}).error().message,
+              HasSubstr("loads.xml: wrench 'a' names body 'tail', which the model does not have"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/track_job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "kinemark/pipeline/motion/internal/motion_run.h"
+#include "kinemark/stages/motion/control/camera_task.h"
+#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob& job,
+                                                                  const motion::TrackResult& result) {
+  const auto& o = job.options;
+  std::vector<std::pair<std::string, std::string>> options{
+      {"levels of priority", std::to_string(std::max<std::size_t>(1, o.levels.size()))}};
+  for (std::size_t i = 0; i < o.levels.size(); ++i)
+    options.emplace_back(fmt::format("level {}", i + 1), list(o.levels[i].markers));
+  options.emplace_back("gains", o.kp > 0.0 ? fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.kp, o.kd)
+                                           : fmt::format("omega {:g} rad/s", o.omega_rad_s));
+  options.emplace_back("step", fmt::format("{:.4g} ms", 1e3 * result.step_s));
+  options.emplace_back("damping", fmt::format("{:g}", o.damping));
+  options.emplace_back("cut-off of the goals",
+                       o.cutoff_hz > 0.0 ? fmt::format("{:g} Hz", o.cutoff_hz) : "none");
+  options.emplace_back("feed-forward", o.feed_forward ? "on" : "off");
+  options.emplace_back("posture", fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.posture_kp, o.posture_kd));
+  options.emplace_back("limits of clamped coordinates", o.limits ? "kept" : "ignored");
+  if (job.images.any()) options.emplace_back("images in the lowest level", images_in_words(job.images));
+  options.emplace_back("determined in fewer than 95 % of the frames", list(result.undetermined_coordinates));
+  return options;
+}
+
+Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionInputs& inputs,
+                                   const motion::TrackResult& result) {
+  auto run = internal::begin_run(job, inputs);
+  if (!run) return run;
+  run->method = "direct marker control";
+  run->seed = job.options.seed;
+  run->threads = job.options.threads;
+  run->options = describe_options(job, result);
+  internal::add_estimate(*run, result, "in no level, or given the weight 0");
+  run->locked_coordinates.insert(run->locked_coordinates.end(), result.locked_coordinates.begin(),
+                                 result.locked_coordinates.end());
+  const double offset_m = result.mean_marker_error_m.norm();
+  internal::add_marker_gates(*run, job, offset_m,
+                             fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
+                             result.rms_marker_error_m);
+  internal::add_gate(
+      *run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
+      fmt::format("{} of {} frames are flagged: goals out of reach, or a body that ran away ({} "
+                  "times started anew).",
+                  result.flagged_frames, result.motion.frames(), result.restarts));
+  return run;
+}
+
+/// What the levels fix together, frame by frame.
+data::Table rank_table(const motion::TrackResult& result) {
+  data::Table table;
+  table.name = "Rank of the tasks";
+  table.columns = {"rank", "smallest_singular_value"};
+  for (std::int64_t f = 0; f < result.motion.frames(); ++f) {
+    const auto i = static_cast<std::size_t>(f);
+    table.time_s.push_back(result.motion.time.time_s(f));
+    table.values.insert(table.values.end(),
+                        {static_cast<double>(result.rank[i]), result.smallest_singular[i]});
+  }
+  return table;
+}
+
+/// Standard deviations of the torques: those of the inverse dynamics of the motion as it came out. Where that
+/// cannot be done (closed loops, a few frames) they stay away, and a warning says why.
+void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
+  auto motion = result.motion;
+  const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
+  if (dynamics)
+    result.motion.tau_sd = std::move(motion.tau_sd);
+  else
+    result.warnings.push_back("standard deviations of torques are not known: " + dynamics.error().message);
+}
+
+/// The images join the lowest level.
+Status add_images(const internal::MotionInputs& inputs, motion::TrackOptions& options) {
+  if (!inputs.images) return {};
+  const auto tasks = motion::camera_tasks(inputs.model, *inputs.images,
+                                          {.cutoff_hz = options.cutoff_hz, .fade_s = options.fade_s});
+  if (!tasks) return std::unexpected(tasks.error());
+  if (options.levels.empty()) options.levels.push_back({.markers = {"*"}, .tasks = {}});
+  auto& lowest = options.levels.back().tasks;
+  lowest.insert(lowest.end(), tasks->begin(), tasks->end());
+  return {};
+}
+
+}  // namespace
+
+Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
+  if (auto s = internal::check_named(job); !s) return std::unexpected(s.error());
+  if (auto s = job.options.check(); !s) return std::unexpected(s.error());
+  const auto inputs = internal::read_inputs(job);
+  if (!inputs) return std::unexpected(inputs.error());
+  std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
+  if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
+  files.push_back("_report.json");
+  auto staging = internal::stage(job, files);
+  if (!staging) return std::unexpected(staging.error());
+
+  TrackOutcome outcome;
+  auto options = job.options;
+  if (auto s = add_images(*inputs, options); !s) return std::unexpected(s.error());
+  auto result = motion::track_markers(inputs->model, inputs->trial.markers, options, progress);
+  if (!result) {
+    if (result.error().code == Code::usage) return std::unexpected(result.error());
+    return fail_at(job.markers.string(), result.error());
+  }
+  outcome.result = std::move(*result);
+  TorqueAccount account;
+  if (!job.forces.empty()) {
+    // What the controller pushes with knows nothing of the ground: torques anew, from the motion and the
+    // forces.
+    auto torques = add_torques(inputs->model, outcome.result.motion, job.forces,
+                               {.error_bars = job.options.error_bars, .threads = job.options.threads});
+    if (!torques) return std::unexpected(torques.error());
+    account = std::move(*torques);
+  } else if (job.options.error_bars) {
+    add_torque_deviations(inputs->model, job, outcome.result);
+  }
+  auto run = describe_run(job, *inputs, outcome.result);
+  if (!run) return std::unexpected(run.error());
+  if (auto s = internal::add_torque_account(*run, account); !s) return std::unexpected(s.error());
+  const auto& motion = outcome.result.motion;
+  if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, nullptr, outcome); !s)
+    return std::unexpected(s.error());
+  if (auto s = internal::put(*staging, beside(job.output, "_rank.sto"), rank_table(outcome.result)); !s)
+    return std::unexpected(s.error());
+  if (auto s = internal::reveal(*staging, progress, "direct marker control", outcome); !s)
+    return std::unexpected(s.error());
+  return outcome;
+}
+
+}  // namespace kinemark::pipeline

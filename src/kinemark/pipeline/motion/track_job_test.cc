@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/track_job.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class RunTrack : public testing::RecordedTest<TrackJob> {
+ protected:
+  /// No gaps, no noise: half a second is short.
+  static TrackJob job(const std::string& output) { return RecordedTest::job(output, "in/truth.trc"); }
+};
+
+TEST_F(RunTrack, WritesAnglesTorquesBoundsAndTheAccount) {
+  const auto outcome = run_track(job("Q.mot"));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->written.size(), 8U);
+  for (const auto& path : outcome->written) EXPECT_TRUE(fs::exists(path)) << path;
+  const auto q = io::read_table(at("Q.mot")).value();
+  const auto bound = io::read_table(at("Q_bound.sto")).value();
+  const auto tau = io::read_table(at("Q_tau.sto")).value();
+  const auto truth = io::read_table(at("in/truth.mot")).value();
+  ASSERT_EQ(q.columns, bound.columns);
+  EXPECT_EQ(tau.columns.size(), q.columns.size());
+  for (std::int64_t r = 0; r < q.rows(); ++r)
+    for (std::size_t k = 6; k < q.columns.size(); ++k) {
+      const auto column = static_cast<std::int64_t>(k);
+      EXPECT_NEAR(q(r, column), truth(r, truth.find(q.columns[k])), 2.0) << q.columns[k] << ' ' << r;
+      EXPECT_TRUE(std::isfinite(tau(r, column)));
+    }
+  const auto report = nlohmann::json::parse(io::read_text(at("Q_report.json")).value());
+  EXPECT_THAT(report.dump(), HasSubstr("direct marker control"));
+}
+
+TEST_F(RunTrack, TorquesHaveDeviationsThatGrowWithTheNoise) {
+  const auto deviations = [&](const std::string& output, double noise_m) {
+    auto j = job(output + ".mot");
+    j.options.marker_noise_sd_m = noise_m;
+    EXPECT_TRUE(run_track(j));
+    return io::read_table(at(output + "_tau_sd.sto")).value();
+  };
+  const auto quiet = deviations("quiet", 1e-3), loud = deviations("loud", 4e-3);
+  EXPECT_EQ(quiet.columns, io::read_table(at("quiet_tau.sto")).value().columns);
+  double sum_quiet = 0.0, sum_loud = 0.0;
+  for (std::size_t i = 0; i < quiet.values.size(); ++i) {
+    EXPECT_GT(quiet.values[i], 0.0) << i;
+    sum_quiet += quiet.values[i];
+    sum_loud += loud.values[i];
+  }
+  EXPECT_GT(sum_loud, sum_quiet);
+}
+
+TEST_F(RunTrack, TheRankOfEveryFrameIsWritten) {
+  const auto whole = run_track(job("whole.mot")).value();
+  const auto table = io::read_table(at("whole_rank.sto")).value();
+  ASSERT_EQ(table.columns, (std::vector<std::string>{"rank", "smallest_singular_value"}));
+  ASSERT_EQ(table.rows(), whole.result.motion.frames());
+  EXPECT_DOUBLE_EQ(table.time_s[7], whole.result.motion.time.time_s(7));
+  for (std::int64_t f = 0; f < table.rows(); ++f) {
+    EXPECT_EQ(table(f, 0), whole.result.free_speeds);
+    EXPECT_GT(table(f, 1), 0.0);
+  }
+  auto few = job("few.mot");
+  few.options.levels = {{.markers = {"LASI", "RASI"}}};
+  few.options.lock = motion::LockMode::off;
+  ASSERT_TRUE(run_track(few));
+  const auto rank = io::read_table(at("few_rank.sto")).value();
+  for (std::int64_t f = 0; f < rank.rows(); ++f) EXPECT_LE(rank(f, 0), 6.0) << "two points";
+}
+
+TEST_F(RunTrack, ForcesOfAFileAreInTheTorquesNotInTheAngles) {
+  const auto pushed_by = [&](const std::string& name, double newtons) {
+    data::Table table;
+    table.columns = {"fx", "fy", "fz", "px", "py", "pz"};
+    for (const double time : {-1.0, 1.0}) {
+      table.time_s.push_back(time);
+      table.values.insert(table.values.end(), {0.0, newtons, 0.0, 0.2, 0.3, 0.4});
+    }
+    EXPECT_TRUE(io::write_table(at(name + ".sto"), table));
+    EXPECT_TRUE(io::write_text(
+        at(name + ".xml"),
+        "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"push\"><applied_to_body>pelvis"
+        "</applied_to_body><force_identifier>f</force_identifier><point_identifier>p</point_identifier>"
+        "</ExternalForce></objects><datafile>" +
+            name + ".sto</datafile></ExternalLoads></OpenSimDocument>",
+        false));
+    auto j = job(name + ".mot");
+    j.forces = at(name + ".xml");
+    const auto outcome = run_track(j);
+    EXPECT_TRUE(outcome) << outcome.error().message;
+    EXPECT_TRUE(fs::exists(at(name + "_tau_sd.sto")));
+    return io::read_table(at(name + "_tau.sto")).value();
+  };
+  const auto none = pushed_by("none_pushes", 0.0), push = pushed_by("push", 100.0);
+  EXPECT_EQ(io::read_table(at("none_pushes.mot")).value().values,
+            io::read_table(at("push.mot")).value().values);
+  const auto up = none.find("pelvis_ty_force"), knee = none.find("knee_angle_r_moment");
+  ASSERT_GE(up, 0);
+  ASSERT_GE(knee, 0);
+  for (std::int64_t r = 0; r < none.rows(); ++r) {
+    EXPECT_NEAR(push(r, up), none(r, up) - 100.0, 1e-6);
+    EXPECT_NEAR(push(r, knee), none(r, knee), 1e-6);
+  }
+  const auto report = io::read_text(at("push_report.json")).value();
+  EXPECT_THAT(report, HasSubstr("force of push"));
+  EXPECT_THAT(report, HasSubstr("push.sto"));
+}
+
+TEST_F(RunTrack, SaysWhatIsMissingAndWritesNothing) {
+  auto j = job("none.mot");
+  j.model.clear();
+  EXPECT_THAT(run_track(j).error().message, HasSubstr("no model"));
+  j = job("none.mot");
+  j.markers.clear();
+  EXPECT_THAT(run_track(j).error().message, HasSubstr("no marker file"));
+  j = job("");
+  j.output.clear();
+  EXPECT_THAT(run_track(j).error().message, HasSubstr("no output"));
+  j = job("none.mot");
+  j.options.levels = {{.markers = {"NOSE"}}};
+  const auto unknown = run_track(j);
+  EXPECT_THAT(unknown.error().message, HasSubstr("level 1 names marker 'NOSE'"));
+  EXPECT_EQ(unknown.error().code, Code::bad_input);
+  j = job("none.mot");
+  j.options.step_s = 1.0 / 60.0;
+  EXPECT_EQ(run_track(j).error().code, Code::usage);
+  EXPECT_FALSE(fs::exists(at("none.mot")));
+}
+
+TEST_F(RunTrack, AMissedGateIsAnExitStatusAndTheFilesAreThere) {
+  auto j = job("gate.mot");
+  j.max_rms_m = 1e-9;
+  j.options.error_bars = false;
+  const auto outcome = run_track(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 1);
+  EXPECT_EQ(outcome->written.size(), 5U);
+  EXPECT_TRUE(fs::exists(at("gate.mot")));
+  EXPECT_FALSE(fs::exists(at("gate_bound.sto")));
+}
+
+TEST_F(RunTrack, StopsWhenAsked) {
+  const auto outcome = run_track(job("stopped.mot"), [](std::int64_t, std::int64_t) { return false; });
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, Code::cancelled);
+  EXPECT_FALSE(fs::exists(at("stopped.mot")));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The chain from files to files: recordings of known things to a rig, counts and rig to markers.
+#include "kinemark/pipeline/rig/calibrate_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/recording/counts_recording.h"
+#include "kinemark/io/rig/rig_file.h"
+#include "kinemark/pipeline/rig/reconstruct_job.h"
+#include "kinemark/pipeline/simulate/simulate_rig_job.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A simulated laboratory, written once for all tests of this file.
+class CalibrateJobTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new testing_support::ScratchFolder;
+    RigJob job;
+    job.folder = *scratch_ / "lab";
+    job.scene = RigSceneKind::tree;
+    job.duration_s = 0.3;
+    job.grid = job.tree_poses = job.scan = true;
+    simulate_rig(job).value();
+  }
+  static void TearDownTestSuite() {
+    delete scratch_;
+    scratch_ = nullptr;
+  }
+  static fs::path lab(const std::string& name) { return *scratch_ / ("lab/" + name); }
+  static fs::path fresh(const std::string& name) { return *scratch_ / name; }
+
+  static CalibrateJob bundle(const std::string& output) {
+    CalibrateJob job;
+    job.inputs = {lab("tree_poses.mcap"), lab("grid_A.mcap"), lab("grid_B.mcap")};
+    job.nominal = lab("rig_nominal.toml");
+    job.output = fresh(output);
+    job.bundle.warp_degree = 6;  // quick, and enough for this rig
+    job.bundle.crosstalk = false;
+    return job;
+  }
+
+ private:
+  static inline testing_support::ScratchFolder* scratch_ = nullptr;
+};
+
+TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
+  const auto told = calibrate_rig_file(bundle("rig.toml"));
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_LT(told->at("chi2_per_dof").get<double>(), 1.2);
+  EXPECT_EQ(told->at("poses").get<int>(), 300);
+  EXPECT_EQ(told->at("alignment").at("cameras").size(), 2U);
+  const auto rig = io::read_rig(fresh("rig.toml")).value();
+  EXPECT_EQ(rig.method, "bundle");
+  EXPECT_GT(rig.covariance.rows(), 100);
+
+  ReconstructJob job;
+  job.recording = lab("recording.mcap");
+  job.rig = fresh("rig.toml");
+  job.output = fresh("points.csv");
+  job.method = ReconstructJob::Method::frames;
+  const auto made = reconstruct_file(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->at("leds").at(0).at("located").get<int>(), 30);
+  const auto markers = io::read_markers(fresh("points.csv")).value().markers;
+  const auto truth = io::read_markers(lab("truth.trc")).value().markers;
+  double side = 0.0;
+  for (std::int64_t f = 0; f < 30; ++f) side += (markers.x(f, 0) - markers.x(f, 1)).norm() / 30.0;
+  EXPECT_NEAR(side, (truth.x(0, 0) - truth.x(0, 1)).norm(), 0.6e-3);
+  job.output = fresh("points.c3d");
+  job.method = ReconstructJob::Method::smoother;
+  ASSERT_TRUE(reconstruct_file(job));
+  job.method = ReconstructJob::Method::classic;
+  job.output = fresh("classic.trc");
+  EXPECT_TRUE(reconstruct_file(job)) << "the grid left tables in the rig";
+}
+
+TEST_F(CalibrateJobTest, GridLutAndScan) {
+  auto job = bundle("lut.toml");
+  job.method = CalibrateJob::Method::grid_lut;
+  job.inputs.erase(job.inputs.begin());
+  ASSERT_TRUE(calibrate_rig_file(job));
+  EXPECT_EQ(io::read_rig(job.output)->cameras[1].table.nodes, 15);
+  job = bundle("scan.toml");
+  job.method = CalibrateJob::Method::scan;
+  job.inputs = {lab("scan.mcap")};
+  const auto told = calibrate_rig_file(job);
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_EQ(io::read_rig(job.output)->method, "scan");
+}
+
+TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
+  auto job = bundle("none.toml");
+  job.align_only = true;
+  job.inputs = {lab("tree_poses.mcap")};
+  const auto told = calibrate_rig_file(job);
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_FALSE(told->at("alignment").at("next").get<std::string>().empty());
+  EXPECT_FALSE(fs::exists(fresh("none.toml")));
+}
+
+TEST_F(CalibrateJobTest, RefusesWhatIsMissingOrWrong) {
+  auto job = bundle("wrong.toml");
+  job.inputs = {lab("recording.mcap")};
+  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("a tree, a grid or a scan was expected"));
+  job.inputs = {lab("grid_A.mcap")};
+  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("a grid for 1 of 2 cameras"));
+  job.inputs = {lab("grid_A.mcap"), lab("grid_B.mcap")};
+  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("needs a recording of the tree"));
+  job = bundle("wrong.toml");
+  job.sides_m = {0.31, 0.533, 0.31};
+  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("sides do not match"));
+  EXPECT_FALSE(fs::exists(fresh("wrong.toml")));
+  ReconstructJob classic;
+  classic.recording = lab("recording.mcap");
+  classic.rig = lab("rig_nominal.toml");
+  classic.output = fresh("x.trc");
+  classic.method = ReconstructJob::Method::classic;
+  EXPECT_THAT(reconstruct_file(classic).error().message, HasSubstr("no look-up table"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

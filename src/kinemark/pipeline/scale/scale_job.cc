@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/scale/scale_job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/motion/ik_job.h"
+#include "kinemark/pipeline/scale/scale_report.h"
+#include "kinemark/pipeline/scale/scale_setup_options.h"
+#include "kinemark/pipeline/files/staging.h"
+#include "kinemark/stages/motion/scaling/clavicles.h"
+#include "kinemark/stages/motion/scaling/masses.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// One run, step by step; every step moves outcome.model on.
+class ScaleRun {
+ public:
+  ScaleRun(ScaleJob job, const Progress& progress) : job_(std::move(job)), progress_(progress) {}
+
+  Status read_setup() {
+    if (job_.setup.empty()) return {};
+    auto setup = io::read_scale_setup(job_.setup);
+    if (!setup) return std::unexpected(setup.error());
+    setup_ = std::move(*setup);
+    if (job_.model.empty()) job_.model = setup_->model_file;
+    if (job_.output.empty()) job_.output = setup_->output_model_file;
+    if (job_.mass_kg == 0.0) job_.mass_kg = setup_->mass_kg;
+    return {};
+  }
+
+  Status check() const {
+    if (job_.model.empty()) return fail(Code::usage, "no model; give --model or a --setup that names one");
+    if (job_.output.empty()) return fail(Code::usage, "no output; give --output or a --setup that names one");
+    if (job_.setup.empty() && job_.static_trial.empty() && job_.markers.empty())
+      return fail(Code::usage, "nothing to scale by; give --static, --setup or --markers");
+    if (!std::isfinite(job_.mass_kg) || job_.mass_kg < 0.0)
+      return fail(Code::usage, fmt::format("a mass of {} kg; need a number above 0", job_.mass_kg));
+    if (job_.dempster && job_.mass_kg == 0.0)
+      return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
+    for (const double sd : {job_.size_prior_sd, job_.place_prior_sd_m})
+      if (!(sd > 0.0 && sd <= 1.0))
+        return fail(Code::usage, fmt::format("a prior of {}; need above 0, at most 1", sd));
+    return {};
+  }
+
+  Status read_model() {
+    auto model = io::read_osim(job_.model);
+    if (!model) return std::unexpected(model.error());
+    out_.model = std::move(*model);
+    if (setup_ && !setup_->marker_set_file.empty()) {
+      auto set = io::read_marker_set(setup_->marker_set_file);
+      if (!set) return std::unexpected(set.error());
+      marker_set_ = std::move(*set);
+      if (auto s = io::merge_markers(out_.model, marker_set_); !s)
+        return fail_at(setup_->marker_set_file.string(), s.error());
+    }
+    if (out_.model.markers.empty())
+      return fail(
+          Code::bad_input,
+          fmt::format("{}: model '{}' has no markers; need at least one, or a setup with a marker set",
+                      job_.model.string(), out_.model.name));
+    if (job_.clavicles) {
+      auto moving = motion::add_clavicles(out_.model);
+      if (!moving) return fail_at(job_.model.string(), moving.error());
+      out_.clavicles = std::move(*moving);
+    }
+    for (const auto& body : out_.model.bodies) out_.factors.push_back({.body = body.name});
+    return {};
+  }
+
+  Status scale_by_setup() {
+    if (!setup_) return {};
+    const motion::ScaleOptions options = scale_options(*setup_);
+    data::Trajectories recording;
+    const bool measures =
+        std::ranges::find(options.order, motion::ScaleStep::measurements) != options.order.end() &&
+        !options.measurements.empty();
+    if (measures)
+      if (auto s = read_trial(setup_->scale_marker_file, "the measurements of the setup", recording, true);
+          !s)
+        return s;
+    motion::ScaleOptions with_mass = options;
+    with_mass.mass_kg = job_.mass_kg;
+    auto scaled = motion::scale_model(out_.model, measures ? &recording : nullptr, with_mass);
+    if (!scaled) return fail_at(job_.setup.string(), scaled.error());
+    out_.model = scaled->model;
+    for (std::size_t b = 0; b < out_.factors.size(); ++b)
+      out_.factors[b].factors = scaled->factors[b].factors;
+    out_.scaled = std::move(*scaled);
+    if (!setup_->place) return {};
+    data::Trajectories trial;
+    if (auto s = read_trial(setup_->place_marker_file, "the MarkerPlacer of the setup", trial, true); !s)
+      return s;
+    auto options_of_placer = place_options(*setup_, marker_set_, out_.model);
+    if (!options_of_placer) return fail_at(job_.setup.string(), options_of_placer.error());
+    return place(trial, *options_of_placer);
+  }
+
+  /// Sizes as well as one pose tells them, then the markers where they are.
+  Status scale_by_static_trial() {
+    if (job_.static_trial.empty() || setup_) return {};
+    data::Trajectories trial;
+    if (auto s = read_trial(job_.static_trial, "scaling", trial); !s) return s;
+    if (auto s = take_overall_size(trial); !s) return fail_at(job_.static_trial.string(), s.error());
+    auto options = job_.adapt;
+    options.ik.first_time_s = -1e300;
+    options.ik.last_time_s = 1e300;
+    options.max_frames = std::min<std::int64_t>(options.max_frames, 50);
+    auto adapted = adapt(trial, options);
+    if (!adapted) return fail_at(job_.static_trial.string(), adapted.error());
+    out_.from_static = std::move(*adapted);
+    return place(trial, {});
+  }
+
+  Status adapt_to_motion() {
+    if (job_.markers.empty()) return {};
+    data::Trajectories trial;
+    if (auto s = read_trial(job_.markers, "adapting the model", trial); !s) return s;
+    if (!setup_ && job_.static_trial.empty())
+      if (auto s = take_overall_size(trial); !s) return fail_at(job_.markers.string(), s.error());
+    auto adapted = adapt(trial, job_.adapt);
+    if (!adapted) return fail_at(job_.markers.string(), adapted.error());
+    out_.from_motion = std::move(*adapted);
+    return {};
+  }
+
+  Status weigh() {
+    if (job_.mass_kg == 0.0) return {};
+    const auto s = job_.dempster ? motion::distribute_mass(out_.model, job_.mass_kg)
+                                 : motion::set_total_mass(out_.model, job_.mass_kg);
+    return s ? s : Status(fail_at(job_.model.string(), s.error()));
+  }
+
+  Result<ScaleOutcome> write() {
+    const fs::path report = beside(job_.output, "_report.json");
+    auto staging = Staging::create({job_.output, report}, job_.force);
+    if (!staging) return std::unexpected(staging.error());
+    const double rms = out_.from_motion ? out_.from_motion->rms_after_m
+                       : out_.placed    ? out_.placed->rms_m
+                                        : 0.0;
+    if (!(rms <= job_.max_rms_m)) {
+      out_.exit_status = 1;
+      out_.notes.push_back(
+          fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most "
+                      "{:.1f} mm is accepted.",
+                      1e3 * rms, 1e3 * job_.max_rms_m));
+    }
+    out_.report = scale_report(job_, out_);
+    if (auto s = io::write_osim(staging->path(0), out_.model); !s) return staging->failure(s.error());
+    if (auto s = io::write_text(staging->path(1), out_.report + "\n", false); !s)
+      return staging->failure(s.error());
+    if (auto s = staging->commit(); !s) return std::unexpected(s.error());
+    out_.written = staging->targets();
+    return std::move(out_);
+  }
+
+  /// Targets can be written: said before anything long is done.
+  Status check_targets() const {
+    const auto staging = Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force);
+    if (!staging) return std::unexpected(staging.error());
+    return {};
+  }
+
+ private:
+  /// --static wins over the file that the setup names itself.
+  Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
+                    bool by_setup = false) const {
+    const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;
+    if (path.empty())
+      return fail(Code::usage, fmt::format("{} needs a marker file; give --static or name it there", what));
+    auto trial = io::read_markers(path, {.rate_hz = io::needs_rate(path) ? job_.rate_hz : 0.0});
+    if (!trial) return std::unexpected(trial.error());
+    out = std::move(trial->markers);
+    return {};
+  }
+
+  Status place(const data::Trajectories& trial, const motion::PlaceOptions& options) {
+    auto placed = motion::place_markers(out_.model, trial, options);
+    if (!placed) return fail_at((setup_ ? job_.setup : job_.static_trial).string(), placed.error());
+    out_.model = placed->model;
+    out_.placed = std::move(*placed);
+    return {};
+  }
+
+  /// One factor for the whole model, from distances between markers of one body.
+  Status take_overall_size(const data::Trajectories& trial) {
+    double measured = 0.0, modelled = 0.0;
+    const auto& markers = out_.model.markers;
+    for (std::size_t i = 0; i < markers.size(); ++i)
+      for (std::size_t j = i + 1; j < markers.size(); ++j) {
+        if (markers[i].body_idx != markers[j].body_idx) continue;
+        const auto a = motion::find_recorded(trial, markers[i].name),
+                   b = motion::find_recorded(trial, markers[j].name);
+        if (a < 0 || b < 0) continue;
+        double sum = 0.0, count = 0.0;
+        for (std::int64_t f = 0; f < trial.frames(); f += 1 + trial.frames() / 500) {
+          if (!trial.present(f, a) || !trial.present(f, b)) continue;
+          sum += (trial.x(f, a) - trial.x(f, b)).norm();
+          count += 1.0;
+        }
+        if (count == 0.0) continue;
+        measured += sum / count;
+        modelled += (markers[i].x_in_body - markers[j].x_in_body).norm();
+      }
+    if (measured == 0.0 || modelled == 0.0)
+      return {};  // nothing to compare: the model's size is the best guess
+    const double size = measured / modelled;
+    if (!(size > 0.2 && size < 5.0))
+      return fail(Code::bad_input,
+                  fmt::format("markers lie {:.3g} times as far apart as in the model; that looks like "
+                              "a wrong unit or a wrong model",
+                              size));
+    std::vector<Vector3d> factors(out_.model.bodies.size(), Vector3d::Constant(size));
+    motion::apply_factors(out_.model, factors, true);
+    for (auto& factor : out_.factors) factor.factors *= size;
+    return {};
+  }
+
+  Result<motion::AdaptResult> adapt(const data::Trajectories& trial, const motion::AdaptOptions& options) {
+    const auto groups = motion::default_scale_groups(out_.model, job_.symmetric);
+    auto parameters = motion::scale_parameters(out_.model, groups, job_.size_prior_sd);
+    if (!parameters) return std::unexpected(parameters.error());
+    const std::size_t sizes = parameters->size();
+    const auto places = motion::marker_parameters(out_.model, {}, job_.place_prior_sd_m);
+    if (!places) return std::unexpected(places.error());
+    parameters->insert(parameters->end(), places->begin(), places->end());
+    auto adapted = motion::adapt_model(out_.model, trial, *parameters, options, progress_);
+    if (!adapted) return adapted;
+    // The bodies' own sizes carry their mass centres and inertias along; masses follow the volume.
+    std::vector<Vector3d> factors(out_.model.bodies.size(), Vector3d::Ones());
+    for (std::size_t k = 0; k < sizes; ++k)
+      for (const auto& group : groups)
+        for (const auto& part : group.parts)
+          if (group.name == adapted->parameters[k].name)
+            factors[at(out_.model.find_body(part.body))] +=
+                (adapted->parameters[k].value - adapted->parameters[k].initial) * part.axes;
+    data::ModelDescription stretched = out_.model;
+    motion::apply_factors(stretched, factors, true);
+    out_.model = adapted->model;
+    out_.model.bodies = stretched.bodies;
+    for (std::size_t b = 0; b < factors.size(); ++b)
+      out_.factors[b].factors = out_.factors[b].factors.cwiseProduct(factors[b]);
+    return adapted;
+  }
+
+  ScaleJob job_;
+  const Progress& progress_;
+  std::optional<io::ScaleSetup> setup_;
+  std::vector<io::MarkerOfSet> marker_set_;
+  ScaleOutcome out_;
+};
+
+}  // namespace
+
+Result<ScaleOutcome> run_scale(ScaleJob job, const Progress& progress) {
+  ScaleRun run(std::move(job), progress);
+  for (const auto step : {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
+                          &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh}) {
+    if (auto s = (run.*step)(); !s) return std::unexpected(s.error());
+    if (step != &ScaleRun::read_setup) continue;
+    if (auto s = run.check(); !s) return std::unexpected(s.error());
+    if (auto s = run.check_targets(); !s) return std::unexpected(s.error());
+  }
+  return run.write();
+}
+
+}  // namespace kinemark::pipeline

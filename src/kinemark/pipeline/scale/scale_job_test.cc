@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/scale/scale_job.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/simulate/simulate_job.h"
+#include "support/scratch.h"
+#include "support/test_data.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A simulated recording, and a model that is 7 % too small for it.
+class RunScale : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new testing_support::ScratchFolder;
+    SubjectJob subject{.folder = *scratch_ / "in"};
+    subject.options.duration_s = 3.0;
+    subject.options.rate_hz = 60.0;
+    simulate_subject(subject).value();
+    auto model = io::read_osim(at("in/model.osim")).value();
+    const std::vector<Eigen::Vector3d> factors(model.bodies.size(), Eigen::Vector3d::Constant(0.93));
+    motion::apply_factors(model, factors, true);
+    io::write_osim(at("small.osim"), model).value();
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static fs::path at(const std::string& name) { return *scratch_ / name; }
+  static ScaleJob job(const std::string& output) {
+    ScaleJob j;
+    j.model = at("small.osim");
+    j.markers = at("in/markers.c3d");
+    j.output = at(output);
+    return j;
+  }
+  static std::string message(const ScaleJob& job) {
+    const auto outcome = run_scale(job);
+    return outcome ? "it ran" : outcome.error().message;
+  }
+  static testing_support::ScratchFolder* scratch_;
+};
+testing_support::ScratchFolder* RunScale::scratch_ = nullptr;
+
+/// What scaling changes, after a model was written and read.
+void expect_same_geometry(const data::ModelDescription& ours, const data::ModelDescription& read) {
+  ASSERT_EQ(read.joints.size(), ours.joints.size());
+  for (std::size_t j = 0; j < ours.joints.size(); ++j) {
+    const auto &a = ours.joints[j], &b = read.joints[j];
+    EXPECT_LT((a.parent_from_joint.translation - b.parent_from_joint.translation).norm(), 1e-9) << a.name;
+    EXPECT_LT((a.child_from_joint.translation - b.child_from_joint.translation).norm(), 1e-9) << a.name;
+    ASSERT_EQ(a.axes.size(), b.axes.size()) << a.name;
+    for (std::size_t k = 0; k < a.axes.size(); ++k)
+      for (const double angle : {-0.7, 0.4})
+        EXPECT_NEAR(a.axes[k].function(angle).f, b.axes[k].function(angle).f, 1e-9) << a.name;
+  }
+  ASSERT_EQ(read.bodies.size(), ours.bodies.size());
+  for (std::size_t i = 0; i < ours.bodies.size(); ++i) {
+    EXPECT_NEAR(read.bodies[i].mass, ours.bodies[i].mass, 1e-9) << ours.bodies[i].name;
+    EXPECT_LT((read.bodies[i].com_in_body - ours.bodies[i].com_in_body).norm(), 1e-9) << ours.bodies[i].name;
+    EXPECT_LT((read.bodies[i].inertia_about_com - ours.bodies[i].inertia_about_com).norm(), 1e-9);
+  }
+  ASSERT_EQ(read.markers.size(), ours.markers.size());
+  for (std::size_t m = 0; m < ours.markers.size(); ++m)
+    EXPECT_LT((read.markers[m].x_in_body - ours.markers[m].x_in_body).norm(), 1e-9) << ours.markers[m].name;
+}
+
+TEST_F(RunScale, finds_the_size_from_motion_and_writes_model_and_report) {
+  ScaleJob j = job("M.osim");
+  j.mass_kg = 60.0;
+  const auto outcome = run_scale(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 0);
+  ASSERT_TRUE(outcome->from_motion);
+  EXPECT_LT(outcome->from_motion->rms_after_m, 0.003);
+  for (std::size_t b = 0; b < outcome->model.bodies.size(); ++b) {
+    const auto& factor = outcome->factors[b];
+    if (factor.body.starts_with("femur") || factor.body.starts_with("tibia")) {
+      EXPECT_NEAR(factor.factors.y(), 1.0 / 0.93, 0.03) << factor.body;
+    }
+  }
+  const auto written = io::read_osim(at("M.osim"));
+  ASSERT_TRUE(written) << written.error().message;
+  double mass = 0.0;
+  for (const auto& body : written->bodies) mass += body.mass;
+  EXPECT_NEAR(mass, 60.0, 1e-6);
+  expect_same_geometry(outcome->model, *written);
+  const auto report = nlohmann::json::parse(io::read_text(at("M_report.json")).value());
+  EXPECT_EQ(report["format"], "kinemark-scale");
+  EXPECT_NEAR(report["mass_kg"].get<double>(), 60.0, 1e-6);
+  EXPECT_GT(report["motion"]["lengths"].size(), 10U);
+  std::vector<std::string> open = report["motion"]["not_determined"];
+  EXPECT_THAT(open, Contains("head"));
+  for (const auto& p : report["motion"]["parameters"]) EXPECT_GT(p["sd"].get<double>(), 0.0);
+}
+
+TEST_F(RunScale, moves_clavicles_and_distributes_a_mass_when_asked) {
+  ScaleJob j = job("clavicles.osim");
+  j.markers.clear();
+  j.static_trial = at("in/markers.c3d");
+  j.clavicles = true;
+  j.dempster = true;
+  j.mass_kg = 80.0;
+  const auto outcome = run_scale(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_GE(outcome->model.find_coordinate("clav_elevation_l"), 0);
+  EXPECT_TRUE(outcome->placed);
+  EXPECT_TRUE(outcome->from_static);
+  const auto& thigh = outcome->model.bodies[static_cast<std::size_t>(outcome->model.find_body("femur_r"))];
+  EXPECT_NEAR(thigh.mass, 8.0, 1e-9);
+}
+
+TEST_F(RunScale, follows_an_opensim_setup_to_its_answer) {
+  KINEMARK_REQUIRE_TEST_DATA(data);
+  const fs::path folder = data / "opensim-gait2354";
+  ScaleJob j;
+  j.setup = folder / "subject01_Setup_Scale.xml";
+  j.output = at("gait.osim");
+  const auto outcome = run_scale(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_TRUE(outcome->scaled);
+  ASSERT_TRUE(outcome->placed);
+  const auto scales = io::read_scale_set(folder / "subject01_scaleSet_applied.xml").value();
+  int compared = 0;
+  for (const auto& scale : scales)
+    for (const auto& factor : outcome->factors) {
+      if (factor.body != scale.body) continue;
+      EXPECT_LT((factor.factors - scale.factors).norm(), 2e-4) << scale.body;
+      ++compared;
+    }
+  EXPECT_EQ(compared, 12);
+  double mass = 0.0;
+  for (const auto& body : outcome->model.bodies) mass += body.mass;
+  EXPECT_NEAR(mass, 72.6, 1e-9);
+}
+
+TEST_F(RunScale, a_poor_fit_is_written_and_said) {
+  ScaleJob j = job("poor.osim");
+  j.max_rms_m = 1e-5;
+  const auto outcome = run_scale(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status, 1);
+  ASSERT_EQ(outcome->notes.size(), 1U);
+  EXPECT_THAT(outcome->notes[0], HasSubstr("is accepted"));
+}
+
+TEST_F(RunScale, says_what_is_missing_or_wrong) {
+  ScaleJob j = job("no.osim");
+  j.markers.clear();
+  EXPECT_THAT(message(j), HasSubstr("nothing to scale by"));
+  j = job("no.osim");
+  j.model.clear();
+  EXPECT_THAT(message(j), HasSubstr("no model"));
+  j = job("no.osim");
+  j.output.clear();
+  EXPECT_THAT(message(j), HasSubstr("no output"));
+  j = job("no.osim");
+  j.dempster = true;
+  EXPECT_THAT(message(j), HasSubstr("give --mass"));
+  j = job("no.osim");
+  j.size_prior_sd = 0.0;
+  EXPECT_THAT(message(j), HasSubstr("a prior of 0"));
+  j = job("no.osim");
+  j.markers = at("absent.c3d");
+  EXPECT_THAT(message(j), HasSubstr("absent.c3d"));
+  j = job("no.osim");
+  j.setup = at("in/model.osim");
+  EXPECT_THAT(message(j), HasSubstr("has no <ScaleTool>"));
+  EXPECT_FALSE(fs::exists(at("no.osim")));
+}
+
+TEST_F(RunScale, replaces_nothing_unless_told) {
+  io::write_text(at("there.osim"), "mine", false).value();
+  EXPECT_THAT(message(job("there.osim")), HasSubstr("there.osim"));
+  EXPECT_EQ(io::read_text(at("there.osim")).value(), "mine");
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

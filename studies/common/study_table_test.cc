@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "studies/common/study_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace kinemark::studies {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(StudyTable, ReadsSeeds) {
+  EXPECT_THAT(parse_seeds("3").value(), ElementsAre(3));
+  EXPECT_THAT(parse_seeds("1-4").value(), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(parse_seeds("1,7-8").value(), ElementsAre(1, 7, 8));
+  for (const char* wrong : {"", "1,", "a", "4-2", "1-", "-3", "1-99999", "1 2"})
+    EXPECT_EQ(parse_seeds(wrong).error().code, Code::usage) << wrong;
+}
+
+TEST(StudyTable, RowsPassWithinTheirBounds) {
+  StudyRow row{.quantity = "x", .unit = "mm", .ours = 0.7, .at_least = 0.6, .at_most = 1.3};
+  EXPECT_TRUE(row.pass());
+  row.ours = 1.4;
+  EXPECT_FALSE(row.pass());
+  row.ours = 0.5;
+  EXPECT_FALSE(row.pass());
+  row.ours = std::nan("");
+  EXPECT_FALSE(row.pass());
+}
+
+TEST(StudyTable, PassesWhenEveryRowDoes) {
+  StudyTable table{.seeds = {1}, .rows = {{.quantity = "a", .ours = 1.0, .at_most = 2.0}, {.quantity = "b"}}};
+  EXPECT_TRUE(table.pass());
+  table.rows.push_back({.quantity = "c", .ours = 3.0, .at_most = 2.0});
+  EXPECT_FALSE(table.pass());
+}
+
+TEST(StudyTable, SaysTheSameInJsonAndInWords) {
+  const StudyTable table{
+      .seeds = {1, 5},
+      .rows = {{.quantity = "error", .unit = "mm", .paper = 30.0, .ours = 2.5, .at_most = 3.0},
+               {.quantity = "share", .unit = "%", .ours = 80.0, .at_least = 90.0}}};
+  const auto json = study_json(table);
+  EXPECT_EQ(json["seeds"].dump(), "[1,5]");
+  EXPECT_EQ(
+      json["rows"][0].dump(),
+      R"({"quantity":"error","unit":"mm","paper":30.0,"classic":null,"ours":2.5,"limit":null,"bound":3.0,"pass":true})");
+  EXPECT_EQ(json["rows"][1]["bound"].dump(), "[90.0,null]");
+  EXPECT_FALSE(json["pass"].get<bool>());
+  const auto text = study_text(table);
+  EXPECT_THAT(text, HasSubstr("<= 3"));
+  EXPECT_THAT(text.substr(text.find("share")), HasSubstr("FAILS"));
+  EXPECT_THAT(text.substr(0, text.find("share")), Not(HasSubstr("FAILS")));
+}
+
+TEST(StudyTable, ColumnsAreAsWideAsTheirWidestCell) {
+  const std::string long_name(90, 'q');
+  const StudyTable table{
+      .seeds = {1},
+      .rows = {{.quantity = long_name, .unit = "1", .ours = 1.0},
+               {.quantity = "b", .unit = "mm", .ours = 123456.0, .at_least = 0.5, .at_most = 2.0}}};
+  std::istringstream text(study_text(table));
+  std::string head, first, second, legend;
+  std::getline(text, head);
+  std::getline(text, first);
+  std::getline(text, second);
+  std::getline(text, legend);
+  EXPECT_EQ(head.size(), first.size());
+  EXPECT_EQ(second.size(), head.size() + std::string("  FAILS").size());
+  const auto end_of = [](const std::string& line, const char* word) {
+    return line.find(word) + std::string(word).size();
+  };
+  EXPECT_EQ(end_of(head, "ours"), end_of(second, "1.235e+05"));
+  EXPECT_EQ(end_of(head, "bound"), end_of(second, "0.5 to 2"));
+  EXPECT_EQ(first.find(" 1 ", long_name.size()), first.find_last_of('1') - 1);  // the value, not the unit
+  EXPECT_THAT(legend, HasSubstr("asked of ours"));
+}
+
+TEST(StudyTable, BoundsAreAskedOfOursAlone) {
+  StudyRow row{.quantity = "x", .paper = 9.0, .classic = 9.0, .ours = 2.0, .limit = 9.0, .at_most = 2.0};
+  EXPECT_TRUE(row.pass());  // a bound that is met exactly is met
+  row.at_most.reset();
+  row.at_least = 2.0;
+  EXPECT_TRUE(row.pass());
+  row.ours = std::nan("");
+  row.at_least.reset();
+  EXPECT_TRUE(row.pass());  // nothing was asked
+}
+
+TEST(StudyTable, SeedsAreBoundedAndKeepTheirOrder) {
+  EXPECT_THAT(parse_seeds("7,1-2,7").value(), ElementsAre(7, 1, 2, 7));
+  EXPECT_EQ(parse_seeds("1-1000").value().size(), 1000U);
+  EXPECT_EQ(parse_seeds("1-1001").error().code, Code::usage);
+  EXPECT_EQ(parse_seeds("1-600,1-600").error().code, Code::usage);
+  EXPECT_THAT(parse_seeds("18446744073709551615").value(), ElementsAre(18446744073709551615U));
+  EXPECT_EQ(parse_seeds("18446744073709551614-18446744073709551615").value().size(), 2U);
+  EXPECT_FALSE(parse_seeds("18446744073709551616"));
+}
+
+}  // namespace
+}  // namespace kinemark::studies

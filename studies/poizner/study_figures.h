@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "studies/poizner/study_poizner_job.h"
+#include "studies/common/study_page.h"
+
+namespace kinemark::studies {
+
+/// One self-contained page: the table, and for the first seed the wheel in its best-fit plane with its box,
+/// its displacement through time, the arm's four paths, speed and acceleration of the hand. The study needs
+/// one seed or more.
+[[nodiscard]] StudyPage study_page(const PoiznerStudy& study);
+
+}  // namespace kinemark::studies

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "studies/poizner/study_poizner_job.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <atomic>
+
+#include "kinemark/core/parallel.h"
+#include "studies/poizner/study_rows.h"
+
+namespace kinemark::studies {
+namespace {
+
+Result<PoiznerSeed> study_seed(std::uint64_t seed) {
+  auto rig = calibrate_rig(seed);
+  if (!rig) return fail_at(fmt::format("seed {}", seed), rig.error());
+  PoiznerSeed out{
+      .seed = seed, .chi2_per_dof = rig->bundle.report.chi2_per_dof, .tree = {}, .wheels = {}, .arm = {}};
+  auto tree = study_still_tree(*rig);
+  if (!tree) return fail_at(fmt::format("seed {}", seed), tree.error());
+  out.tree = std::move(*tree);
+  for (int wheel = 0; wheel < kWheels; ++wheel) {
+    auto turned = study_wheel(*rig, study_wheel_options(wheel));
+    if (!turned) return fail_at(fmt::format("seed {}", seed), turned.error());
+    out.wheels.push_back(std::move(*turned));
+  }
+  auto arm = study_arm(*rig);
+  if (!arm) return fail_at(fmt::format("seed {}", seed), arm.error());
+  out.arm = std::move(*arm);
+  return out;
+}
+
+}  // namespace
+
+simulation::WheelOptions study_wheel_options(int wheel) {
+  simulation::WheelOptions out;
+  out.turned_deg = wheel % 2 == 0 ? 8.0 : 35.0;
+  out.glint_share = wheel < 2 ? 0.0 : 0.04;
+  return out;
+}
+
+std::string_view wheel_name(int wheel) {
+  constexpr std::array<std::string_view, kWheels> kNames{"wheel at 8 deg", "wheel at 35 deg",
+                                                         "wheel at 8 deg, glint", "wheel at 35 deg, glint"};
+  return kNames[static_cast<std::size_t>(wheel)];
+}
+
+Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progress) {
+  if (job.seeds.empty()) return fail(Code::usage, "the study needs one seed or more");
+  const auto count = static_cast<std::int64_t>(job.seeds.size());
+  std::vector<Result<PoiznerSeed>> outcomes(job.seeds.size());
+  std::atomic<std::int64_t> done = 0;
+  std::atomic<bool> stopped = false;
+  parallel_for(count, 1, job.threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last && !stopped; ++i) {
+      if (progress && !progress(done, count)) {
+        stopped = true;
+        break;
+      }
+      outcomes[static_cast<std::size_t>(i)] = study_seed(job.seeds[static_cast<std::size_t>(i)]);
+      ++done;
+    }
+  });
+  if (stopped) return fail(Code::cancelled, "the study was stopped");
+  PoiznerStudy out;
+  for (auto& outcome : outcomes) {
+    if (!outcome) return std::unexpected(outcome.error());
+    out.seeds.push_back(std::move(*outcome));
+  }
+  out.table = {job.seeds, study_rows(out.seeds)};
+  return out;
+}
+
+}  // namespace kinemark::studies

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "studies/poizner/arm_study.h"
+#include "studies/poizner/still_tree_study.h"
+#include "studies/poizner/wheel_study.h"
+#include "studies/common/study_table.h"
+
+namespace kinemark::studies {
+
+/// What `kinemark study poizner` is asked to do.
+struct PoiznerJob {
+  std::vector<std::uint64_t> seeds{1};  ///< one rig each
+  int threads = 0;
+};
+
+/// The four turns of the wheel: two orientations, without and with the glint.
+inline constexpr int kWheels = 4;
+[[nodiscard]] simulation::WheelOptions study_wheel_options(int wheel);
+[[nodiscard]] std::string_view wheel_name(int wheel);
+
+/// Everything that one rig gave.
+struct PoiznerSeed {
+  std::uint64_t seed = 0;
+  double chi2_per_dof = 0.0;
+  StillOutcome tree;
+  std::vector<WheelOutcome> wheels;
+  ArmOutcome arm;
+};
+
+struct PoiznerStudy {
+  std::vector<PoiznerSeed> seeds;
+  /// `classic` is the method of 1986: median over seeds. `ours`: worst over seeds; pooled where the quantity
+  /// says so. `limit`: median over seeds.
+  StudyTable table;
+};
+
+/// Run S1, S2 and S3 by both methods for every seed. About 1 s a seed on one thread. `progress` counts seeds.
+[[nodiscard]] Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progress = {});
+
+}  // namespace kinemark::studies

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "studies/taichi/least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "studies/taichi/landmarks.h"
+
+namespace kinemark::studies {
+
+motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
+                                      std::span<const std::string> landmarks) {
+  // Of the sum of squared distances; few landmarks leave much open that must not pull at them.
+  constexpr double kStill_m2 = 1e-6, kStillFew_m2 = 1e-8, kClavicle_m2 = 1e-3;
+  constexpr std::size_t kFew = 6;
+  motion::IkOptions options;
+  options.limits = false;
+  options.error_bars = false;
+  const auto count = landmarks.empty() ? model.markers.size() : landmarks.size();
+  if (!landmarks.empty()) {
+    options.default_marker_weight = 0.0;
+    for (const auto& name : landmarks) options.marker_weights.push_back({.marker = name, .weight = 1.0});
+  }
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (model.joints[j].parent_body_idx == data::kGround) continue;
+    for (const auto& axis : model.joints[j].axes) {
+      if (axis.coordinate_idx < 0) continue;
+      const auto& coordinate = model.coordinates[static_cast<std::size_t>(axis.coordinate_idx)];
+      if (coordinate.locked) continue;
+      const double still = coordinate.name.starts_with("clav") ? kClavicle_m2
+                           : count < kFew                      ? kStillFew_m2
+                                                               : kStill_m2;
+      // The cost is a mean over landmarks.
+      options.coordinate_tasks.push_back(
+          {.coordinate = coordinate.name, .weight = still / static_cast<double>(count)});
+    }
+  }
+  return options;
+}
+
+data::Trajectories carried_landmarks(const model::Model& model, const data::JointMotion& motion) {
+  std::vector<std::string> names;
+  for (const auto& marker : model.description().markers) names.push_back(marker.name);
+  auto out = data::Trajectories::all_missing(std::move(names), motion.time);
+  model::Workspace w(model);
+  const auto n = static_cast<Eigen::Index>(motion.size());
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(motion.q.data() + motion.index(f, 0), n);
+    model::kinematics(model, w, model::state_from_coordinates(model, q));
+    for (std::int64_t m = 0; m < out.markers(); ++m) {
+      out.x(f, m) = w.marker.col(m);
+      out.state[out.index(f, m)] = data::SampleState::model_filled;
+    }
+  }
+  return out;
+}
+
+double landmark_rms(const data::JointMotion& motion, std::int64_t first, std::int64_t last) {
+  const auto markers = static_cast<std::int64_t>(motion.markers.size());
+  double sum = 0.0, count = 0.0;
+  for (std::int64_t i = first * markers; i < last * markers; ++i) {
+    const Eigen::Map<const Eigen::Vector3d> error(motion.marker_error.data() + 3 * i);
+    if (!error.allFinite()) continue;
+    sum += error.squaredNorm();
+    count += 1.0;
+  }
+  return std::sqrt(sum / count);
+}
+
+double landmark_max(const data::JointMotion& motion) {
+  double most = 0.0;
+  for (std::size_t i = 0; i + 2 < motion.marker_error.size(); i += 3)
+    if (const Eigen::Map<const Eigen::Vector3d> error(motion.marker_error.data() + i); error.allFinite())
+      most = std::max(most, error.norm());
+  return most;
+}
+
+}  // namespace kinemark::studies
