@@ -48,7 +48,7 @@ int run_program(int argc, char** argv) {
   for (int i = 0; i < argc; ++i)
     globals.command_line += (i ? std::string(" ") : std::string()) + (i ? argv[i] : "kinemark");
   CLI::App app("From detector counts to joint angles, with an error bar on every number.", "kinemark");
-  app.set_version_flag("--version", std::string("kinemark ") + kinemark::kinemark::kVersion);
+  app.set_version_flag("--version", std::string("kinemark ") + kinemark::kVersion);
   app.footer(kFooter);
   app.require_subcommand(1);
   app.fallthrough();

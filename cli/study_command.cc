@@ -10,11 +10,11 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/io/file.h"
+#include "studies/common/study_page.h"
 #include "studies/macaque/macaque_figures.h"
 #include "studies/macaque/study_macaque_job.h"
 #include "studies/poizner/study_figures.h"
 #include "studies/poizner/study_poizner_job.h"
-#include "studies/common/study_page.h"
 #include "studies/taichi/study_taichi_job.h"
 #include "studies/taichi/taichi_figures.h"
 
@@ -70,7 +70,7 @@ int run_poizner(const Globals& globals, const StudyArguments& arguments) {
       globals, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
         return studies::study_poizner({.seeds = seeds, .threads = globals.threads},
-                                       show_progress(globals, "rigs"));
+                                      show_progress(globals, "rigs"));
       },
       [](const studies::PoiznerStudy& study) -> Result<studies::StudyPage> {
         return studies::study_page(study);

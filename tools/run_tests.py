@@ -36,9 +36,6 @@ def search_path(root, path):
 ENVIRONMENT = {
     **os.environ,
     "PATH": search_path(ROOT, os.environ.get("PATH", "/usr/bin:/bin")),
-    # Checkouts in different folders share what ccache has built.
-    "CCACHE_BASEDIR": str(ROOT),
-    "CCACHE_NOHASHDIR": "true",
     "ASAN_SYMBOLIZER_PATH": "/usr/bin/llvm-symbolizer-19",
     "UBSAN_OPTIONS": "print_stacktrace=1",
     "CTEST_OUTPUT_ON_FAILURE": "1",

@@ -19,7 +19,9 @@ std::optional<std::uint64_t> number(std::string_view text) {
   return value;
 }
 
-std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
+std::string table_cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "-";
+}
 
 std::string bound(const StudyRow& row) {
   if (row.at_least && row.at_most) return fmt::format("{:.4g} to {:.4g}", *row.at_least, *row.at_most);
@@ -84,8 +86,8 @@ std::string study_text(const StudyTable& table) {
   std::vector<std::array<std::string, kColumns>> lines{
       {"", "unit", "paper", "classic", "ours", "limit", "bound"}};
   for (const auto& row : table.rows)
-    lines.push_back({row.quantity, std::string(unit_words(row)), cell(row.paper), cell(row.classic),
-                     cell(row.ours), cell(row.limit), bound(row)});
+    lines.push_back({row.quantity, std::string(unit_words(row)), table_cell(row.paper),
+                     table_cell(row.classic), table_cell(row.ours), table_cell(row.limit), bound(row)});
   std::array<std::size_t, kColumns> width{};
   for (const auto& line : lines)
     for (std::size_t i = 0; i < kColumns; ++i) width[i] = std::max(width[i], line[i].size());

@@ -20,7 +20,7 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kWidth = 640.0, kHeight = 480.0, kMargin = 24.0;
+constexpr double kSceneWidth = 640.0, kSceneHeight = 480.0, kMargin = 24.0;
 constexpr int kSquares = 8;  // of the floor, each way, at most but for the rim
 
 /// The next of 1, 2, 5, 10, 20, ...
@@ -115,11 +115,11 @@ std::string SvgScene::svg() const {
   if (!(low.x() <= high.x())) low.setZero(), high.setOnes();
   const Vector2d extent = (high - low).cwiseMax(1e-9);
   const double scale =
-      std::min((kWidth - 2.0 * kMargin) / extent.x(), (kHeight - 2.0 * kMargin) / extent.y());
-  const Vector2d shift = 0.5 * Vector2d(kWidth, kHeight) - 0.5 * scale * (low + high);
+      std::min((kSceneWidth - 2.0 * kMargin) / extent.x(), (kSceneHeight - 2.0 * kMargin) / extent.y());
+  const Vector2d shift = 0.5 * Vector2d(kSceneWidth, kSceneHeight) - 0.5 * scale * (low + high);
   std::string out =
       fmt::format("<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\"><title>{2}</title>",
-                  kWidth, kHeight, html_text(title_));
+                  kSceneWidth, kSceneHeight, html_text(title_));
   for (const auto& thing : all) {
     if (!thing.x.allFinite()) continue;
     const Vector2d first = scale * project(thing.x.col(0)) + shift;

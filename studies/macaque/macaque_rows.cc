@@ -15,7 +15,7 @@
 namespace kinemark::studies {
 namespace {
 
-constexpr double kPerM = 1e3;  // mm
+constexpr double kRowsPerM = 1e3;  // mm
 constexpr double kPercent = 100.0;
 constexpr double kMostPooled = 1.1, kMostOfASeed = 1.15;  // error over bound
 using Which = std::function<bool(const ElbowCell&)>;
@@ -63,9 +63,9 @@ void add_report_rows(const MacaqueStudy& study, std::vector<StudyRow>& rows) {
                                             layout_name(a.staggered), a.noise_mm, kPercent * a.missing),
                     .unit = "mm",
                     .paper = a.paper,
-                    .classic = if_any(kPerM * r->errors.report.rms_answered_m()),
-                    .ours = kPerM * r->errors.ours.rms_determined_m(),
-                    .limit = kPerM * r->errors.ours.bound_m(),
+                    .classic = if_any(kRowsPerM * r->errors.report.rms_answered_m()),
+                    .ours = kRowsPerM * r->errors.ours.rms_determined_m(),
+                    .limit = kRowsPerM * r->errors.ours.bound_m(),
                     .at_most = a.most});
   }
   // How much may be missing with four frames of five still determined.
@@ -157,10 +157,10 @@ void add_score(const MacaqueStudy& study, std::vector<StudyRow>& rows) {
     if (r == nullptr || r->errors.score.answered == 0) continue;
     rows.push_back({.quantity = fmt::format("staggered 20 mm, {} mm, 0 %: elbow (classic: SCoRE)", noise_mm),
                     .unit = "mm",
-                    .classic = kPerM * r->errors.score.rms_answered_m(),
-                    .ours = kPerM * r->errors.ours.rms_determined_m(),
-                    .limit = kPerM * r->errors.ours.bound_m(),
-                    .at_most = kPerM * r->errors.score.rms_answered_m()});
+                    .classic = kRowsPerM * r->errors.score.rms_answered_m(),
+                    .ours = kRowsPerM * r->errors.ours.rms_determined_m(),
+                    .limit = kRowsPerM * r->errors.ours.bound_m(),
+                    .at_most = kRowsPerM * r->errors.score.rms_answered_m()});
   }
 }
 
@@ -197,10 +197,10 @@ void add_sleeve(const MacaqueStudy& study, bool pooled, std::vector<StudyRow>& r
     rows.push_back({.quantity = fmt::format("sleeve{}, 1 mm: elbow, every frame (classic: SCoRE)",
                                             r.cell.hard ? ", hard" : ""),
                     .unit = "mm",
-                    .classic = if_any(kPerM * r.errors.score.rms_answered_m()),
-                    .ours = kPerM * r.errors.smoothed.rms_answered_m(),
-                    .limit = kPerM * r.errors.alone.bound_m(),
-                    .at_most = 1.25 * kPerM * r.errors.alone.bound_m()});
+                    .classic = if_any(kRowsPerM * r.errors.score.rms_answered_m()),
+                    .ours = kRowsPerM * r.errors.smoothed.rms_answered_m(),
+                    .limit = kRowsPerM * r.errors.alone.bound_m(),
+                    .at_most = 1.25 * kRowsPerM * r.errors.alone.bound_m()});
   }
   Extreme usual(true), answered(false), bridged(true);
   std::int64_t beyond = 0;

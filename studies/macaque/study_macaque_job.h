@@ -7,9 +7,9 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
-#include "studies/macaque/elbow_study.h"
 #include "studies/common/study_page.h"
 #include "studies/common/study_table.h"
+#include "studies/macaque/elbow_study.h"
 
 namespace kinemark::studies {
 

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "studies/poizner/classic_paths.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
+#include "studies/poizner/classic_paths.h"
 
 namespace kinemark::studies {
 namespace {

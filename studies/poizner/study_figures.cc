@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "kinemark/core/check.h"
-#include "studies/poizner/wheel_measures.h"
 #include "studies/common/svg_plot.h"
+#include "studies/poizner/wheel_measures.h"
 
 namespace kinemark::studies {
 namespace {

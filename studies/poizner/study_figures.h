@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "studies/poizner/study_poizner_job.h"
 #include "studies/common/study_page.h"
+#include "studies/poizner/study_poizner_job.h"
 
 namespace kinemark::studies {
 

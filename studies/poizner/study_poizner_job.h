@@ -9,10 +9,10 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "studies/common/study_table.h"
 #include "studies/poizner/arm_study.h"
 #include "studies/poizner/still_tree_study.h"
 #include "studies/poizner/wheel_study.h"
-#include "studies/common/study_table.h"
 
 namespace kinemark::studies {
 

@@ -4,18 +4,18 @@
 
 #include <cmath>
 
-#include "studies/poizner/classic_paths.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
+#include "studies/poizner/classic_paths.h"
 
 namespace kinemark::studies {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::int64_t kFrames = 220, kEnds = 8;  // frames at both ends that errors leave out
-constexpr std::uint64_t kStream = 400;            // of the noise: one more for the second orientation
+constexpr std::int64_t kWheelFrames = 220, kWheelEnds = 8;  // frames at both ends that errors leave out
+constexpr std::uint64_t kWheelStream = 400;  // of the noise: one more for the second orientation
 
 Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>> of_led(const Array<double>& values,
                                                                    std::int64_t led, std::int64_t leds,
@@ -83,9 +83,9 @@ void add_coverage(const TurnedPath& path, const data::Trajectories& truth, const
 
 Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::WheelOptions& wheel) {
   simulation::RigRecordingOptions how;
-  how.frames = kFrames;
+  how.frames = kWheelFrames;
   how.seed = rig.physical.seed;
-  how.stream = kStream + (wheel.turned_deg > 20.0 ? 1 : 0);
+  how.stream = kWheelStream + (wheel.turned_deg > 20.0 ? 1 : 0);
   const auto recorded = simulation::record(rig.physical, simulation::rotating_wheel(wheel), how);
   if (!recorded) return std::unexpected(recorded.error());
   const auto start = reconstruction::reconstruct(recorded->counts, rig.bundle.rig);
@@ -105,13 +105,14 @@ Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::Whe
   out.our_path = path.position;
   // The old pipeline is compared with the truth in the middle of the conversions, ours at the time of the
   // frame.
-  out.classic_errors = motion_errors(out.classic_path, turn * classic.velocity, turn * classic.acceleration,
-                                     recorded->when_lit, recorded->derivatives, 0, kEnds, kFrames - kEnds);
+  out.classic_errors =
+      motion_errors(out.classic_path, turn * classic.velocity, turn * classic.acceleration,
+                    recorded->when_lit, recorded->derivatives, 0, kWheelEnds, kWheelFrames - kWheelEnds);
   out.our_errors = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth,
-                                 recorded->derivatives, 0, kEnds, kFrames - kEnds);
-  out.told = told_errors(path, kEnds, kFrames - kEnds);
-  add_coverage(path, recorded->truth, recorded->derivatives, 0, kEnds, kFrames - kEnds, out.positions,
-               out.rates);
+                                 recorded->derivatives, 0, kWheelEnds, kWheelFrames - kWheelEnds);
+  out.told = told_errors(path, kWheelEnds, kWheelFrames - kWheelEnds);
+  add_coverage(path, recorded->truth, recorded->derivatives, 0, kWheelEnds, kWheelFrames - kWheelEnds,
+               out.positions, out.rates);
   out.order = smooth->leds.front().bandwidth.order;
   out.cutoff_hz = smooth->leds.front().bandwidth.cutoff_hz;
   return out;

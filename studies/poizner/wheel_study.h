@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 
 #include "kinemark/core/result.h"
+#include "kinemark/stages/simulation/rig_scene.h"
 #include "studies/poizner/calibrated_rig.h"
 #include "studies/poizner/coverage.h"
 #include "studies/poizner/wheel_measures.h"
-#include "kinemark/stages/simulation/rig_scene.h"
 
 namespace kinemark::studies {
 

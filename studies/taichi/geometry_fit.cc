@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "kinemark/model/model.h"
-#include "studies/taichi/landmarks.h"
-#include "studies/taichi/least_squares.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
+#include "studies/taichi/landmarks.h"
+#include "studies/taichi/least_squares.h"
 
 namespace kinemark::studies {
 namespace {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "kinemark/stages/motion/scaling/clavicles.h"
 #include "studies/taichi/landmarks.h"
 #include "studies/taichi/least_squares.h"
 #include "studies/taichi/subject.h"
-#include "kinemark/stages/motion/scaling/clavicles.h"
 
 namespace kinemark::studies {
 namespace {

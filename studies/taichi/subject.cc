@@ -10,8 +10,8 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/model/model.h"
-#include "studies/taichi/landmarks.h"
 #include "kinemark/stages/simulation/subject.h"
+#include "studies/taichi/landmarks.h"
 
 namespace kinemark::studies {
 namespace {

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/units.h"
 #include "studies/common/svg_plot.h"
 
@@ -28,7 +28,6 @@ constexpr const char* kLeastSquares = "#b8860b";
 constexpr const char* kWhole = "#1f5fa8";
 constexpr const char* kUpper = "#2e8b57";
 constexpr const char* kPaper = "#a83232";
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 VectorXd times(const TimeBase& time) {
   return VectorXd::LinSpaced(time.frames, time.time_s(0), time.time_s(time.frames - 1));

@@ -7,10 +7,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "kinemark/camera/projection.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/core/units.h"
 #include "kinemark/io/osim/osim_model.h"
@@ -25,7 +25,6 @@ namespace {
 using namespace kinemark;
 using Eigen::Vector3d;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNoise_px = 0.3;
 constexpr std::int64_t kFirst = 240, kLast = 300;  // the second in the dark, at 60 Hz
 
@@ -94,7 +93,7 @@ void darken(Filmed& filmed, std::size_t camera) {
   for (std::int64_t f = kFirst; f < kLast; ++f)
     for (std::size_t m = 0; m < tracks.names.size(); ++m) {
       const auto i = tracks.index(f, camera, m);
-      tracks.image[i] = tracks.image[i + 1] = kNan;
+      tracks.image[i] = tracks.image[i + 1] = kNaN;
       filmed.markers.set_missing(f, static_cast<std::int64_t>(m));
     }
 }

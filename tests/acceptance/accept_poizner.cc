@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "studies/poizner/study_poizner_job.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
+#include "studies/poizner/study_poizner_job.h"
 #include "support/acceptance.h"
 
 namespace {
@@ -193,10 +193,10 @@ void stress() {
     for (std::int64_t led = 0; led < recorded.counts.led_count(); ++led) {
       const auto path = studies::turned_path(smooth.points, smooth.derivatives, led, rig.truth_from_ours);
       studies::add_coverage(path, recorded.truth, recorded.derivatives, led, 10, how.frames - 10, positions,
-                             rates);
+                            rates);
       const auto errors =
           studies::motion_errors(path.position, path.velocity, path.acceleration, recorded.truth,
-                                  recorded.derivatives, led, 10, how.frames - 10);
+                                 recorded.derivatives, led, 10, how.frames - 10);
       const auto told = studies::told_errors(path, 10, how.frames - 10);
       worst = std::max(worst, errors.position / told.position);
     }

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "acceptance/taichi_recording.h"
+#include "kinemark/stages/motion/scaling/clavicles.h"
 #include "studies/taichi/least_squares.h"
 #include "studies/taichi/subject.h"
-#include "kinemark/stages/motion/scaling/clavicles.h"
 #include "support/acceptance.h"
 
 namespace {

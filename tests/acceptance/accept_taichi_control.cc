@@ -83,11 +83,9 @@ void whole(const Scene& scene) {
 
 void sets(const Scene& scene) {
   const auto one =
-      studies::study_set(scene.model, scene.landmarks, scene.made, studies::whole_body_set(), false)
-          .value();
+      studies::study_set(scene.model, scene.landmarks, scene.made, studies::whole_body_set(), false).value();
   const auto three =
-      studies::study_set(scene.model, scene.landmarks, scene.made, studies::three_level_set(), true)
-          .value();
+      studies::study_set(scene.model, scene.landmarks, scene.made, studies::three_level_set(), true).value();
   const bool whole_ok = !three.recorded_fine.failed() && !three.recorded_coarse.failed() &&
                         !three.reachable_fine.failed() && !three.reachable_coarse->failed();
   print_row(

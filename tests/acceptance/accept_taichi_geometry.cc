@@ -4,9 +4,9 @@
 #include <fmt/core.h>
 
 #include "acceptance/taichi_recording.h"
+#include "kinemark/stages/motion/scaling/clavicles.h"
 #include "studies/taichi/geometry_fit.h"
 #include "studies/taichi/subject.h"
-#include "kinemark/stages/motion/scaling/clavicles.h"
 #include "support/acceptance.h"
 
 namespace {

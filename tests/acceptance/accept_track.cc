@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "acceptance/track_subject.h"
+#include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
@@ -26,8 +27,6 @@ using namespace kinemark::track_subject;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing_support::print_row;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 struct Tasks {
   MatrixXd M;

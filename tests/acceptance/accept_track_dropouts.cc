@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "acceptance/track_subject.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -26,10 +27,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing_support::print_row;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMoved = 1e-3;  // m per rad: less, and a coordinate does not move a marker
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Where the markers of the model are in one frame of a track, and how sure that is.
 struct Places {
@@ -74,7 +72,7 @@ class Placing {
       for (std::int64_t c = 0; c < motion.size(); ++c) {
         const int speed = model_.coordinates()[at(c)].speed_idx;
         if (speed >= 0 && motion.determined[motion.index(f, c)] == 0 && rows.col(speed).norm() > kMoved)
-          out.sd[m] = kNan;
+          out.sd[m] = kNaN;
       }
     }
     return out;

@@ -5,14 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
+#include "kinemark/core/missing.h"
 
 namespace kinemark::data {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Wrenches one_plate() {
   Wrenches wrenches;
@@ -20,7 +18,7 @@ Wrenches one_plate() {
   wrenches.items.push_back({.name = "plate 1",
                             .force = {0.0, 0.0, 700.0, 0.0, 0.0, 0.0},
                             .moment = {0.0, 0.0, 1.0, 0.0, 0.0, 0.0},
-                            .point = {0.1, 0.2, 0.0, kNan, kNan, kNan}});
+                            .point = {0.1, 0.2, 0.0, kNaN, kNaN, kNaN}});
   return wrenches;
 }
 
@@ -28,7 +26,7 @@ TEST(Wrenches, NeedNoPointWhereNothingActs) { EXPECT_TRUE(one_plate().validate()
 
 TEST(Wrenches, MayBeUnknown) {
   auto wrenches = one_plate();
-  wrenches.items[0].force[3] = wrenches.items[0].force[4] = wrenches.items[0].force[5] = kNan;
+  wrenches.items[0].force[3] = wrenches.items[0].force[4] = wrenches.items[0].force[5] = kNaN;
   EXPECT_TRUE(wrenches.validate());
 }
 

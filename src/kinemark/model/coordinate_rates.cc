@@ -5,12 +5,11 @@
 #include <Eigen/LU>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/math/euler.h"
 
 namespace kinemark::model {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Angular velocity of a free joint in the child's axes is B times the Euler rates, B = [R2'R1'a0, R2'a1,
 /// a2].

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/model/dynamics.h"
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/internal/composite.h"
 
 namespace kinemark::model {
 namespace {
 
 using internal::apply;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Inertia of every body about the world origin.
 void body_inertias(const Model& model, Workspace& w) {

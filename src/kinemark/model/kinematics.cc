@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kinemark/core/index.h"
+
 namespace kinemark::model {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Value of every coordinate with its first two derivatives by the one speed that moves it.
 void evaluate_coordinates(const Model& model, Workspace& w, const VectorXd& x) {

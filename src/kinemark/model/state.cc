@@ -5,12 +5,11 @@
 #include <Eigen/Geometry>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/math/euler.h"
 
 namespace kinemark::model {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Eigen::Quaterniond quaternion_of(const VectorXd& x, int state_idx) {
   return {x[state_idx + 3], x[state_idx + 4], x[state_idx + 5], x[state_idx + 6]};

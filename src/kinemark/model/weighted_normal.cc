@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/model/weighted_normal.h"
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/internal/composite.h"
 
 namespace kinemark::model {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 void marker_normal_matrix(const Model& model, Workspace& w, const VectorXd& weight, Eigen::MatrixXd& H) {
   for (auto& inertia : w.composite) {

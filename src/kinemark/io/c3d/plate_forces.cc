@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/c3d/force_plates.h"
 #include "kinemark/io/c3d/internal/plate_wrench.h"
 
@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 using internal::Channels;
 using internal::Vector6;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSurelyLoaded = 100.0;  // N; noise and drift of plates stay below it
 constexpr std::int64_t kBlockNumbers = 1 << 18;
 
@@ -153,7 +152,7 @@ class MarkerMean {
     }
   }
   [[nodiscard]] Vector3d mean() const {
-    return count_ > 0 ? Vector3d(sum_ / static_cast<double>(count_)) : Vector3d(Vector3d::Constant(kNan));
+    return count_ > 0 ? Vector3d(sum_ / static_cast<double>(count_)) : Vector3d(Vector3d::Constant(kNaN));
   }
 
  private:
@@ -219,10 +218,10 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
   data::Wrench wrench{.name = plate.name, .body = "", .force = {}, .moment = {}, .point = {}};
   std::int64_t loaded = 0, off = 0;
   for (const Vector6& w : plate.measured) {
-    Vector3d force = w.head<3>(), moment = w.tail<3>(), point = Vector3d::Constant(kNan);
+    Vector3d force = w.head<3>(), moment = w.tail<3>(), point = Vector3d::Constant(kNaN);
     const double along = side * force.z();
     if (!w.allFinite()) {
-      force = moment = Vector3d::Constant(kNan);
+      force = moment = Vector3d::Constant(kNaN);
     } else if (options.contact_force_n > 0.0 && along < options.contact_force_n) {
       force = moment = Vector3d::Zero();
     } else {
@@ -240,7 +239,7 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
       force = plate.place.world_from_plate * force;
       moment = plate.place.world_from_plate * moment;
       if (!(force.allFinite() && moment.allFinite() && point.allFinite()))
-        force = moment = point = Vector3d::Constant(kNan);
+        force = moment = point = Vector3d::Constant(kNaN);
     }
     wrench.force.insert(wrench.force.end(), force.data(), force.data() + 3);
     wrench.moment.insert(wrench.moment.end(), moment.data(), moment.data() + 3);

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/file.h"
@@ -28,8 +28,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -312,7 +310,7 @@ TEST(PlateForces, BaselineOfTheFramesThatZeroNames) {
 TEST(PlateForces, ASampleThatIsNoNumberIsNotKnown) {
   Setting setting;
   auto trial = setting.trial(10, [](double) { return 1.0; });
-  trial.analog.values[7 * (4 * 5) + 4] = kNan;  // frame 5
+  trial.analog.values[7 * (4 * 5) + 4] = kNaN;  // frame 5
   const auto forces = through_a_file(trial).value();
   EXPECT_TRUE(of_frame(forces.wrenches.items.at(0).force, 5).hasNaN());
   expect_truth(setting, forces.wrenches.items.at(0), 3);

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/output.h"
@@ -20,7 +20,6 @@ namespace {
 using internal::Handle;
 using internal::Output;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kBlockFrames = 16 * 4096;
 
 bool holds(const NwbOutline& outline, const internal::Rate& rate) {

@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/osim/internal/ik_tasks_xml.h"
 #include "kinemark/io/osim/internal/xml_file.h"
 
@@ -20,8 +20,6 @@ using Eigen::Vector3d;
 using osim::in_quotes;
 using osim::text_of;
 using osim::XmlFile;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// An element's text; "Unassigned" is none.
 std::string word_of(pugi::xml_node node, const char* child) {
@@ -119,7 +117,7 @@ struct Source {
       return {table(r, (*columns)[0]), table(r, (*columns)[1]), table(r, (*columns)[2])};
     };
     Row row{triple(force), triple(torque), triple(point)};
-    if (row.rests()) row.point.setConstant(kNan);
+    if (row.rests()) row.point.setConstant(kNaN);
     return row;
   }
 };
@@ -140,7 +138,7 @@ data::Wrench sample(const ExternalForce& force, const Source& source, const data
   const double slack = 1e-6 / time.rate_hz;
   for (std::int64_t f = 0; f < time.frames; ++f) {
     const double t = time.time_s(f);
-    Row now{Vector3d::Constant(kNan), Vector3d::Constant(kNan), Vector3d::Constant(kNan)};
+    Row now{Vector3d::Constant(kNaN), Vector3d::Constant(kNaN), Vector3d::Constant(kNaN)};
     if (table.rows() > 0 && t >= table.time_s.front() - slack && t <= table.time_s.back() + slack) {
       const auto next = std::ranges::upper_bound(table.time_s, t);
       const std::int64_t after = std::clamp<std::int64_t>(
@@ -157,7 +155,7 @@ data::Wrench sample(const ExternalForce& force, const Source& source, const data
       now.point = between(a, b, later);
       const bool known = now.force.allFinite() && now.torque.allFinite();
       if (!known || (!now.rests() && !now.point.allFinite()))
-        now = {Vector3d::Constant(kNan), Vector3d::Constant(kNan), Vector3d::Constant(kNan)};
+        now = {Vector3d::Constant(kNaN), Vector3d::Constant(kNaN), Vector3d::Constant(kNaN)};
     }
     append(wrench.force, now.force);
     append(wrench.moment, now.torque);

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
@@ -18,8 +18,6 @@ namespace kinemark::io {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string force_xml(const std::string& name, const std::string& inside) {
   return fmt::format("<ExternalForce name=\"{}\">{}</ExternalForce>", name, inside);
@@ -88,13 +86,13 @@ TEST(ExternalLoads, NothingIsKnownOutsideTheTableOrBesideBlankCells) {
       sample_external_loads(loads, t, {.rate_hz = 10.0, .t0_s = -0.1, .frames = 5}).value().items.at(0);
   for (const int f : {0, 4}) EXPECT_TRUE(std::isnan(early.force[static_cast<std::size_t>(3 * f)]));
   for (const int f : {1, 2, 3}) EXPECT_FALSE(std::isnan(early.force[static_cast<std::size_t>(3 * f)])) << f;
-  t.values[1] = kNan;  // first row
+  t.values[1] = kNaN;  // first row
   const auto blank = sample_external_loads(loads, t, {.rate_hz = 20.0, .frames = 5}).value().items.at(0);
   EXPECT_TRUE(std::isnan(blank.force[0]));
   EXPECT_TRUE(std::isnan(blank.force[3]));
   EXPECT_FALSE(std::isnan(blank.force[6]));  // a frame on a row does not ask its neighbours
   t = table();
-  t.values[13] = kNan;  // the point of the second row
+  t.values[13] = kNaN;  // the point of the second row
   const auto nowhere = sample_external_loads(loads, t, {.rate_hz = 10.0, .frames = 3}).value();
   EXPECT_TRUE(nowhere.validate());
   EXPECT_TRUE(std::isnan(nowhere.items.at(0).force[3]));

@@ -18,7 +18,7 @@ using namespace internal;
 constexpr std::size_t kWindowBytes = 4U << 20;
 constexpr std::size_t kMarginBytes = 64;  ///< kept before what is asked for: a search steps back a little
 
-std::string_view as_text(std::span<const std::byte> bytes) {
+std::string_view text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -55,7 +55,7 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<ByteSource> source
   const auto begin = reader.view(0, there);
   if (!begin) return std::unexpected(begin.error());
   if (there == 0) return fail(Code::bad_input, fmt::format("{}: is empty; need a recording", reader.name()));
-  const bool magic = as_text(*begin).starts_with(kMagic);
+  const bool magic = text_of(*begin).starts_with(kMagic);
   std::string profile;
   if (magic) {
     Cursor cursor(begin->subspan(kMagic.size()));
@@ -75,7 +75,7 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<ByteSource> source
     return fail(Code::not_supported,
                 fmt::format("{}: is an MCAP file of profile '{}'; only recordings of kinemark are read",
                             reader.name(), profile.substr(0, 40)));
-  if (magic || kMagic.starts_with(as_text(*begin)))
+  if (magic || kMagic.starts_with(text_of(*begin)))
     return fail(Code::bad_input, fmt::format("{}: the header of the recording is {}; nothing was read",
                                              reader.name(), group->found == Found::cut ? "cut" : "damaged"));
   return fail(Code::bad_input,
@@ -279,7 +279,7 @@ Status RecordingReader::read_summary() {
   good = cursor.u32() == 0 && good;
   const auto last = view(footer, kFooterBytes + kMagic.size());
   if (!last) return std::unexpected(last.error());
-  if (as_text(last->last(kMagic.size())) != kMagic)
+  if (text_of(last->last(kMagic.size())) != kMagic)
     return stop(RecordingEnd::cut, "ends within the summary"), Status{};
   Cursor end(*last);
   good = end.u8() == kFooter && good;
@@ -330,7 +330,7 @@ Result<std::uint64_t> RecordingReader::find_next_group(std::uint64_t from) {
     const std::size_t n = std::min<std::uint64_t>(kStride, size - at);
     const auto bytes = view(at, n);
     if (!bytes) return std::unexpected(bytes.error());
-    const std::size_t found = as_text(*bytes).find(kCheckHead);
+    const std::size_t found = text_of(*bytes).find(kCheckHead);
     if (found == std::string_view::npos) {
       at += n - kRecordHead + 1;
       continue;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
@@ -18,16 +18,14 @@ namespace {
 
 using internal::excerpt;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// Columns of one point; 0, the column of frame numbers, where there is none.
 struct Columns {
   std::size_t x = 0, y = 0, likelihood = 0;
 };
 
-class Parser {
+class KeypointsParser {
  public:
-  Parser(const KeypointsOptions& options, Keypoints& out) : options_(options), out_(out) {}
+  KeypointsParser(const KeypointsOptions& options, Keypoints& out) : options_(options), out_(out) {}
 
   Status header(internal::Lines& lines) {
     if (auto s = next_header(lines, "scorer"); !s) return s;
@@ -147,7 +145,7 @@ Result<Keypoints> parse_keypoints_csv(std::string_view text, const std::string& 
                                       const KeypointsOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   Keypoints keypoints;
-  Parser parser(options, keypoints);
+  KeypointsParser parser(options, keypoints);
   internal::Lines lines(text);
   if (auto s = parser.header(lines); !s) return fail_at(name, s.error());
   std::string_view line;

@@ -67,7 +67,7 @@ Status read_values(Cells& cells, std::int64_t line, const TableHeader& header, d
                                            1 + found + more, 1 + cells_expected));
 }
 
-Result<data::Table> parse(std::string_view text) {
+Result<data::Table> parse_table(std::string_view text) {
   Lines lines(text);
   auto header = internal::parse_table_header(lines);
   if (!header) return std::unexpected(header.error());
@@ -131,7 +131,7 @@ Result<data::Table> parse(std::string_view text) {
 }  // namespace
 
 Result<data::Table> parse_table(std::string_view text, std::string_view name) {
-  auto table = parse(text);
+  auto table = parse_table(text);
   if (!table) return fail_at(name, table.error());
   return table;
 }

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
@@ -23,7 +23,6 @@ using data::SampleState;
 using internal::excerpt;
 using internal::split_csv;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMaxFrame = 1e15;
 
 // What a column may be, in the order of `kNames`.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/time_column.h"
@@ -22,7 +23,6 @@ using internal::excerpt;
 using internal::Lines;
 using internal::TrcHeader;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNearOrigin_m = 0.005;
 constexpr std::size_t kNamesInWarning = 8;
 // A row may stop early and still stands for all markers; this keeps a short text from asking for much memory.
@@ -106,7 +106,7 @@ Status read_row_samples(Cells& cells, std::int64_t line, const TrcHeader& header
       if (p[0] == 0.0 && p[1] == 0.0 && p[2] == 0.0) ++tally.zeros[static_cast<std::size_t>(marker)];
       for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = p[axis] / header.units_per_metre;
     } else {
-      out[0] = out[1] = out[2] = kNan;
+      out[0] = out[1] = out[2] = kNaN;
     }
     state[marker] = seen ? data::SampleState::measured : data::SampleState::missing;
   }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/units.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
@@ -24,7 +24,6 @@ using internal::Lines;
 using internal::V3dHeader;
 using Kind = V3dHeader::Slot::Kind;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // A row may stop early and still stands for all signals; this keeps a short text from asking for much memory.
 constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
 constexpr std::size_t kSamplesAlways = 1'000'000;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/core/version.h"
+#include "kinemark/pipeline/clean/internal/clean_account.h"
 
 namespace kinemark::pipeline::internal {
 namespace {
@@ -106,7 +106,7 @@ void add_gaps(report::CleanReport& report, const trajectory::GapResult& filled,
                               .other_marker = name_of(names, swap.second_marker),
                               .first_frame = swap.first_frame,
                               .last_frame = swap.last_frame,
-                              .confidence = report::kUnknown,
+                              .confidence = kNaN,
                               .sentence = swap.sentence,
                               .done = "not relied on when filling; left as it is",
                               .handled = false});
@@ -125,7 +125,7 @@ report::CleanMarker describe_marker(const trajectory::MarkerAccount& account,
     told.tried.push_back({.order = c.order, .cutoff_hz = c.cutoff_hz, .criterion = c.criterion});
   told.residual_rms_m = account.residual_rms_m;
   told.autocorrelation = account.autocorrelation;
-  told.ljung_box_p = account.autocorrelation.empty() ? report::kUnknown : account.ljung_box_p;
+  told.ljung_box_p = account.autocorrelation.empty() ? kNaN : account.ljung_box_p;
   told.white = account.white;
   std::ranges::copy(account.bar_scale, told.bar_scale.begin());
   std::ranges::copy(account.gap_bar_scale, told.gap_bar_scale.begin());

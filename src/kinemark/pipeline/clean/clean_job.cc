@@ -10,11 +10,11 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
-#include "kinemark/pipeline/motion/motion_job.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/screening/real_samples.h"
 #include "kinemark/stages/trajectory/screening/screen.h"

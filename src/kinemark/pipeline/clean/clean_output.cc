@@ -38,7 +38,7 @@ io::NwbOutline outline_of(const data::Trajectories& markers, bool derivatives) {
 }
 
 void fill_unknown(Array<double>& values, std::size_t size) {
-  if (values.empty()) values.assign(size, report::kUnknown);
+  if (values.empty()) values.assign(size, kNaN);
 }
 
 /// What the outline promises must be there, be it unknown; what it does not must not.

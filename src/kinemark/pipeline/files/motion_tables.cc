@@ -8,12 +8,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 data::Table empty_table(const data::JointMotion& motion, std::string name) {
   data::Table table;

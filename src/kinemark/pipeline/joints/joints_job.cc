@@ -8,12 +8,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinemark/core/version.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/pipeline/files/staging.h"
-#include "kinemark/core/version.h"
+#include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 #include "kinemark/stages/trajectory/screening/real_samples.h"
 #include "kinemark/stages/trajectory/screening/screen.h"

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
@@ -19,8 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -34,7 +32,7 @@ data::Wrenches even() {
     for (int axis = 0; axis < 3; ++axis) {
       wrench.force.push_back(f < 8 ? 100.0 * axis + f : 0.0);
       wrench.moment.push_back(f < 8 ? axis - 0.1 * f : 0.0);
-      wrench.point.push_back(f < 8 ? 0.3 + 0.01 * f * axis : kNan);
+      wrench.point.push_back(f < 8 ? 0.3 + 0.01 * f * axis : kNaN);
     }
   w.items.push_back(std::move(wrench));
   return w;
@@ -93,7 +91,7 @@ TEST(Resample, NothingIsKnownOutsideOrBesideTheUnknown) {
   for (const std::int64_t f : {0, 11}) EXPECT_TRUE(of_frame(wide.items[0].force, f).hasNaN());
   EXPECT_FALSE(of_frame(wide.items[0].force, 1).hasNaN());
   EXPECT_FALSE(of_frame(wide.items[0].force, 10).hasNaN());
-  wrenches.items[0].force[9] = kNan;  // frame 3
+  wrenches.items[0].force[9] = kNaN;  // frame 3
   const auto fine = resample(wrenches, {.rate_hz = 100.0, .t0_s = 1.0, .frames = 12});
   for (const std::int64_t f : {5, 6, 7}) EXPECT_TRUE(of_frame(fine.items[0].force, f).hasNaN()) << f;
   for (const std::int64_t f : {4, 8}) EXPECT_FALSE(of_frame(fine.items[0].force, f).hasNaN()) << f;

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/stages/simulation/subject.h"
 
 namespace kinemark::pipeline {

@@ -8,14 +8,14 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/version.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/files/motion_tables.h"
-#include "kinemark/core/version.h"
+#include "kinemark/pipeline/motion/internal/motion_run.h"
 
 namespace kinemark::pipeline {
 

@@ -8,8 +8,8 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/osim/osim_writer.h"
-#include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
+#include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/scratch.h"
 

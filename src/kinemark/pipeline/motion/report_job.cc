@@ -9,8 +9,8 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {

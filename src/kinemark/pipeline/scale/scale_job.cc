@@ -8,15 +8,16 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/files/staging.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/scale/scale_report.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
-#include "kinemark/pipeline/files/staging.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/masses.h"
 
@@ -25,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// One run, step by step; every step moves outcome.model on.
 class ScaleRun {

@@ -9,10 +9,10 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/simulate/human_model.h"
-#include "kinemark/pipeline/files/new_folder.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/files/new_folder.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/simulate/human_model.h"
 
 namespace kinemark::pipeline {
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/math/nonnegative_least_squares.h"
@@ -31,8 +32,6 @@ constexpr double kBlindTranslation = 20.0;  // m per m
 constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar says nothing
 constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
 constexpr double kBlindFloor = 1e-13;       // lower: even a small share of a blind direction must show
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 /// One thread's view of one frame: pose, visible markers, inverse normal matrices.
 struct Frame {

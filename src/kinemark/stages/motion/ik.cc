@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
@@ -23,8 +24,6 @@ using internal::FrameSolver;
 using internal::Problem;
 
 constexpr int kRetryStarts = 6;  // poses tried on a frame whose cost jumps
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Walks over the frames from the anchor, forwards and then backwards, and fills states and errors.
 class Tracker {

@@ -8,11 +8,10 @@
 #include <limits>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 
 namespace kinemark::reconstruction {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Vector2d node_at(const data::RatioTable& table, int i, int j) {
   return Eigen::Map<const Eigen::Vector2d>(table.uv.data() + 2 * (i * table.nodes + j));

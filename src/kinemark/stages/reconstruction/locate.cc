@@ -5,17 +5,15 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
 
 #include "kinemark/camera/noise.h"
 #include "kinemark/camera/response.h"
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/math/scale_free.h"
 
 namespace kinemark::reconstruction {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Sum over sightings of J'J, J'r and r'r at a point.
 struct Normal {

@@ -45,7 +45,7 @@ std::string list_names(const std::vector<std::string>& names, std::size_t most =
 }
 
 void add(std::vector<Finding>& out, Verdict level, std::string about, std::string subject, std::string text,
-         double time_s = kUnknown) {
+         double time_s = kNaN) {
   out.push_back({level, std::move(about), std::move(subject), std::move(text), time_s});
 }
 

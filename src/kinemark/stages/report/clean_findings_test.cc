@@ -69,7 +69,7 @@ TEST(CleanFindings, ADefectIsSeriousWhenItIsCertainAndWasLeft) {
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("Not certain"));
   EXPECT_DOUBLE_EQ(clean_findings(r)[0].time_s, 0.1);
-  r.defects[0].confidence = kUnknown;
+  r.defects[0].confidence = kNaN;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
 }
 

@@ -29,7 +29,7 @@ struct CleanRun {
   std::uint64_t seed = 0;
   int threads = 1;
   int exit_status = 0;
-  double clean_s = kUnknown;  ///< wall-clock seconds without reading and writing
+  double clean_s = kNaN;  ///< wall-clock seconds without reading and writing
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<InputFile> inputs;
   std::vector<Gate> gates;
@@ -39,8 +39,8 @@ struct CleanRun {
 /// One filter that was tried: the smaller its criterion, the better.
 struct TriedFilter {
   int order = 0;
-  double cutoff_hz = kUnknown;
-  double criterion = kUnknown;
+  double cutoff_hz = kNaN;
+  double criterion = kNaN;
 };
 
 /// Power spectral density, summed over the axes. All three have one length, or are empty.
@@ -60,9 +60,9 @@ struct CleanMarker {
   std::string noise_from;      ///< "given", "covariance", "data"; empty when unknown
   std::string criterion_name;  ///< "SURE, m^2", ...; empty when nothing was chosen
   std::vector<TriedFilter> tried;
-  double residual_rms_m = kUnknown;     ///< in - out, per axis
+  double residual_rms_m = kNaN;         ///< in - out, per axis
   std::vector<double> autocorrelation;  ///< of the residuals, lags 1, 2, ... frames; empty when unknown
-  double ljung_box_p = kUnknown;        ///< small: the residual is not white
+  double ljung_box_p = kNaN;            ///< small: the residual is not white
   bool white = true;                    ///< no more autocorrelation than the filter itself explains
   /// Factors on the model's standard deviations of position, velocity, acceleration and jerk: at seen
   /// samples, and for what gaps and ends add.
@@ -78,9 +78,9 @@ struct CleanMarker {
 /// One candidate of a gap's combination.
 struct GapWeight {
   std::string name;
-  double weight = 0.0;      ///< all weights of a gap sum to 1
-  double rms_m = kUnknown;  ///< on artificial gaps
-  bool guarded = false;     ///< left out: strayed from all others
+  double weight = 0.0;   ///< all weights of a gap sum to 1
+  double rms_m = kNaN;   ///< on artificial gaps
+  bool guarded = false;  ///< left out: strayed from all others
 };
 
 /// One gap, filled or not.
@@ -92,10 +92,10 @@ struct CleanGap {
   bool filled = false;
   std::string method;              ///< "auto", "cubic", ...; empty when left open
   std::vector<GapWeight> weights;  ///< largest first
-  double sd_m = kUnknown;          ///< per axis, RMS over the gap
-  double max_sd_m = kUnknown;      ///< largest along the gap and over the axes
+  double sd_m = kNaN;              ///< per axis, RMS over the gap
+  double max_sd_m = kNaN;          ///< largest along the gap and over the axes
   int windows = 0;                 ///< artificial gaps that weights and SD come from
-  double window_s = kUnknown;      ///< their length
+  double window_s = kNaN;          ///< their length
   std::vector<std::string> predictors;
   std::vector<std::string> dropped;  ///< markers not trusted in this gap
   std::string why_open;              ///< a sentence; empty when filled
@@ -108,10 +108,10 @@ struct CleanDefect {
   std::string other_marker;  ///< partner of a swap, or empty
   std::int64_t first_frame = 0;
   std::int64_t last_frame = 0;
-  double confidence = kUnknown;  ///< 0 to 1; unknown counts as certain
-  std::string sentence;          ///< what is wrong, with numbers
-  std::string done;              ///< in words: "rejected", "left as it is", ...
-  bool handled = false;          ///< false with a confidence of 0.8 and more: needs attention
+  double confidence = kNaN;  ///< 0 to 1; unknown counts as certain
+  std::string sentence;      ///< what is wrong, with numbers
+  std::string done;          ///< in words: "rejected", "left as it is", ...
+  bool handled = false;      ///< false with a confidence of 0.8 and more: needs attention
 };
 
 /// Whether the recorder made samples, over the whole recording.

@@ -65,7 +65,7 @@ Json rounded(const Values& values) {
 struct GapSum {
   std::int64_t filled = 0, open = 0;
   double longest_open_s = 0.0;
-  double largest_sd_m = kUnknown;  ///< of the filled ones
+  double largest_sd_m = kNaN;  ///< of the filled ones
 };
 
 std::map<std::string, GapSum> sum_gaps(const CleanReport& report) {

@@ -75,7 +75,7 @@ TEST(CleanSummaryJson, AMarkerSumsItsGaps) {
 TEST(CleanSummaryJson, UnitsAreThoseOfTheReader) {
   CleanReport r = example_clean(1200).finished();
   r.markers[0].filter.noise_sd_m = 0.000123456789;
-  r.markers[0].spectrum = {{1.0, 10.0}, {2.5e-8, 1.0}, {kUnknown, 1e-12}};
+  r.markers[0].spectrum = {{1.0, 10.0}, {2.5e-8, 1.0}, {kNaN, 1e-12}};
   r.markers[0].tried = {{3, 7.25, 4.0e-9}};
   const Json m = clean_summary_json(r)["markers"][0];
   EXPECT_EQ(m["noise_sd_mm"], 0.12346);

@@ -56,7 +56,7 @@ constexpr std::array<Hole, 6> kHoles{{
     {kUlna, 0.45, 0.56, true, SampleState::model_filled, "auto", 0.0142},
     {kRadius, 0.45, 0.52, true, SampleState::model_filled, "auto", 0.0061},
     {kHand, 0.00, 0.02, true, SampleState::model_filled, "rigid", 0.0021},
-    {kFinger, 0.60, 0.85, false, SampleState::missing, "", kUnknown},
+    {kFinger, 0.60, 0.85, false, SampleState::missing, "", kNaN},
 }};
 
 std::int64_t frame_at(double share, std::int64_t frames) {
@@ -69,7 +69,7 @@ void fill_samples(ExampleClean& e, std::uint64_t seed) {
   e.after.covariance.assign(2 * all, 0.0);
   for (auto* array : {&e.derivatives.velocity, &e.derivatives.velocity_sd, &e.derivatives.acceleration,
                       &e.derivatives.acceleration_sd})
-    array->assign(all, kUnknown);
+    array->assign(all, kNaN);
   for (std::int64_t m = 0; m < std::ssize(kNames); ++m) {
     Random random(seed, static_cast<std::uint64_t>(m));
     for (std::int64_t f = 0; f < frames; ++f) {
@@ -100,8 +100,8 @@ void forget(ExampleClean& e, std::int64_t frame, std::int64_t marker, SampleStat
   const std::size_t i = e.after.index(frame, marker);
   for (auto* array : {&e.derivatives.velocity, &e.derivatives.velocity_sd, &e.derivatives.acceleration,
                       &e.derivatives.acceleration_sd})
-    for (std::size_t axis = 0; axis < 3; ++axis) (*array)[3 * i + axis] = kUnknown;
-  for (std::size_t c = 0; c < 6; ++c) e.after.covariance[6 * i + c] = kUnknown;
+    for (std::size_t axis = 0; axis < 3; ++axis) (*array)[3 * i + axis] = kNaN;
+  for (std::size_t c = 0; c < 6; ++c) e.after.covariance[6 * i + c] = kNaN;
 }
 
 /// The error bar grows towards the middle of a gap.

@@ -68,9 +68,8 @@ void fill_coordinates(ExampleTrial& t) {
       // A hidden wrist hurts its neighbours before it leaves nothing to go by.
       const bool near = wrist_hidden(f + 12) || wrist_hidden(f - 12);
       m.determined[i] = locked || !(wrist_hidden(f) && j >= kForearm);
-      m.q_sd[i] =
-          locked ? kUnknown : unit * w.sd * (1.0 + 0.3 * std::cos(turn)) * (near && j >= 17 ? 2.6 : 1.0);
-      if (m.determined[i] == 0) m.q_sd[i] = kUnknown;
+      m.q_sd[i] = locked ? kNaN : unit * w.sd * (1.0 + 0.3 * std::cos(turn)) * (near && j >= 17 ? 2.6 : 1.0);
+      if (m.determined[i] == 0) m.q_sd[i] = kNaN;
     }
   }
 }
@@ -93,14 +92,14 @@ void fill_markers(ExampleTrial& t, std::uint64_t seed) {
         const double skin =
             skin_m * std::sin(turn + static_cast<double>(axis) + 0.7 * static_cast<double>(k));
         const double e = skin + noise_m * random.gaussian() + (swapped && axis == 1 ? 0.043 : 0.0);
-        m.marker_error[3 * i + axis] = hidden || f < gone_until ? kUnknown : e;
+        m.marker_error[3 * i + axis] = hidden || f < gone_until ? kNaN : e;
       }
       SampleState& state = t.markers.state[t.markers.index(f, static_cast<std::int64_t>(k))];
       state = hidden || f < gone_until ? SampleState::missing : SampleState::measured;
       if (k == 5 && f % 300 >= 120 && f % 300 < 141) state = SampleState::interpolated;
       if (swapped && f % 900 == 358) {
         state = SampleState::rejected;
-        for (std::size_t axis = 0; axis < 3; ++axis) m.marker_error[3 * i + axis] = kUnknown;
+        for (std::size_t axis = 0; axis < 3; ++axis) m.marker_error[3 * i + axis] = kNaN;
       }
     }
     m.markers.emplace_back(kMarkers[k]);
@@ -128,7 +127,7 @@ void fill_run(ExampleTrial& t) {
        "0.5 % of the frames did not converge; the bound is 0.1 %. Look at the frames listed below."}};
   run.exit_status = 1;
   run.locked_coordinates = {std::string(kWaves[kLocked].name)};
-  run.markers.push_back({"L.Bicep", 0.0, kUnknown, "it is at the origin in every frame."});
+  run.markers.push_back({"L.Bicep", 0.0, kNaN, "it is at the origin in every frame."});
   run.warnings = {"walk_03.trc: the header says 612 frames; 600 are there."};
 }
 

@@ -24,13 +24,13 @@ std::string frames_in_words(std::int64_t count, std::int64_t all) {
 
 double first_time_s(const data::JointMotion& motion, FrameStatus status) {
   const auto at = std::ranges::find(motion.status, status);
-  return at == motion.status.end() ? kUnknown : motion.time.time_s(at - motion.status.begin());
+  return at == motion.status.end() ? kNaN : motion.time.time_s(at - motion.status.begin());
 }
 
 double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordinate) {
   for (std::int64_t f = 0; f < motion.frames() && !motion.determined.empty(); ++f)
     if (motion.determined[motion.index(f, coordinate)] == 0) return motion.time.time_s(f);
-  return kUnknown;
+  return kNaN;
 }
 
 /// One line for each reason, with all markers that have it, in the order in which they come.
@@ -45,12 +45,11 @@ void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
   for (const auto& [why, names] : reasons) {
     if (names.size() == 1)
       out.push_back({Verdict::good, "marker", names.front(),
-                     fmt::format("Marker {} was left out: {}", names.front(), why), kUnknown});
+                     fmt::format("Marker {} was left out: {}", names.front(), why), kNaN});
     else
       out.push_back(
           {Verdict::good, "marker", "",
-           fmt::format("{} markers were left out: {}: {}", names.size(), why, fmt::join(names, ", ")),
-           kUnknown});
+           fmt::format("{} markers were left out: {}: {}", names.size(), why, fmt::join(names, ", ")), kNaN});
   }
 }
 
@@ -59,10 +58,10 @@ void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
 std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& motion) {
   std::vector<Finding> out;
   for (const Gate& gate : s.run.gates)
-    if (!gate.passed) out.push_back({Verdict::attention, "gate", gate.name, gate.sentence, kUnknown});
+    if (!gate.passed) out.push_back({Verdict::attention, "gate", gate.name, gate.sentence, kNaN});
   if (s.run.exit_status != 0 && out.empty())
     out.push_back({Verdict::attention, "gate", "",
-                   fmt::format("The run ended with exit status {}.", s.run.exit_status), kUnknown});
+                   fmt::format("The run ended with exit status {}.", s.run.exit_status), kNaN});
 
   const auto frames_with = [&](FrameStatus status) {
     return s.status_frames[static_cast<std::size_t>(status)];
@@ -95,11 +94,10 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
   add_left_out(s, out);
   for (const MarkerSummary& m : s.markers) {
     if (m.why_excluded.empty() && m.used && m.seen_frames == 0 && !motion.marker_error.empty())
-      out.push_back(
-          {Verdict::good, "marker", m.name, fmt::format("Marker {} is never seen.", m.name), kUnknown});
+      out.push_back({Verdict::good, "marker", m.name, fmt::format("Marker {} is never seen.", m.name), kNaN});
   }
   for (const std::string& warning : s.run.warnings)
-    out.push_back({Verdict::good, "warning", "", warning, kUnknown});
+    out.push_back({Verdict::good, "warning", "", warning, kNaN});
 
   // In order, but what is serious before what is not.
   std::vector<Finding> sorted;

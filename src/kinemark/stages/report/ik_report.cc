@@ -60,7 +60,7 @@ struct Column {
   std::vector<double> values;
   std::vector<std::uint8_t> codes;
 
-  explicit Column(std::int64_t frames) : values(frames, kUnknown), codes(frames, 0) {}
+  explicit Column(std::int64_t frames) : values(frames, kNaN), codes(frames, 0) {}
 };
 
 Json coordinate_series(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
@@ -71,14 +71,14 @@ Json coordinate_series(const JointMotion& motion, std::int64_t coordinate, const
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
     const std::size_t i = motion.index(f, coordinate);
     const bool determined = motion.determined.empty() || motion.determined[i] != 0;
-    column.values[f] = determined ? unit * motion.q[i] : kUnknown;
+    column.values[f] = determined ? unit * motion.q[i] : kNaN;
     column.codes[f] = determined ? 0 : 1;
     any_undetermined = any_undetermined || !determined;
   }
   Json out = {{"value", base64(points.extremes(column.values))}, {"sd", nullptr}, {"undetermined", nullptr}};
   if (any_undetermined) out["undetermined"] = base64(points.worst(column.codes));
   for (std::int64_t f = 0; f < motion.frames() && !motion.q_sd.empty(); ++f) {
-    column.values[f] = column.codes[f] == 0 ? unit * motion.q_sd[motion.index(f, coordinate)] : kUnknown;
+    column.values[f] = column.codes[f] == 0 ? unit * motion.q_sd[motion.index(f, coordinate)] : kNaN;
     any_sd = any_sd || std::isfinite(column.values[f]);
   }
   if (any_sd) out["sd"] = base64(points.largest(column.values));
@@ -110,7 +110,7 @@ std::string rms_series(const JointMotion& motion, const PlotPoints& points, Colu
       squares += square;
       ++seen;
     }
-    column.values[f] = seen == 0 ? kUnknown : 1e3 * std::sqrt(squares / seen);
+    column.values[f] = seen == 0 ? kNaN : 1e3 * std::sqrt(squares / seen);
   }
   return base64(points.extremes(column.values));
 }

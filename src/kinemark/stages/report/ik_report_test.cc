@@ -108,7 +108,7 @@ TEST(ReportJson, WithoutStatesTheErrorsTellWhatWasSeen) {
 
 TEST(ReportJson, ErrorsAreDistancesInMillimetres) {
   ExampleTrial t = example_trial(100);
-  for (double& e : t.motion.marker_error) e = kUnknown;
+  for (double& e : t.motion.marker_error) e = kNaN;
   const std::size_t at = 3 * 30 * 7;  // frame 7, marker 0
   t.motion.marker_error[at] = 0.002;
   t.motion.marker_error[at + 1] = -0.003;

@@ -33,9 +33,9 @@ struct ErrorSum {
     }
   }
   [[nodiscard]] double rms() const {
-    return count == 0 ? kUnknown : std::sqrt(squares / static_cast<double>(count));
+    return count == 0 ? kNaN : std::sqrt(squares / static_cast<double>(count));
   }
-  [[nodiscard]] double max() const { return count == 0 ? kUnknown : largest; }
+  [[nodiscard]] double max() const { return count == 0 ? kNaN : largest; }
 };
 
 /// All marker errors of a motion, gone through once in the order in which they lie in memory.
@@ -59,7 +59,7 @@ struct Errors {
 };
 
 double median(std::vector<double>& values) {
-  if (values.empty()) return kUnknown;
+  if (values.empty()) return kNaN;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

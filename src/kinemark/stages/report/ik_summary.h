@@ -21,9 +21,9 @@ namespace kinemark::report {
 /// What the solver knew of one marker of the file or the model.
 struct MarkerFacts {
   std::string name;
-  double weight = 1.0;           ///< 0: not used
-  double noise_sd_m = kUnknown;  ///< given or estimated standard deviation along one axis
-  std::string why_excluded;      ///< empty: used
+  double weight = 1.0;       ///< 0: not used
+  double noise_sd_m = kNaN;  ///< given or estimated standard deviation along one axis
+  std::string why_excluded;  ///< empty: used
 };
 
 /// Everything about a run that is not in its arrays. The caller fills this in.
@@ -36,7 +36,7 @@ struct IkRun {
   std::uint64_t seed = 0;
   int threads = 1;
   int exit_status = 0;
-  double solve_s = kUnknown;  ///< wall-clock seconds of the solve alone
+  double solve_s = kNaN;  ///< wall-clock seconds of the solve alone
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<InputFile> inputs;
   std::vector<Gate> gates;
@@ -50,9 +50,9 @@ struct CoordinateSummary {
   bool is_rotation = true;
   bool locked = false;
   std::int64_t determined_frames = 0;
-  double min = kUnknown;        ///< rad or m, over determined frames
-  double max = kUnknown;        ///< rad or m, over determined frames
-  double median_sd = kUnknown;  ///< rad or m, over determined frames
+  double min = kNaN;        ///< rad or m, over determined frames
+  double max = kNaN;        ///< rad or m, over determined frames
+  double median_sd = kNaN;  ///< rad or m, over determined frames
 };
 
 struct MarkerSummary {
@@ -60,11 +60,11 @@ struct MarkerSummary {
   bool used = true;
   std::string why_excluded;
   double weight = 1.0;
-  std::int64_t seen_frames = 0;   ///< frames with an error, or with coordinates for excluded markers
-  double rms_error_m = kUnknown;  ///< of the distance between measured and model marker
-  double max_error_m = kUnknown;
+  std::int64_t seen_frames = 0;  ///< frames with an error, or with coordinates for excluded markers
+  double rms_error_m = kNaN;     ///< of the distance between measured and model marker
+  double max_error_m = kNaN;
   std::int64_t max_error_frame = -1;
-  double noise_sd_m = kUnknown;
+  double noise_sd_m = kNaN;
 };
 
 struct WorstFrame {
@@ -82,9 +82,9 @@ struct IkSummary {
   TimeBase time;
   Verdict verdict = Verdict::good;              ///< attention: at least one finding of that level
   std::array<std::int64_t, 4> status_frames{};  ///< by FrameStatus
-  double determined_fraction = kUnknown;        ///< over frames and coordinates that are not locked
-  double rms_error_m = kUnknown;                ///< over all frames and seen markers
-  double max_error_m = kUnknown;
+  double determined_fraction = kNaN;            ///< over frames and coordinates that are not locked
+  double rms_error_m = kNaN;                    ///< over all frames and seen markers
+  double max_error_m = kNaN;
   std::vector<CoordinateSummary> coordinates;
   std::vector<MarkerSummary> markers;  ///< used ones in the motion's order, then the excluded ones
   std::vector<WorstFrame> worst_frames;

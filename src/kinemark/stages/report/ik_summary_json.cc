@@ -50,7 +50,7 @@ Json markers_json(const IkSummary& s) {
          {"seen_frames", m.seen_frames},
          {"rms_error_mm", millimetres(m.rms_error_m)},
          {"max_error_mm", millimetres(m.max_error_m)},
-         {"max_error_time_s", number(m.max_error_frame < 0 ? kUnknown : s.time.time_s(m.max_error_frame), 6)},
+         {"max_error_time_s", number(m.max_error_frame < 0 ? kNaN : s.time.time_s(m.max_error_frame), 6)},
          {"noise_sd_mm", millimetres(m.noise_sd_m)}});
   return out;
 }
@@ -77,7 +77,7 @@ Json status_json(const IkSummary& s) {
 
 double metres(const Json& object, const char* key) {
   const Json& value = object.at(key);
-  return value.is_null() ? kUnknown : 1e-3 * value.get<double>();
+  return value.is_null() ? kNaN : 1e-3 * value.get<double>();
 }
 
 IkRun read_run(const Json& json) {
@@ -96,9 +96,7 @@ IkRun read_run(const Json& json) {
   for (const Json& i : json.at("inputs"))
     run.inputs.push_back({i.at("role"), i.at("path"), i.at("bytes"), i.at("hash"), i.at("hash_kind")});
   for (const Json& g : json.at("gates")) {
-    const auto value = [&](const char* key) {
-      return g.at(key).is_null() ? kUnknown : g.at(key).get<double>();
-    };
+    const auto value = [&](const char* key) { return g.at(key).is_null() ? kNaN : g.at(key).get<double>(); };
     run.gates.push_back(
         {g.at("name"), g.at("passed"), value("value"), value("bound"), g.at("unit"), g.at("sentence")});
   }
@@ -127,7 +125,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"rate_hz", number(s.time.rate_hz, 6)},
           {"first_time_s", number(s.time.t0_s, 6)},
           {"solve_s", number(run.solve_s, 9)},
-          {"frames_per_s", number(run.solve_s > 0.0 ? frames / run.solve_s : kUnknown, 1)},
+          {"frames_per_s", number(run.solve_s > 0.0 ? frames / run.solve_s : kNaN, 1)},
           {"threads", run.threads},
           {"seed", run.seed},
           {"version", run.version},

@@ -45,8 +45,8 @@ TEST(SummaryJson, HasTheUnitsThatItsNamesSay) {
 
 TEST(SummaryJson, UnknownNumbersAreNull) {
   IkSummary s = example_summary();
-  s.run.solve_s = kUnknown;
-  s.rms_error_m = kUnknown;
+  s.run.solve_s = kNaN;
+  s.rms_error_m = kNaN;
   const Json json = summary_json(s);
   EXPECT_TRUE(json["solve_s"].is_null());
   EXPECT_TRUE(json["frames_per_s"].is_null());

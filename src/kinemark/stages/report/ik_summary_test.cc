@@ -28,14 +28,14 @@ data::JointMotion motion_with_errors(const std::vector<std::pair<double, double>
   for (const auto& [a, b] : errors_mm)
     for (const double e : {a, b}) {
       m.marker_error.push_back(1e-3 * e);
-      m.marker_error.push_back(std::isnan(e) ? kUnknown : 0.0);
-      m.marker_error.push_back(std::isnan(e) ? kUnknown : 0.0);
+      m.marker_error.push_back(std::isnan(e) ? kNaN : 0.0);
+      m.marker_error.push_back(std::isnan(e) ? kNaN : 0.0);
     }
   return m;
 }
 
 TEST(Summarize, CountsErrorsOverSeenMarkersOnly) {
-  const auto s = summarize({}, motion_with_errors({{3, 4}, {kUnknown, -4}, {0, kUnknown}}), nullptr);
+  const auto s = summarize({}, motion_with_errors({{3, 4}, {kNaN, -4}, {0, kNaN}}), nullptr);
   ASSERT_TRUE(s) << s.error().message;
   EXPECT_NEAR(s->rms_error_m, 1e-3 * std::sqrt((9 + 16 + 16 + 0) / 4.0), 1e-15);
   EXPECT_DOUBLE_EQ(s->max_error_m, 4e-3);
@@ -47,7 +47,7 @@ TEST(Summarize, CountsErrorsOverSeenMarkersOnly) {
 }
 
 TEST(Summarize, WithoutErrorsSaysUnknownNotZero) {
-  data::JointMotion m = motion_with_errors({{kUnknown, kUnknown}});
+  data::JointMotion m = motion_with_errors({{kNaN, kNaN}});
   for (const bool empty : {false, true}) {
     if (empty) m.marker_error.clear();
     const auto s = summarize({}, m, nullptr);
@@ -59,7 +59,7 @@ TEST(Summarize, WithoutErrorsSaysUnknownNotZero) {
 }
 
 TEST(Summarize, WorstFramesComeLargestFirstAndApart) {
-  const auto m = motion_with_errors({{1, 1}, {9, 1}, {8, 1}, {1, 1}, {1, 7}, {5, kUnknown}, {1, 1}});
+  const auto m = motion_with_errors({{1, 1}, {9, 1}, {8, 1}, {1, 1}, {1, 7}, {5, kNaN}, {1, 1}});
   const auto s = summarize({}, m, nullptr, {.worst_frames = 3, .worst_frame_distance_s = 0.2});
   ASSERT_TRUE(s);
   ASSERT_EQ(s->worst_frames.size(), 3U);
@@ -135,8 +135,7 @@ TEST(Summarize, RefusesWhatDoesNotFitTogether) {
   EXPECT_FALSE(summarize(t.run, broken, nullptr));
   EXPECT_EQ(summarize(t.run, t.motion, nullptr, {.worst_frames = -1}).error().code, Code::usage);
   EXPECT_EQ(summarize(t.run, t.motion, nullptr, {.worst_frame_distance_s = -0.1}).error().code, Code::usage);
-  EXPECT_EQ(summarize(t.run, t.motion, nullptr, {.worst_frame_distance_s = kUnknown}).error().code,
-            Code::usage);
+  EXPECT_EQ(summarize(t.run, t.motion, nullptr, {.worst_frame_distance_s = kNaN}).error().code, Code::usage);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(Number, IsRoundedAndNeverMinusZero) {
   EXPECT_EQ(number(1.23456, 2), 1.23);
   EXPECT_EQ(number(-1.235, 1), -1.2);
   EXPECT_EQ(number(-0.0001, 2).dump(), "0.0");
-  EXPECT_TRUE(number(kUnknown, 2).is_null());
+  EXPECT_TRUE(number(kNaN, 2).is_null());
   EXPECT_TRUE(number(-kInfinity, 2).is_null());
 }
 
@@ -29,7 +29,7 @@ TEST(Significant, KeepsDigitsOverAllDecades) {
   EXPECT_EQ(significant(123456.0, 3), 123000.0);
   EXPECT_EQ(significant(-0.00123456, 3), -0.00123);
   EXPECT_EQ(significant(0.0, 3), 0.0);
-  EXPECT_TRUE(significant(kUnknown, 3).is_null());
+  EXPECT_TRUE(significant(kNaN, 3).is_null());
   for (int power = -290; power <= 290; power += 29) {
     const double value = 1.23456789 * std::pow(10.0, power);
     const double kept = significant(value, 5).get<double>();
@@ -46,12 +46,12 @@ TEST(Significant, RefusesNoDigits) { EXPECT_ANY_THROW((void)significant(1.0, 0))
 
 TEST(Millimetres, ComeFromMetres) {
   EXPECT_EQ(millimetres(0.0123456789), 12.3457);
-  EXPECT_TRUE(millimetres(kUnknown).is_null());
+  EXPECT_TRUE(millimetres(kNaN).is_null());
 }
 
 TEST(FindingsJson, HoldsLevelPlaceAndWords) {
   const std::array<Finding, 2> findings{{{Verdict::attention, "gap", "R.Knee", "A sentence.", 1.5},
-                                         {Verdict::good, "warning", "", "Another.", kUnknown}}};
+                                         {Verdict::good, "warning", "", "Another.", kNaN}}};
   const auto json = findings_json(findings);
   ASSERT_EQ(json.size(), 2U);
   EXPECT_EQ(json[0].dump(),

@@ -9,14 +9,13 @@
 #include <cmath>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 
 namespace kinemark::report::internal {
 namespace {
 
 using testing::ElementsAre;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(PlotPoints, KeepsEveryFrameThatFits) {
   const PlotPoints points(4, 4);

@@ -4,15 +4,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 
 #include "kinemark/core/result.h"
 
-namespace kinemark::report {
+#include "kinemark/core/missing.h"
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+namespace kinemark::report {
 
 /// A file that the result depends on.
 struct InputFile {
@@ -43,7 +42,7 @@ struct Finding {
   std::string about;              ///< "gate", "frames", "coordinate", "marker", "gap", ... or "warning"
   std::string subject;            ///< name of the gate, coordinate or marker; may be empty
   std::string text;               ///< one sentence
-  double time_s = kUnknown;       ///< where to look first
+  double time_s = kNaN;           ///< where to look first
 };
 
 /// How much of the arrays goes into a page.

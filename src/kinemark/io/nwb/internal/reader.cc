@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/series.h"
 
@@ -16,8 +16,6 @@ namespace {
 
 using data::SampleState;
 using data::Trajectories;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::unexpected<Error> too_large(const std::string& what) {
   return fail(Code::bad_input, what + ": holds more samples than the size of the file explains");

@@ -16,8 +16,8 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/pipeline/motion/torques.h"
 
 namespace kinemark::pipeline::internal {

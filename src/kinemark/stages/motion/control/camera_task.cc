@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/camera/projection.h"
+#include "kinemark/core/index.h"
 #include "kinemark/math/digital_filter.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
@@ -32,8 +33,6 @@ constexpr double kUnseen = 0.1;               // cosine of the angle off the axi
 constexpr double kPlain = 0.25;               // 76 degrees
 constexpr double kDifference = 1e-5;          // of the depth: rounding and truncation are both below 1e-9
 constexpr double kStandstill_m_per_s = 1e-9;  // slower, the image does not bend
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// How much of a view remains at this angle: bounded where the point nears the plane of the lens.
 double facing(const Vector3d& x_in_cam) {

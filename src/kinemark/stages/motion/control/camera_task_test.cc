@@ -7,10 +7,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 #include "kinemark/camera/projection.h"
 #include "kinemark/camera/test_cameras.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -25,7 +25,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const BodyPoint kF2{.body = "forearm", .x_in_body = {-0.02, -0.25, 0.04}};
 
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
@@ -59,7 +58,7 @@ data::ImageTracks film(const data::Trajectories& markers, std::vector<data::Came
 void hide(data::ImageTracks& tracks, std::size_t camera, std::int64_t first, std::int64_t end) {
   for (std::int64_t f = first; f < end; ++f)
     for (std::size_t m = 0; m < tracks.names.size(); ++m)
-      tracks.image[tracks.index(f, camera, m)] = tracks.image[tracks.index(f, camera, m) + 1] = kNan;
+      tracks.image[tracks.index(f, camera, m)] = tracks.image[tracks.index(f, camera, m) + 1] = kNaN;
 }
 
 /// Tracks of one marker "P" at rate_hz 100, image by frame, the same for all cameras.
@@ -333,7 +332,7 @@ TEST(CameraTask, EveryMarkerThatMovesAndIsSeenGetsATask) {
   tracks.names[0] = "unknown";
   for (const std::int64_t f : {0, 2}) {  // T2 is seen in single frames only
     const auto k = tracks.index(f, 0, 1);
-    tracks.image[k] = kNan;
+    tracks.image[k] = kNaN;
   }
   const auto tasks = camera_tasks(model, tracks);
   ASSERT_TRUE(tasks) << tasks.error().message;
@@ -358,9 +357,9 @@ TEST(CameraTask, SaysWhatIsWrongWithIt) {
   EXPECT_THAT(sentence(kF2, good, {}, "Q"), HasSubstr("do not have it"));
   EXPECT_THAT(sentence({"tail", {}}, good), HasSubstr("no body 'tail'"));
   EXPECT_THAT(sentence({"ground", {}}, good), HasSubstr("welded"));
-  EXPECT_THAT(sentence({"trunk", {kNan, 0.0, 0.0}}, good), HasSubstr("not a number"));
+  EXPECT_THAT(sentence({"trunk", {kNaN, 0.0, 0.0}}, good), HasSubstr("not a number"));
   EXPECT_THAT(sentence(kF2, good, {.weight = 0.0}), HasSubstr("weight is 0"));
-  EXPECT_THAT(sentence(kF2, good, {.fade_s = kNan}), HasSubstr("fades within nan s"));
+  EXPECT_THAT(sentence(kF2, good, {.fade_s = kNaN}), HasSubstr("fades within nan s"));
   EXPECT_THAT(sentence(kF2, good, {.cutoff_hz = -1.0}), HasSubstr("cut-off is -1 Hz"));
   EXPECT_THAT(sentence(kF2, good, {.cutoff_hz = 1e-9}), HasSubstr("thousandth"));
   auto bad = good;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/bounds.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
@@ -26,8 +27,6 @@ constexpr double kMostAhead_s = 0.5;  // of the stamps, by frames that come fast
 constexpr double kPatience_s = 1.0;   // then a start with fewer markers is good enough
 constexpr double kEnough = 0.95;      // of the markers
 constexpr std::int64_t kFewest = 3;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// A recording of two frames that shows all markers in the model's default pose: what make_plan() needs to
 /// bring names together.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/goal_curve.h"
@@ -17,8 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 using internal::GoalCurve;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Status check_lever(double lever) {
   if (std::isfinite(lever) && lever > 0.0) return {};

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
@@ -20,10 +21,6 @@ using internal::GoalFilter;
 using internal::Plan;
 using internal::Track;
 using internal::Walker;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void fill_window(const Plan& plan, const data::Trajectories& markers, internal::SampleWindow& samples) {
   const int M = plan.problem.model.marker_count();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 
@@ -14,8 +15,6 @@ namespace kinemark::motion {
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);

@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/motion/dynamics/contacts.h"
 #include "kinemark/stages/motion/dynamics/internal/frame_dynamics.h"
@@ -22,10 +23,7 @@ using Eigen::VectorXd;
 using internal::AppliedForce;
 using internal::FrameDynamics;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that nothing ever determined
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -171,7 +169,7 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
   }
 
   const std::int64_t F = motion.frames(), n = motion.size();
-  Array<double> tau(at(F * n), kNan), tau_sd(bars ? at(F * n) : 0, kNan);
+  Array<double> tau(at(F * n), kNaN), tau_sd(bars ? at(F * n) : 0, kNaN);
   const auto roots = model.free_joints();
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(F, static_cast<Eigen::Index>(2 * roots.size()));
   std::vector<std::uint8_t> known(at(F), 0);

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <memory>
 
+#include "kinemark/core/index.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/kinematics.h"
@@ -24,8 +25,6 @@ namespace kinemark::motion {
 namespace {
 
 using Eigen::VectorXd;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Three seconds of brisk motion of all coordinates with its exact rates, 20 frames.
 data::JointMotion swing(const model::Model& model) {

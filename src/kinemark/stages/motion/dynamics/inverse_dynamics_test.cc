@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
@@ -20,7 +20,6 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRate = 100.0;
 
 /// A rod of 2 kg on a hinge about z, mass centre 0.3 m below it, gravity along -y.
@@ -309,7 +308,7 @@ TEST(InverseDynamics, EmptyPlatesAreLeftOut) {
 
 TEST(InverseDynamics, UnknownForcesMakeUnknownTorques) {
   Standing standing(true);
-  standing.wrenches.items[1].force[3] = kNan;
+  standing.wrenches.items[1].force[3] = kNaN;
   const auto summary =
       inverse_dynamics(standing.model, standing.motion, {.error_bars = false}, &standing.wrenches).value();
   EXPECT_FALSE(std::isnan(standing.motion.tau[0]));
@@ -337,7 +336,7 @@ TEST(InverseDynamics, BadInputIsToldInASentence) {
               HasSubstr("'hoof'"));
   EXPECT_THAT(inverse_dynamics(standing.model, standing.motion, {.contact_force_n = -1.0}).error().message,
               HasSubstr("contact force"));
-  standing.motion.a[3] = kNan;
+  standing.motion.a[3] = kNaN;
   EXPECT_THAT(inverse_dynamics(standing.model, standing.motion).error().message, HasSubstr("finite"));
   auto description = testing_body::description();
   for (auto& body : description.bodies) body.mass = 0.0;

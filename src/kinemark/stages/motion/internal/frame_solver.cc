@@ -6,14 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
 
 namespace kinemark::motion::internal {
 namespace {
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kLever_m = 0.1;      // turns radians into metres where both must be compared
 constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearisation says nothing

@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 
 namespace kinemark::motion::internal {
 namespace {
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 /// Root of a body: the free joint that carries it, or -1.
 int free_joint_under(const model::Model& model, int body) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/ik.h"
@@ -18,8 +19,6 @@ namespace kinemark::motion {
 namespace {
 
 using Eigen::MatrixXd;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 Status check_terms(const data::ModelDescription& model, const std::vector<GeometryParameter>& parameters) {
   if (parameters.empty()) return fail(Code::bad_input, "nothing to adapt: the list of parameters is empty");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "kinemark/core/index.h"
 #include "kinemark/stages/motion/scaling/internal/segments.h"
 
 namespace kinemark::motion {
@@ -18,8 +19,6 @@ using Eigen::Vector3d;
 constexpr double kClavicle_kg = 0.3;
 constexpr double kForward_m = 0.02, kSideways_m = 0.03;  // of the inner end, from the middle of the trunk
 constexpr double kRange = 0.7;                           // rad
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 JointDescription* joint_to(ModelDescription& model, int body) {
   for (auto& joint : model.joints)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/stages/motion/scaling/internal/segments.h"
 
 namespace kinemark::motion {
@@ -14,8 +15,6 @@ namespace {
 
 using data::kGround;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double kShortest_m = 0.01;
 

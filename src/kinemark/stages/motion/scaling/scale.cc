@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/workspace.h"
@@ -21,8 +22,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kSmallest = 0.2, kLargest = 5.0;  // factors beyond are mistakes
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Inertia of a body whose points x become D x: its second moments become D A D.
 Matrix3d stretched_inertia(const Matrix3d& inertia, const Vector3d& factors) {

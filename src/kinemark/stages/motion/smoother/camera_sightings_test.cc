@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <limits>
 
 #include "kinemark/camera/projection.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/motion/test_body.h"
 
@@ -19,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A pinhole camera at a place, looking at the origin, with 1000 px per unit slope.
 data::Camera camera_at(const Vector3d& place) {
@@ -60,7 +58,7 @@ struct Stereo {
   void lose_camera(std::int64_t first, std::int64_t last) {
     for (std::int64_t f = first; f < last; ++f)
       for (std::size_t m = 0; m < tracks.names.size(); ++m) {
-        tracks.image[tracks.index(f, 1, m)] = tracks.image[tracks.index(f, 1, m) + 1] = kNan;
+        tracks.image[tracks.index(f, 1, m)] = tracks.image[tracks.index(f, 1, m) + 1] = kNaN;
         markers.set_missing(f, static_cast<std::int64_t>(m));
       }
   }
@@ -119,7 +117,7 @@ TEST(CameraSightings, OneCameraCarriesTheBodyThroughAGap) {
   auto dropped = stereo.tracks;
   for (std::int64_t f = 80; f < 160; ++f)
     for (std::size_t m = 0; m < dropped.names.size(); ++m)
-      dropped.image[dropped.index(f, 0, m)] = dropped.image[dropped.index(f, 0, m) + 1] = kNan;
+      dropped.image[dropped.index(f, 0, m)] = dropped.image[dropped.index(f, 0, m) + 1] = kNaN;
   const auto without = smooth_images(stereo.model, dropped, stereo.markers).value();
   double with_squares = 0.0, without_squares = 0.0, z = 0.0;
   int count = 0;

@@ -6,15 +6,14 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 
 namespace kinemark::motion {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRate = 100.0;
 
 struct Wave {
@@ -51,7 +50,7 @@ TEST(CoordinateSmoother, IsTheDensePosterior) {
   constexpr int kFrames = 40;
   const auto y = sampled(kFrames, 0.01, 1);
   std::vector<double> sd(kFrames, 0.01);
-  for (int f = 12; f < 20; ++f) sd[static_cast<std::size_t>(f)] = kNan;
+  for (int f = 12; f < 20; ++f) sd[static_cast<std::size_t>(f)] = kNaN;
   for (int f = 25; f < 30; ++f) sd[static_cast<std::size_t>(f)] = 0.02;
   const auto smooth = smooth_coordinate(y, sd, kRate);
   ASSERT_TRUE(smooth.known);
@@ -117,7 +116,7 @@ TEST(CoordinateSmoother, BridgesGapsWithGrowingBars) {
   std::vector<double> sd(400, 0.005);
   for (std::size_t f = 150; f < 190; ++f) {
     y[f] = 100.0;  // never looked at
-    sd[f] = kNan;
+    sd[f] = kNaN;
   }
   const auto smooth = smooth_coordinate(y, sd, kRate);
   EXPECT_GT(smooth.covariance(0, 170), 9.0 * smooth.covariance(0, 100));

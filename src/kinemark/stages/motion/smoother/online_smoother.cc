@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <utility>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -28,7 +29,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using internal::NodeFactor;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLargestSd = 0.5;   // rad or m, as in the smoother
 constexpr double kFloor = 1e-6;      // 1/rad^2 or 1/m^2: holds what nothing determines
 constexpr double kLookAgain = 0.02;  // rad or m; a prediction that misses by more is linearised anew
@@ -36,8 +36,6 @@ constexpr int kLooks = 4;
 constexpr std::int64_t kFewestMarkers = 3;
 constexpr double kFarthest_m = 1e6;     // what lies farther away is no place of a marker
 constexpr double kLargestEntry = 1e60;  // of the normal equations: products of these are finite
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// The markers of the newest frame.
 class NewestFrame final : public Sightings {
@@ -227,7 +225,7 @@ struct OnlineSmoother::Impl {
         own.col(i).setZero();
       }
     model::coordinate_jacobian(model, w, out.q, E);
-    out.q_sd.setConstant(out.q.size(), kNan);
+    out.q_sd.setConstant(out.q.size(), kNaN);
     out.determined.assign(at(out.q.size()), 0);
     const MatrixXd rows_of_q = E * own;
     for (Eigen::Index c = 0; c < out.q.size(); ++c) {
@@ -301,7 +299,7 @@ Result<std::optional<SmoothedFrame>> OnlineSmoother::push(const Eigen::Matrix3Xd
                 fmt::format("the frame has {} markers; need {}", x.cols(), live.markers.size()));
   live.newest.x = x;
   for (Eigen::Index m = 0; m < x.cols(); ++m)
-    if (!(x.col(m).cwiseAbs().maxCoeff() <= kFarthest_m)) live.newest.x.col(m).setConstant(kNan);
+    if (!(x.col(m).cwiseAbs().maxCoeff() <= kFarthest_m)) live.newest.x.col(m).setConstant(kNaN);
   VectorXd guess = live.predict();
   if (live.nodes.empty()) {
     std::int64_t seen = 0;

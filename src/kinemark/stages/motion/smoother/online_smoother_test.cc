@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/motion/test_body.h"
 
 namespace kinemark::motion {
@@ -16,7 +17,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kFrames = 120;
 
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
@@ -88,7 +88,7 @@ TEST(OnlineSmoother, BridgesWhatTheStreamLacks) {
   auto markers = testing_body::record(model, kFrames, 0.002, 3);
   const auto tuning = smooth_motion(model, markers).value();
   for (std::int64_t f = 60; f < 70; ++f)
-    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m).setConstant(kNan);
+    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m).setConstant(kNaN);
   auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = 15}).value();
   const auto frames = stream(live, markers);
   ASSERT_EQ(static_cast<std::int64_t>(frames.size()), kFrames);
@@ -106,7 +106,7 @@ TEST(OnlineSmoother, WaitsForMarkers) {
   const auto markers = testing_body::record(model, 30, 0.002, 4);
   const auto tuning = smooth_motion(model, markers).value();
   auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = 3}).value();
-  EXPECT_FALSE(live.push(Eigen::Matrix3Xd::Constant(3, 14, kNan)).value());
+  EXPECT_FALSE(live.push(Eigen::Matrix3Xd::Constant(3, 14, kNaN)).value());
   EXPECT_TRUE(live.finish().empty());
   EXPECT_EQ(stream(live, markers).front().frame, 0);
 }
@@ -118,7 +118,7 @@ TEST(OnlineSmoother, ASpikeBeyondAllNumbersIsNotSeen) {
   for (const std::int64_t hit : {0, 50}) {
     auto spoilt = markers, lacking = markers;
     spoilt.x(hit, 2).setConstant(1e200);
-    lacking.x(hit, 2).setConstant(kNan);
+    lacking.x(hit, 2).setConstant(kNaN);
     auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
     auto without = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
     const auto frames = stream(live, spoilt), wanted = stream(without, lacking);
@@ -139,8 +139,8 @@ TEST(OnlineSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
   std::vector<std::int64_t> numbers;
   for (std::int64_t f = 0; f < kFrames; ++f) {
     Eigen::Matrix3Xd x = frame_of(markers, f);
-    if (f != hit) x.col(3).setConstant(kNan);
-    if (f > hit && f <= hit + dark) x.setConstant(kNan);
+    if (f != hit) x.col(3).setConstant(kNaN);
+    if (f > hit && f <= hit + dark) x.setConstant(kNaN);
     const auto out = live.push(x).value();
     EXPECT_EQ(out.has_value(), f >= lag && (f < hit || f > hit + dark + lag)) << f;
     if (!out) continue;
@@ -168,11 +168,11 @@ TEST(OnlineSmoother, BadInputIsToldInASentence) {
   auto tuning = offline.tuning;
   tuning.rate_hz = 0.0;
   EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("0 Hz"));
-  for (const double rate : {kNan, std::numeric_limits<double>::infinity()}) {
+  for (const double rate : {kNaN, std::numeric_limits<double>::infinity()}) {
     tuning.rate_hz = rate;
     EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("finite rate"));
   }
-  for (const double bad : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {0.0, -1.0, kNaN, std::numeric_limits<double>::infinity()}) {
     tuning = offline.tuning;
     tuning.markers[1].information = bad;
     EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message,

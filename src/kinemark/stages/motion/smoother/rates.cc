@@ -5,10 +5,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -16,10 +17,6 @@
 
 namespace kinemark::motion {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Rates of coupled coordinates from those of the ones that drive them.
 void couple_rates(const model::Model& model, data::JointMotion& motion) {
@@ -55,7 +52,7 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
     return fail(Code::bad_input,
                 fmt::format("the motion has {} frames; rates of change need {} or more", F, kFewestSamples));
   RateErrors errors;
-  errors.covariance.assign(at(6 * F * n), kNan);
+  errors.covariance.assign(at(6 * F * n), kNaN);
   Array<double> v(at(F * n), 0.0), a(at(F * n), 0.0);
   std::vector<double> y(at(F)), sd;
   for (std::int64_t c = 0; c < n; ++c) {
@@ -74,7 +71,7 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
       const auto i = motion.index(f, c);
       y[at(f)] = motion.q[i];
       if (!motion.q_sd.empty()) sd[at(f)] = motion.q_sd[i];
-      if (!motion.determined.empty() && motion.determined[i] == 0) sd[at(f)] = kNan;
+      if (!motion.determined.empty() && motion.determined[i] == 0) sd[at(f)] = kNaN;
     }
     const auto smooth = smooth_coordinate(y, sd, motion.time.rate_hz);
     for (std::int64_t f = 0; f < F; ++f) {

@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/problem.h"
@@ -29,10 +30,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using internal::Problem;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLargestSd = 0.5;  // rad or m; beyond it a linear error bar says nothing
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr double kLargestStateSd = 0.5;  // rad or m; beyond it a linear error bar says nothing
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -43,7 +41,7 @@ void fill_marker_errors(const Problem& problem, const data::Trajectories& marker
                         SmootherResult& result) {
   const auto M = static_cast<std::int64_t>(problem.data_marker.size());
   auto& motion = result.motion;
-  motion.marker_error.assign(at(3 * M * problem.frames), kNan);
+  motion.marker_error.assign(at(3 * M * problem.frames), kNaN);
   model::Workspace w(problem.model);
   VectorXd squares = VectorXd::Zero(M), seen = VectorXd::Zero(M), largest = VectorXd::Zero(M);
   VectorXd gap;
@@ -64,7 +62,7 @@ void fill_marker_errors(const Problem& problem, const data::Trajectories& marker
   for (std::int64_t m = 0; m < M; ++m) {
     auto& summary = result.markers[at(m)];
     summary.seen = seen[m] / static_cast<double>(problem.frames);
-    summary.rms_m = seen[m] > 0.0 ? std::sqrt(squares[m] / seen[m]) : kNan;
+    summary.rms_m = seen[m] > 0.0 ? std::sqrt(squares[m] / seen[m]) : kNaN;
     summary.max_m = largest[m];
   }
   result.max_marker_error_m = largest.maxCoeff();
@@ -81,9 +79,9 @@ void fill_bars(const Problem& problem, const Sightings& sightings, const interna
   auto& motion = result.motion;
   const std::int64_t F = motion.frames(), n = motion.size();
   const internal::SlowErrors slow(model, sightings, noise, problem.fixed_speed, motion, states);
-  motion.q_sd.assign(at(F * n), kNan);
+  motion.q_sd.assign(at(F * n), kNaN);
   motion.determined.assign(at(F * n), 0);
-  result.errors.covariance.assign(at(6 * F * n), kNan);
+  result.errors.covariance.assign(at(6 * F * n), kNaN);
   model::Workspace w(model);
   VectorXd q(n);
   MatrixXd E, covariance;
@@ -99,7 +97,7 @@ void fill_bars(const Problem& problem, const Sightings& sightings, const interna
     for (int c = 0; c < n; ++c) {
       const auto i = motion.index(f, c);
       const double sd = std::sqrt(std::max(0.0, covariance(0, c)) + slow.variance(f, c));
-      const bool good = sd <= kLargestSd;
+      const bool good = sd <= kLargestStateSd;
       motion.determined[i] = good;
       if (good) motion.q_sd[i] = sd;
       all = all && good;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/workspace.h"
@@ -23,8 +24,6 @@ constexpr std::size_t kCameras = 8;
 constexpr double kRing_m = 4.0;
 constexpr double kGraze_m = 0.05;  // a line of sight this far from a limb is free
 constexpr std::int64_t kGrain = 32;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::int64_t wanted(double share, std::int64_t samples) {
   return std::llround(share * static_cast<double>(samples));

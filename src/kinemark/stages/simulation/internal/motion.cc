@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "kinemark/core/index.h"
 #include "kinemark/math/euler.h"
 #include "kinemark/stages/simulation/internal/streams.h"
 
@@ -20,8 +21,6 @@ using Eigen::Vector3d;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMarginOfRange = 0.05;
 constexpr double kWalkingSpeed_m_s = 1.1;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Largest excursion of a coordinate, rad or m.
 double excursion(MotionKind kind, const data::CoordinateDescription& coordinate) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/workspace.h"
 
@@ -17,8 +18,6 @@ using model::Vector3d;
 constexpr double kShortestLength_m = 0.15;
 constexpr double kThickestRadius_m = 0.16;
 constexpr double kDensity = 1050.0;  // kg/m^3
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The line a segment's flesh lies around: from its own joint to the middle of those that it carries, or as
 // far beyond its mass centre; a root's starts at the mass centre.

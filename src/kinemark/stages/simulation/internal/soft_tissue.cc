@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/simulation/internal/streams.h"
 
@@ -20,8 +21,6 @@ constexpr double kRigid_m = 0.002, kFleshy_m = 0.013;
 constexpr double kThigh_kg_m = 17.0;
 constexpr double kTrunkFlesh = 0.3;
 constexpr double kOscillation_hz = 9.0, kDecay_s = 0.1, kImpactShare = 0.5;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool is_trunk(const Segment& segment) {
   return segment.carried_joints.size() + (segment.has_own_joint ? 0 : 1) >= 2;

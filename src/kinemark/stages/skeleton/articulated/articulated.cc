@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
@@ -25,8 +26,6 @@ using data::CentreState;
 
 constexpr double kRobustDof = 30.0;  // of Student's t: bends at some five SDs and costs nothing below
 constexpr double kMm = 1e3;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Everything that is known on the way, in the chain's order of segments and joints.
 struct Work {

@@ -7,8 +7,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
 
 namespace kinemark::skeleton {
@@ -24,9 +25,6 @@ using internal::JointTree;
 constexpr double kUnit_m = 0.1;  // lengths are measured in this, so that shifts and turns weigh alike
 constexpr double kRank = 1e-9;   // of a frame's information, relative: the truth carries no noise
 constexpr double kHeld = 1e-4;   // part of a joint's shift that may lie in what a frame leaves open
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Pseudo-inverse of a symmetric matrix, and the directions that it leaves out as columns.
 struct PseudoInverse {

@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
 #include "kinemark/stages/skeleton/functional/words.h"
 
 namespace kinemark::skeleton {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 6> kMethods = {"score",        "sara",     "gamage",
                                                       "gamage-plain", "cylinder", "constant-distance"};
 constexpr std::array<std::string_view, 3> kSides = {"both", "parent", "child"};
@@ -38,7 +37,7 @@ double common_noise(const std::vector<SegmentPoses>& poses) {
     squares += w * p.noise_sd_m * p.noise_sd_m;
     weight += w;
   }
-  return weight > 0.0 ? std::sqrt(squares / weight) : kNone;
+  return weight > 0.0 ? std::sqrt(squares / weight) : kNaN;
 }
 
 void warn_of_odd_frames(const SegmentPoses& poses, const TimeBase& time, data::Skeleton& skeleton) {
@@ -173,9 +172,9 @@ Result<data::Skeleton> find_joints(const data::Trajectories& trajectories, const
     out.name = joint.name;
     out.parent_segment = joint.parent;
     out.child_segment = joint.child;
-    out.covariance_in_parent.setConstant(kNone);
-    out.covariance_in_child.setConstant(kNone);
-    out.range_of_motion_rad = kNone;
+    out.covariance_in_parent.setConstant(kNaN);
+    out.covariance_in_child.setConstant(kNaN);
+    out.range_of_motion_rad = kNaN;
     out.words = "nothing can be known";
     skeleton.joints.push_back(std::move(out));
   }

@@ -6,15 +6,13 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/functional/internal/rigid_shape.h"
 
 namespace kinemark::skeleton {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return Eigen::Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
@@ -34,7 +32,7 @@ void lay_on_line(const Samples& samples, SegmentPoses& out) {
       squares += d * d;
       ++n;
     }
-    out.x_in_segment.setConstant(kNone);
+    out.x_in_segment.setConstant(kNaN);
     if (n == 0) return;
     const double length = sum / static_cast<double>(n);
     out.x_in_segment.setZero();
@@ -62,7 +60,7 @@ SegmentPoses without_poses(const Samples& samples, const std::string& name, cons
   SegmentPoses out;
   out.name = name;
   out.markers = markers;
-  out.noise_sd_m = kNone;
+  out.noise_sd_m = kNaN;
   out.x_in_segment = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
   out.known.assign(n, 0);
   out.world_from_segment.assign(n, Eigen::Matrix3d::Identity());
@@ -74,7 +72,7 @@ SegmentPoses without_poses(const Samples& samples, const std::string& name, cons
 void pose_all_frames(const internal::RigidShape& shape, const SegmentPoseOptions& options,
                      SegmentPoses& out) {
   const std::int64_t frames = static_cast<std::int64_t>(out.known.size());
-  std::vector<double> rms(out.known.size(), kNone), usual;
+  std::vector<double> rms(out.known.size(), kNaN), usual;
   double squares = 0.0, freedom = 0.0;
   const double share = 1e-4 * shape.least_inertia();
   if (share == 0.0) return;
@@ -108,7 +106,7 @@ void pose_all_frames(const internal::RigidShape& shape, const SegmentPoseOptions
   }
   if (out.odd_frames > 0) out.odd_rms_m = std::sqrt(odd_squares / static_cast<double>(out.odd_frames));
   freedom -= static_cast<double>(3 * out.markers.size()) - 6.0;
-  out.noise_sd_m = freedom > 0.0 ? std::sqrt(squares / freedom) : kNone;
+  out.noise_sd_m = freedom > 0.0 ? std::sqrt(squares / freedom) : kNaN;
   if (options.noise_sd_m > 0.0) out.noise_sd_m = options.noise_sd_m;
   const double sd = out.noise_sd_m;
   for (std::size_t i = 0; i < out.known.size(); ++i) {

@@ -18,7 +18,7 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr std::int64_t kLeastFrames = 64;
+constexpr std::int64_t kLeastSlipFrames = 64;
 constexpr std::int64_t kBlocksASide = 8;
 constexpr double kEdge = 0.1;  ///< of the frames at either end in which no slip is looked for
 /// What noise of the poses does to a joint's place it does alike in both halves; so much of it is taken off.
@@ -80,7 +80,7 @@ Part summarise(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
 }
 
 std::optional<Slip> compare_marker(const Path& path, const SlipOptions& options) {
-  if (path.x.cols() < kLeastFrames) return std::nullopt;
+  if (path.x.cols() < kLeastSlipFrames) return std::nullopt;
   const Eigen::Index at = change_point(path);
   const Part before = summarise(path.x.leftCols(at)), after = summarise(path.x.rightCols(path.x.cols() - at));
   Slip slip;
@@ -123,7 +123,7 @@ void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout,
   const SegmentPoses& a = poses[static_cast<std::size_t>(j.parent)];
   const SegmentPoses& b = poses[static_cast<std::size_t>(j.child)];
   const RelativeMotion motion = measure_motion(a, b);
-  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastFrames) return;
+  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastSlipFrames) return;
   std::array<RelativeMotion, 2> halves = {motion, motion};
   const auto middle = motion.frames.begin() + static_cast<std::ptrdiff_t>(motion.frames.size() / 2);
   halves[0].frames.assign(motion.frames.begin(), middle);

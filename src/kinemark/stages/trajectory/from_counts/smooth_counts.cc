@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
 
@@ -20,8 +20,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Status check_shapes(const data::Counts& counts, const data::Rig& rig, const data::Trajectories& start) {
   if (auto s = counts.validate(); !s) return s;

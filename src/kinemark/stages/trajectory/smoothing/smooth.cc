@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/trajectory/smoothing/internal/account.h"
 #include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
@@ -15,8 +15,6 @@
 
 namespace kinemark::trajectory {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOptions& options,
                                    std::int64_t marker) {
@@ -30,7 +28,7 @@ Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOpt
   MarkerAccount& account = result.account;
   account.name = in.names[static_cast<std::size_t>(marker)];
   account.used.method = to_string(options.method);
-  account.used.cutoff_hz = account.used.noise_sd_m = kNan;
+  account.used.cutoff_hz = account.used.noise_sd_m = kNaN;
   account.measured = samples->measured;
   account.bad_variances = samples->bad_variances;
   Status status;
@@ -58,7 +56,7 @@ void place(const Array<double>& from, Array<double>& to, std::int64_t marker, st
            int width) {
   if (from.empty()) return;
   const std::int64_t frames = std::ssize(from) / width;
-  if (to.empty()) to.assign(static_cast<std::size_t>(frames * markers * width), kNan);
+  if (to.empty()) to.assign(static_cast<std::size_t>(frames * markers * width), kNaN);
   for (std::int64_t f = 0; f < frames; ++f)
     std::copy_n(from.begin() + f * width, width, to.begin() + (f * markers + marker) * width);
 }
@@ -97,7 +95,7 @@ Result<SmoothResult> smooth(const data::Trajectories& in, const SmoothOptions& o
   data::Derivatives& d = out.derivatives;
   const std::int64_t markers = in.markers();
   const auto numbers = in.x_in_world.size();
-  for (Array<double>* values : {&d.velocity, &d.acceleration, &d.jerk}) values->assign(numbers, kNan);
+  for (Array<double>* values : {&d.velocity, &d.acceleration, &d.jerk}) values->assign(numbers, kNaN);
   const auto status = smooth_each(in, options, [&](MarkerResult&& one) -> Status {
     place(one.x, t.x_in_world, one.marker, markers, 3);
     place(one.covariance, t.covariance, one.marker, markers, 6);

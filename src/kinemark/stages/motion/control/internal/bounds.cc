@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -18,8 +19,6 @@ constexpr double kBlindTranslation = 20.0;      // m per m
 constexpr double kNullShare = 1e-4;             // of a coordinate's square that no level fixes
 constexpr double kLargestSd = 0.5;              // rad or m
 constexpr double kUnknownShare = 1e-6;          // of the squared gains that goals with a known SD have
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

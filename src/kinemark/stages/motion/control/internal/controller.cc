@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -18,8 +19,6 @@ constexpr double kFullRank = 0.03;
 constexpr double kStartDamping = 0.01;  // of the speeds at the start
 constexpr int kMostHolds = 8;           // rounds of adding coordinates that rest at a limit
 constexpr PriorityDamping kLoops{.damping = 0.0, .truncation = 1e-6};
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

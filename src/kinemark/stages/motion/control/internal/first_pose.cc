@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kinemark/core/index.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 #include "kinemark/stages/motion/internal/start.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 constexpr std::int64_t kLookedAt = 100;  // poses, for what no goal moves
 constexpr std::int64_t kInstants = 8;    // of the recording, at which tasks are asked
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// First frame with at least 95 % as many goals as the best one.
 std::int64_t find_anchor(const Problem& p, const data::Trajectories& goals) {

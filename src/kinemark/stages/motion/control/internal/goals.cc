@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/math/digital_filter.h"
 #include "kinemark/stages/motion/control/internal/smooth_step.h"
 
@@ -15,8 +16,6 @@ constexpr double kNoLowpass = 0.45;            // of the rate: a cut-off beyond 
 constexpr double kPole = -0.2679491924311227;  // sqrt(3) - 2, of the inverse B-spline
 constexpr int kShortest = 12;                  // frames on each side: what the inverse B-spline needs
 constexpr double kFar = 1e9;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Impulse response of the two-pass low-pass, from the middle outwards.
 std::vector<double> lowpass_response(double cutoff, std::int64_t reach) {

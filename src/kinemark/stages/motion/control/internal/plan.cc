@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
@@ -27,8 +28,6 @@ constexpr int kPosesAround = 20;
 constexpr double kAround = 0.5;  // rad or m
 constexpr std::uint64_t kStream = 0x706f7365;
 constexpr double kNoMass = 1e-12;  // kg, kg m^2
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Level of every marker that some level names; "*" is left for later.
 Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model,

@@ -5,17 +5,14 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 
 namespace kinemark::motion::internal {
-namespace {
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 Readout::Readout(const model::Model& model) : model_(model), w_(model), near_(model.coordinate_count()) {
   for (int c = 0; c < model.coordinate_count(); ++c)

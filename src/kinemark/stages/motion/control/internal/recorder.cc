@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 
 namespace kinemark::motion::internal {
 namespace {
 
 using data::FrameStatus;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kProgressEvery = 100;  // frames
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

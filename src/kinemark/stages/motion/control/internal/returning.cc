@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/control/internal/returning.h"
 
+#include "kinemark/core/index.h"
+
 namespace kinemark::motion::internal {
-namespace {
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 ReturningMarkers::ReturningMarkers(int markers, double ease_s) : ease_s_(ease_s), leads_(at(markers)) {}
 

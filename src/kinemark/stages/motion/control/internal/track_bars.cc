@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/motion/control/internal/bounds.h"
 
@@ -14,10 +15,7 @@ namespace {
 
 using data::FrameStatus;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDeterminedShare = 0.95;  // of the frames
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

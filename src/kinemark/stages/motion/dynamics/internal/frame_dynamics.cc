@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
@@ -22,8 +23,6 @@ using Eigen::VectorXd;
 constexpr double kStep = 1e-6;       // rad or m
 constexpr double kSpeedStep = 1e-3;  // rad/s or m/s: forces are quadratic in the speeds, so that the central
                                      // difference is exact
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Angular velocity in the child's axes per Euler rate.
 Matrix3d angular_from_rates(const model::Model::FreeJoint& free, const Eigen::MatrixXd& E) {

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/index.h"
+
 namespace kinemark::motion::internal {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kTold = 0.5;  // share of its prior that a determined parameter's deviation stays below
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/stages/motion/error_bars.h"
 
 namespace kinemark::motion::internal {
@@ -17,8 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr int kStartIterations = 8;  // with strong priors, on few frames
 constexpr std::int64_t kStartFrames = 80;

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/stages/motion/scaling/internal/schur.h"
 
 namespace kinemark::motion::internal {
@@ -16,8 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kUnknownShift_m = 0.1;  // prior of a shift, so that a blind direction says nothing
 constexpr double kNotable_m = 0.008;     // shifts that a rigid shoulder girdle does not make

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 constexpr std::int64_t kGrain = 32;
 constexpr double kClearlyBetter = 0.98;  // cost that makes another posture worth having
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// The same parameters for a description that holds some of the markers only.
 std::vector<GeometryParameter> rename_markers(const data::ModelDescription& full,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 
 namespace kinemark::motion::internal {
@@ -13,8 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr std::int64_t kGrain = 64;
 constexpr double kBlind = 1.0;   // rad^2 or m^2: nothing is known of an angle this uncertain

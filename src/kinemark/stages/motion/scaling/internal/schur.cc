@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
@@ -15,8 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Moves = GeometryTerm::Moves;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kFloor = 1e-10;  // of the total weight: blind directions of a posture stay where they are
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 
 namespace kinemark::motion::internal {
@@ -15,12 +16,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-constexpr std::int64_t kGrain = 64;
+constexpr std::int64_t kTissueGrain = 64;
 constexpr double kStill = 1e-3;        // rad or m, RMS: less is no motion
 constexpr double kOwnDirection = 0.3;  // share of an angle that others do not explain, below it is left out
-constexpr double kChance = 1.5;        // posture-bound energy over what independent noise would leave there
+constexpr double kTissueChance = 1.5;  // posture-bound energy over what independent noise would leave there
 constexpr double kLeastVisible =
     0.05;  // of the posture-bound energy, in residuals: below, nothing to divide by
 
@@ -94,9 +93,9 @@ TissuePass::TissuePass(const Problem& problem, const GeometryLayout& layout,
       fields_(posture_fields(problem, states)),
       no_field_(states.cols(), 0),
       sums_(empty_sums()) {
-  std::vector<Sums> partial(at((problem.frames + kGrain - 1) / kGrain));
-  parallel_for(problem.frames, kGrain, threads, [&](std::int64_t begin, std::int64_t end) {
-    Sums& sums = partial[at(begin / kGrain)];
+  std::vector<Sums> partial(at((problem.frames + kTissueGrain - 1) / kTissueGrain));
+  parallel_for(problem.frames, kTissueGrain, threads, [&](std::int64_t begin, std::int64_t end) {
+    Sums& sums = partial[at(begin / kTissueGrain)];
     sums = empty_sums();
     FrameEquations frame(problem, layout);
     Eigen::Matrix3Xd y(3, problem.model.marker_count());
@@ -192,7 +191,7 @@ TissueModel TissuePass::detect(const MarkerVariances& variances) const {
     fields[m] = K;
     share[m] = std::clamp((energy - expected) / sums_.squares[m], 0.0, 1.0);
   }
-  tissue.found = bound > kChance * chance && bound > 0.0;
+  tissue.found = bound > kTissueChance * chance && bound > 0.0;
   if (!tissue.found) return tissue;
 
   double slow = 0.0, all = 0.0, inflation = 0.0;
@@ -221,9 +220,9 @@ TissueModel TissuePass::detect(const MarkerVariances& variances) const {
 
 MatrixXd TissuePass::independent_part(const VectorXd& own, const VectorXd& common) const {
   const Index P = layout_.columns;
-  std::vector<MatrixXd> partial(at((problem_.frames + kGrain - 1) / kGrain));
-  parallel_for(problem_.frames, kGrain, threads_, [&](std::int64_t begin, std::int64_t end) {
-    MatrixXd& B = partial[at(begin / kGrain)];
+  std::vector<MatrixXd> partial(at((problem_.frames + kTissueGrain - 1) / kTissueGrain));
+  parallel_for(problem_.frames, kTissueGrain, threads_, [&](std::int64_t begin, std::int64_t end) {
+    MatrixXd& B = partial[at(begin / kTissueGrain)];
     B.setZero(P, P);
     FrameEquations frame(problem_, layout_);
     Eigen::Matrix3Xd y(3, problem_.model.marker_count());

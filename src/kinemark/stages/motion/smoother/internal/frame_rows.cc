@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/smoother/internal/frame_rows.h"
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/weighted_normal.h"
 
@@ -9,8 +10,6 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr double kLoopInformation = 1e10;  // 1/m^2
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -15,8 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/error_bars.h"
 
@@ -20,8 +21,6 @@ using Eigen::VectorXd;
 constexpr double kSmallestVariance = 1e-10;  // 10 um: nothing is measured better
 constexpr double kWidest = 10.0;             // a marker's variance over the usual one, and its inverse
 constexpr double kChance = 2.5;              // standard errors that a slow share must exceed
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 double median(VectorXd values) {
   if (values.size() == 0) return 0.0;

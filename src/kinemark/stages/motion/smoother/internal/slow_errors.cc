@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
@@ -22,8 +23,6 @@ using Eigen::VectorXd;
 constexpr double kBlock_s = 0.2;    // three of them are about what the smoother looks at
 constexpr std::int64_t kLooks = 4;  // frames of a block that are looked at
 constexpr double kBlind = 100.0;    // times the usual variance: the markers there say nothing, neighbours do
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// J'W S W J of one frame.
 void spread_of(const model::Model& model, FrameRows& rows, const NoiseSplit& noise, MatrixXd& B) {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/smoother/coordinate_smoother.h"
 
@@ -17,12 +18,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallestStep = 1e-10;  // rad or m
 // Third difference at 100 Hz of something that moves as people do, where nothing is known: 100 rad/s^3.
 constexpr double kUsualStep = 1e-4, kUsualRate_hz = 100.0;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Every stretch of frames [first, last] in which `good` is false.
 template <class Good, class Visit>
@@ -74,7 +72,7 @@ void bridge_joint(const model::Model& model, const data::JointMotion& motion,
 double pooled_sd(const data::JointMotion& motion, std::int64_t f, const int (&coordinates)[3]) {
   double squares = 0.0;
   for (const int c : coordinates) {
-    if (!determined(motion, f, c)) return kNan;
+    if (!determined(motion, f, c)) return kNaN;
     const double sd = motion.q_sd.empty() ? 1.0 : motion.q_sd[motion.index(f, c)];
     squares += sd * sd;
   }
@@ -118,7 +116,7 @@ MatrixXd bridged_states(const model::Model& model, const data::JointMotion& moti
 
 VectorXd step_variances(const model::Model& model, const data::JointMotion& motion, const MatrixXd& states) {
   const std::int64_t F = motion.frames();
-  VectorXd variance = VectorXd::Constant(model.speed_count(), kNan);
+  VectorXd variance = VectorXd::Constant(model.speed_count(), kNaN);
   std::vector<std::uint8_t> turns(at(model.speed_count()), 0);
   std::vector<double> y(at(F)), sd(at(F));
   const auto estimate = [&](int speed) {
@@ -133,7 +131,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     for (std::int64_t f = 0; f < F; ++f) {
       y[at(f)] = states(coordinate.state_idx, f);
       sd[at(f)] =
-          determined(motion, f, c) ? (motion.q_sd.empty() ? 1.0 : motion.q_sd[motion.index(f, c)]) : kNan;
+          determined(motion, f, c) ? (motion.q_sd.empty() ? 1.0 : motion.q_sd[motion.index(f, c)]) : kNaN;
     }
     estimate(coordinate.speed_idx);
   }

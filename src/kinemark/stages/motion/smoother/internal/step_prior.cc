@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
 
 namespace kinemark::motion::internal {
@@ -17,8 +18,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr std::array<double, 4> kSlope = {-1.0, 3.0, -3.0, 1.0};
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

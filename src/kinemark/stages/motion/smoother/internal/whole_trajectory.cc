@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
 
 namespace kinemark::motion::internal {
@@ -22,8 +23,6 @@ constexpr double kFloorSd = 30.0;
 constexpr double kDone = 1e-4;        // half the squared step over its variance: 0.015 standard deviations
 constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearisation says nothing
 constexpr int kHalvings = 10;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -17,7 +17,7 @@ using data::SegmentKind;
 
 constexpr std::size_t kTwinFrames = 150;
 constexpr std::size_t kEnoughFrames = 40;
-constexpr double kWide = 50.0;    // second extent of a segment's markers over the noise, chi-square
+constexpr double kWideSd = 50.0;  // second extent of a segment's markers over the noise, chi-square
 constexpr double kTurned = 0.05;  // of the most that two segments can turn against each other
 
 // Move a joint in the axes of its parent or of its child.
@@ -65,7 +65,7 @@ bool surely_alone(const ChainSamples& samples, const GlobalFrames& frames, const
     if (sum.seen < 3) return false;
     const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(sum.mm - sum.m * sum.m.transpose() / sum.w,
                                                        Eigen::EigenvaluesOnly);
-    return axes.eigenvalues()[1] > kWide * fit.noise_sd_m * fit.noise_sd_m;
+    return axes.eigenvalues()[1] > kWideSd * fit.noise_sd_m * fit.noise_sd_m;
   };
   Matrix3d turns = Matrix3d::Zero();
   double count = 0.0;

@@ -10,6 +10,8 @@
 #include <map>
 #include <utility>
 
+#include "kinemark/core/index.h"
+
 namespace kinemark::skeleton::internal {
 namespace {
 
@@ -17,8 +19,6 @@ using data::SegmentKind;
 
 constexpr std::size_t kSwapFrames = 12;  // frames in which exchanged names are looked for
 constexpr double kSwapFar = 4.0;         // SDs from its place that make a marker suspect
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double angle_of(const Matrix3d& R) { return Eigen::AngleAxisd(R).angle(); }
 

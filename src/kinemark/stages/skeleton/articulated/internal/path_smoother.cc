@@ -5,7 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "kinemark/core/missing.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
@@ -16,7 +17,6 @@ using State = Eigen::Matrix<double, 9, 1>;
 using Square = Eigen::Matrix<double, 9, 9>;
 using Tall = Eigen::Matrix<double, 9, 3>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kBlock = 512;        // frames between two stored states
 constexpr double kLongestGap_s = 1.0;       // without a frame that holds a place
 constexpr double kPriorPlace_m2 = 1.0;      // about the first place found

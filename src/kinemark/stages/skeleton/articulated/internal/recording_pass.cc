@@ -6,9 +6,9 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <mutex>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 
 namespace kinemark::skeleton::internal {
@@ -18,7 +18,6 @@ constexpr std::int64_t kChunk = 1024;    // frames that one thread follows from 
 constexpr std::int64_t kSampled = 4000;  // poses kept
 constexpr std::size_t kModesKept = 6;    // of a flagged frame
 constexpr double kLightest = 1e-12;      // share of probability below which a mode is dropped
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// What one chunk found beside the arrays that all share.
 struct Chunk {

@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
 #include "kinemark/stages/skeleton/functional/words.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void set_centre(data::Skeleton& skeleton, std::size_t i, const Eigen::Vector3d& centre,
                 const Eigen::Matrix3d& covariance, data::CentreState state) {
@@ -85,7 +83,7 @@ void place_joint(const ConstantDistanceFit& fit, std::size_t j, data::Skeleton& 
 void describe(const JointFit& fit, const RelativeMotion& motion, data::SkeletonJoint& out) {
   out.kind = fit.kind;
   out.method = fit.method;
-  const Eigen::Matrix3d unknown = Eigen::Matrix3d::Constant(kNone);
+  const Eigen::Matrix3d unknown = Eigen::Matrix3d::Constant(kNaN);
   if (fit.in_parent) out.centre_in_parent = fit.centre.head<3>();
   if (fit.in_child) out.centre_in_child = fit.centre.tail<3>();
   out.covariance_in_parent = fit.in_parent ? Eigen::Matrix3d(fit.covariance.topLeftCorner<3, 3>()) : unknown;
@@ -96,7 +94,7 @@ void describe(const JointFit& fit, const RelativeMotion& motion, data::SkeletonJ
     out.axis_in_child = fit.axis_in_child;
     out.axis_sd_rad = fit.axis_sd_rad;
   }
-  out.range_of_motion_rad = motion.frames.size() > 1 ? motion.range_rad : kNone;
+  out.range_of_motion_rad = motion.frames.size() > 1 ? motion.range_rad : kNaN;
   out.words = describe_joint(out);
 }
 

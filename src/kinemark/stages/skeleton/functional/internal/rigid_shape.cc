@@ -7,10 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/missing.h"
+
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kShapeFrames = 3000;  ///< more tell the shape no better than noise allows
 constexpr int kRounds = 60;
 constexpr double kSettled_m = 1e-9;
@@ -34,7 +35,7 @@ Eigen::Matrix3d inertia(const Eigen::Matrix3d& scatter) {
 
 RigidShape::RigidShape(const Samples& samples, const std::vector<int>& markers)
     : samples_(samples), markers_(markers), places_(3, at(markers.size())) {
-  places_.setConstant(kNone);
+  places_.setConstant(kNaN);
 }
 
 bool RigidShape::placed(std::size_t k) const { return !std::isnan(places_(0, at(k))); }

@@ -8,13 +8,13 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/functional/score.h"
 #include "kinemark/stages/skeleton/functional/sphere.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kArm_m = 0.1;  ///< from the markers to a joint, about
 constexpr double kRidge = 1e-6;
 constexpr std::size_t kLeastFrames = 8, kMostFrames = 600;
@@ -27,7 +27,7 @@ int find_root(const std::vector<int>& root, int s) {
 
 /// SD of the steadiest distance between markers of two segments; NaN when no pair was seen together.
 double steadiest(const std::vector<int>& segment, const PairSpread& pairs, int a, int b) {
-  double least = kNone;
+  double least = kNaN;
   for (std::size_t i = 0; i < segment.size(); ++i)
     for (std::size_t j = 0; j < segment.size(); ++j) {
       if (segment[i] != a || segment[j] != b) continue;
@@ -57,16 +57,16 @@ double spread_at_arm(const Samples& samples, const SegmentPoses& poses, std::int
 /// Of a segment without poses that moves about a point held still by one with poses.
 double sphere_residual(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b) {
   const bool a_still = a.known_frames > 0;
-  if (!a_still && b.known_frames == 0) return kNone;
+  if (!a_still && b.known_frames == 0) return kNaN;
   const SphereFit fit = a_still ? fit_spheres(samples, a, b.markers) : fit_spheres(samples, b, a.markers);
-  return fit.found && fit.frames >= static_cast<std::int64_t>(kLeastFrames) ? fit.residual_rms_m : kNone;
+  return fit.found && fit.frames >= static_cast<std::int64_t>(kLeastFrames) ? fit.residual_rms_m : kNaN;
 }
 
 }  // namespace
 
 double shared_point_residual(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b) {
   const std::vector<std::int64_t> frames = common_frames(a, b);
-  if (frames.size() < kLeastFrames) return kNone;
+  if (frames.size() < kLeastFrames) return kNaN;
   ScoreSums sums;
   double total = 0.0;
   for (const std::int64_t f : frames) {
@@ -88,7 +88,7 @@ std::vector<Edge> find_edges(const Samples& samples, const std::vector<SegmentPo
       if (std::isnan(steady)) continue;
       const SegmentPoses& pa = poses[static_cast<std::size_t>(a)];
       const SegmentPoses& pb = poses[static_cast<std::size_t>(b)];
-      Edge edge{.a = a, .b = b, .residual_m = kNone, .cost_m = steady};
+      Edge edge{.a = a, .b = b, .residual_m = kNaN, .cost_m = steady};
       edge.residual_m = pa.known_frames > 0 && pb.known_frames > 0 ? shared_point_residual(samples, pa, pb)
                                                                    : sphere_residual(samples, pa, pb);
       if (!std::isnan(edge.residual_m)) edge.cost_m = std::hypot(edge.residual_m, kSteadyShare * steady);

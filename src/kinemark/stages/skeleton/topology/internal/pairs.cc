@@ -7,10 +7,11 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/core/missing.h"
+
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostNats = 50.0;  ///< evidence saturates: one pair may not outvote all others
 constexpr int kGrid = 80;           ///< sizes of motion looked at
 constexpr double kSlow = 0.3;       ///< distances that correlate so far vary by more than noise
@@ -36,7 +37,7 @@ PairSpread measure_pairs(const Samples& samples, const std::vector<int>& markers
                          const std::vector<std::int64_t>& frames, std::int64_t least_frames) {
   const auto M = static_cast<Eigen::Index>(markers.size());
   PairSpread pairs;
-  pairs.variance = pairs.correlation = Eigen::MatrixXd::Constant(M, M, kNone);
+  pairs.variance = pairs.correlation = Eigen::MatrixXd::Constant(M, M, kNaN);
   pairs.frames = Eigen::MatrixXd::Zero(M, M);
   std::vector<double> d;
   for (Eigen::Index i = 0; i < M; ++i)
@@ -131,7 +132,7 @@ double noise_within(const PairSpread& pairs, const std::vector<int>& segment) {
       const double v = pairs.variance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       if (segment[i] == segment[j] && !std::isnan(v)) within.push_back(v);
     }
-  return within.empty() ? kNone : 0.5 * quantile(within, 0.5);
+  return within.empty() ? kNaN : 0.5 * quantile(within, 0.5);
 }
 
 double mean_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs, const std::vector<int>& segment,
@@ -144,7 +145,7 @@ double mean_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs, const std
     sum += odds(a, b);
     ++n;
   }
-  return n > 0 ? sum / n : kNone;
+  return n > 0 ? sum / n : kNaN;
 }
 
 double least_odds(const Eigen::MatrixXd& odds, const PairSpread& pairs, const std::vector<int>& segment,

@@ -154,9 +154,8 @@ void LedPath::smooth_with(bool last) {
   WienerFilter<kOrder, 3> filter(bandwidth_.spectral_density, bandwidth_.time_constant_s);
   const auto at_frame = filter.taylor_shift(-epoch_s_);
   if (last) {
-    constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    result_.assign(frames_,
-                   Sample{.motion = {}, .sd = {Vector3d::Constant(kUnknown), {}, {}}, .covariance = {}});
+    constexpr double kNaN = std::numeric_limits<double>::infinity();
+    result_.assign(frames_, Sample{.motion = {}, .sd = {Vector3d::Constant(kNaN), {}, {}}, .covariance = {}});
   }
   for (const auto& [first, count] :
        internal::runs_between_gaps(sights, kLongestGap * bandwidth_.time_constant_s))

@@ -12,21 +12,21 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 constexpr Index kMaxMarkers = 1000;  // beyond, the table of pairs would take minutes
-constexpr Index kSampledFrames = 120;
+constexpr Index kCheckedFrames = 120;
 constexpr std::size_t kPartners = 8;
 constexpr std::size_t kVotes = 5;  // partners that decide whether a marker is out of place
 constexpr std::size_t kLeastVotes = 3;
 constexpr double kOutRange = 2.5;  // of the 20 to 80 % range, and
 constexpr double kOutM = 0.015;
 constexpr double kNormalRange = 1.683;  // 20 to 80 % of a normal distribution, in SD
-constexpr double kSlackM = 0.003;
+constexpr double kLabelSlackM = 0.003;
 constexpr double kCap = 25.0;     // of a squared deviate, so that one distance cannot decide alone
 constexpr double kSuspect = 4.0;  // mean squared deviate of a marker that may be swapped
 constexpr double kMisfit = 6.0;   // ... of a swapped pair as labelled
 constexpr double kCured = 0.25;   // ... and what of it remains after the exchange
 constexpr std::size_t kMaxSuspects = 16;
 constexpr Index kMergeFrames = 3;
-constexpr std::size_t kLeastFrames = 3;
+constexpr std::size_t kLeastCheckedFrames = 3;
 
 /// A marker whose distance to another one stays about the same.
 struct Partner {
@@ -46,7 +46,7 @@ void keep_steadiest(std::vector<Partner>& list, const Partner& p) {
 
 Partners find_partners(const Recording& r) {
   Partners partners(static_cast<std::size_t>(r.markers()));
-  const Index sampled = std::min(r.frames(), kSampledFrames);
+  const Index sampled = std::min(r.frames(), kCheckedFrames);
   std::vector<double> d;
   for (Index a = 0; a < r.markers(); ++a)
     for (Index b = a + 1; b < r.markers(); ++b) {
@@ -71,7 +71,7 @@ Partners find_partners(const Recording& r) {
 }
 
 double squared_deviate(const Partner& p, double distance_m) {
-  const double z = (distance_m - p.median_m) / (p.range_m / kNormalRange + kSlackM);
+  const double z = (distance_m - p.median_m) / (p.range_m / kNormalRange + kLabelSlackM);
   return std::min(z * z, kCap);
 }
 
@@ -188,7 +188,7 @@ std::vector<Swap> join_frames(const Recording& r,
       while (k < frames.size() && frames[k] - frames[k - 1] <= kMergeFrames) ++k;
       const Index first = find_exchange(r, pair.first, pair.second, frames[i]);
       const Index end = find_exchange(r, pair.first, pair.second, frames[k - 1] + 1);
-      if (k - i >= kLeastFrames && first >= 0 && end > first) {
+      if (k - i >= kLeastCheckedFrames && first >= 0 && end > first) {
         swaps.push_back({.first_marker = pair.first,
                          .second_marker = pair.second,
                          .first = first,

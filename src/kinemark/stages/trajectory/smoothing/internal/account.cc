@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kLags = 10;
+constexpr std::size_t kAccountLags = 10;
 constexpr std::int64_t kFewestPairs = 30;
 constexpr double kMuch = 0.15;  ///< autocorrelation that matters however long the recording is
 constexpr std::int64_t kShortestSegment = 32, kLongestSegment = 512;
@@ -36,11 +35,11 @@ void autocorrelate(const MarkerSamples& samples, const std::vector<double>& resi
     power += r * r;
     count += 1.0;
   }
-  account.residual_rms_m = count > 0.0 ? std::sqrt(power / count) : kNan;
+  account.residual_rms_m = count > 0.0 ? std::sqrt(power / count) : kNaN;
   if (!(power > 0.0)) return;
   std::vector<double> found;
   double q = 0.0, worst = 0.0;
-  for (std::size_t lag = 1; lag <= kLags; ++lag) {
+  for (std::size_t lag = 1; lag <= kAccountLags; ++lag) {
     double product = 0.0, pairs = 0.0;
     for (std::size_t i = 3 * lag; i < residual.size(); ++i) {
       const double both = residual[i] * residual[i - 3 * lag];
@@ -55,7 +54,7 @@ void autocorrelate(const MarkerSamples& samples, const std::vector<double>& resi
     worst = std::max(worst, std::abs(rho) - 2.0 / std::sqrt(pairs));
   }
   account.autocorrelation = std::move(found);
-  account.ljung_box_p = chi_square_above(q, kLags);
+  account.ljung_box_p = chi_square_above(q, kAccountLags);
   // The filter itself takes the slow part of white noise out of the residual: about the band's share.
   const double own =
       std::isnan(account.used.cutoff_hz) ? 0.0 : 2.0 * account.used.cutoff_hz * samples.interval_s;
@@ -139,7 +138,7 @@ Spectrum spectrum(const MarkerSamples& samples, const std::vector<double>& resid
 
 void judge_residuals(const MarkerSamples& samples, double rate_hz, MarkerResult& result) {
   MarkerAccount& account = result.account;
-  std::vector<double> residual(static_cast<std::size_t>(3 * samples.frames), kNan);
+  std::vector<double> residual(static_cast<std::size_t>(3 * samples.frames), kNaN);
   for (std::int64_t f = 0; f < samples.frames; ++f)
     if (samples.judged[static_cast<std::size_t>(f)] != 0)
       for (auto i = static_cast<std::size_t>(3 * f); i < static_cast<std::size_t>(3 * f + 3); ++i)

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/math/digital_filter.h"
 #include "kinemark/stages/trajectory/smoothing/internal/cutoff.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
@@ -14,7 +14,6 @@
 namespace kinemark::trajectory::smoothing {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kClassicOrder = 2;
 constexpr double kClassicCutoffHz = 12.0;
 constexpr double kMostOfHalfRate = 0.98;  ///< of a classic cut-off that the rate does not allow
@@ -104,7 +103,7 @@ double noise_from(const MarkerSamples& samples, const MarkerResult& result, doub
       count += 1.0;
     }
   }
-  return count > 0.0 && taken > 0.0 ? std::sqrt(sum / count / taken) : kNan;
+  return count > 0.0 && taken > 0.0 ? std::sqrt(sum / count / taken) : kNaN;
 }
 
 }  // namespace
@@ -120,7 +119,7 @@ Status smooth_butterworth(const MarkerSamples& samples, const SmoothOptions& opt
   const Plan plan = make_plan(samples, options, rate_hz, all, account);
   const auto n = static_cast<std::size_t>(3 * samples.frames);
   Array<double>* const values[4] = {&result.x, &result.velocity, &result.acceleration, &result.jerk};
-  for (Array<double>* v : values) v->assign(n, kNan);
+  for (Array<double>* v : values) v->assign(n, kNaN);
   for (const Stretch& stretch : all) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> x = column(samples.x, stretch, axis);
@@ -141,7 +140,7 @@ Status smooth_butterworth(const MarkerSamples& samples, const SmoothOptions& opt
     noise = samples.has_covariance ? samples.typical_sd_m : noise_from(samples, result, shares.taken);
   if (std::isnan(noise)) account.noise_from.clear();
   account.used.order = plan.order;
-  account.used.cutoff_hz = !plan.filters ? kNan
+  account.used.cutoff_hz = !plan.filters ? kNaN
                            : plan.corrected
                                ? plan.cutoff_hz
                                : rate_hz * math::two_pass_half_power(plan.order, plan.cutoff_hz / rate_hz);
@@ -150,8 +149,8 @@ Status smooth_butterworth(const MarkerSamples& samples, const SmoothOptions& opt
   for (const Stretch& stretch : all) account.left_missing -= stretch.length();
   if (std::isnan(noise)) return {};
   Array<double>* const sds[4] = {nullptr, &result.velocity_sd, &result.acceleration_sd, &result.jerk_sd};
-  result.covariance.assign(2 * n, kNan);
-  for (int d = 1; d < 4; ++d) sds[d]->assign(n, kNan);
+  result.covariance.assign(2 * n, kNaN);
+  for (int d = 1; d < 4; ++d) sds[d]->assign(n, kNaN);
   for (std::size_t i = 0; i < n; ++i) {
     for (int d = 1; d < 4; ++d)
       if (!std::isnan((*values[d])[i]))

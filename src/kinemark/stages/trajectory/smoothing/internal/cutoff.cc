@@ -11,15 +11,15 @@
 namespace kinemark::trajectory::smoothing {
 namespace {
 
-constexpr double kLowestHz = 1.0, kHighest = 0.25;  ///< cut-offs tried, up to a quarter of the rate
-constexpr double kNoiseFrom = 0.6;                  ///< of the highest cut-off: only noise is left above
-constexpr double kMemory = 1.2;                     ///< periods of the cut-off until an end is forgotten
+constexpr double kLowestHz = 1.0, kHighestShare = 0.25;  ///< cut-offs tried, up to a quarter of the rate
+constexpr double kNoiseFrom = 0.6;                       ///< of the highest cut-off: only noise is left above
+constexpr double kMemory = 1.2;                          ///< periods of the cut-off until an end is forgotten
 constexpr int kLags = 10;
 constexpr int kSteps = 96;
 
 /// Cut-offs tried; slow recordings begin below 1 Hz.
 std::vector<double> grid(double rate_hz, int steps) {
-  const double high = kHighest * rate_hz, low = std::min(kLowestHz, 0.04 * high);
+  const double high = kHighestShare * rate_hz, low = std::min(kLowestHz, 0.04 * high);
   std::vector<double> cutoffs;
   for (int i = 0; i <= steps; ++i) cutoffs.push_back(low + (high - low) * i / steps);
   return cutoffs;

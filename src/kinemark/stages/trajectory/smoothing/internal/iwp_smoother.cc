@@ -3,17 +3,16 @@
 #include "kinemark/stages/trajectory/smoothing/internal/iwp_smoother.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {
 
 constexpr std::int64_t kBlock = 4096;  ///< frames whose filtered states are kept at a time
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <int m>
 struct Checkpoint {
@@ -123,12 +122,12 @@ class Run {
   void write(std::int64_t k) const {
     if (out_.state == nullptr) return;
     for (int i = 0; i < 4; ++i) {
-      double v = i < m ? covariance_[i * m + i] : kNan;
-      if (!(v <= kUndetermined)) v = kNan;
+      double v = i < m ? covariance_[i * m + i] : kNaN;
+      if (!(v <= kUndetermined)) v = kNaN;
       out_.variance[k * 4 + i] = v * unit_[i] * unit_[i];
       for (int axis = 0; axis < series_.axes; ++axis)
         out_.state[(k * series_.axes + axis) * 4 + i] =
-            std::isnan(v) ? kNan : smoothed_[axis * m + i] * unit_[i];
+            std::isnan(v) ? kNaN : smoothed_[axis * m + i] * unit_[i];
     }
   }
 
@@ -151,8 +150,8 @@ Scores smooth_order(const Series& series, double cutoff_hz, const SmoothedOut& o
   Scores scores;
   Run<m> run(series, corner, out);
   if (out.state != nullptr) {
-    std::fill_n(out.state, series.frames * series.axes * 4, kNan);
-    std::fill_n(out.variance, series.frames * 4, kNan);
+    std::fill_n(out.state, series.frames * series.axes * 4, kNaN);
+    std::fill_n(out.variance, series.frames * 4, kNaN);
   }
   std::int64_t begin = -1, latest = -1;
   for (std::int64_t k = 0; k < series.frames; ++k) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/trajectory/smoothing/internal/choose.h"
 #include "kinemark/stages/trajectory/smoothing/internal/error_bars.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
@@ -16,8 +17,6 @@
 
 namespace kinemark::trajectory::smoothing {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Series> parts_of(const std::vector<Series>& all) {
   std::vector<Series> parts;
@@ -39,11 +38,11 @@ class Writer {
       : samples_(samples), result_(result), noise_variance_(noise_sd_m * noise_sd_m) {
     const auto n = static_cast<std::size_t>(samples.frames);
     for (Array<double>* values : {&result.x, &result.velocity, &result.acceleration, &result.jerk})
-      values->assign(3 * n, kNan);
+      values->assign(3 * n, kNaN);
     if (std::isnan(noise_sd_m)) return;
     for (Array<double>* values : {&result.velocity_sd, &result.acceleration_sd, &result.jerk_sd})
-      values->assign(3 * n, kNan);
-    result.covariance.assign(6 * n, kNan);
+      values->assign(3 * n, kNaN);
+    result.covariance.assign(6 * n, kNaN);
   }
 
   /// Results of the axes from `first_axis` on, at all frames.
@@ -71,7 +70,7 @@ class Writer {
   void correlate(const data::Trajectories* in) {
     for (std::int64_t f = 0; f < samples_.frames && !result_.covariance.empty(); ++f) {
       double* c = result_.covariance.data() + 6 * f;
-      c[1] = c[2] = c[4] = std::isnan(c[0]) ? kNan : 0.0;
+      c[1] = c[2] = c[4] = std::isnan(c[0]) ? kNaN : 0.0;
       if (in == nullptr || samples_.present[static_cast<std::size_t>(f)] == 0) continue;
       const double* r = in->covariance.data() + 6 * in->index(f, result_.marker);
       constexpr int kPairs[3][3] = {{1, 0, 3}, {2, 0, 5}, {4, 3, 5}};
@@ -117,8 +116,8 @@ class Writer {
   void forget(std::int64_t f) {
     for (Array<double>* values : {&result_.x, &result_.velocity, &result_.acceleration, &result_.jerk,
                                   &result_.velocity_sd, &result_.acceleration_sd, &result_.jerk_sd})
-      if (!values->empty()) std::fill_n(values->begin() + 3 * f, 3, kNan);
-    if (!result_.covariance.empty()) std::fill_n(result_.covariance.begin() + 6 * f, 6, kNan);
+      if (!values->empty()) std::fill_n(values->begin() + 3 * f, 3, kNaN);
+    if (!result_.covariance.empty()) std::fill_n(result_.covariance.begin() + 6 * f, 6, kNaN);
   }
 
   static constexpr int kDiagonal[3] = {0, 3, 5};

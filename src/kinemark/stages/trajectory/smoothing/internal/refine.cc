@@ -13,9 +13,11 @@
 namespace kinemark::trajectory::smoothing {
 namespace {
 
-constexpr double kWider = 1.6, kLowest = 0.7, kHighest = 1.2;  ///< of the cut-off for positions
+constexpr double kRefineWider = 1.6, kRefineLowest = 0.7,
+                 kRefineHighest = 1.2;  ///< of the cut-off for positions
 constexpr int kTried = 9;
-constexpr double kInterior = 1.2;  ///< variance of velocity up to this times the least: samples all around
+constexpr double kRefineInterior =
+    1.2;  ///< variance of velocity up to this times the least: samples all around
 
 struct Velocities {
   std::vector<double> state, variance;
@@ -42,7 +44,7 @@ double shared_noise(int order, double cutoff_hz, double wide_hz, double interval
 }  // namespace
 
 double refine_cutoff(std::span<const Series> parts, int order, double cutoff_hz, double noise_sd_m) {
-  const double wide_hz = kWider * cutoff_hz;
+  const double wide_hz = kRefineWider * cutoff_hz;
   std::vector<Velocities> base, wide;
   double least_variance = std::numeric_limits<double>::infinity();
   for (const Series& part : parts) {
@@ -54,13 +56,15 @@ double refine_cutoff(std::span<const Series> parts, int order, double cutoff_hz,
   }
   double best = cutoff_hz, least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTried; ++i) {
-    const double tried = cutoff_hz * kLowest * std::pow(kHighest / kLowest, i / (kTried - 1.0));
+    const double tried =
+        cutoff_hz * kRefineLowest * std::pow(kRefineHighest / kRefineLowest, i / (kTried - 1.0));
     double sum = 0.0, count = 0.0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const Series& part = parts[p];
       const Velocities now(part, order, tried);
       for (std::int64_t k = 0; k < part.frames; ++k) {
-        if (!(base[p].variance[static_cast<std::size_t>(4 * k + 1)] <= kInterior * least_variance)) continue;
+        if (!(base[p].variance[static_cast<std::size_t>(4 * k + 1)] <= kRefineInterior * least_variance))
+          continue;
         for (int axis = 0; axis < part.axes; ++axis) {
           const auto at = static_cast<std::size_t>((k * part.axes + axis) * 4 + 1);
           const double difference = wide[p].state[at] - now.state[at];

@@ -8,13 +8,13 @@
 #include <limits>
 #include <map>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDefaultDegree = 4;
 constexpr int kWidest = 500;  ///< half width tried, frames
 
@@ -115,7 +115,7 @@ double half_power_hz(const Window& window, double rate_hz) {
     low = high;
     high += 0.05 / window.points();
   }
-  if (high >= 0.5) return kNan;
+  if (high >= 0.5) return kNaN;
   for (int i = 0; i < 50; ++i) {
     const double f = 0.5 * (low + high);
     (amplitude(f) > std::sqrt(0.5) ? low : high) = f;
@@ -170,10 +170,10 @@ Status smooth_savgol(const MarkerSamples& samples, const SmoothOptions& options,
   const auto n = static_cast<std::size_t>(3 * samples.frames);
   Array<double>* const values[4] = {&result.x, &result.velocity, &result.acceleration, &result.jerk};
   Array<double>* const sds[4] = {nullptr, &result.velocity_sd, &result.acceleration_sd, &result.jerk_sd};
-  for (Array<double>* v : values) v->assign(n, kNan);
+  for (Array<double>* v : values) v->assign(n, kNaN);
   account.left_missing = samples.frames;
   for (const Stretch& stretch : all) account.left_missing -= stretch.length();
-  account.used.noise_sd_m = account.used.cutoff_hz = kNan;
+  account.used.noise_sd_m = account.used.cutoff_hz = kNaN;
   const int degree = options.order > 0 ? options.order : kDefaultDegree;
   account.used.order = degree;
   if (all.empty()) {
@@ -206,8 +206,8 @@ Status smooth_savgol(const MarkerSamples& samples, const SmoothOptions& options,
     noise = std::sqrt(rss / freedom);
   }
   account.used.noise_sd_m = noise;
-  result.covariance.assign(2 * n, kNan);
-  for (int d = 1; d < 4; ++d) sds[d]->assign(n, kNan);
+  result.covariance.assign(2 * n, kNaN);
+  for (int d = 1; d < 4; ++d) sds[d]->assign(n, kNaN);
   for (const Stretch& stretch : all) {
     windows.each(stretch, half, [&](std::int64_t f, std::int64_t, int where, const Window& window) {
       const double v = noise * noise * window.at(0, where).squaredNorm();
