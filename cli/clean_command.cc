@@ -32,8 +32,9 @@ void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome
       fmt::format("{} markers, {} frames at {:g} Hz; of {} samples {} measured, {} made, {} missing.",
                   markers.markers(), markers.frames(), markers.time.rate_hz, markers.state.size(), measured,
                   filled, open));
-  if (report.markers.size() <= kMarkersTold)
-    for (const auto& marker : report.markers) say(globals, fmt::format("{}: {}", marker.name, marker.words));
+  if (report.account.markers.size() <= kMarkersTold)
+    for (const auto& marker : report.account.markers)
+      say(globals, fmt::format("{}: {}", marker.name, marker.words));
   for (const auto& finding : report::clean_findings(report))
     say(globals,
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));

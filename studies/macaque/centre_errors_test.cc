@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::studies {
 namespace {
@@ -32,7 +33,7 @@ struct Example {
         skeleton.centre_in_world[3 * f + a] = limb.centre_in_world[3 * f + a];
       skeleton.centre_in_world[3 * f] += std::array{0.0, 0.001, 0.003, 0.060}[f];
       for (const std::size_t c : {0U, 1U, 2U, 3U, 4U, 5U}) skeleton.covariance[6 * f + c] = 0.0;
-      for (const std::size_t c : {0U, 3U, 5U}) {
+      for (const std::size_t c : math::kSymmetric3Diagonal) {
         skeleton.covariance[6 * f + c] = 4e-6;
         bound.covariance[6 * f + c] = 1e-6;
       }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/locate.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
@@ -47,10 +48,7 @@ struct Cloud {
 };
 
 Matrix3d covariance_of(const data::Trajectories& points, std::int64_t f, std::int64_t led) {
-  const double* c = points.covariance.data() + 6 * points.index(f, led);
-  Matrix3d out;
-  out << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
-  return out;
+  return math::unpack_symmetric3(points.covariance.data() + 6 * points.index(f, led));
 }
 
 void add_distances(const Cloud& cloud, StillMeasures& to) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
@@ -55,8 +56,8 @@ TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives
   out.acceleration_sd = of_led(rates.acceleration_sd, led, leds, frames);
   out.position_sd.resize(3, frames);
   for (std::int64_t f = 0; f < frames; ++f) {
-    const double* c = points.covariance.data() + 6 * points.index(f, led);
-    out.position_sd.col(f) << std::sqrt(c[0]), std::sqrt(c[3]), std::sqrt(c[5]);
+    out.position_sd.col(f) =
+        math::unpack_symmetric3(points.covariance.data() + 6 * points.index(f, led)).diagonal().cwiseSqrt();
   }
   return out;
 }

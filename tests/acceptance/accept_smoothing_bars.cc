@@ -8,6 +8,7 @@
 #include <string>
 
 #include "acceptance/movements.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "support/acceptance.h"
 
@@ -52,7 +53,6 @@ Found measure(const Movement& movement, double sigma_m, bool gaps, int markers, 
   options.max_bridge_sd_m = 1.0;
   const auto result = trajectory::smooth(in, options).value();
   Found found;
-  constexpr std::size_t kDiagonal[3] = {0, 3, 5};
   for (std::int64_t f = 0; f < kMovementFrames; ++f) {
     const auto k = static_cast<std::size_t>(f);
     for (std::int64_t m = 0; m < markers; ++m) {
@@ -61,7 +61,7 @@ Found measure(const Movement& movement, double sigma_m, bool gaps, int markers, 
         const std::size_t at = 3 * i + axis;
         Three one;
         one[0].add(result.trajectories.x_in_world[at] - movement.x[k],
-                   std::sqrt(result.trajectories.covariance[6 * i + kDiagonal[axis]]));
+                   std::sqrt(result.trajectories.covariance[6 * i + math::kSymmetric3Diagonal[axis]]));
         one[1].add(result.derivatives.velocity[at] - movement.velocity[k],
                    result.derivatives.velocity_sd[at]);
         one[2].add(result.derivatives.acceleration[at] - movement.acceleration[k],

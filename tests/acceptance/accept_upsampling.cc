@@ -21,12 +21,14 @@ namespace {
 
 using namespace kinemark;
 using namespace kinemark::acceptance;
+using data::BandVerdict;
+using data::InterpolationKernel;
 using testing_support::print_row;
-using trajectory::BandVerdict;
-using trajectory::Kernel;
 
-constexpr std::array kKernels{Kernel::hold,     Kernel::linear, Kernel::spline, Kernel::catmull_rom,
-                              Kernel::lagrange, Kernel::pchip,  Kernel::akima};
+constexpr std::array kKernels{InterpolationKernel::hold,     InterpolationKernel::linear,
+                              InterpolationKernel::spline,   InterpolationKernel::catmull_rom,
+                              InterpolationKernel::lagrange, InterpolationKernel::pchip,
+                              InterpolationKernel::akima};
 constexpr double kLowRate = 60.0;
 constexpr std::uint64_t kSeed = 20261121;
 
@@ -36,7 +38,7 @@ int pick(Random& random, int count) {
 
 struct Truth {
   int factor = 1, phase = 0;
-  Kernel kernel = Kernel::none;
+  InterpolationKernel kernel = InterpolationKernel::none;
   double noise_mm = 0.0;
   std::string what;
 };
@@ -141,8 +143,9 @@ void check_recordings(int count, const MotionLibrary& library) {
   int exact = 0;
   for (int i = 0; i < count; ++i) {
     Random random(kSeed + 1, static_cast<std::uint64_t>(i));
-    Truth truth{
-        .factor = 4, .phase = pick(random, 4), .kernel = i % 2 == 0 ? Kernel::linear : Kernel::spline};
+    Truth truth{.factor = 4,
+                .phase = pick(random, 4),
+                .kernel = i % 2 == 0 ? InterpolationKernel::linear : InterpolationKernel::spline};
     std::vector<Stream> streams;
     for (int m = 0; m < 16; ++m) {
       truth.noise_mm = random_noise_mm(random);
@@ -236,8 +239,11 @@ void check_limits(int count, const MotionLibrary& library) {
       const Path path = random_path(random, library, 5.0);
       Stream low = sampled(path, 300, kLowRate);
       add_noise(low, 0.2, random);
-      Stream s = limit.sinc ? resample(low, factor)
-                            : interpolate(low, factor, i % 2 == 0 ? Kernel::linear : Kernel::spline, false);
+      Stream s =
+          limit.sinc
+              ? resample(low, factor)
+              : interpolate(low, factor,
+                            i % 2 == 0 ? InterpolationKernel::linear : InterpolationKernel::spline, false);
       if (limit.cutoff_hz > 0.0) low_pass(s, limit.cutoff_hz, kLowRate * factor);
       round_to(s, i % 3 == 0 ? 0.01 : 0.0);
       const auto report = trajectory::detect_upsampling(recording({s}, kLowRate * factor)).value();

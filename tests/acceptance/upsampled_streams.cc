@@ -13,8 +13,8 @@
 namespace kinemark::acceptance {
 namespace {
 
+using data::InterpolationKernel;
 using Eigen::Vector3d;
-using trajectory::Kernel;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -30,7 +30,7 @@ int pick(Random& random, int count) {
 }
 
 /// Slope at every knot, knots one apart, by the textbook of each kernel, one axis.
-std::vector<double> slopes(const std::vector<double>& v, Kernel kernel, bool flat_ends) {
+std::vector<double> slopes(const std::vector<double>& v, InterpolationKernel kernel, bool flat_ends) {
   const auto n = static_cast<int>(v.size());
   std::vector<double> s(v.size(), 0.0);
   const auto at = [&](int i) {  // continued as a straight line
@@ -39,7 +39,7 @@ std::vector<double> slopes(const std::vector<double>& v, Kernel kernel, bool fla
     return v[static_cast<std::size_t>(i)];
   };
   const auto chord = [&](int i) { return at(i + 1) - at(i); };
-  if (kernel == Kernel::spline) {
+  if (kernel == InterpolationKernel::spline) {
     // Jacobi-like sweeps of the tridiagonal system until nothing changes; ends flat or free.
     for (int sweep = 0; sweep < 60; ++sweep)
       for (int i = 0; i < n; ++i) {
@@ -57,9 +57,10 @@ std::vector<double> slopes(const std::vector<double>& v, Kernel kernel, bool fla
     const double left = chord(i - 1);
     const double right = chord(i);
     double& slope = s[static_cast<std::size_t>(i)];
-    if (kernel == Kernel::catmull_rom) slope = (left + right) / 2.0;
-    if (kernel == Kernel::pchip) slope = left * right <= 0.0 ? 0.0 : 1.0 / (0.5 / left + 0.5 / right);
-    if (kernel == Kernel::akima) {
+    if (kernel == InterpolationKernel::catmull_rom) slope = (left + right) / 2.0;
+    if (kernel == InterpolationKernel::pchip)
+      slope = left * right <= 0.0 ? 0.0 : 1.0 / (0.5 / left + 0.5 / right);
+    if (kernel == InterpolationKernel::akima) {
       const double a = std::abs(chord(i + 1) - right);
       const double b = std::abs(left - chord(i - 2));
       slope = a + b == 0.0 ? (left + right) / 2.0 : (a * left + b * right) / (a + b);
@@ -146,7 +147,7 @@ Path random_path(Random& random, const MotionLibrary& library, double duration_s
   return [=](double) { return rest; };
 }
 
-Stream interpolate(const Stream& low, int factor, Kernel kernel, bool flat_ends) {
+Stream interpolate(const Stream& low, int factor, InterpolationKernel kernel, bool flat_ends) {
   const std::size_t intervals = low.size() - 1;
   Stream out(intervals * static_cast<std::size_t>(factor) + 1);
   for (int axis = 0; axis < 3; ++axis) {
@@ -157,11 +158,11 @@ Stream interpolate(const Stream& low, int factor, Kernel kernel, bool flat_ends)
       const std::size_t i = std::min(n / static_cast<std::size_t>(factor), intervals - 1);
       const double u = static_cast<double>(n) / factor - static_cast<double>(i);
       double& y = out[n](axis);
-      if (kernel == Kernel::hold) {
+      if (kernel == InterpolationKernel::hold) {
         y = u < 1.0 ? v[i] : v[i + 1];
-      } else if (kernel == Kernel::linear) {
+      } else if (kernel == InterpolationKernel::linear) {
         y = v[i] + u * (v[i + 1] - v[i]);
-      } else if (kernel == Kernel::lagrange) {
+      } else if (kernel == InterpolationKernel::lagrange) {
         const double before = i == 0 ? 2.0 * v[0] - v[1] : v[i - 1];
         const double after = i + 2 == v.size() ? 2.0 * v[i + 1] - v[i] : v[i + 2];
         const std::array knots{before, v[i], v[i + 1], after};

@@ -30,7 +30,8 @@ struct MotionLibrary {
 [[nodiscard]] Path random_path(Random& random, const MotionLibrary& library, double duration_s);
 
 /// Low-rate samples to `factor` times the rate.
-[[nodiscard]] Stream interpolate(const Stream& low, int factor, trajectory::Kernel kernel, bool flat_ends);
+[[nodiscard]] Stream interpolate(const Stream& low, int factor, data::InterpolationKernel kernel,
+                                 bool flat_ends);
 /// The same by a windowed sinc of 16 lobes each way: the band-limited resampler of signal processing.
 [[nodiscard]] Stream resample(const Stream& low, int factor);
 /// Butterworth of order 2, forth and back.

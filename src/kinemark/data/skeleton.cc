@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "kinemark/math/symmetric3.h"
+
 namespace kinemark::data {
 
 std::string_view to_string(SegmentKind kind) {
@@ -74,8 +76,7 @@ Status SegmentLayout::validate(std::int64_t markers) const {
 }
 
 Eigen::Matrix3d Skeleton::centre_covariance(std::int64_t frame, std::int64_t joint) const {
-  const double* c = covariance.data() + 6 * index(frame, joint);
-  return Eigen::Matrix3d{{c[0], c[1], c[2]}, {c[1], c[3], c[4]}, {c[2], c[4], c[5]}};
+  return math::unpack_symmetric3(covariance.data() + 6 * index(frame, joint));
 }
 
 void Skeleton::allocate_centres() {

@@ -5,9 +5,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::io {
 namespace {
@@ -34,8 +35,7 @@ struct Run {
 };
 
 std::uint8_t deviation_code(const data::Trajectories& t, std::size_t i) {
-  const double* c = t.covariance.data() + 6 * i;
-  const double sd_m = std::sqrt((c[0] + c[3] + c[5]) / 3.0);
+  const double sd_m = std::sqrt(math::symmetric3_trace(t.covariance.data() + 6 * i) / 3.0);
   if (!(sd_m > 0.0) || !std::isfinite(sd_m)) return 0;
   return static_cast<std::uint8_t>(
       std::clamp(std::round(std::log(sd_m / kSmallest_m) / std::log(kStep)) + 1.0, 1.0, 255.0));
@@ -172,8 +172,7 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
       if (!t.method.empty()) t.method[i] = run.told.method;
       if (t.covariance.empty() || run.told.deviation == 0) continue;
       const double sd_m = deviation_m(run.told.deviation);
-      const std::array<double, 6> c{sd_m * sd_m, 0.0, 0.0, sd_m * sd_m, 0.0, sd_m * sd_m};
-      std::ranges::copy(c, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
+      math::pack_isotropic3(sd_m * sd_m, t.covariance.data() + 6 * i);
     }
   }
   if (disagreeing > 0)

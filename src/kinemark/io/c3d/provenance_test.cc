@@ -9,6 +9,7 @@
 
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
+#include "kinemark/math/symmetric3.h"
 #include "support/scratch.h"
 
 namespace kinemark::io {
@@ -58,7 +59,7 @@ TEST(C3dProvenance, DeviationsComeBackWithinTwoAndAHalfPercent) {
   t.covariance.assign(6 * t.state.size(), 0.0);
   for (std::size_t i = 0; i < t.state.size(); ++i) {
     const double sd_m = 2e-6 * std::pow(1.09, static_cast<double>(i));
-    for (const std::size_t k : {0U, 3U, 5U}) t.covariance[6 * i + k] = sd_m * sd_m;
+    for (const std::size_t k : math::kSymmetric3Diagonal) t.covariance[6 * i + k] = sd_m * sd_m;
   }
   ASSERT_TRUE(write_c3d(scratch / "a.c3d", trial));
   const auto back = read_c3d(scratch / "a.c3d").value().markers;

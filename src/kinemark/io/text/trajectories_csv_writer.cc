@@ -7,6 +7,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/trajectories_csv.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::io {
 namespace {
@@ -60,8 +61,8 @@ Status write_trajectories_csv(const std::filesystem::path& path, const data::Tri
             t.sample_offset_s[t.sample_offset_s.size() == t.names.size() ? static_cast<std::size_t>(m) : i]);
       if (uncertain) {
         const double* c = t.covariance.data() + 6 * i;
-        for (const int k : {0, 3, 5}) put_number(out, std::sqrt(c[k]));
-        for (const int k : {1, 2, 4}) put_number(out, c[k]);
+        for (const std::size_t k : math::kSymmetric3Diagonal) put_number(out, std::sqrt(c[k]));
+        for (const auto& pair : math::kSymmetric3Pairs) put_number(out, c[pair.place]);
       }
       out.push_back('\n');
     }

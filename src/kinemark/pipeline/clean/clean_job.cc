@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
+#include <utility>
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
@@ -18,6 +20,7 @@
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/screening/real_samples.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
+#include "kinemark/stages/trajectory/screening/upsampling.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 
 namespace kinemark::pipeline {
@@ -42,45 +45,45 @@ void change_frames(data::Trial& trial, data::Trajectories markers, std::vector<s
 }
 
 /// Look for what the recorder did, and do about it what the job says.
-Result<trajectory::UpsamplingReport> screen_trial(const CleanJob& job, data::Trial& trial,
-                                                  CleanOutcome& outcome) {
-  auto& report = outcome.report;
-  const auto findings = trajectory::screen(trial.markers);
-  if (!findings) return std::unexpected(findings.error());
-  internal::add_defects(report, *findings, job.reject_defects, trial.markers.names);
+Status screen_trial(const CleanJob& job, data::Trial& trial, CleanOutcome& outcome) {
+  auto& account = outcome.report.account;
+  auto defects = trajectory::screen(trial.markers);
+  if (!defects) return std::unexpected(defects.error());
+  account.defects = std::move(*defects);
+  internal::settle_defects(job.reject_defects, account.defects);
   auto upsampling = trajectory::detect_upsampling(trial.markers);
   if (!upsampling) return std::unexpected(upsampling.error());
-  report.upsampling = internal::describe_upsampling(*upsampling, job.recorder_made);
+  account.upsampling = std::move(*upsampling);
+  internal::settle_upsampling(job.recorder_made, account.upsampling);
   if (job.reject_defects) {
-    auto rest = trajectory::reject_findings(trial.markers, *findings, internal::kRejectConfidence);
+    auto rest = trajectory::reject_defects(trial.markers, account.defects, internal::kRejectConfidence);
     if (!rest) return std::unexpected(rest.error());
     trial.markers = std::move(*rest);
   }
-  if (job.recorder_made == RecorderMade::keep || report.upsampling.factor == 1) return upsampling;
+  if (job.recorder_made == RecorderMade::keep || account.upsampling.factor() == 1) return {};
   const auto made = job.recorder_made == RecorderMade::mark      ? trajectory::MadeSamples::mark
                     : job.recorder_made == RecorderMade::missing ? trajectory::MadeSamples::missing
                                                                  : trajectory::MadeSamples::decimate;
-  auto real = trajectory::keep_real_samples(trial.markers, *upsampling, made);
+  auto real = trajectory::keep_real_samples(trial.markers, account.upsampling, made);
   if (!real) return std::unexpected(real.error());
   if (real->frames() == trial.markers.frames())
     trial.markers = std::move(*real);
   else
     change_frames(trial, std::move(*real), outcome.notes);
-  return upsampling;
+  return {};
 }
 
 /// Smooth marker by marker, each into the report and to the output as soon as it is done.
-Status smooth_trial(const CleanJob& job, const data::Trajectories& before,
-                    const trajectory::UpsamplingReport& upsampling, const data::Trial& trial,
+Status smooth_trial(const CleanJob& job, const data::Trajectories& before, const data::Trial& trial,
                     internal::CleanOutput& output, report::CleanReport& report, const Progress& progress) {
   auto options = job.filter;
   options.threads = job.threads;
   options.progress = progress;
   return trajectory::smooth_each(trial.markers, options, [&](trajectory::MarkerResult&& result) -> Status {
     const auto m = result.marker;
-    auto facts = internal::describe_marker(result.account, upsampling, m);
+    data::MarkerAccount account = result.account;
     internal::MarkerPiece piece(std::move(result), trial.markers);
-    report::add_marker(report, std::move(facts),
+    report::add_marker(report, std::move(account),
                        {.before = &before,
                         .before_marker = m,
                         .after = &piece.markers,
@@ -97,7 +100,8 @@ Status fill_trial(const CleanJob& job, data::Trial& trial, report::CleanReport& 
   options.threads = job.threads;
   auto filled = trajectory::fill_gaps(trial.markers, options);
   if (!filled) return std::unexpected(filled.error());
-  internal::add_gaps(report, *filled, trial.markers.names);
+  report.account.gaps = std::move(filled->gaps);
+  std::ranges::move(filled->swaps, std::back_inserter(report.account.defects));
   trial.markers = std::move(filled->trajectories);
   return {};
 }
@@ -146,14 +150,14 @@ Result<CleanOutcome> run_clean(const CleanJob& job, const Progress& progress) {
   if (!read) return std::unexpected(read.error());
   data::Trial& trial = outcome.trial = std::move(*read);
   const auto start = std::chrono::steady_clock::now();
-  const auto upsampling = screen_trial(job, trial, outcome);
-  if (!upsampling) return fail_at(job.input.string(), upsampling.error());
+  report.account.names = trial.markers.names;
+  if (auto s = screen_trial(job, trial, outcome); !s) return fail_at(job.input.string(), s.error());
   const data::Trajectories before = trial.markers;
   if (auto s = fill_trial(job, trial, report); !s) return fail_at(job.input.string(), s.error());
   report.time = trial.markers.time;
   auto output = internal::CleanOutput::create(job, staging->path(0), trial, report.run);
   if (!output) return staging->failure(output.error());
-  if (auto s = smooth_trial(job, before, *upsampling, trial, *output, report, progress); !s)
+  if (auto s = smooth_trial(job, before, trial, *output, report, progress); !s)
     return s.error().code == Code::io ? staging->failure(s.error()) : fail_at(job.input.string(), s.error());
   report.run.clean_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 

@@ -89,9 +89,9 @@ TEST_F(RunClean, AFilledGapIsNearTheTruthAndStaysMarkedInTheFile) {
     EXPECT_NE(cleaned.made_by(f, 0), "");
     EXPECT_LT((cleaned.x(f, 0) - truth(f, 0)).norm(), 0.005) << f;
   }
-  ASSERT_EQ(outcome->report.gaps.size(), 1U);
-  EXPECT_TRUE(outcome->report.gaps[0].filled);
-  EXPECT_EQ(outcome->report.gaps[0].marker, "WRA");
+  ASSERT_EQ(outcome->report.account.gaps.size(), 1U);
+  EXPECT_TRUE(outcome->report.account.gaps[0].filled);
+  EXPECT_EQ(outcome->report.account.name_of(outcome->report.account.gaps[0].marker), "WRA");
   const auto back = io::read_markers(at("out.c3d")).value().markers;
   for (std::int64_t f = 90; f < 110; ++f)
     EXPECT_EQ(back.state[back.index(f, 0)], cleaned.state[cleaned.index(f, 0)]);
@@ -133,13 +133,13 @@ TEST_F(RunClean, DefectsAreToldAndRejectedOnlyWhenAsked) {
   ASSERT_TRUE(io::write_markers(at("in.c3d"), trial, true));
   auto j = job("told.c3d");
   const auto told = run_clean(j).value();
-  ASSERT_EQ(told.report.defects.size(), 1U);
-  EXPECT_EQ(told.report.defects[0].kind, "spike");
-  EXPECT_EQ(told.report.defects[0].done, "left as it is");
+  ASSERT_EQ(told.report.account.defects.size(), 1U);
+  EXPECT_EQ(told.report.account.defects[0].kind, data::DefectKind::spike);
+  EXPECT_EQ(told.report.account.defects[0].done, "left as it is");
   j = job("rejected.c3d");
   j.reject_defects = true;
   const auto rejected = run_clean(j).value();
-  EXPECT_TRUE(rejected.report.defects[0].handled);
+  EXPECT_TRUE(rejected.report.account.defects[0].handled);
   EXPECT_FALSE(rejected.trial.markers.present(50, 3));
 }
 

@@ -43,10 +43,10 @@ Status check_method(const std::string& method) {
 Status reject_defects(data::Trajectories& markers, JointsOutcome& outcome) {
   const auto findings = trajectory::screen(markers);
   if (!findings) return std::unexpected(findings.error());
-  std::vector<trajectory::Finding> sure;
+  std::vector<data::Defect> sure;
   double samples = 0.0;
   for (const auto& finding : *findings) {
-    if (finding.confidence < kSureDefect || finding.defect == trajectory::Defect::clock_jump) continue;
+    if (finding.confidence < kSureDefect || finding.kind == data::DefectKind::clock_jump) continue;
     sure.push_back(finding);
     samples += static_cast<double>(finding.last_frame - finding.first_frame + 1);
   }
@@ -62,7 +62,7 @@ Status reject_defects(data::Trajectories& markers, JointsOutcome& outcome) {
     outcome.notes.push_back("Left out: " + sure[i].sentence);
   if (sure.size() > kDefectsTold)
     outcome.notes.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsTold));
-  auto rest = trajectory::reject_findings(markers, sure, kSureDefect);
+  auto rest = trajectory::reject_defects(markers, sure, kSureDefect);
   if (!rest) return std::unexpected(rest.error());
   markers = std::move(*rest);
   return {};

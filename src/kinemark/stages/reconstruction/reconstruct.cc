@@ -11,6 +11,7 @@
 
 #include "kinemark/camera/noise.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/grid_lookup.h"
 #include "kinemark/stages/reconstruction/locate.h"
 
@@ -40,12 +41,12 @@ Result<Reconstruction> begin(const data::Counts& counts, const data::Rig& rig,
 }
 
 void put_covariance(data::Trajectories& points, std::size_t index, const Eigen::Matrix3d& c) {
-  const std::array<double, 6> six{c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
-  std::ranges::copy(six, points.covariance.begin() + static_cast<std::ptrdiff_t>(6 * index));
+  math::pack_symmetric3(c, points.covariance.data() + 6 * index);
 }
 
 void add_covariance(data::Trajectories& points, std::size_t index, const Eigen::Matrix3d& c) {
-  const std::array<double, 6> six{c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
+  std::array<double, 6> six{};
+  math::pack_symmetric3(c, six.data());
   for (std::size_t i = 0; i < 6; ++i) points.covariance[6 * index + i] += six[i];
 }
 

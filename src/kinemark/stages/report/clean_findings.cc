@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/check.h"
 #include "kinemark/stages/report/clean_report.h"
 #include "kinemark/stages/report/internal/clean_words.h"
 
@@ -16,17 +17,12 @@ namespace kinemark::report {
 
 namespace {
 
-using data::SampleState;
 using internal::length_s;
 
 constexpr double kLargeSdM = 0.010;     ///< a fill beyond this is of no use for joint angles
 constexpr double kSure = 0.8;           ///< confidence from which a defect counts as there
 constexpr double kHighCutoff = 0.4;     ///< of the rate: above this a filter takes next to nothing away
 constexpr double kCyclesAtLeast = 2.0;  ///< a cut-off with fewer cycles in the recording leaves only drift
-
-std::int64_t count(const CleanMarker& m, SampleState state) {
-  return m.before[static_cast<std::size_t>(state)];
-}
 
 std::string in_words(std::int64_t n, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
@@ -59,7 +55,7 @@ void add_gates(const CleanReport& r, std::vector<Finding>& out) {
 
 /// Defects of one kind that ended the same way, together; a single one in its own words.
 struct DefectGroup {
-  const CleanDefect* first = nullptr;
+  const data::Defect* first = nullptr;
   bool sure = false;
   std::int64_t number = 0;
   std::vector<std::string> markers;
@@ -67,7 +63,7 @@ struct DefectGroup {
 
 void add_defects(const CleanReport& r, std::vector<Finding>& out) {
   std::vector<DefectGroup> groups;
-  for (const CleanDefect& d : r.defects) {
+  for (const data::Defect& d : r.account.defects) {
     const bool sure = !(d.confidence < kSure);  // unknown: whoever found it did not doubt it
     auto at = std::ranges::find_if(groups, [&](const DefectGroup& g) {
       return g.sure == sure && g.first->handled == d.handled && g.first->kind == d.kind &&
@@ -75,35 +71,35 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
     });
     if (at == groups.end()) at = groups.insert(at, {&d, sure, 0, {}});
     ++at->number;
-    const std::string name = d.marker.empty() ? "all markers" : d.marker;
+    const std::string name = d.marker < 0 ? "all markers" : r.account.name_of(d.marker);
     if (std::ranges::find(at->markers, name) == at->markers.end()) at->markers.push_back(name);
   }
   for (const DefectGroup& g : groups) {
-    const CleanDefect& d = *g.first;
+    const data::Defect& d = *g.first;
     const Verdict level = g.sure && !d.handled ? Verdict::attention : Verdict::good;
     const std::string end = d.done.empty() ? "" : fmt::format(" What was done: {}.", d.done);
     const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
-    const std::string text = g.number == 1
-                                 ? d.sentence
-                                 : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
-                                               d.kind, g.number, list_names(g.markers), d.sentence);
-    add(out, level, "marker", d.marker, text + unsure + end, r.time.time_s(d.first_frame));
+    const std::string text =
+        g.number == 1 ? d.sentence
+                      : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
+                                    to_string(d.kind), g.number, list_names(g.markers), d.sentence);
+    add(out, level, "marker", r.account.name_of(d.marker), text + unsure + end, r.time.time_s(d.first_frame));
   }
 }
 
 void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
-  const CleanUpsampling& up = r.upsampling;
+  const data::UpsamplingAccount& up = r.account.upsampling;
   const std::string end = up.done.empty() ? "" : fmt::format(" What was done: {}.", up.done);
   const Verdict level = up.handled ? Verdict::good : Verdict::attention;
-  if (up.factor > 1) {
+  if (up.recording.found()) {
     add(out, level, "upsampling", "",
-        fmt::format("The recorder interpolated this recording: 1 of {} samples was measured.{}", up.factor,
-                    end));
+        fmt::format("The recorder interpolated this recording: 1 of {} samples was measured.{}",
+                    up.recording.factor, end));
     return;
   }
   std::vector<std::string> names;
-  for (const CleanMarker& m : r.markers)
-    if (m.upsampling_factor > 1) names.push_back(m.name);
+  for (std::size_t m = 0; m < up.markers.size(); ++m)
+    if (up.markers[m].found()) names.push_back(r.account.names[m]);
   if (names.empty()) return;
   add(out, level, "upsampling", names.front(),
       fmt::format("The recorder interpolated {} ({}).{}", in_words(std::ssize(names), "marker", "markers"),
@@ -112,82 +108,88 @@ void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
 
 /// One line for each marker that has fills nobody should rely on.
 void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
-  std::vector<std::pair<const CleanGap*, std::int64_t>> worst;  // of a marker, and how many there are
-  for (const CleanGap& g : r.gaps) {
+  std::vector<std::pair<const data::GapAccount*, std::int64_t>> worst;  // of a marker, and how many there are
+  for (const data::GapAccount& g : r.account.gaps) {
     if (!g.filled || !(g.max_sd_m > kLargeSdM)) continue;
     auto at = std::ranges::find_if(worst, [&](const auto& w) { return w.first->marker == g.marker; });
     if (at == worst.end()) at = worst.insert(at, {&g, 0});
     ++at->second;
     if (g.max_sd_m > at->first->max_sd_m) at->first = &g;
   }
-  for (const auto& [gap, number] : worst)
-    add(out, Verdict::attention, "gap", gap->marker,
+  for (const auto& [gap, number] : worst) {
+    const std::string marker = r.account.name_of(gap->marker);
+    add(out, Verdict::attention, "gap", marker,
         fmt::format("{} of {} {} filled with a standard deviation above {:.0f} mm; the largest is {:.1f} mm, "
                     "in a gap of {:.3g} s.",
-                    in_words(number, "gap", "gaps"), gap->marker, number == 1 ? "was" : "were",
-                    1e3 * kLargeSdM, 1e3 * gap->max_sd_m, length_s(*gap, r.time)),
+                    in_words(number, "gap", "gaps"), marker, number == 1 ? "was" : "were", 1e3 * kLargeSdM,
+                    1e3 * gap->max_sd_m, length_s(*gap, r.time)),
         r.time.time_s(gap->first_frame));
+  }
 }
 
 void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
-  const CleanGap* longest = nullptr;
+  const data::GapAccount* longest = nullptr;
   std::int64_t number = 0;
   double sum_s = 0.0;
   std::vector<std::string> names;
-  for (const CleanGap& g : r.gaps) {
+  for (const data::GapAccount& g : r.account.gaps) {
     if (g.filled) continue;
     ++number;
     sum_s += length_s(g, r.time);
     if (longest == nullptr || length_s(g, r.time) > length_s(*longest, r.time)) longest = &g;
-    if (std::ranges::find(names, g.marker) == names.end()) names.push_back(g.marker);
+    std::string name = r.account.name_of(g.marker);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   }
   if (longest == nullptr) return;
   const std::string why = longest->why_open.empty() ? "" : fmt::format(" {}", longest->why_open);
-  add(out, Verdict::good, "gap", longest->marker,
+  const std::string marker = r.account.name_of(longest->marker);
+  add(out, Verdict::good, "gap", marker,
       fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
                   in_words(number, "gap was", "gaps were"), sum_s, list_names(names),
-                  length_s(*longest, r.time), longest->marker, why),
+                  length_s(*longest, r.time), marker, why),
       r.time.time_s(longest->first_frame));
 }
 
 /// One line for all markers of which something holds.
 void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
-                    const std::function<bool(const CleanMarker&)>& holds, std::string_view text) {
+                    const std::function<bool(std::size_t)>& holds, std::string_view text) {
   std::vector<std::string> names;
-  for (const CleanMarker& m : r.markers)
-    if (holds(m)) names.push_back(m.name);
+  for (std::size_t m = 0; m < r.account.markers.size(); ++m)
+    if (holds(m)) names.push_back(r.account.markers[m].name);
   if (names.empty()) return;
   add(out, Verdict::good, "marker", names.front(),
       fmt::format("{} ({} of {}): {}", list_names(names), names.size(),
-                  in_words(std::ssize(r.markers), "marker", "markers"), text));
+                  in_words(std::ssize(r.account.markers), "marker", "markers"), text));
 }
 
 void add_filters(const CleanReport& r, std::vector<Finding>& out) {
   const double seconds = static_cast<double>(r.time.frames) / r.time.rate_hz;
-  const auto chosen = [](const CleanMarker& m) { return !m.criterion_name.empty(); };
+  const auto& markers = r.account.markers;
+  const auto chosen = [&](std::size_t m) { return !markers[m].criterion_name.empty(); };
   add_of_markers(
-      r, out, [](const CleanMarker& m) { return !m.white; },
+      r, out, [&](std::size_t m) { return !markers[m].white; },
       "the residual is not white. The filter took away more than noise, or the noise is not white: rely less "
       "on the error bars.");
   add_of_markers(
       r, out,
-      [&](const CleanMarker& m) { return chosen(m) && m.filter.cutoff_hz > kHighCutoff * r.time.rate_hz; },
+      [&](std::size_t m) { return chosen(m) && markers[m].used.cutoff_hz > kHighCutoff * r.time.rate_hz; },
       "the cut-off found is at the upper end of its range. Next to no noise was there to take away; data "
       "that "
       "were filtered before look like this.");
   add_of_markers(
       r, out,
-      [&](const CleanMarker& m) { return chosen(m) && m.filter.cutoff_hz * seconds < kCyclesAtLeast; },
+      [&](std::size_t m) { return chosen(m) && markers[m].used.cutoff_hz * seconds < kCyclesAtLeast; },
       "the cut-off found is at the lower end of its range. The marker hardly moves, or the recording is too "
       "short to tell movement from noise.");
   add_of_markers(
-      r, out, [](const CleanMarker& m) { return m.bad_variances > 0; },
+      r, out, [&](std::size_t m) { return markers[m].bad_variances > 0; },
       "some variances were not positive and finite; the marker's median was taken instead.");
 }
 
 }  // namespace
 
 std::vector<Finding> clean_findings(const CleanReport& report) {
+  check(report.counts.size() == report.account.markers.size(), "add_marker() counts a marker's samples");
   std::vector<Finding> out;
   add_gates(report, out);
   add_defects(report, out);
@@ -195,8 +197,9 @@ std::vector<Finding> clean_findings(const CleanReport& report) {
   add_uncertain_fills(report, out);
   add_of_markers(
       report, out,
-      [&](const CleanMarker& m) {
-        return count(m, SampleState::missing) == report.time.frames && report.time.frames > 0;
+      [&](std::size_t m) {
+        constexpr auto kMissing = static_cast<std::size_t>(data::SampleState::missing);
+        return report.counts[m].before[kMissing] == report.time.frames && report.time.frames > 0;
       },
       "never seen.");
   add_open_gaps(report, out);

@@ -21,17 +21,34 @@ CleanReport faultless() {
   CleanReport r;
   r.time = {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1000};
   for (const char* name : {"A", "B", "C"}) {
-    CleanMarker m{.name = name};
-    m.before[static_cast<std::size_t>(data::SampleState::measured)] = 1000;
-    m.filter = {"kalman", 4, 9.0, 0.0004};
+    data::MarkerAccount m{.name = name};
+    m.used = {"kalman", 4, 9.0, 0.0004};
     m.criterion_name = "SURE, m^2";
-    r.markers.push_back(m);
+    r.account.names.emplace_back(name);
+    r.account.markers.push_back(m);
+    CleanCounts counts;
+    counts.before[static_cast<std::size_t>(data::SampleState::measured)] = 1000;
+    r.counts.push_back(counts);
   }
   return r;
 }
 
-CleanGap gap(std::string marker, std::int64_t first, std::int64_t last) {
-  return {.marker = std::move(marker), .first_frame = first, .last_frame = last};
+constexpr std::int64_t kA = 0, kB = 1, kC = 2;
+
+data::GapAccount gap(std::int64_t marker, std::int64_t first, std::int64_t last) {
+  return {.marker = marker, .first_frame = first, .last_frame = last};
+}
+
+data::Defect rejected_spike(std::int64_t marker, std::int64_t frame, double confidence,
+                            std::string sentence) {
+  return {.kind = data::DefectKind::spike,
+          .marker = marker,
+          .first_frame = frame,
+          .last_frame = frame,
+          .confidence = confidence,
+          .sentence = std::move(sentence),
+          .done = "rejected",
+          .handled = true};
 }
 
 TEST(CleanFindings, NothingToSayOfAFaultlessRecording) {
@@ -61,24 +78,29 @@ TEST(CleanFindings, AFailedGateIsSaidInItsOwnWords) {
 
 TEST(CleanFindings, ADefectIsSeriousWhenItIsCertainAndWasLeft) {
   CleanReport r = faultless();
-  r.defects = {{"spike", "A", "", 10, 10, 0.95, "A spike.", "rejected", true}};
+  r.account.defects = {rejected_spike(kA, 10, 0.95, "A spike.")};
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
-  r.defects[0].handled = false;
+  r.account.defects[0].handled = false;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
-  r.defects[0].confidence = 0.6;
+  r.account.defects[0].confidence = 0.6;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("Not certain"));
   EXPECT_DOUBLE_EQ(clean_findings(r)[0].time_s, 0.1);
-  r.defects[0].confidence = kNaN;
+  r.account.defects[0].confidence = kNaN;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
 }
 
 TEST(CleanFindings, ThousandsOfSpikesAreOneLine) {
   CleanReport r = faultless();
   for (int i = 0; i < 3000; ++i)
-    r.defects.push_back(
-        {"spike", i % 2 == 0 ? "A" : "B", "", i, i, 0.9, "A leaves its path.", "rejected", true});
-  r.defects.push_back({"zero", "", "", 5, 5, 0.9, "Zeros.", "rejected", true});
+    r.account.defects.push_back(rejected_spike(i % 2 == 0 ? kA : kB, i, 0.9, "A leaves its path."));
+  r.account.defects.push_back({.kind = data::DefectKind::zero,
+                               .first_frame = 5,
+                               .last_frame = 5,
+                               .confidence = 0.9,
+                               .sentence = "Zeros.",
+                               .done = "rejected",
+                               .handled = true});
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(2));
   EXPECT_THAT(findings[0].text,
@@ -89,15 +111,19 @@ TEST(CleanFindings, ThousandsOfSpikesAreOneLine) {
 
 TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
   CleanReport r = faultless();
-  r.upsampling = {.looked = true, .factor = 4, .sentences = {}, .done = "nothing", .handled = false};
+  data::UpsamplingAccount& recorder = r.account.upsampling;
+  recorder.looked = true;
+  recorder.recording.factor = 4;
+  recorder.markers.resize(3);
+  recorder.done = "nothing";
   ASSERT_THAT(clean_findings(r), SizeIs(1));
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 of 4 samples"));
-  r.upsampling.handled = true;
+  recorder.handled = true;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
-  r.upsampling.factor = 1;
+  recorder.recording.factor = 1;
   EXPECT_THAT(clean_findings(r), IsEmpty());
-  r.markers[1].upsampling_factor = 2;
+  recorder.markers[kB].factor = 2;
   ASSERT_THAT(clean_findings(r), SizeIs(1));
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 marker (B)"));
 }
@@ -105,15 +131,15 @@ TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
 TEST(CleanFindings, UncertainFillsAreToldMarkerByMarkerWithTheWorst) {
   CleanReport r = faultless();
   for (const double sd_m : {0.011, 0.019, 0.004}) {
-    CleanGap g = gap("B", 100, 149);
+    data::GapAccount g = gap(kB, 100, 149);
     g.filled = true;
     g.max_sd_m = sd_m;
     if (sd_m == 0.019) g.first_frame = 120;
-    r.gaps.push_back(g);
+    r.account.gaps.push_back(g);
   }
-  CleanGap unknown = gap("C", 0, 9);
+  data::GapAccount unknown = gap(kC, 0, 9);
   unknown.filled = true;
-  r.gaps.push_back(unknown);
+  r.account.gaps.push_back(unknown);
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(1));
   EXPECT_EQ(findings[0].level, Verdict::attention);
@@ -126,8 +152,8 @@ TEST(CleanFindings, UncertainFillsAreToldMarkerByMarkerWithTheWorst) {
 
 TEST(CleanFindings, OpenGapsAreSummedWithTheLongestAndItsReason) {
   CleanReport r = faultless();
-  r.gaps = {gap("A", 0, 9), gap("C", 200, 499), gap("A", 700, 709)};
-  r.gaps[1].why_open = "The gap is longer than 2 s.";
+  r.account.gaps = {gap(kA, 0, 9), gap(kC, 200, 499), gap(kA, 700, 709)};
+  r.account.gaps[1].why_open = "The gap is longer than 2 s.";
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(1));
   EXPECT_EQ(findings[0].level, Verdict::good);
@@ -140,10 +166,10 @@ TEST(CleanFindings, OpenGapsAreSummedWithTheLongestAndItsReason) {
 
 TEST(CleanFindings, FiltersThatTellLittleAreNamed) {
   CleanReport r = faultless();
-  r.markers[0].white = false;
-  r.markers[1].filter.cutoff_hz = 45.0;
-  r.markers[2].filter.cutoff_hz = 0.15;
-  r.markers[2].bad_variances = 3;
+  r.account.markers[0].white = false;
+  r.account.markers[1].used.cutoff_hz = 45.0;
+  r.account.markers[2].used.cutoff_hz = 0.15;
+  r.account.markers[2].bad_variances = 3;
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(4));
   EXPECT_THAT(findings[0].text, HasSubstr("A (1 of 3 markers): the residual is not white"));
@@ -154,24 +180,25 @@ TEST(CleanFindings, FiltersThatTellLittleAreNamed) {
 
 TEST(CleanFindings, ACutOffThatWasGivenIsNotJudged) {
   CleanReport r = faultless();
-  r.markers[1].filter.cutoff_hz = 45.0;
-  r.markers[1].criterion_name = "";
+  r.account.markers[1].used.cutoff_hz = 45.0;
+  r.account.markers[1].criterion_name = "";
   EXPECT_THAT(clean_findings(r), IsEmpty());
 }
 
 TEST(CleanFindings, ManyNamesAreCut) {
   CleanReport r = faultless();
-  r.markers.resize(20, r.markers[0]);
-  for (std::size_t i = 0; i < r.markers.size(); ++i) {
-    r.markers[i].name = "M" + std::to_string(i);
-    r.markers[i].white = false;
+  r.account.markers.resize(20, r.account.markers[0]);
+  r.counts.resize(20, r.counts[0]);
+  for (std::size_t i = 0; i < r.account.markers.size(); ++i) {
+    r.account.markers[i].name = "M" + std::to_string(i);
+    r.account.markers[i].white = false;
   }
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("M0, M1, M2, M3, M4, M5 and 14 more (20 of 20 markers)"));
 }
 
 TEST(CleanFindings, AMarkerThatWasNeverSeenIsNamed) {
   CleanReport r = faultless();
-  r.markers[2].before = {1000, 0, 0, 0, 0, 0};
+  r.counts[kC].before = {1000, 0, 0, 0, 0, 0};
   ASSERT_THAT(clean_findings(r), SizeIs(1));
   EXPECT_EQ(clean_findings(r)[0].text, "C (1 of 3 markers): never seen.");
 }

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/report/internal/base64.h"
 #include "kinemark/stages/report/internal/clean_words.h"
 #include "kinemark/stages/report/internal/page.h"
@@ -93,12 +94,11 @@ struct Gatherer {
       if (any_finite(column)) out[static_cast<std::size_t>(axis)] = points.extremes(column);
     }
   }
-  /// Square roots of the diagonal of xx xy xz yy yz zz.
+  /// Square roots of the diagonals.
   void variances(std::span<const double> array, std::array<std::vector<float>, 3>& out) {
     if (array.empty()) return;
-    constexpr std::array<std::int64_t, 3> kDiagonal{0, 3, 5};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      gather(array, markers, marker, 6, kDiagonal[axis], column);
+      gather(array, markers, marker, 6, static_cast<std::int64_t>(math::kSymmetric3Diagonal[axis]), column);
       for (double& v : column) v = std::sqrt(v);
       if (any_finite(column)) out[axis] = points.largest(column);
     }
@@ -154,7 +154,7 @@ void keep_longest(Json& list) {
 
 }  // namespace
 
-void add_marker(CleanReport& report, CleanMarker facts, const MarkerArrays& arrays,
+void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerArrays& arrays,
                 const ReportOptions& options) {
   check(arrays.before != nullptr && arrays.after != nullptr, "a marker's report needs it before and after");
   const Trajectories &before = *arrays.before, &after = *arrays.after;
@@ -168,9 +168,10 @@ void add_marker(CleanReport& report, CleanMarker facts, const MarkerArrays& arra
   const auto frames = static_cast<std::size_t>(report.time.frames);
   CleanSeries series{.points = points.size(), .frame_step = points.step()};
   std::vector<std::uint8_t> codes(frames, 0);
-  facts.before = count_states(before, arrays.before_marker, codes);
+  CleanCounts counts;
+  counts.before = count_states(before, arrays.before_marker, codes);
   series.before = points.worst(codes);
-  facts.after = count_states(after, arrays.after_marker, codes);
+  counts.after = count_states(after, arrays.after_marker, codes);
   series.after = points.worst(codes);
 
   Gatherer raw{points, before.markers(), arrays.before_marker, std::vector<double>(frames)};
@@ -187,12 +188,14 @@ void add_marker(CleanReport& report, CleanMarker facts, const MarkerArrays& arra
     result.values(d->acceleration, series.acceleration);
     result.deviations(d->acceleration_sd, series.acceleration_sd);
   }
-  report.markers.push_back(std::move(facts));
+  report.account.markers.push_back(std::move(account));
+  report.counts.push_back(counts);
   report.series.push_back(std::move(series));
 }
 
 nlohmann::ordered_json clean_report_json(const CleanReport& report) {
-  check(report.series.size() == report.markers.size(), "add_marker() makes a report's markers and series");
+  check(report.series.size() == report.account.markers.size(),
+        "add_marker() makes a report's markers and series");
   const bool alike = std::ranges::all_of(report.series, [&](const CleanSeries& s) {
     return s.points == report.series.front().points && s.frame_step == report.series.front().frame_step;
   });

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kinemark/core/time_base.h"
+#include "kinemark/data/clean_account.h"
 #include "kinemark/data/derivatives.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/report/report_parts.h"
@@ -36,91 +37,10 @@ struct CleanRun {
   std::vector<std::string> warnings;  ///< one sentence each
 };
 
-/// One filter that was tried: the smaller its criterion, the better.
-struct TriedFilter {
-  int order = 0;
-  double cutoff_hz = kNaN;
-  double criterion = kNaN;
-};
-
-/// Power spectral density, summed over the axes. All three have one length, or are empty.
-struct CleanSpectrum {
-  std::vector<double> frequency_hz;  ///< rising, > 0
-  std::vector<double> raw_m2_per_hz;
-  std::vector<double> residual_m2_per_hz;  ///< of what the filter took away
-};
-
-/// What was done to one marker, and why.
-struct CleanMarker {
-  std::string name;
-  std::array<std::int64_t, 6> before{};  ///< samples by data::SampleState; counted by add_marker()
-  std::array<std::int64_t, 6> after{};   ///< the same of the result; counted by add_marker()
-  data::FilterUsed filter;
-  std::string words;           ///< one or two sentences: what the filter did and why it was chosen
-  std::string noise_from;      ///< "given", "covariance", "data"; empty when unknown
-  std::string criterion_name;  ///< "SURE, m^2", ...; empty when nothing was chosen
-  std::vector<TriedFilter> tried;
-  double residual_rms_m = kNaN;         ///< in - out, per axis
-  std::vector<double> autocorrelation;  ///< of the residuals, lags 1, 2, ... frames; empty when unknown
-  double ljung_box_p = kNaN;            ///< small: the residual is not white
-  bool white = true;                    ///< no more autocorrelation than the filter itself explains
-  /// Factors on the model's standard deviations of position, velocity, acceleration and jerk: at seen
-  /// samples, and for what gaps and ends add.
-  std::array<double, 4> bar_scale{1.0, 1.0, 1.0, 1.0};
-  std::array<double, 4> gap_bar_scale{1.0, 1.0, 1.0, 1.0};
-  std::int64_t bad_variances = 0;  ///< samples whose variance could not be used
-  int upsampling_factor = 1;       ///< 1: not found to be interpolated by the recorder
-  std::string upsampling_kernel;   ///< "linear", "cubic spline", ...; empty with factor 1
-  std::string band;                ///< what the top of the spectrum says: "open", "low-passed ...", ...
-  CleanSpectrum spectrum;
-};
-
-/// One candidate of a gap's combination.
-struct GapWeight {
-  std::string name;
-  double weight = 0.0;   ///< all weights of a gap sum to 1
-  double rms_m = kNaN;   ///< on artificial gaps
-  bool guarded = false;  ///< left out: strayed from all others
-};
-
-/// One gap, filled or not.
-struct CleanGap {
-  std::string marker;
-  std::int64_t first_frame = 0;  ///< both ends belong to the gap
-  std::int64_t last_frame = 0;
-  bool at_edge = false;  ///< touches the start or the end of the recording
-  bool filled = false;
-  std::string method;              ///< "auto", "cubic", ...; empty when left open
-  std::vector<GapWeight> weights;  ///< largest first
-  double sd_m = kNaN;              ///< per axis, RMS over the gap
-  double max_sd_m = kNaN;          ///< largest along the gap and over the axes
-  int windows = 0;                 ///< artificial gaps that weights and SD come from
-  double window_s = kNaN;          ///< their length
-  std::vector<std::string> predictors;
-  std::vector<std::string> dropped;  ///< markers not trusted in this gap
-  std::string why_open;              ///< a sentence; empty when filled
-};
-
-/// A defect of the recording: from screening or from the label check of the gaps.
-struct CleanDefect {
-  std::string kind;          ///< "spike", "stuck", "label swap", ...
-  std::string marker;        ///< empty: all markers
-  std::string other_marker;  ///< partner of a swap, or empty
-  std::int64_t first_frame = 0;
-  std::int64_t last_frame = 0;
-  double confidence = kNaN;  ///< 0 to 1; unknown counts as certain
-  std::string sentence;      ///< what is wrong, with numbers
-  std::string done;          ///< in words: "rejected", "left as it is", ...
-  bool handled = false;      ///< false with a confidence of 0.8 and more: needs attention
-};
-
-/// Whether the recorder made samples, over the whole recording.
-struct CleanUpsampling {
-  bool looked = false;
-  int factor = 1;                      ///< of all markers together; 1: not found
-  std::vector<std::string> sentences;  ///< for people, the last one says what the test is blind to
-  std::string done;                    ///< "marked", "removed", "left as they are", ...
-  bool handled = false;                ///< false with a factor above 1: needs attention
+/// Samples of one marker by data::SampleState. Made by add_marker().
+struct CleanCounts {
+  std::array<std::int64_t, 6> before{};
+  std::array<std::int64_t, 6> after{};  ///< of the result
 };
 
 /// What the plots of one marker show, on the points of the page. Made by add_marker().
@@ -134,16 +54,14 @@ struct CleanSeries {
   std::vector<std::uint8_t> before, after;   ///< data::SampleState as ranked in README.md
 };
 
-/// The report of a cleaned recording. Plain data: fill `run`, `time`, `upsampling`, `gaps` and `defects`, and
-/// add the markers one by one with add_marker().
+/// The report of a cleaned recording. Plain data: fill `run`, `time` and all of `account` but its markers,
+/// and add these one by one, from the first to the last, with add_marker().
 struct CleanReport {
   CleanRun run;
   TimeBase time;  ///< of the result
-  CleanUpsampling upsampling;
-  std::vector<CleanMarker> markers;
-  std::vector<CleanSeries> series;  ///< one per marker
-  std::vector<CleanGap> gaps;       ///< by marker and frame
-  std::vector<CleanDefect> defects;
+  data::CleanAccount account;
+  std::vector<CleanCounts> counts;  ///< one per marker of the account
+  std::vector<CleanSeries> series;  ///< one per marker of the account
 };
 
 /// The arrays of one marker, borrowed for the call. A result that comes marker by marker is handed over as
@@ -156,10 +74,10 @@ struct MarkerArrays {
   const data::Derivatives* derivatives = nullptr;  ///< of `after`; nullptr: not known
 };
 
-/// Append a marker: its facts, its samples by state, and its plots, thinned so that all markers of `before`
+/// Append a marker: its account, its samples by state, and its plots, thinned so that all markers of `before`
 /// together stay within the options. Neither array is needed afterwards. When the frames were decimated,
 /// `before` is the recording after that. O(F).
-void add_marker(CleanReport& report, CleanMarker facts, const MarkerArrays& arrays,
+void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerArrays& arrays,
                 const ReportOptions& options = {});
 
 /// What needs attention, the serious ones first: defects that were found but not handled, samples that the

@@ -58,11 +58,12 @@ TEST(ExampleClean, IsARecordingThatAStageCouldHaveMade) {
   }
   const auto ok = e.derivatives.validate(e.after);
   EXPECT_TRUE(ok) << ok.error().message;
-  for (const CleanGap& g : e.report.gaps) {
-    const std::int64_t m = e.before.find(g.marker);
+  const auto account = e.report.account.validate();
+  EXPECT_TRUE(account) << account.error().message;
+  for (const data::GapAccount& g : e.report.account.gaps) {
     for (std::int64_t f = g.first_frame; f <= g.last_frame; ++f) {
-      EXPECT_FALSE(e.before.present(f, m));
-      EXPECT_EQ(e.after.present(f, m), g.filled);
+      EXPECT_FALSE(e.before.present(f, g.marker));
+      EXPECT_EQ(e.after.present(f, g.marker), g.filled);
     }
   }
 }
@@ -108,9 +109,9 @@ TEST(AddMarker, CountsAndCodesTheStates) {
   const ExampleClean e = example_clean(1200);
   const CleanReport r = e.finished();
   const auto at = [](SampleState s) { return static_cast<std::size_t>(s); };
-  EXPECT_EQ(r.markers[kUlna].before[at(SampleState::missing)], 132);
-  EXPECT_EQ(r.markers[kUlna].after[at(SampleState::missing)], 0);
-  EXPECT_EQ(r.markers[kUlna].after[at(SampleState::model_filled)], 132);
+  EXPECT_EQ(r.counts[kUlna].before[at(SampleState::missing)], 132);
+  EXPECT_EQ(r.counts[kUlna].after[at(SampleState::missing)], 0);
+  EXPECT_EQ(r.counts[kUlna].after[at(SampleState::model_filled)], 132);
   EXPECT_EQ(r.series[kUlna].before[600], 4);
   EXPECT_EQ(r.series[kUlna].after[600], 3);
   EXPECT_EQ(r.series[kFinger].after[180], 5) << "the spike";
@@ -122,7 +123,7 @@ TEST(AddMarker, MarkerByMarkerGivesTheSameBytesAsAllTogether) {
   CleanReport one_by_one = e.report;
   for (std::int64_t m = 0; m < 12; ++m) {
     const Alone a = alone(e, m);
-    add_marker(one_by_one, e.facts[static_cast<std::size_t>(m)],
+    add_marker(one_by_one, e.accounts[static_cast<std::size_t>(m)],
                {.before = &e.before, .before_marker = m, .after = &a.after, .derivatives = &a.derivatives},
                {.max_points = 64});
   }
@@ -133,7 +134,7 @@ TEST(AddMarker, WhatTheResultDoesNotHaveIsLeftOut) {
   ExampleClean e = example_clean(200);
   e.after.covariance.clear();
   CleanReport r = e.report;
-  add_marker(r, e.facts[0], {.before = &e.before, .after = &e.after});
+  add_marker(r, e.accounts[0], {.before = &e.before, .after = &e.after});
   EXPECT_THAT(r.series[0].position_sd, Each(IsEmpty()));
   EXPECT_THAT(r.series[0].velocity, Each(IsEmpty()));
   EXPECT_THAT(r.series[0].position, Each(Not(IsEmpty())));
@@ -148,7 +149,7 @@ TEST(AddMarker, ThinningKeepsPeaksAndTheWidestBand) {
   e.after.covariance[6 * e.after.index(4100, 0) + 3] = 0.09;
   e.after.set_missing(4444, 0);
   CleanReport r = e.report;
-  add_marker(r, e.facts[0], {.before = &e.before, .after = &e.after}, {.max_points = 100});
+  add_marker(r, e.accounts[0], {.before = &e.before, .after = &e.after}, {.max_points = 100});
   const CleanSeries& s = r.series[0];
   EXPECT_EQ(s.points, 100);
   EXPECT_EQ(s.frame_step, 50);
@@ -171,7 +172,7 @@ TEST(AddMarker, RefusesArraysThatDoNotFit) {
   EXPECT_ANY_THROW(add_marker(r, {}, {.before = &e.before, .after = &e.after, .after_marker = 12}));
   EXPECT_ANY_THROW(add_marker(r, {}, {.before = &e.before, .after = &e.after, .derivatives = &wrong}));
   EXPECT_ANY_THROW(add_marker(r, {}, {.before = &e.before, .after = &e.after}, {.max_points = 1}));
-  EXPECT_THAT(r.markers, IsEmpty());
+  EXPECT_THAT(r.account.markers, IsEmpty());
 }
 
 TEST(CleanReportJson, SeriesAreInMillimetresAndOnePerMarker) {
@@ -189,9 +190,9 @@ TEST(CleanReportJson, SeriesAreInMillimetresAndOnePerMarker) {
 
 TEST(CleanReportJson, APageListsTheLongestGapsOnly) {
   CleanReport r = example_clean(200).report;
-  r.gaps.clear();
+  r.account.gaps.clear();
   for (int i = 0; i < 5000; ++i)
-    r.gaps.push_back({.marker = "C7", .first_frame = i, .last_frame = i + (i % 5 == 0 ? 9 : 0)});
+    r.account.gaps.push_back({.marker = 0, .first_frame = i, .last_frame = i + (i % 5 == 0 ? 9 : 0)});
   const Json page = clean_report_json(r)["summary"];
   EXPECT_EQ(clean_summary_json(r)["gaps"].size(), 5000U);
   EXPECT_EQ(page["gap_count"], 5000);
@@ -209,11 +210,12 @@ TEST(CleanReportJson, APageListsTheLongestGapsOnly) {
 TEST(CleanReportJson, RefusesMarkersWithoutSeriesOrOfDifferentGrids) {
   const ExampleClean e = example_clean(200);
   CleanReport r = e.report;
-  r.markers.resize(1);
+  r.account.markers.resize(1);
   EXPECT_ANY_THROW((void)clean_report_json(r));
-  r.markers.clear();
-  add_marker(r, e.facts[0], {.before = &e.before, .after = &e.after});
-  add_marker(r, e.facts[1], {.before = &e.before, .before_marker = 1, .after = &e.after, .after_marker = 1},
+  r.account.markers.clear();
+  add_marker(r, e.accounts[0], {.before = &e.before, .after = &e.after});
+  add_marker(r, e.accounts[1],
+             {.before = &e.before, .before_marker = 1, .after = &e.after, .after_marker = 1},
              {.max_points = 50});
   EXPECT_ANY_THROW((void)clean_report_json(r));
 }
@@ -238,9 +240,9 @@ TEST(CleanReportHtml, NamesCannotEndTheData) {
   ExampleClean e = example_clean(100);
   const std::string hostile = "</script><script>alert(1)</script>\xff";
   e.report.run.trial = hostile;
-  e.facts[0].name = hostile;
-  e.report.gaps[0].why_open = hostile;
-  e.report.defects[0].sentence = hostile;
+  e.accounts[0].name = hostile;
+  e.report.account.gaps[0].why_open = hostile;
+  e.report.account.defects[0].sentence = hostile;
   EXPECT_THAT(clean_report_html(e.finished()), Not(HasSubstr("<script>alert(1)")));
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
+#include <string_view>
 
+#include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/stages/report/clean_report.h"
 #include "kinemark/stages/report/internal/clean_words.h"
 #include "kinemark/stages/report/internal/json_parts.h"
@@ -30,10 +32,10 @@ Json counts_json(const std::array<std::int64_t, 6>& counts) {
   return out;
 }
 
-Json all_counts_json(const CleanReport& report, std::array<std::int64_t, 6> CleanMarker::* which) {
+Json all_counts_json(const CleanReport& report, std::array<std::int64_t, 6> CleanCounts::* which) {
   std::array<std::int64_t, 6> sum{};
-  for (const CleanMarker& m : report.markers)
-    for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += (m.*which)[s];
+  for (const CleanCounts& c : report.counts)
+    for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += (c.*which)[s];
   return counts_json(sum);
 }
 
@@ -45,9 +47,9 @@ Json decades(const std::vector<double>& values, double scale) {
 }
 
 /// Unit of a criterion is in its name, so it is not scaled.
-Json tried_json(const CleanMarker& m) {
+Json tried_json(const data::MarkerAccount& m) {
   Json out = Json::array();
-  for (const TriedFilter& t : m.tried)
+  for (const data::FilterCandidate& t : m.candidates)
     out.push_back({{"order", t.order},
                    {"cutoff_hz", number(t.cutoff_hz, 4)},
                    {"criterion", significant(t.criterion, 8)}});
@@ -68,10 +70,11 @@ struct GapSum {
   double largest_sd_m = kNaN;  ///< of the filled ones
 };
 
-std::map<std::string, GapSum> sum_gaps(const CleanReport& report) {
-  std::map<std::string, GapSum> out;
-  for (const CleanGap& g : report.gaps) {
-    GapSum& sum = out[g.marker];
+/// One a marker.
+std::vector<GapSum> sum_gaps(const CleanReport& report) {
+  std::vector<GapSum> out(report.account.names.size());
+  for (const data::GapAccount& g : report.account.gaps) {
+    GapSum& sum = out[at(g.marker)];
     ++(g.filled ? sum.filled : sum.open);
     if (g.filled)
       sum.largest_sd_m = std::fmax(sum.largest_sd_m, g.max_sd_m);
@@ -81,18 +84,23 @@ std::map<std::string, GapSum> sum_gaps(const CleanReport& report) {
   return out;
 }
 
-Json marker_json(const CleanMarker& m, const GapSum& gaps) {
+Json marker_json(const CleanReport& report, std::size_t marker, const GapSum& gaps) {
+  const data::MarkerAccount& m = report.account.markers[marker];
+  const data::UpsamplingAccount& recorder = report.account.upsampling;
+  const data::Upsampling made = recorder.markers.empty() ? data::Upsampling{} : recorder.markers[marker];
+  const std::string_view band =
+      recorder.marker_bands.empty() ? "" : to_string(recorder.marker_bands[marker].verdict);
   return {{"name", m.name},
-          {"before", counts_json(m.before)},
-          {"after", counts_json(m.after)},
+          {"before", counts_json(report.counts[marker].before)},
+          {"after", counts_json(report.counts[marker].after)},
           {"gaps_filled", gaps.filled},
           {"gaps_open", gaps.open},
           {"longest_open_s", number(gaps.longest_open_s, 6)},
           {"largest_fill_sd_mm", millimetres(gaps.largest_sd_m)},
-          {"method", m.filter.method},
-          {"order", m.filter.order},
-          {"cutoff_hz", number(m.filter.cutoff_hz, 4)},
-          {"noise_sd_mm", significant(1e3 * m.filter.noise_sd_m, 5)},
+          {"method", m.used.method},
+          {"order", m.used.order},
+          {"cutoff_hz", number(m.used.cutoff_hz, 4)},
+          {"noise_sd_mm", significant(1e3 * m.used.noise_sd_m, 5)},
           {"noise_from", m.noise_from},
           {"words", m.words},
           {"criterion", m.criterion_name},
@@ -104,9 +112,9 @@ Json marker_json(const CleanMarker& m, const GapSum& gaps) {
           {"bar_scale", rounded(m.bar_scale)},
           {"gap_bar_scale", rounded(m.gap_bar_scale)},
           {"bad_variances", m.bad_variances},
-          {"upsampling_factor", m.upsampling_factor},
-          {"upsampling_kernel", m.upsampling_kernel},
-          {"band", m.band},
+          {"upsampling_factor", made.factor},
+          {"upsampling_kernel", made.found() ? to_string(made.kernel) : ""},
+          {"band", band},
           {"spectrum",
            {{"frequency_hz", decades(m.spectrum.frequency_hz, 1.0)},
             {"raw_mm2_per_hz", decades(m.spectrum.raw_m2_per_hz, 1e6)},
@@ -114,23 +122,22 @@ Json marker_json(const CleanMarker& m, const GapSum& gaps) {
 }
 
 Json markers_json(const CleanReport& report) {
-  const std::map<std::string, GapSum> sums = sum_gaps(report);
+  const std::vector<GapSum> gaps = sum_gaps(report);
   Json out = Json::array();
-  for (const CleanMarker& m : report.markers) {
-    const auto at = sums.find(m.name);
-    out.push_back(marker_json(m, at == sums.end() ? GapSum{} : at->second));
-  }
+  for (std::size_t m = 0; m < report.account.markers.size(); ++m)
+    out.push_back(marker_json(report, m, gaps[m]));
   return out;
 }
 
-Json gap_json(const CleanGap& g, const TimeBase& time) {
+Json gap_json(const CleanReport& report, const data::GapAccount& g) {
+  const TimeBase& time = report.time;
   Json weights = Json::array();
-  for (const GapWeight& w : g.weights)
+  for (const data::GapWeight& w : g.weights)
     weights.push_back({{"name", w.name},
                        {"weight", number(w.weight, 4)},
                        {"rms_mm", millimetres(w.rms_m)},
                        {"guarded", w.guarded}});
-  return {{"marker", g.marker},
+  return {{"marker", report.account.name_of(g.marker)},
           {"first_frame", g.first_frame},
           {"last_frame", g.last_frame},
           {"first_time_s", number(time.time_s(g.first_frame), 6)},
@@ -150,10 +157,11 @@ Json gap_json(const CleanGap& g, const TimeBase& time) {
           {"why_open", g.why_open}};
 }
 
-Json defect_json(const CleanDefect& d, const TimeBase& time) {
-  return {{"kind", d.kind},
-          {"marker", d.marker},
-          {"other_marker", d.other_marker},
+Json defect_json(const CleanReport& report, const data::Defect& d) {
+  const TimeBase& time = report.time;
+  return {{"kind", to_string(d.kind)},
+          {"marker", report.account.name_of(d.marker)},
+          {"other_marker", report.account.name_of(d.other_marker)},
           {"first_frame", d.first_frame},
           {"last_frame", d.last_frame},
           {"first_time_s", number(time.time_s(d.first_frame), 6)},
@@ -167,14 +175,16 @@ Json defect_json(const CleanDefect& d, const TimeBase& time) {
 }  // namespace
 
 nlohmann::ordered_json clean_summary_json(const CleanReport& report) {
+  const data::CleanAccount& account = report.account;
+  check(account.validate().has_value(), "a report needs an account that validates");
   const CleanRun& run = report.run;
-  const CleanUpsampling& up = report.upsampling;
+  const data::UpsamplingAccount& up = account.upsampling;
   const std::vector<Finding> findings = clean_findings(report);
   const bool serious =
       std::ranges::any_of(findings, [](const Finding& f) { return f.level == Verdict::attention; });
   Json gaps = Json::array(), defects = Json::array();
-  for (const CleanGap& g : report.gaps) gaps.push_back(gap_json(g, report.time));
-  for (const CleanDefect& d : report.defects) defects.push_back(defect_json(d, report.time));
+  for (const data::GapAccount& g : account.gaps) gaps.push_back(gap_json(report, g));
+  for (const data::Defect& d : account.defects) defects.push_back(defect_json(report, d));
   return {{"schema", "kinemark.clean_report"},
           {"schema_version", kSchemaVersion},
           {"trial", run.trial},
@@ -190,20 +200,20 @@ nlohmann::ordered_json clean_summary_json(const CleanReport& report) {
           {"seed", run.seed},
           {"version", run.version},
           {"command_line", run.command_line},
-          {"before", all_counts_json(report, &CleanMarker::before)},
-          {"after", all_counts_json(report, &CleanMarker::after)},
+          {"before", all_counts_json(report, &CleanCounts::before)},
+          {"after", all_counts_json(report, &CleanCounts::after)},
           {"findings", internal::findings_json(findings)},
           {"gates", internal::gates_json(run.gates)},
           {"upsampling",
            {{"looked", up.looked},
-            {"factor", up.factor},
+            {"factor", up.factor()},
             {"done", up.done},
             {"handled", up.handled},
             {"sentences", up.sentences}}},
           {"markers", markers_json(report)},
-          {"gap_count", report.gaps.size()},
+          {"gap_count", account.gaps.size()},
           {"gaps", std::move(gaps)},
-          {"defect_count", report.defects.size()},
+          {"defect_count", account.defects.size()},
           {"defects", std::move(defects)},
           {"options", internal::options_json(run.options)},
           {"inputs", internal::inputs_json(run.inputs)},

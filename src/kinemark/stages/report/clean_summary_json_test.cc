@@ -74,9 +74,9 @@ TEST(CleanSummaryJson, AMarkerSumsItsGaps) {
 
 TEST(CleanSummaryJson, UnitsAreThoseOfTheReader) {
   CleanReport r = example_clean(1200).finished();
-  r.markers[0].filter.noise_sd_m = 0.000123456789;
-  r.markers[0].spectrum = {{1.0, 10.0}, {2.5e-8, 1.0}, {kNaN, 1e-12}};
-  r.markers[0].tried = {{3, 7.25, 4.0e-9}};
+  r.account.markers[0].used.noise_sd_m = 0.000123456789;
+  r.account.markers[0].spectrum = {{1.0, 10.0}, {2.5e-8, 1.0}, {kNaN, 1e-12}};
+  r.account.markers[0].candidates = {{3, 7.25, 4.0e-9}};
   const Json m = clean_summary_json(r)["markers"][0];
   EXPECT_EQ(m["noise_sd_mm"], 0.12346);
   EXPECT_EQ(m["spectrum"]["raw_mm2_per_hz"][0], 0.025);
@@ -104,6 +104,38 @@ TEST(CleanSummaryJson, AGapTellsItsStory) {
   EXPECT_EQ(finger["why_open"], "The gap is longer than 2 s.");
 }
 
+TEST(CleanSummaryJson, AMarkerTellsWhatTheRecorderDidToIt) {
+  CleanReport r = example_clean(1200).finished();
+  r.account.upsampling.marker_bands[1].verdict = data::BandVerdict::low_passed;
+  const Json markers = clean_summary_json(r)["markers"];
+  EXPECT_EQ(markers[6]["upsampling_factor"], 2);
+  EXPECT_EQ(markers[6]["upsampling_kernel"], "linear");
+  EXPECT_EQ(markers[0]["upsampling_factor"], 1);
+  EXPECT_EQ(markers[0]["upsampling_kernel"], "");
+  EXPECT_EQ(markers[0]["band"], "open");
+  EXPECT_EQ(markers[1]["band"], "low-passed or model-generated");
+  r.account.upsampling = {};
+  const Json nobody_looked = clean_summary_json(r);
+  EXPECT_EQ(nobody_looked["upsampling"]["looked"], false);
+  EXPECT_EQ(nobody_looked["markers"][6]["upsampling_factor"], 1);
+  EXPECT_EQ(nobody_looked["markers"][6]["band"], "");
+}
+
+TEST(CleanSummaryJson, ADefectIsToldByNames) {
+  const Json defects = clean_summary_json(example_clean(1200).finished())["defects"];
+  EXPECT_EQ(defects[0]["kind"], "spike");
+  EXPECT_EQ(defects[0]["marker"], "R.Finger");
+  EXPECT_EQ(defects[0]["other_marker"], "");
+  EXPECT_EQ(defects[1]["kind"], "label swap");
+  EXPECT_EQ(defects[1]["other_marker"], "R.Elbow.Med");
+}
+
+TEST(CleanSummaryJson, RefusesAnAccountOfMarkersThatAreNotThere) {
+  CleanReport r = example_clean(1200).finished();
+  r.account.gaps[0].marker = 12;
+  EXPECT_ANY_THROW((void)clean_summary_json(r));
+}
+
 TEST(CleanSummaryJson, AnEmptyReportIsStillOne) {
   CleanReport r;
   r.time = {.rate_hz = 100.0};
@@ -115,7 +147,7 @@ TEST(CleanSummaryJson, AnEmptyReportIsStillOne) {
 }
 
 TEST(CleanWords, SingleMethodsHaveNoShares) {
-  CleanGap g{.filled = true, .method = "cubic"};
+  data::GapAccount g{.filled = true, .method = "cubic"};
   EXPECT_EQ(internal::how_filled(g), "cubic");
   g.weights = {{"cubic", 1.0, 0.001, false}};
   EXPECT_EQ(internal::how_filled(g), "cubic");

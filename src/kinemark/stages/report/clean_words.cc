@@ -28,17 +28,17 @@ std::uint8_t state_rank(SampleState state) {
   return 4;
 }
 
-std::string how_filled(const CleanGap& gap) {
+std::string how_filled(const data::GapAccount& gap) {
   if (!gap.filled) return "";
   std::vector<std::string> parts;
-  for (const GapWeight& w : gap.weights)
+  for (const data::GapWeight& w : gap.weights)
     if (w.weight >= 0.005) parts.push_back(fmt::format("{:.0f} % {}", 100.0 * w.weight, w.name));
   if (gap.weights.size() < 2 || parts.empty()) return gap.method;
   return fmt::format("{}: {}", gap.method, fmt::join(parts, "; "));
 }
 
-double length_s(const CleanGap& gap, const TimeBase& time) {
-  return static_cast<double>(gap.last_frame - gap.first_frame + 1) / time.rate_hz;
+double length_s(const data::GapAccount& gap, const TimeBase& time) {
+  return static_cast<double>(gap.frames()) / time.rate_hz;
 }
 
 }  // namespace kinemark::report::internal

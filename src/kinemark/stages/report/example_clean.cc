@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/report/internal/example_clean.h"
 
 namespace kinemark::report::internal {
@@ -20,8 +22,8 @@ constexpr double kNoiseM = 0.0004;
 constexpr std::array<std::string_view, 12> kNames{"C7",           "CLAV",        "R.Acromium",  "R.Bicep",
                                                   "R.Elbow.Lat",  "R.Elbow.Med", "R.Forearm.1", "R.Forearm.2",
                                                   "R.Wrist.Ulna", "R.Wrist.Rad", "R.Hand",      "R.Finger"};
-constexpr std::int64_t kBicep = 3, kFirstMade = 6, kLastMade = 7, kUlna = 8, kRadius = 9, kHand = 10,
-                       kFinger = 11;
+constexpr std::int64_t kBicep = 3, kLateral = 4, kMedial = 5, kFirstMade = 6, kLastMade = 7, kUlna = 8,
+                       kRadius = 9, kHand = 10, kFinger = 11;
 
 /// Position of a marker and its first two derivatives along one axis: two waves of an arm that swings.
 struct Motion {
@@ -89,7 +91,7 @@ void fill_samples(ExampleClean& e, std::uint64_t seed) {
         e.derivatives.velocity_sd[k] = 0.008;
         e.derivatives.acceleration_sd[k] = 0.45;
       }
-      for (const std::size_t d : {0U, 3U, 5U}) e.after.covariance[6 * i + d] = 0.00016 * 0.00016;
+      math::pack_isotropic3(0.00016 * 0.00016, e.after.covariance.data() + 6 * i);
     }
   }
 }
@@ -119,19 +121,19 @@ void cut_hole(ExampleClean& e, const Hole& hole) {
     const double along = (static_cast<double>(f - first) + 1.0) / (static_cast<double>(last - first) + 2.0);
     const double bulge = std::sin(std::numbers::pi * along);
     const double sd = 0.0002 + hole.max_sd_m * bulge;
-    for (const std::size_t d : {0U, 3U, 5U}) e.after.covariance[6 * i + d] = sd * sd;
+    math::pack_isotropic3(sd * sd, e.after.covariance.data() + 6 * i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       e.after.x_in_world[3 * i + axis] += 0.8 * hole.max_sd_m * bulge * (axis == 1 ? -1.0 : 1.0);
       e.derivatives.velocity_sd[3 * i + axis] += 20.0 * hole.max_sd_m * bulge;
       e.derivatives.acceleration_sd[3 * i + axis] += 300.0 * hole.max_sd_m * bulge;
     }
   }
-  CleanGap gap{.marker = std::string(kNames[static_cast<std::size_t>(hole.marker)]),
-               .first_frame = first,
-               .last_frame = last,
-               .at_edge = first == 0,
-               .filled = hole.filled,
-               .method = std::string(hole.method)};
+  data::GapAccount gap{.marker = hole.marker,
+                       .first_frame = first,
+                       .last_frame = last,
+                       .at_edge = first == 0,
+                       .filled = hole.filled,
+                       .method = std::string(hole.method)};
   if (hole.filled) {
     gap.sd_m = 0.7 * hole.max_sd_m;
     gap.max_sd_m = hole.max_sd_m;
@@ -147,43 +149,38 @@ void cut_hole(ExampleClean& e, const Hole& hole) {
                    {"cubic", 0.08, 0.0098, false},
                    {"pca", 0.0, 0.021, true}};
   if (hole.marker == kUlna) gap.dropped = {"R.Wrist.Rad"};
-  e.report.gaps.push_back(std::move(gap));
+  e.report.account.gaps.push_back(std::move(gap));
 }
 
-void fill_facts(ExampleClean& e) {
+void fill_accounts(ExampleClean& e) {
   for (std::int64_t m = 0; m < std::ssize(kNames); ++m) {
     const auto at = static_cast<double>(m);
-    CleanMarker c{.name = std::string(kNames[static_cast<std::size_t>(m)])};
-    c.filter = {"kalman", m < 4 ? 3 : 4, 6.0 + 0.9 * at, kNoiseM * (1.0 + 0.05 * at)};
+    data::MarkerAccount c{.name = std::string(kNames[static_cast<std::size_t>(m)])};
+    c.used = {"kalman", m < 4 ? 3 : 4, 6.0 + 0.9 * at, kNoiseM * (1.0 + 0.05 * at)};
     c.words = "Smoother of an integrated random walk; order and cut-off have the least estimated risk.";
     c.noise_from = "data";
     c.criterion_name = "SURE, m^2";
     for (const int order : {2, 3, 4, 5})
-      c.tried.push_back(
-          {order, 5.0 + 0.9 * at + 0.4 * order, 1e-8 * (1.0 + 0.1 * std::abs(order - c.filter.order))});
-    c.residual_rms_m = 0.95 * c.filter.noise_sd_m;
+      c.candidates.push_back(
+          {order, 5.0 + 0.9 * at + 0.4 * order, 1e-8 * (1.0 + 0.1 * std::abs(order - c.used.order))});
+    c.residual_rms_m = 0.95 * c.used.noise_sd_m;
     c.white = m != kFinger;
     c.ljung_box_p = c.white ? 0.37 : 1e-9;
     for (int lag = 1; lag <= 10; ++lag)
       c.autocorrelation.push_back(c.white ? 0.03 * std::sin(3.0 * lag + at) : 0.6 * std::exp(-0.3 * lag));
     c.bar_scale = {1.04, 1.11, 1.2, 1.3};
     c.gap_bar_scale = {1.2, 1.3, 1.4, 1.5};
-    if (m >= kFirstMade && m <= kLastMade) {
-      c.upsampling_factor = 2;
-      c.upsampling_kernel = "linear";
-    }
-    c.band = "open";
     for (int k = 0; k < 40; ++k) {
       const double hz = 0.25 * std::pow(240.0, k / 39.0);
-      const double noise = 3.0 * 2.0 * c.filter.noise_sd_m * c.filter.noise_sd_m / kRateHz;
-      const double high_pass = 1.0 / (1.0 + std::pow(c.filter.cutoff_hz / hz, 6.0));
+      const double noise = 3.0 * 2.0 * c.used.noise_sd_m * c.used.noise_sd_m / kRateHz;
+      const double high_pass = 1.0 / (1.0 + std::pow(c.used.cutoff_hz / hz, 6.0));
       c.spectrum.frequency_hz.push_back(hz);
       c.spectrum.raw_m2_per_hz.push_back(noise + 1e-4 * std::pow(1.0 + hz, -6.0));
       c.spectrum.residual_m2_per_hz.push_back(noise * high_pass * high_pass);
     }
-    e.facts.push_back(std::move(c));
+    e.accounts.push_back(std::move(c));
   }
-  for (const CleanMarker& c : e.facts) e.derivatives.filters.push_back(c.filter);
+  for (const data::MarkerAccount& c : e.accounts) e.derivatives.filters.push_back(c.used);
 }
 
 void fill_run(ExampleClean& e) {
@@ -198,12 +195,17 @@ void fill_run(ExampleClean& e) {
   run.options = {{"derivatives", "yes"}, {"filter", "auto"}, {"gaps", "auto"}, {"max_gap_s", "2"}};
   run.inputs = {{"markers", "reach_07.c3d", 812544, "5be1093c77d2a8f0", "XXH3-64"}};
   run.warnings = {"reach_07.c3d: the header says 14 markers; 12 are there."};
-  e.report.upsampling = {true,
-                         1,
-                         {"R.Forearm.1 and R.Forearm.2 were interpolated by a factor of 2 (linear).",
-                          "Interpolation that was followed by a low-pass filter cannot be seen."},
-                         "marked as upsampled, not used as measurements",
-                         true};
+  data::UpsamplingAccount& recorder = e.report.account.upsampling;
+  recorder.looked = recorder.handled = true;
+  recorder.markers.resize(kNames.size());
+  for (const std::int64_t m : {kFirstMade, kLastMade}) {
+    recorder.markers[at(m)].factor = 2;
+    recorder.markers[at(m)].kernel = data::InterpolationKernel::linear;
+  }
+  recorder.marker_bands.assign(kNames.size(), {.verdict = data::BandVerdict::open});
+  recorder.sentences = {"R.Forearm.1 and R.Forearm.2 were interpolated by a factor of 2 (linear).",
+                        "Interpolation that was followed by a low-pass filter cannot be seen."};
+  recorder.done = "marked as upsampled, not used as measurements";
 }
 
 }  // namespace
@@ -211,7 +213,7 @@ void fill_run(ExampleClean& e) {
 CleanReport ExampleClean::finished(const ReportOptions& options) const {
   CleanReport out = report;
   for (std::int64_t m = 0; m < after.markers(); ++m)
-    add_marker(out, facts[static_cast<std::size_t>(m)],
+    add_marker(out, accounts[at(m)],
                {.before = &before,
                 .before_marker = m,
                 .after = &after,
@@ -226,21 +228,34 @@ ExampleClean example_clean(std::int64_t frames, std::uint64_t seed) {
   ExampleClean e;
   e.report.time = {.rate_hz = kRateHz, .t0_s = 0.0, .frames = frames};
   const std::vector<std::string> names(kNames.begin(), kNames.end());
+  e.report.account.names = names;
   e.before = data::Trajectories::all_missing(names, e.report.time);
   e.after = data::Trajectories::all_missing(names, e.report.time);
   fill_samples(e, seed);
   for (const Hole& hole : kHoles) cut_hole(e, hole);
-  fill_facts(e);
+  fill_accounts(e);
   fill_run(e);
 
   const std::int64_t spike = frame_at(0.15, frames);
   e.before.x(spike, kFinger)(1) += 0.12;
   forget(e, spike, kFinger, SampleState::rejected);
-  e.report.defects = {
-      {"spike", "R.Finger", "", spike, spike, 0.98,
-       "R.Finger leaves its path by 120 mm for one sample and comes back.", "rejected", true},
-      {"label swap", "R.Elbow.Lat", "R.Elbow.Med", frame_at(0.8, frames), frame_at(0.83, frames), 0.93,
-       "R.Elbow.Lat and R.Elbow.Med sit in each other's place, 62 mm out of place.", "left as it is", false}};
+  e.report.account.defects = {
+      {.kind = data::DefectKind::spike,
+       .marker = kFinger,
+       .first_frame = spike,
+       .last_frame = spike,
+       .confidence = 0.98,
+       .sentence = "R.Finger leaves its path by 120 mm for one sample and comes back.",
+       .done = "rejected",
+       .handled = true},
+      {.kind = data::DefectKind::label_swap,
+       .marker = kLateral,
+       .other_marker = kMedial,
+       .first_frame = frame_at(0.8, frames),
+       .last_frame = frame_at(0.83, frames),
+       .confidence = 0.93,
+       .sentence = "R.Elbow.Lat and R.Elbow.Med sit in each other's place, 62 mm out of place.",
+       .done = "left as it is"}};
   return e;
 }
 

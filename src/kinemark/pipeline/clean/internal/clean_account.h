@@ -1,31 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What the stages tell of a cleaned recording, as the report has it.
+// What is told of a run beside the account that the stages give, and what the job decides about it.
 #pragma once
 
 #include <span>
 
+#include "kinemark/data/defect.h"
+#include "kinemark/data/upsampling.h"
 #include "kinemark/pipeline/clean/clean_job.h"
-#include "kinemark/stages/trajectory/gaps/fill_gaps.h"
-#include "kinemark/stages/trajectory/screening/screen.h"
-#include "kinemark/stages/trajectory/screening/upsampling.h"
-#include "kinemark/stages/trajectory/smoothing/smooth.h"
 
 namespace kinemark::pipeline::internal {
 
-/// Findings of at least this confidence are rejected on request.
+/// Defects of at least this confidence are rejected on request.
 inline constexpr double kRejectConfidence = 0.8;
 
 [[nodiscard]] report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial);
-[[nodiscard]] report::CleanUpsampling describe_upsampling(const trajectory::UpsamplingReport& found,
-                                                          RecorderMade made);
-void add_defects(report::CleanReport& report, std::span<const trajectory::Finding> findings, bool rejected,
-                 const std::vector<std::string>& names);
-void add_gaps(report::CleanReport& report, const trajectory::GapResult& filled,
-              const std::vector<std::string>& names);
-/// Facts of one marker; its counts are left to report::add_marker().
-[[nodiscard]] report::CleanMarker describe_marker(const trajectory::MarkerAccount& account,
-                                                  const trajectory::UpsamplingReport& found,
-                                                  std::int64_t marker);
+/// What becomes of samples that the recorder made; nothing where there are none.
+void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling);
+/// What becomes of the defects that screening found: with `rejected` the sure ones are taken out, except
+/// clock jumps, which have no wrong samples.
+void settle_defects(bool rejected, std::span<data::Defect> defects);
 
 }  // namespace kinemark::pipeline::internal

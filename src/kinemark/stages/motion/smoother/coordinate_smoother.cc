@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::motion {
 namespace {
@@ -183,7 +184,7 @@ void fill_covariance(const Eigen::Matrix4Xd& band, double variance, double rate_
       T.row(1) << -0.5 * r, 0.0, 0.5 * r;
     T.row(2) << r * r, -2.0 * r * r, r * r;
     const Eigen::Matrix3d C = variance * (T * window * T.transpose());
-    out.col(f) << C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2);
+    math::pack_symmetric3(C, out.col(f).data());
   }
 }
 

@@ -14,9 +14,9 @@ namespace kinemark::report::internal {
 [[nodiscard]] std::uint8_t state_rank(data::SampleState state);
 
 /// How a gap was filled, in words: "auto: 61 % rigid; 39 % cubic", "cubic", or "" when it was left open.
-[[nodiscard]] std::string how_filled(const CleanGap& gap);
+[[nodiscard]] std::string how_filled(const data::GapAccount& gap);
 
 /// Seconds from the first missing frame to the last, one frame included: 1 frame at 100 Hz is 0.01 s.
-[[nodiscard]] double length_s(const CleanGap& gap, const TimeBase& time);
+[[nodiscard]] double length_s(const data::GapAccount& gap, const TimeBase& time);
 
 }  // namespace kinemark::report::internal

@@ -15,8 +15,8 @@ namespace kinemark::report::internal {
 /// only flagged, samples that the recorder made, and a residual that is not white. For tests and for looking
 /// at the page.
 struct ExampleClean {
-  CleanReport report;  ///< with `run`, `gaps`, `defects`, `upsampling`; no markers yet
-  std::vector<CleanMarker> facts;
+  CleanReport report;  ///< with `run` and `account`; no markers yet
+  std::vector<data::MarkerAccount> accounts;
   data::Trajectories before, after;
   data::Derivatives derivatives;
 

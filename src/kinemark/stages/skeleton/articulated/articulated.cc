@@ -11,6 +11,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
 #include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
 #include "kinemark/stages/skeleton/articulated/internal/continuity.h"
@@ -170,8 +171,7 @@ double common_variance(const Work& w, int j) {
   double sum = 0.0, n = 0.0;
   for (std::size_t f = 0; f < w.pass.state[at(j)].size(); ++f) {
     if (w.pass.state[at(j)][f] != CentreState::determined) continue;
-    const double* c = w.pass.common[at(j)].data() + 6 * f;
-    sum += c[0] + c[3] + c[5];
+    sum += math::symmetric3_trace(w.pass.common[at(j)].data() + 6 * f);
     n += 1.0;
   }
   return n > 0.0 ? sum / n : 0.0;

@@ -10,6 +10,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
 
 namespace kinemark::skeleton {
@@ -192,12 +193,6 @@ struct FrameBound {
   MatrixXd inverse, open, answer;
 };
 
-void store(Array<double>& to, std::size_t index, const Matrix3d& C) {
-  double* c = to.data() + 6 * index;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) *c++ = C(i, j);
-}
-
 Status check_shapes(const data::Trajectories& markers, const data::SegmentLayout& layout,
                     std::span<const SegmentKind> kinds, const LimbTruth& truth, double noise_sd_m) {
   if (auto s = layout.validate(markers.markers()); !s) return s;
@@ -273,8 +268,8 @@ Result<CentreBound> calc_centre_bound(const data::Trajectories& markers, const d
       const MatrixXd M = B - A * frame.answer;
       const Matrix3d own = A * frame.inverse * A.transpose(), shared = M * common * M.transpose();
       bound.determined[k] = 1;
-      store(bound.known_geometry, k, noise2 * own);
-      store(bound.covariance, k, noise2 * (own + shared));
+      math::pack_symmetric3(noise2 * own, bound.known_geometry.data() + 6 * k);
+      math::pack_symmetric3(noise2 * (own + shared), bound.covariance.data() + 6 * k);
     }
   }
   // A length is the difference of two joints of one segment; turning that segment does not change it.

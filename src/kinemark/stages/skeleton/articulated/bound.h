@@ -12,6 +12,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::skeleton {
 
@@ -25,7 +26,7 @@ struct CentreBound {
 
   /// Variance of a centre, summed over x, y and z, m^2.
   [[nodiscard]] double variance(std::size_t index) const {
-    return covariance[6 * index] + covariance[6 * index + 3] + covariance[6 * index + 5];
+    return math::symmetric3_trace(covariance.data() + 6 * index);
   }
 };
 

@@ -6,13 +6,13 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
 
 namespace kinemark::trajectory {
@@ -137,9 +137,7 @@ SmoothedCounts all_missing(const data::Counts& counts) {
 }
 
 void put(const internal::LedPath::Sample& s, std::size_t index, SmoothedCounts& out) {
-  const auto& c = s.covariance;
-  const std::array<double, 6> six{c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
-  std::ranges::copy(six, out.points.covariance.begin() + static_cast<std::ptrdiff_t>(6 * index));
+  math::pack_symmetric3(s.covariance, out.points.covariance.data() + 6 * index);
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
     out.points.x_in_world[3 * index + a] = s.motion.position[axis];

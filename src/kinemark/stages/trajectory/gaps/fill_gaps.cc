@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/gaps/internal/filler.h"
 #include "kinemark/stages/trajectory/gaps/internal/pieces.h"
 
@@ -33,8 +34,8 @@ constexpr Index kGapsPerReport = 64;
 /// A gap, its accounts, and what to write when it is filled.
 struct Work {
   GapSpan span;
-  std::vector<GapAccount> accounts;  // one per piece
-  std::vector<Combination> pieces;   // as many when the gap is filled, else none
+  std::vector<data::GapAccount> accounts;  // one per piece
+  std::vector<Combination> pieces;         // as many when the gap is filled, else none
 };
 
 std::vector<GapSpan> find_gaps(const data::Trajectories& in) {
@@ -81,7 +82,7 @@ std::string why_not_tried(const Filler& filler, const GapSpan& span, const GapOp
   return {};
 }
 
-void describe(const data::Trajectories& in, const Filled& filled, GapAccount& account) {
+void describe(const data::Trajectories& in, const Filled& filled, data::GapAccount& account) {
   const auto name = [&](Index m) { return in.names[static_cast<std::size_t>(m)]; };
   for (const Index m : filled.problem.predictors) account.predictors.push_back(name(m));
   for (const Index m : filled.problem.dropped) account.dropped.push_back(name(m));
@@ -89,13 +90,12 @@ void describe(const data::Trajectories& in, const Filled& filled, GapAccount& ac
   account.window_s = static_cast<double>(filled.problem.window.length) / in.time.rate_hz;
   for (std::size_t k = 0; k < filled.fills.size(); ++k) {
     const double rms = filled.fills[k].rms_m();
-    account.candidates.push_back(
-        {.name = std::string(to_string(filled.fills[k].kind)),
-         .weight = filled.combination.weights[k],
-         .rms_m = std::isfinite(rms) ? rms : std::numeric_limits<double>::quiet_NaN(),
-         .guarded = filled.combination.guarded[k]});
+    account.weights.push_back({.name = std::string(to_string(filled.fills[k].kind)),
+                               .weight = filled.combination.weights[k],
+                               .rms_m = std::isfinite(rms) ? rms : std::numeric_limits<double>::quiet_NaN(),
+                               .guarded = filled.combination.guarded[k]});
   }
-  std::ranges::stable_sort(account.candidates, std::ranges::greater{}, &CandidateWeight::weight);
+  std::ranges::stable_sort(account.weights, std::ranges::greater{}, &data::GapWeight::weight);
 }
 
 /// Why a fill is not good enough to be used, or "".
@@ -150,13 +150,11 @@ bool is_temporal(const Filled& piece) {
   return true;
 }
 
-GapAccount blank_account(const data::Trajectories& in, const GapSpan& span) {
+data::GapAccount blank_account(const data::Trajectories& in, const GapSpan& span) {
   return {.marker = span.marker,
           .first_frame = span.first,
           .last_frame = span.end - 1,
-          .at_edge = span.first == 0 || span.end == in.frames(),
-          .sd_m = std::numeric_limits<double>::quiet_NaN(),
-          .max_sd_m = std::numeric_limits<double>::quiet_NaN()};
+          .at_edge = span.first == 0 || span.end == in.frames()};
 }
 
 void fill_one(const data::Trajectories& in, const Filler& filler, const std::vector<Neighbour>& neighbours,
@@ -170,7 +168,7 @@ void fill_one(const data::Trajectories& in, const Filler& filler, const std::vec
   std::vector<Filled> pieces = fill_or_split(filler, neighbours, work.span);
   const double sd_m = std::sqrt(mean_square_sd(pieces));
   for (const Filled& piece : pieces) {
-    GapAccount account = blank_account(in, piece.problem.span);
+    data::GapAccount account = blank_account(in, piece.problem.span);
     describe(in, piece, account);
     if (piece.fills.empty()) {
       why = account.windows == 0 ? "too few complete stretches to learn from"
@@ -183,20 +181,18 @@ void fill_one(const data::Trajectories& in, const Filler& filler, const std::vec
     work.accounts.push_back(std::move(account));
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    GapAccount& account = work.accounts[k];
+    data::GapAccount& account = work.accounts[k];
     account.filled = why.empty();
     account.why_open = why;
     if (!account.filled) continue;
-    account.method = options.method == GapMethod::automatic ? "auto" : account.candidates.front().name;
+    account.method = options.method == GapMethod::automatic ? "auto" : account.weights.front().name;
     account.temporal = is_temporal(pieces[k]);
     work.pieces.push_back(std::move(pieces[k].combination));
   }
 }
 
 void set_isotropic(data::Trajectories& out, Index frame, Index marker, double variance_m2) {
-  double* c = out.covariance.data() + 6 * out.index(frame, marker);
-  std::fill_n(c, 6, 0.0);
-  c[0] = c[3] = c[5] = variance_m2;
+  math::pack_isotropic3(variance_m2, out.covariance.data() + 6 * out.index(frame, marker));
 }
 
 /// Covariance of what is there already, so that every sample has one.
@@ -209,7 +205,7 @@ void set_noise(const Filler& filler, data::Trajectories& out) {
   }
 }
 
-void write(const Filler& filler, const GapAccount& account, const Combination& fill,
+void write(const Filler& filler, const data::GapAccount& account, const Combination& fill,
            data::Trajectories& out) {
   const Index m = account.marker;
   const double unknown =
@@ -225,23 +221,24 @@ void write(const Filler& filler, const GapAccount& account, const Combination& f
   }
 }
 
-SwapFinding tell(const data::Trajectories& in, const internal::Swap& s) {
-  return {.first_marker = s.first_marker,
-          .second_marker = s.second_marker,
+data::Defect tell(const data::Trajectories& in, const internal::Swap& s) {
+  return {.kind = data::DefectKind::label_swap,
+          .marker = s.first_marker,
+          .other_marker = s.second_marker,
           .first_frame = s.first,
           .last_frame = s.end - 1,
-          .distance_m = s.distance_m,
           .sentence = fmt::format(
               "markers '{}' and '{}' sit in each other's place in frames {} to {}, {:.0f} mm apart",
               in.names[static_cast<std::size_t>(s.first_marker)],
-              in.names[static_cast<std::size_t>(s.second_marker)], s.first, s.end - 1, 1e3 * s.distance_m)};
+              in.names[static_cast<std::size_t>(s.second_marker)], s.first, s.end - 1, 1e3 * s.distance_m),
+          .done = "not relied on when filling; left as it is"};
 }
 
 }  // namespace
 
 std::int64_t GapResult::filled_frames() const {
   std::int64_t sum = 0;
-  for (const GapAccount& gap : gaps) sum += gap.filled ? gap.frames() : 0;
+  for (const data::GapAccount& gap : gaps) sum += gap.filled ? gap.frames() : 0;
   return sum;
 }
 

@@ -6,58 +6,22 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/defect.h"
+#include "kinemark/data/gap_account.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/trajectory/gaps/gap_options.h"
 
 namespace kinemark::trajectory {
 
-/// What one candidate did on the artificial gaps, and how much of the fill is its own.
-struct CandidateWeight {
-  std::string name;      ///< "cubic", "walk", "regression, tied", ...
-  double weight = 0.0;   ///< >= 0; all weights of a gap sum to 1
-  double rms_m = 0.0;    ///< 3D distance, RMS over the artificial gaps; NaN when there were none
-  bool guarded = false;  ///< left out: strayed from all others further than its own errors allow
-};
-
-/// One gap of one marker, filled or not. A gap whose predictors change on the way is one account per piece.
-struct GapAccount {
-  std::int64_t marker = 0;
-  std::int64_t first_frame = 0;  ///< both ends belong to the gap
-  std::int64_t last_frame = 0;
-  bool at_edge = false;  ///< touches the start or the end of the recording
-  bool filled = false;
-  bool temporal = false;  ///< filled from the marker's own path alone
-  std::string method;     ///< as in Trajectories::methods, "auto" for a combination; "" when left open
-  std::vector<CandidateWeight> candidates;  ///< largest weight first
-  double sd_m = 0.0;                        ///< predicted, per axis, RMS over the gap; NaN when unknown
-  double max_sd_m = 0.0;                    ///< the largest along the gap and over the axes; NaN when unknown
-  int windows = 0;                          ///< artificial gaps that weights and SD come from
-  double window_s = 0.0;                    ///< their length; shorter than the gap in short recordings
-  std::vector<std::string> predictors;      ///< markers that the fill leans on, most rigid first
-  std::vector<std::string> dropped;         ///< markers left out: not where they usually are in the gap
-  std::string why_open;                     ///< a sentence when the gap was left open, else ""
-
-  [[nodiscard]] std::int64_t frames() const { return last_frame - first_frame + 1; }
-};
-
-/// Two markers of a rigid group that sit in each other's place for a while.
-struct SwapFinding {
-  std::int64_t first_marker = 0;
-  std::int64_t second_marker = 0;
-  std::int64_t first_frame = 0;  ///< both ends belong to it
-  std::int64_t last_frame = 0;
-  double distance_m = 0.0;  ///< how far out of place they are, median
-  std::string sentence;
-};
-
 struct GapResult {
-  data::Trajectories trajectories;  ///< as the input; samples present there are untouched
-  std::vector<GapAccount> gaps;     ///< by marker and frame; every gap has its account
-  std::vector<SwapFinding> swaps;   ///< found by the label check; nothing is relabelled
+  data::Trajectories trajectories;     ///< as the input; samples present there are untouched
+  std::vector<data::GapAccount> gaps;  ///< by marker and frame; every gap has its account
+  /// Label swaps that the label check found, of markers of a rigid group that sit in each other's place for a
+  /// while. Nothing is relabelled.
+  std::vector<data::Defect> swaps;
 
   [[nodiscard]] std::int64_t filled_frames() const;  ///< sum over the markers
 };

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "kinemark/core/random.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/gaps/candidates.h"
 #include "kinemark/stages/trajectory/gaps/testing/moving_bodies.h"
 
@@ -32,7 +33,7 @@ GapResult fill(const Trajectories& t, const GapOptions& options = {}) {
   return std::move(*result);
 }
 
-const GapAccount& only_gap(const GapResult& r) {
+const data::GapAccount& only_gap(const GapResult& r) {
   EXPECT_EQ(r.gaps.size(), 1U);
   return r.gaps.front();
 }
@@ -65,12 +66,12 @@ TEST(FillGaps, SaysHowEverySampleWasMadeAndHowSureItIs) {
   EXPECT_EQ(r.trajectories.made_by(99, 7), "");
   ASSERT_EQ(r.trajectories.covariance.size(), 6U * 600U * 10U);
   for (std::int64_t f = 0; f < 600; ++f)
-    for (const std::size_t c : {0U, 3U, 5U}) {
+    for (const std::size_t c : math::kSymmetric3Diagonal) {
       const double v = r.trajectories.covariance[6 * r.trajectories.index(f, 7) + c];
       EXPECT_GT(v, 0.1 * kNoiseM * kNoiseM);
       EXPECT_LT(v, 1e-5);
     }
-  const GapAccount& account = r.gaps.back();
+  const data::GapAccount& account = r.gaps.back();
   EXPECT_EQ(account.marker, 7);
   EXPECT_EQ(account.first_frame, 100);
   EXPECT_EQ(account.last_frame, 149);
@@ -80,7 +81,7 @@ TEST(FillGaps, SaysHowEverySampleWasMadeAndHowSureItIs) {
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(account.predictors[k].substr(0, 2), "b1");  // its own body first
   double sum = 0.0;
-  for (const CandidateWeight& c : account.candidates) sum += c.weight;
+  for (const data::GapWeight& c : account.weights) sum += c.weight;
   EXPECT_NEAR(sum, 1.0, 1e-12);
   const GapResult linear = fill(t, {.method = GapMethod::linear, .max_sd_m = kInfinity});
   EXPECT_EQ(linear.trajectories.state[linear.trajectories.index(120, 7)], SampleState::interpolated);
@@ -251,7 +252,7 @@ TEST(FillGaps, PiecesMeetWhereTheBodyIsSeenByTurns) {
   for (std::int64_t m = 5; m < 10; ++m) hide(t, m, 231, 320);
   const GapResult r = fill(t, {.max_sd_m = kInfinity});
   int pieces = 0;
-  for (const GapAccount& g : r.gaps) pieces += g.marker == 10 ? 1 : 0;
+  for (const data::GapAccount& g : r.gaps) pieces += g.marker == 10 ? 1 : 0;
   EXPECT_EQ(pieces, 2);
   EXPECT_LT(rms_between(r.trajectories, clean, 10, 240, 299), 5e-3);  // with its own body
   const Eigen::Vector3d jump =
@@ -270,8 +271,8 @@ TEST(FillGaps, FindsASwapInTheBodyAndIsNotMisledByIt) {
   hide(t, 0, 230, 269);
   const GapResult r = fill(t);
   ASSERT_EQ(r.swaps.size(), 1U);
-  EXPECT_EQ(r.swaps[0].first_marker, 1);
-  EXPECT_EQ(r.swaps[0].second_marker, 2);
+  EXPECT_EQ(r.swaps[0].marker, 1);
+  EXPECT_EQ(r.swaps[0].other_marker, 2);
   EXPECT_NEAR(static_cast<double>(r.swaps[0].first_frame), 210.0, 1.0);
   EXPECT_NEAR(static_cast<double>(r.swaps[0].last_frame), 289.0, 1.0);
   EXPECT_THAT(r.swaps[0].sentence, HasSubstr("'b0m1' and 'b0m2'"));
@@ -322,7 +323,7 @@ TEST(FillGaps, EveryMethodCopesWithEveryRaggedRecording) {
       }
     const GapResult r = fill(t, {.method = static_cast<GapMethod>(method), .max_sd_m = kInfinity});
     EXPECT_TRUE(r.trajectories.validate()) << method;
-    for (const GapAccount& g : r.gaps) EXPECT_NE(g.filled, !g.why_open.empty());
+    for (const data::GapAccount& g : r.gaps) EXPECT_NE(g.filled, !g.why_open.empty());
   }
 }
 

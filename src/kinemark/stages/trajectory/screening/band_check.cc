@@ -13,6 +13,8 @@
 namespace kinemark::trajectory {
 namespace {
 
+using data::BandVerdict;
+
 constexpr std::int64_t kWindow = 128;
 constexpr std::int64_t kLeastFrames = 64;
 constexpr std::int64_t kMostFrames = 4096;
@@ -73,23 +75,9 @@ double median_of(const std::vector<double>& values, std::size_t first, std::size
 
 }  // namespace
 
-std::string_view to_string(BandVerdict verdict) {
-  switch (verdict) {
-    case BandVerdict::unknown:
-      return "unknown";
-    case BandVerdict::open:
-      return "open";
-    case BandVerdict::low_passed:
-      return "low-passed or model-generated";
-    case BandVerdict::undecided:
-      return "undecided";
-  }
-  return "unknown";
-}
-
-BandCheck check_band(const data::Trajectories& t, std::int64_t marker) {
+data::BandCheck check_band(const data::Trajectories& t, std::int64_t marker) {
   check(marker >= 0 && marker < t.markers(), "check_band() needs a marker of the trajectories");
-  BandCheck band;
+  data::BandCheck band;
   const auto [start, longest] = longest_stretch(t, marker);
   const std::int64_t frames = std::min(longest, kMostFrames);
   if (frames < kLeastFrames) return band;

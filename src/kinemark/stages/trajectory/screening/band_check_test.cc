@@ -10,11 +10,13 @@
 namespace kinemark::trajectory {
 namespace {
 
+using data::BandVerdict;
+
 using data::Trajectories;
 
 TEST(CheckBand, WhiteNoiseIsOpenAndMeasuredRight) {
   for (const double noise : {0.00005, 0.001}) {
-    const BandCheck b = check_band(testing::walker({.frames = 3000, .noise_m = noise}), 0);
+    const data::BandCheck b = check_band(testing::walker({.frames = 3000, .noise_m = noise}), 0);
     EXPECT_EQ(b.verdict, BandVerdict::open);
     EXPECT_NEAR(b.top_m / noise, 1.0, 0.1);
     EXPECT_NEAR(b.middle_m / noise, 1.0, 0.1);
@@ -35,7 +37,7 @@ Trajectories smoothed(int times) {
 }
 
 TEST(CheckBand, AFilteredStreamIsSaidToBe) {
-  const BandCheck b = check_band(smoothed(6), 3);
+  const data::BandCheck b = check_band(smoothed(6), 3);
   EXPECT_EQ(b.verdict, BandVerdict::low_passed);
   EXPECT_LT(b.top_m, 1e-5);
   EXPECT_GT(b.edge_hz, 10.0);

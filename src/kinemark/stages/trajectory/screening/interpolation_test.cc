@@ -11,8 +11,11 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::InterpolationKernel;
+
 /// Largest residual over the frames that are predicted, and how many those are.
-std::pair<double, int> worst(const std::vector<double>& y, int factor, int phase, Kernel kernel) {
+std::pair<double, int> worst(const std::vector<double>& y, int factor, int phase,
+                             InterpolationKernel kernel) {
   Knots knots;
   std::vector<double> out(y.size());
   EXPECT_TRUE(residuals(y, factor, phase, kernel, knots, out));
@@ -36,17 +39,19 @@ TEST(Residuals, EachKernelReproducesThePolynomialsItShould) {
   const auto line = sampled(400, [](double x) { return 3.0 - 2.0 * x; });
   const auto parabola = sampled(400, [](double x) { return 1.0 + x - 4.0 * x * x; });
   const auto cubic = sampled(400, [](double x) { return x * x * x - 2.0 * x * x; });
-  for (const Kernel k :
-       {Kernel::linear, Kernel::spline, Kernel::catmull_rom, Kernel::lagrange, Kernel::pchip, Kernel::akima})
+  for (const InterpolationKernel k :
+       {InterpolationKernel::linear, InterpolationKernel::spline, InterpolationKernel::catmull_rom,
+        InterpolationKernel::lagrange, InterpolationKernel::pchip, InterpolationKernel::akima})
     EXPECT_LT(worst(line, 4, 1, k).first, 1e-12) << to_string(k);
-  EXPECT_NEAR(worst(line, 4, 1, Kernel::hold).first, 0.06, 1e-9);
-  for (const Kernel k : {Kernel::catmull_rom, Kernel::lagrange, Kernel::akima})
+  EXPECT_NEAR(worst(line, 4, 1, InterpolationKernel::hold).first, 0.06, 1e-9);
+  for (const InterpolationKernel k :
+       {InterpolationKernel::catmull_rom, InterpolationKernel::lagrange, InterpolationKernel::akima})
     EXPECT_LT(worst(parabola, 4, 1, k).first, 1e-12) << to_string(k);
-  EXPECT_LT(worst(cubic, 4, 1, Kernel::lagrange).first, 1e-12);
+  EXPECT_LT(worst(cubic, 4, 1, InterpolationKernel::lagrange).first, 1e-12);
   // A natural spline is wrong at the ends only, by 0.27 per knot inwards: 8 knots in, little is left.
-  EXPECT_LT(worst(cubic, 4, 1, Kernel::spline).first, 1e-6);
-  EXPECT_GT(worst(cubic, 4, 1, Kernel::catmull_rom).first, 1e-7);
-  EXPECT_GT(worst(parabola, 4, 1, Kernel::linear).first, 1e-3);
+  EXPECT_LT(worst(cubic, 4, 1, InterpolationKernel::spline).first, 1e-6);
+  EXPECT_GT(worst(cubic, 4, 1, InterpolationKernel::catmull_rom).first, 1e-7);
+  EXPECT_GT(worst(parabola, 4, 1, InterpolationKernel::linear).first, 1e-3);
 }
 
 TEST(Residuals, LagrangeAndCatmullRomAreOneFormulaAtFactorTwo) {
@@ -56,8 +61,8 @@ TEST(Residuals, LagrangeAndCatmullRomAreOneFormulaAtFactorTwo) {
   Knots knots;
   std::vector<double> a(y.size());
   std::vector<double> b(y.size());
-  ASSERT_TRUE(residuals(y, 2, 0, Kernel::lagrange, knots, a));
-  ASSERT_TRUE(residuals(y, 2, 0, Kernel::catmull_rom, knots, b));
+  ASSERT_TRUE(residuals(y, 2, 0, InterpolationKernel::lagrange, knots, a));
+  ASSERT_TRUE(residuals(y, 2, 0, InterpolationKernel::catmull_rom, knots, b));
   for (std::size_t i = 0; i < y.size(); ++i)
     if (a[i] != kNotPredicted) {
       EXPECT_NEAR(a[i], b[i], 1e-12);
@@ -70,7 +75,7 @@ TEST(Residuals, PchipDoesNotOvershoot) {
   for (double& v : y) v = random.gaussian();
   Knots knots;
   std::vector<double> out(y.size());
-  ASSERT_TRUE(residuals(y, 4, 0, Kernel::pchip, knots, out));
+  ASSERT_TRUE(residuals(y, 4, 0, InterpolationKernel::pchip, knots, out));
   for (std::size_t i = 0; i < y.size(); ++i) {
     if (out[i] == kNotPredicted) continue;
     const double made = y[i] - out[i];
@@ -83,14 +88,14 @@ TEST(Residuals, PchipDoesNotOvershoot) {
 TEST(Residuals, LeavesOutTheEndsAndRefusesShortStretches) {
   const std::vector<double> y(100, 1.0);
   // Knots 0, 4, ..., 96: 25 of them. Intervals from the third to the third last knot, three frames in each.
-  EXPECT_EQ(worst(y, 4, 0, Kernel::linear).second, 3 * (25 - 5));
-  EXPECT_EQ(worst(y, 4, 0, Kernel::spline).second, 3 * (25 - 17));
+  EXPECT_EQ(worst(y, 4, 0, InterpolationKernel::linear).second, 3 * (25 - 5));
+  EXPECT_EQ(worst(y, 4, 0, InterpolationKernel::spline).second, 3 * (25 - 17));
   Knots knots;
   std::vector<double> out(30);
-  EXPECT_FALSE(residuals(std::vector<double>(30, 1.0), 4, 0, Kernel::linear, knots, out));
-  EXPECT_FALSE(residuals(std::vector<double>(30, 1.0), 4, 3, Kernel::spline, knots, out));
+  EXPECT_FALSE(residuals(std::vector<double>(30, 1.0), 4, 0, InterpolationKernel::linear, knots, out));
+  EXPECT_FALSE(residuals(std::vector<double>(30, 1.0), 4, 3, InterpolationKernel::spline, knots, out));
   std::vector<double> none;
-  EXPECT_FALSE(residuals({}, 2, 1, Kernel::hold, knots, none));
+  EXPECT_FALSE(residuals({}, 2, 1, InterpolationKernel::hold, knots, none));
 }
 
 }  // namespace

@@ -13,16 +13,17 @@ using data::SampleState;
 using data::Trajectories;
 
 /// Made by the recorder, as far as the file tells: nobody else has put his name to it.
-bool made_by_recorder(const Trajectories& t, std::int64_t frame, std::int64_t marker, const Upsampling& u) {
+bool made_by_recorder(const Trajectories& t, std::int64_t frame, std::int64_t marker,
+                      const data::Upsampling& u) {
   const SampleState s = t.state[t.index(frame, marker)];
   return (s == SampleState::measured || s == SampleState::interpolated) && !u.real(frame) &&
          t.made_by(frame, marker).empty();
 }
 
-Trajectories mark(const Trajectories& t, const UpsamplingReport& report, bool drop) {
+Trajectories mark(const Trajectories& t, const data::UpsamplingAccount& report, bool drop) {
   Trajectories out = t;
   for (std::int64_t m = 0; m < t.markers(); ++m) {
-    const Upsampling& u = report.markers[static_cast<std::size_t>(m)];
+    const data::Upsampling& u = report.markers[static_cast<std::size_t>(m)];
     if (!u.found()) continue;
     const std::string method = fmt::format("recorder, {} x{}", to_string(u.kernel), u.factor);
     for (std::int64_t f = 0; f < t.frames(); ++f) {
@@ -51,7 +52,7 @@ void take(const Trajectories& from, std::int64_t frame, std::int64_t marker, std
   if (!from.method.empty()) to.method[b] = from.method[a];
 }
 
-Trajectories decimate(const Trajectories& t, const UpsamplingReport& report) {
+Trajectories decimate(const Trajectories& t, const data::UpsamplingAccount& report) {
   const std::int64_t factor = report.recording.factor;
   const int phase = report.recording.phase;
   TimeBase low;
@@ -63,7 +64,7 @@ Trajectories decimate(const Trajectories& t, const UpsamplingReport& report) {
     bool seen = false;
     for (std::int64_t f = (low.frames - 1) * factor; f < t.frames(); ++f)
       for (std::int64_t m = 0; m < t.markers(); ++m) {
-        const Upsampling& u = report.markers[static_cast<std::size_t>(m)];
+        const data::Upsampling& u = report.markers[static_cast<std::size_t>(m)];
         seen |= u.found() && u.real(f) && t.present(f, m);
       }
     if (!seen) --low.frames;
@@ -76,7 +77,7 @@ Trajectories decimate(const Trajectories& t, const UpsamplingReport& report) {
   Array<double> offset(out.state.size(), 0.0);
   bool any_offset = false;
   for (std::int64_t m = 0; m < t.markers(); ++m) {
-    const Upsampling& u = report.markers[static_cast<std::size_t>(m)];
+    const data::Upsampling& u = report.markers[static_cast<std::size_t>(m)];
     for (std::int64_t k = 0; k < low.frames; ++k) {
       for (std::int64_t f = k * factor; f < std::min((k + 1) * factor, t.frames()); ++f) {
         if (u.found() ? !u.real(f) : f != k * factor + phase) continue;
@@ -96,7 +97,7 @@ Trajectories decimate(const Trajectories& t, const UpsamplingReport& report) {
 
 }  // namespace
 
-Result<Trajectories> keep_real_samples(const Trajectories& t, const UpsamplingReport& report,
+Result<Trajectories> keep_real_samples(const Trajectories& t, const data::UpsamplingAccount& report,
                                        MadeSamples made) {
   if (const Status s = t.validate(); !s) return std::unexpected(s.error());
   if (report.markers.size() != t.names.size())
@@ -105,7 +106,7 @@ Result<Trajectories> keep_real_samples(const Trajectories& t, const UpsamplingRe
                             report.markers.size(), t.names.size()));
   if (made != MadeSamples::decimate) return mark(t, report, made == MadeSamples::missing);
   for (std::size_t m = 0; m < report.markers.size(); ++m) {
-    const Upsampling& u = report.markers[m];
+    const data::Upsampling& u = report.markers[m];
     if (u.found() && u.factor != report.recording.factor)
       return fail(
           Code::not_supported,

@@ -29,6 +29,7 @@ enum class MadeSamples : std::uint8_t {
 /// interpolated, or by different factors; Code::bad_input when the trajectories are invalid or the report is
 /// of another recording. O(F M).
 [[nodiscard]] Result<data::Trajectories> keep_real_samples(const data::Trajectories& trajectories,
-                                                           const UpsamplingReport& report, MadeSamples made);
+                                                           const data::UpsamplingAccount& report,
+                                                           MadeSamples made);
 
 }  // namespace kinemark::trajectory

@@ -26,7 +26,7 @@ class RealSamples : public ::testing::Test {
     report = detect_upsampling(t).value();
   }
   Trajectories t;
-  UpsamplingReport report;
+  data::UpsamplingAccount report;
 };
 
 TEST_F(RealSamples, MarkKeepsNumbersAndTellsStatesAndMethod) {

@@ -43,27 +43,7 @@ double rounding_of(const data::Trajectories& t, std::int64_t marker) {
 
 }  // namespace internal
 
-std::string_view to_string(Defect defect) {
-  switch (defect) {
-    case Defect::zero:
-      return "zero";
-    case Defect::stuck:
-      return "stuck";
-    case Defect::duplicated_frame:
-      return "duplicated frame";
-    case Defect::clock_jump:
-      return "clock jump";
-    case Defect::unit_slip:
-      return "unit slip";
-    case Defect::spike:
-      return "spike";
-    case Defect::swap_within:
-      return "swap within";
-    case Defect::label_swap:
-      return "label swap";
-  }
-  return "unknown";
-}
+using data::DefectKind;
 
 Status ScreenOptions::check() const {
   const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
@@ -79,50 +59,50 @@ Status ScreenOptions::check() const {
   return {};
 }
 
-Result<std::vector<Finding>> screen(const data::Trajectories& t, const ScreenOptions& options,
-                                    std::span<const double> frame_time_s) {
+Result<std::vector<data::Defect>> screen(const data::Trajectories& t, const ScreenOptions& options,
+                                         std::span<const double> frame_time_s) {
   if (const Status s = options.check(); !s) return std::unexpected(s.error());
   if (const Status s = t.validate(); !s) return std::unexpected(s.error());
   if (!frame_time_s.empty() && static_cast<std::int64_t>(frame_time_s.size()) != t.frames())
     return fail(Code::bad_input,
                 fmt::format("{} frame times were given for {} frames", frame_time_s.size(), t.frames()));
-  internal::Findings findings;
+  internal::Defects findings;
   if (options.zeros) internal::find_zeros(t, findings);
   if (options.unit_slips) {
     // Zeros are a thousand times smaller than anything.
-    const auto seen = reject_findings(t, findings, 0.0);
+    const auto seen = reject_defects(t, findings, 0.0);
     internal::find_unit_slips(*seen, findings);
   }
   // Both leave jumps behind that are no defects of their own.
-  const data::Trajectories rest = findings.empty() ? t : *reject_findings(t, findings, 0.0);
-  internal::Findings repeats;
+  const data::Trajectories rest = findings.empty() ? t : *reject_defects(t, findings, 0.0);
+  internal::Defects repeats;
   internal::find_duplicated_frames(rest, repeats);  // found in any case: they are not stuck values
   if (options.stuck) internal::find_stuck(rest, options, repeats);
   if (!options.duplicated_frames)
-    std::erase_if(repeats, [](const Finding& f) { return f.defect == Defect::duplicated_frame; });
+    std::erase_if(repeats, [](const data::Defect& f) { return f.kind == DefectKind::duplicated_frame; });
   findings.insert(findings.end(), repeats.begin(), repeats.end());
   if (options.clock_jumps && !frame_time_s.empty()) internal::find_clock_jumps(frame_time_s, findings);
   if (options.clock_jumps && frame_time_s.empty()) internal::find_leaps(rest, findings);
-  internal::Findings jumps;
+  internal::Defects jumps;
   internal::find_swaps(rest, options, jumps);
   if (options.spikes) internal::find_spikes(rest, options, jumps);
   if (!options.swaps)
-    std::erase_if(jumps, [](const Finding& f) {
-      return f.defect == Defect::swap_within || f.defect == Defect::label_swap;
+    std::erase_if(jumps, [](const data::Defect& f) {
+      return f.kind == DefectKind::swap_within || f.kind == DefectKind::label_swap;
     });
   findings.insert(findings.end(), jumps.begin(), jumps.end());
-  std::erase_if(findings, [&](const Finding& f) { return f.confidence < options.min_confidence; });
-  std::ranges::stable_sort(findings, {}, [](const Finding& f) {
-    return std::tuple(f.marker, f.first_frame, f.defect, f.other_marker);
+  std::erase_if(findings, [&](const data::Defect& f) { return f.confidence < options.min_confidence; });
+  std::ranges::stable_sort(findings, {}, [](const data::Defect& f) {
+    return std::tuple(f.marker, f.first_frame, f.kind, f.other_marker);
   });
   return findings;
 }
 
-Result<data::Trajectories> reject_findings(const data::Trajectories& t, std::span<const Finding> findings,
-                                           double min_confidence) {
+Result<data::Trajectories> reject_defects(const data::Trajectories& t, std::span<const data::Defect> findings,
+                                          double min_confidence) {
   if (const Status s = t.validate(); !s) return std::unexpected(s.error());
   data::Trajectories out = t;
-  for (const Finding& f : findings) {
+  for (const data::Defect& f : findings) {
     if (f.marker < -1 || f.marker >= t.markers() || f.other_marker < -1 || f.other_marker >= t.markers() ||
         f.first_frame < 0 || f.last_frame < f.first_frame || f.last_frame >= t.frames())
       return fail(
@@ -131,9 +111,9 @@ Result<data::Trajectories> reject_findings(const data::Trajectories& t, std::spa
                       "frames",
                       f.marker, internal::frames_in_words(f.first_frame, f.last_frame), t.markers(),
                       t.frames()));
-    if (f.confidence < min_confidence || f.defect == Defect::clock_jump) continue;
+    if (f.confidence < min_confidence || f.kind == DefectKind::clock_jump) continue;
     for (std::int64_t m = 0; m < t.markers(); ++m) {
-      const bool partner = f.defect == Defect::label_swap && m == f.other_marker;
+      const bool partner = f.kind == DefectKind::label_swap && m == f.other_marker;
       if (f.marker != -1 && m != f.marker && !partner) continue;
       for (std::int64_t n = f.first_frame; n <= f.last_frame; ++n)
         if (out.present(n, m)) out.set_missing(n, m, data::SampleState::rejected);

@@ -15,12 +15,14 @@
 namespace kinemark::trajectory {
 namespace {
 
+using data::DefectKind;
+
 /// "defect marker first-last", runs of repeated frames as one.
 std::set<std::string> summary(const data::Trajectories& t) {
   std::set<std::string> lines;
   const auto findings = screen(t).value();
-  for (const Finding& f : findings) {
-    std::string line(to_string(f.defect));
+  for (const data::Defect& f : findings) {
+    std::string line(to_string(f.kind));
     if (f.marker >= 0)
       line += " " + t.names[static_cast<std::size_t>(f.marker)] + " " + std::to_string(f.first_frame) + "-" +
               std::to_string(f.last_frame);
@@ -84,7 +86,7 @@ TEST(ScreenRealRecordings, ZerosWrittenForAMarkerThatWasNeverSeen) {
   }
   const auto findings = screen(trial.markers).value();
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].defect, Defect::zero);
+  EXPECT_EQ(findings[0].kind, DefectKind::zero);
   EXPECT_EQ(findings[0].marker, bicep);
 }
 

@@ -12,27 +12,29 @@
 namespace kinemark::trajectory {
 namespace {
 
+using data::DefectKind;
+
 using data::SampleState;
 using data::Trajectories;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-std::vector<Finding> found(const Trajectories& t, std::span<const double> times = {}) {
+std::vector<data::Defect> found(const Trajectories& t, std::span<const double> times = {}) {
   return screen(t, {}, times).value();
 }
 
 /// The one finding there is.
-Finding only(const Trajectories& t, std::span<const double> times = {}) {
+data::Defect only(const Trajectories& t, std::span<const double> times = {}) {
   const auto findings = found(t, times);
   EXPECT_THAT(findings, SizeIs(1));
-  for (const Finding& f : findings) SCOPED_TRACE(f.sentence);
-  return findings.empty() ? Finding{} : findings.front();
+  for (const data::Defect& f : findings) SCOPED_TRACE(f.sentence);
+  return findings.empty() ? data::Defect{} : findings.front();
 }
 
-void expect(const Finding& f, Defect defect, std::int64_t marker, std::int64_t first, std::int64_t last,
-            std::int64_t other = -1) {
-  EXPECT_EQ(to_string(f.defect), to_string(defect)) << f.sentence;
+void expect(const data::Defect& f, DefectKind kind, std::int64_t marker, std::int64_t first,
+            std::int64_t last, std::int64_t other = -1) {
+  EXPECT_EQ(to_string(f.kind), to_string(kind)) << f.sentence;
   EXPECT_EQ(f.marker, marker);
   EXPECT_EQ(f.other_marker, other);
   EXPECT_EQ(f.first_frame, first);
@@ -61,10 +63,10 @@ TEST(Screen, ARecordingThatRestsIsClean) {
 TEST(Screen, ZerosAreMissingSamples) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 50; f <= 53; ++f) t.x(f, 2).setZero();
-  expect(only(t), Defect::zero, 2, 50, 53);
+  expect(only(t), DefectKind::zero, 2, 50, 53);
   Trajectories always = testing::walker();
   for (std::int64_t f = 0; f < always.frames(); ++f) always.x(f, 5).setZero();
-  expect(only(always), Defect::zero, 5, 0, always.frames() - 1);
+  expect(only(always), DefectKind::zero, 5, 0, always.frames() - 1);
 }
 
 TEST(Screen, PassingThroughTheOriginIsNoZero) {
@@ -76,10 +78,10 @@ TEST(Screen, PassingThroughTheOriginIsNoZero) {
 TEST(Screen, AHeldValueIsStuck) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 201; f <= 230; ++f) t.x(f, 4) = t.x(200, 4);
-  expect(only(t), Defect::stuck, 4, 200, 230);
+  expect(only(t), DefectKind::stuck, 4, 200, 230);
   Trajectories to_the_end = testing::walker();
   for (std::int64_t f = 581; f < 600; ++f) to_the_end.x(f, 1) = to_the_end.x(580, 1);
-  expect(only(to_the_end), Defect::stuck, 1, 580, 599);
+  expect(only(to_the_end), DefectKind::stuck, 1, 580, 599);
 }
 
 TEST(Screen, HeldByTheRecorderAtARegularFactorIsNotStuckNorDuplicated) {
@@ -95,9 +97,9 @@ TEST(Screen, RepeatedFramesAreDuplicated) {
     for (std::int64_t f = 301; f <= 302; ++f) t.x(f, m) = t.x(300, m);
   const auto findings = found(t);
   ASSERT_FALSE(findings.empty());
-  expect(findings.front(), Defect::duplicated_frame, -1, 301, 302);
-  for (const Finding& f : findings) EXPECT_NE(f.defect, Defect::stuck);
-  const Trajectories out = reject_findings(t, findings).value();
+  expect(findings.front(), DefectKind::duplicated_frame, -1, 301, 302);
+  for (const data::Defect& f : findings) EXPECT_NE(f.kind, DefectKind::stuck);
+  const Trajectories out = reject_defects(t, findings).value();
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     EXPECT_TRUE(out.present(300, m));
     EXPECT_EQ(out.state[out.index(301, m)], SampleState::rejected);
@@ -115,8 +117,8 @@ TEST(Screen, FramesHeldIrregularlyAreDuplicated) {
   }
   const auto findings = found(t);
   std::int64_t called = 0;
-  for (const Finding& f : findings)
-    called += f.defect == Defect::duplicated_frame ? f.last_frame - f.first_frame + 1 : 0;
+  for (const data::Defect& f : findings)
+    called += f.kind == DefectKind::duplicated_frame ? f.last_frame - f.first_frame + 1 : 0;
   EXPECT_GT(repeats, 200);
   EXPECT_GT(called, repeats * 8 / 10);
 }
@@ -125,15 +127,15 @@ TEST(Screen, AClockThatJumpsIsToldFromItsTimes) {
   const Trajectories t = testing::walker({.markers = 2, .frames = 50});
   std::vector<double> times;
   for (int f = 0; f < 50; ++f) times.push_back(0.01 * f + (f >= 20 ? 0.03 : 0.0));
-  expect(only(t, times), Defect::clock_jump, -1, 20, 20);
+  expect(only(t, times), DefectKind::clock_jump, -1, 20, 20);
   times[30] = times[29];
   times[40] = std::numeric_limits<double>::quiet_NaN();
   const auto findings = found(t, times);
   std::vector<std::int64_t> frames;
-  for (const Finding& f : findings) frames.push_back(f.first_frame);
+  for (const data::Defect& f : findings) frames.push_back(f.first_frame);
   EXPECT_EQ(frames, (std::vector<std::int64_t>{20, 30, 31, 40}));
-  EXPECT_EQ(reject_findings(t, findings).value().x_in_world, t.x_in_world);
-  expect(only(t, std::vector<double>(50, 1.0)), Defect::clock_jump, -1, 0, 49);
+  EXPECT_EQ(reject_defects(t, findings).value().x_in_world, t.x_in_world);
+  expect(only(t, std::vector<double>(50, 1.0)), DefectKind::clock_jump, -1, 0, 49);
 }
 
 TEST(Screen, LostFramesShowAsALeapOfAllMarkers) {
@@ -141,8 +143,8 @@ TEST(Screen, LostFramesShowAsALeapOfAllMarkers) {
   Trajectories t = testing::walker({.frames = 400});
   for (std::int64_t f = 0; f < 400; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) = whole.x(f < 150 ? f : f + 1, m);
-  const Finding f = only(t);
-  expect(f, Defect::clock_jump, -1, 150, 150);
+  const data::Defect f = only(t);
+  expect(f, DefectKind::clock_jump, -1, 150, 150);
   EXPECT_NEAR(f.evidence, 2.0, 0.05);
 }
 
@@ -157,17 +159,17 @@ TEST(Screen, FramesLeftOutAgainAndAgainAreOneFinding) {
 TEST(Screen, AMarkerInMillimetresAmongMetres) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 0; f < t.frames(); ++f) t.x(f, 3) *= 1000.0;
-  expect(only(t), Defect::unit_slip, 3, 0, t.frames() - 1);
+  expect(only(t), DefectKind::unit_slip, 3, 0, t.frames() - 1);
   Trajectories part = testing::walker();
   for (std::int64_t f = 100; f < 140; ++f) part.x(f, 3) /= 1000.0;
-  expect(only(part), Defect::unit_slip, 3, 100, 139);
+  expect(only(part), DefectKind::unit_slip, 3, 100, 139);
 }
 
 TEST(Screen, ARecordingThatChangesItsUnitIsOneFinding) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 480; f < 600; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) *= 1000.0;
-  expect(only(t), Defect::unit_slip, -1, 480, 599);
+  expect(only(t), DefectKind::unit_slip, -1, 480, 599);
   for (double& x : t.x_in_world) x *= 1000.0;
   EXPECT_THAT(found(t).front().sentence, HasSubstr("whole recording"));
 }
@@ -185,7 +187,7 @@ TEST(Screen, SpikesOfOneToThreeSamples) {
   for (const int width : {1, 2, 3}) {
     Trajectories t = testing::walker();
     for (int i = 0; i < width; ++i) t.x(321 + i, 6) += Eigen::Vector3d(0.01, -0.015, 0.02);
-    expect(only(t), Defect::spike, 6, 321, 320 + width);
+    expect(only(t), DefectKind::spike, 6, 321, 320 + width);
   }
 }
 
@@ -203,8 +205,8 @@ TEST(Screen, TwoMarkersThatExchangeTheirLabels) {
       t.x(f, 1) = t.x(f, 2);
       t.x(f, 2) = one;
     }
-    expect(only(t), Defect::label_swap, 1, 250, last, 2);
-    const Trajectories out = reject_findings(t, found(t)).value();
+    expect(only(t), DefectKind::label_swap, 1, 250, last, 2);
+    const Trajectories out = reject_defects(t, found(t)).value();
     EXPECT_EQ(out.state[out.index(250, 1)], SampleState::rejected);
     EXPECT_EQ(out.state[out.index(last, 2)], SampleState::rejected);
     EXPECT_TRUE(out.present(last + 1, 2));
@@ -219,8 +221,8 @@ TEST(Screen, AnExchangeThatNeverEndsNamesTheShorterSide) {
     t.x(f, 0) = t.x(f, 7);
     t.x(f, 7) = one;
   }
-  const Finding f = only(t);
-  expect(f, Defect::label_swap, 0, 0, 89, 7);
+  const data::Defect f = only(t);
+  expect(f, DefectKind::label_swap, 0, 0, 89, 7);
   EXPECT_THAT(f.sentence, HasSubstr("cannot be told"));
 }
 
@@ -230,13 +232,13 @@ TEST(Screen, AMarkerThatVisitsThePathOfALostOne) {
     t.x(f, 5) = t.x(f, 4);
     t.set_missing(f, 4);
   }
-  expect(only(t), Defect::swap_within, 5, 400, 412, 4);
+  expect(only(t), DefectKind::swap_within, 5, 400, 412, 4);
 }
 
 TEST(Screen, AMarkerThatShowsASeenOneTwice) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 400; f <= 401; ++f) t.x(f, 5) = t.x(f, 4);
-  expect(only(t), Defect::swap_within, 5, 400, 401, 4);
+  expect(only(t), DefectKind::swap_within, 5, 400, 401, 4);
 }
 
 TEST(Screen, DefectsAreFoundBesideOneAnother) {
@@ -246,9 +248,9 @@ TEST(Screen, DefectsAreFoundBesideOneAnother) {
   for (std::int64_t f = 301; f <= 330; ++f) t.x(f, 7) = t.x(300, 7);
   const auto findings = found(t);
   ASSERT_THAT(findings, SizeIs(3));
-  expect(findings[0], Defect::spike, 0, 100, 100);
-  expect(findings[1], Defect::zero, 0, 200, 202);
-  expect(findings[2], Defect::stuck, 7, 300, 330);
+  expect(findings[0], DefectKind::spike, 0, 100, 100);
+  expect(findings[1], DefectKind::zero, 0, 200, 202);
+  expect(findings[2], DefectKind::stuck, 7, 300, 330);
 }
 
 TEST(Screen, EachKindCanBeSwitchedOff) {
@@ -288,8 +290,8 @@ TEST(Screen, RefusesWhatDoesNotHold) {
               HasSubstr("stuck"));
   EXPECT_THAT(screen(t, {.min_confidence = 2.0}).error().message, HasSubstr("0 to 1"));
   EXPECT_THAT(screen(t, {}, std::vector<double>(3)).error().message, HasSubstr("3 frame times"));
-  EXPECT_EQ(reject_findings(t, std::vector<Finding>{{.marker = 99}}).error().code, Code::bad_input);
-  EXPECT_EQ(reject_findings(t, std::vector<Finding>{{.marker = 0, .first_frame = 5, .last_frame = 600}})
+  EXPECT_EQ(reject_defects(t, std::vector<data::Defect>{{.marker = 99}}).error().code, Code::bad_input);
+  EXPECT_EQ(reject_defects(t, std::vector<data::Defect>{{.marker = 0, .first_frame = 5, .last_frame = 600}})
                 .error()
                 .code,
             Code::bad_input);
@@ -297,10 +299,10 @@ TEST(Screen, RefusesWhatDoesNotHold) {
 
 TEST(RejectFindings, TakesOnlyWhatIsSureEnough) {
   const Trajectories t = testing::walker();
-  const std::vector<Finding> findings{
-      {.defect = Defect::spike, .marker = 1, .first_frame = 7, .last_frame = 8, .confidence = 0.6}};
-  EXPECT_EQ(reject_findings(t, findings).value().state, t.state);
-  const Trajectories out = reject_findings(t, findings, 0.5).value();
+  const std::vector<data::Defect> findings{
+      {.kind = DefectKind::spike, .marker = 1, .first_frame = 7, .last_frame = 8, .confidence = 0.6}};
+  EXPECT_EQ(reject_defects(t, findings).value().state, t.state);
+  const Trajectories out = reject_defects(t, findings, 0.5).value();
   EXPECT_TRUE(out.validate());
   EXPECT_EQ(out.count_missing(), 2);
 }

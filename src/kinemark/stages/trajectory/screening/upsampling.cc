@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/stages/trajectory/screening/band_check.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
 namespace kinemark::trajectory {
 namespace {
+
+using data::BandVerdict;
+using data::InterpolationKernel;
 
 using internal::Candidate;
 using internal::PhaseTable;
@@ -29,7 +33,7 @@ struct Contest {
     most_blocks = std::max(most_blocks, c.blocks);
     if (c.fires)
       (c.slips ? slipping : constant).push_back(c);
-    else if (c.kernel != Kernel::none && c.ratio < closest.ratio)
+    else if (c.kernel != InterpolationKernel::none && c.ratio < closest.ratio)
       closest = c;
   }
 
@@ -41,7 +45,7 @@ struct Contest {
       Candidate none = closest;
       none.factor = 1;
       none.phase = 0;
-      none.kernel = Kernel::none;
+      none.kernel = InterpolationKernel::none;
       none.blocks = most_blocks;
       return none;
     }
@@ -58,7 +62,7 @@ struct Contest {
 };
 
 /// Where between two blocks the phase changes: the border that leaves least unexplained.
-void place_changes(const std::vector<Piece>& pieces, const Candidate& c, std::vector<PhaseRun>& runs) {
+void place_changes(const std::vector<Piece>& pieces, const Candidate& c, std::vector<data::PhaseRun>& runs) {
   const std::int64_t reach = 32 * c.factor;
   internal::Knots knots;
   for (std::size_t r = 1; r < runs.size(); ++r) {
@@ -95,8 +99,8 @@ void place_changes(const std::vector<Piece>& pieces, const Candidate& c, std::ve
   }
 }
 
-Upsampling describe(const Candidate& c) {
-  Upsampling u;
+data::Upsampling describe(const Candidate& c) {
+  data::Upsampling u;
   u.factor = c.factor;
   u.phase = c.phase;
   u.kernel = c.kernel;
@@ -110,8 +114,9 @@ Upsampling describe(const Candidate& c) {
 }
 
 /// Follow the phase of a found stream through all its frames; `first` to `last` are its markers.
-Upsampling trace(const data::Trajectories& t, const Candidate& c, std::int64_t first, std::int64_t last) {
-  Upsampling u = describe(c);
+data::Upsampling trace(const data::Trajectories& t, const Candidate& c, std::int64_t first,
+                       std::int64_t last) {
+  data::Upsampling u = describe(c);
   if (c.factor == 1) return u;
   PhaseTable table{.factor = c.factor};
   internal::Knots knots;
@@ -128,10 +133,10 @@ Upsampling trace(const data::Trajectories& t, const Candidate& c, std::int64_t f
 
 /// Multiplexed markers have one factor and a phase each, which no pooled test can see: the recording then
 /// takes the factor that all markers with enough evidence share, and the phase that most of them have.
-void agree_on_factor(UpsamplingReport& report) {
-  const Upsampling* model = nullptr;
+void agree_on_factor(data::UpsamplingAccount& report) {
+  const data::Upsampling* model = nullptr;
   std::vector<std::int64_t> share(13, 0);  // markers per phase
-  for (const Upsampling& u : report.markers) {
+  for (const data::Upsampling& u : report.markers) {
     if (!u.found() && u.blocks < kEnoughBlocks) continue;
     if (!u.found() || (model != nullptr && u.factor != model->factor)) return;
     ++share[static_cast<std::size_t>(u.phase)];
@@ -140,11 +145,11 @@ void agree_on_factor(UpsamplingReport& report) {
   if (model == nullptr || model->factor == report.recording.factor) return;
   const int phase = static_cast<int>(std::ranges::max_element(share) - share.begin());
   const auto typical = std::ranges::find_if(
-      report.markers, [&](const Upsampling& u) { return u.found() && u.phase == phase; });
+      report.markers, [&](const data::Upsampling& u) { return u.found() && u.phase == phase; });
   report.recording = *typical;
 }
 
-std::string sentence_of(const Upsampling& u, double rate_hz) {
+std::string sentence_of(const data::Upsampling& u, double rate_hz) {
   if (!u.found())
     return fmt::format(
         "No interpolation from a lower rate was found: the best supposed phase leaves {:.2f} of what the "
@@ -163,36 +168,36 @@ std::string sentence_of(const Upsampling& u, double rate_hz) {
       1e3 * u.rounding_m, u.ratio, 100.0 * u.agreement, u.blocks, slips);
 }
 
-BandCheck middle_of(std::vector<BandCheck> bands) {
-  std::erase_if(bands, [](const BandCheck& b) { return b.verdict == BandVerdict::unknown; });
+data::BandCheck middle_of(std::vector<data::BandCheck> bands) {
+  std::erase_if(bands, [](const data::BandCheck& b) { return b.verdict == BandVerdict::unknown; });
   if (bands.empty()) return {};
   const auto middle = [&](auto member) {
     const auto at = bands.begin() + static_cast<std::ptrdiff_t>(bands.size() / 2);
     std::ranges::nth_element(bands, at, {}, member);
     return *at.*member;
   };
-  BandCheck b;
-  b.top_m = middle(&BandCheck::top_m);
-  b.middle_m = middle(&BandCheck::middle_m);
-  b.edge_hz = middle(&BandCheck::edge_hz);
+  data::BandCheck b;
+  b.top_m = middle(&data::BandCheck::top_m);
+  b.middle_m = middle(&data::BandCheck::middle_m);
+  b.edge_hz = middle(&data::BandCheck::edge_hz);
   for (const BandVerdict verdict : {BandVerdict::undecided, BandVerdict::low_passed, BandVerdict::open})
-    if (2 * std::ranges::count(bands, verdict, &BandCheck::verdict) >=
+    if (2 * std::ranges::count(bands, verdict, &data::BandCheck::verdict) >=
         static_cast<std::ptrdiff_t>(bands.size()))
       b.verdict = verdict;
   if (b.verdict == BandVerdict::unknown) b.verdict = BandVerdict::undecided;
   return b;
 }
 
-void write_sentences(const data::Trajectories& t, UpsamplingReport& report) {
+void write_sentences(const data::Trajectories& t, data::UpsamplingAccount& report) {
   const double rate_hz = t.time.rate_hz;
   report.sentences.push_back(sentence_of(report.recording, rate_hz));
   for (std::size_t m = 0; m < report.markers.size(); ++m) {
-    const Upsampling& u = report.markers[m];
+    const data::Upsampling& u = report.markers[m];
     const bool as_recording = u.factor == report.recording.factor && u.phase == report.recording.phase;
     if (!as_recording && (u.found() || report.recording.found()))
       report.sentences.push_back(fmt::format("Marker '{}': {}", t.names[m], sentence_of(u, rate_hz)));
   }
-  const BandCheck& b = report.band;
+  const data::BandCheck& b = report.band;
   if (b.verdict != BandVerdict::unknown)
     report.sentences.push_back(fmt::format(
         "Spectrum: {}; noise of {:.4f} mm near half the rate, {:.4f} mm in the middle of the band{}.",
@@ -207,33 +212,6 @@ void write_sentences(const data::Trajectories& t, UpsamplingReport& report) {
 
 }  // namespace
 
-std::string_view to_string(Kernel kernel) {
-  switch (kernel) {
-    case Kernel::none:
-      return "none";
-    case Kernel::hold:
-      return "hold";
-    case Kernel::linear:
-      return "linear";
-    case Kernel::spline:
-      return "cubic spline";
-    case Kernel::catmull_rom:
-      return "Catmull-Rom";
-    case Kernel::lagrange:
-      return "Lagrange";
-    case Kernel::pchip:
-      return "PCHIP";
-    case Kernel::akima:
-      return "Akima";
-  }
-  return "unknown";
-}
-
-int Upsampling::phase_at(std::int64_t frame) const {
-  const auto after = std::ranges::upper_bound(runs, frame, {}, &PhaseRun::first_frame);
-  return after == runs.begin() ? phase : std::prev(after)->phase;
-}
-
 Status UpsamplingOptions::check() const {
   if (max_factor < 2 || max_factor > 12)
     return fail(Code::usage, fmt::format("the largest upsampling factor is {}; need 2 to 12", max_factor));
@@ -243,7 +221,8 @@ Status UpsamplingOptions::check() const {
   return {};
 }
 
-Result<UpsamplingReport> detect_upsampling(const data::Trajectories& t, const UpsamplingOptions& options) {
+Result<data::UpsamplingAccount> detect_upsampling(const data::Trajectories& t,
+                                                  const UpsamplingOptions& options) {
   if (const Status s = options.check(); !s) return std::unexpected(s.error());
   if (const Status s = t.validate(); !s) return std::unexpected(s.error());
   const auto markers = static_cast<std::size_t>(t.markers());
@@ -255,7 +234,7 @@ Result<UpsamplingReport> detect_upsampling(const data::Trajectories& t, const Up
   Contest all;
   internal::Knots knots;
   for (int f = 2; f <= options.max_factor; ++f) {
-    for (const Kernel kernel : internal::kKernels) {
+    for (const InterpolationKernel kernel : internal::kKernels) {
       PhaseTable pooled{.factor = f};
       for (std::size_t m = 0; m < markers; ++m) {
         PhaseTable table{.factor = f};
@@ -267,7 +246,7 @@ Result<UpsamplingReport> detect_upsampling(const data::Trajectories& t, const Up
     }
   }
 
-  UpsamplingReport report;
+  data::UpsamplingAccount report{.looked = true};
   report.recording = trace(t, all.winner(), 0, t.markers());
   for (std::size_t m = 0; m < markers; ++m) {
     const auto marker = static_cast<std::int64_t>(m);
@@ -277,7 +256,7 @@ Result<UpsamplingReport> detect_upsampling(const data::Trajectories& t, const Up
   const int pooled_factor = report.recording.factor;
   agree_on_factor(report);
   if (report.recording.found() && report.recording.factor == pooled_factor) {
-    for (Upsampling& u : report.markers) {
+    for (data::Upsampling& u : report.markers) {
       if (u.found() || u.blocks >= kEnoughBlocks) continue;
       u = report.recording;
       u.inherited = true;

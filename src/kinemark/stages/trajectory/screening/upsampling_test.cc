@@ -12,6 +12,8 @@
 namespace kinemark::trajectory {
 namespace {
 
+using data::InterpolationKernel;
+
 using data::SampleState;
 using data::Trajectories;
 using ::testing::HasSubstr;
@@ -28,8 +30,8 @@ TEST(DetectUpsampling, FindsFactorAndPhaseOfEveryMarker) {
       const auto report = detect_upsampling(linear_recording(factor, phase, 150 * factor)).value();
       EXPECT_EQ(report.recording.factor, factor);
       EXPECT_EQ(report.recording.phase, phase);
-      EXPECT_EQ(report.recording.kernel, factor == 2 ? report.recording.kernel : Kernel::linear);
-      for (const Upsampling& u : report.markers) {
+      EXPECT_EQ(report.recording.kernel, factor == 2 ? report.recording.kernel : InterpolationKernel::linear);
+      for (const data::Upsampling& u : report.markers) {
         EXPECT_EQ(u.factor, factor);
         EXPECT_EQ(u.phase, phase);
         EXPECT_LT(u.ratio, 0.1);
@@ -43,7 +45,7 @@ TEST(DetectUpsampling, LeavesAnHonestRecordingAlone) {
   for (const double noise : {0.0, 0.00002, 0.001}) {
     const auto report = detect_upsampling(testing::walker({.frames = 900, .noise_m = noise})).value();
     EXPECT_FALSE(report.recording.found());
-    for (const Upsampling& u : report.markers) EXPECT_EQ(u.factor, 1) << noise;
+    for (const data::Upsampling& u : report.markers) EXPECT_EQ(u.factor, 1) << noise;
     EXPECT_THAT(report.sentences.front(), HasSubstr("No interpolation"));
   }
 }
@@ -146,14 +148,6 @@ TEST(DetectUpsampling, RefusesOptionsAndTrajectoriesThatDoNotHold) {
   Trajectories broken = testing::walker();
   broken.x(3, 2).setConstant(std::numeric_limits<double>::infinity());
   EXPECT_EQ(detect_upsampling(broken).error().code, Code::bad_input);
-}
-
-TEST(KernelNames, AreAllDifferent) {
-  std::vector<std::string_view> names;
-  for (int k = 0; k <= static_cast<int>(Kernel::akima); ++k)
-    names.push_back(to_string(static_cast<Kernel>(k)));
-  std::ranges::sort(names);
-  EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
 }
 
 }  // namespace

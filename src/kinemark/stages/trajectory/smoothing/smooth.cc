@@ -25,7 +25,7 @@ Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOpt
   result.state.resize(static_cast<std::size_t>(in.frames()));
   for (std::int64_t f = 0; f < in.frames(); ++f)
     result.state[static_cast<std::size_t>(f)] = in.state[in.index(f, marker)];
-  MarkerAccount& account = result.account;
+  data::MarkerAccount& account = result.account;
   account.name = in.names[static_cast<std::size_t>(marker)];
   account.used.method = to_string(options.method);
   account.used.cutoff_hz = account.used.noise_sd_m = kNaN;

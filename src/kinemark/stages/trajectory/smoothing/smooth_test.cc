@@ -7,7 +7,9 @@
 
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::trajectory {
 namespace {
@@ -69,7 +71,7 @@ TEST(Smooth, FindsTheMovementItsDerivativesAndTheNoise) {
   EXPECT_LT(rms_error(result->trajectories.x_in_world, 0, 100.0), 0.4 * kSigma);
   EXPECT_LT(rms_error(result->derivatives.velocity, 1, 100.0), 0.008);
   EXPECT_LT(rms_error(result->derivatives.acceleration, 2, 100.0), 0.35);
-  const MarkerAccount& account = result->markers.front();
+  const data::MarkerAccount& account = result->markers.front();
   EXPECT_NEAR(account.used.noise_sd_m, kSigma, 0.1 * kSigma);
   EXPECT_EQ(account.used.method, "kalman");
   EXPECT_EQ(account.candidates.size(), 4u);
@@ -156,12 +158,12 @@ TEST(Smooth, ErrorBarsKeepTheirWord) {
                                       &result.derivatives.acceleration};
     const Array<double>* sds[3] = {nullptr, &result.derivatives.velocity_sd,
                                    &result.derivatives.acceleration_sd};
-    constexpr std::size_t kDiagonal[3] = {0, 3, 5};
     for (std::size_t i = 0; i < 1200; ++i) {
       for (int d = 0; d < 3; ++d) {
         const double truth = place(static_cast<double>(i / 3) / 100.0, d)[static_cast<int>(i % 3)];
         const double sd =
-            d == 0 ? std::sqrt(result.trajectories.covariance[6 * (i / 3) + kDiagonal[i % 3]]) : (*sds[d])[i];
+            d == 0 ? std::sqrt(result.trajectories.covariance[6 * (i / 3) + math::kSymmetric3Diagonal[i % 3]])
+                   : (*sds[d])[i];
         const double z = std::abs((*values[d])[i] - truth) / sd;
         one[d] += z <= 1.0;
         two[d] += z <= 2.0;
@@ -199,8 +201,7 @@ TEST(Smooth, CovariancesWeighTheSamples) {
     for (int axis = 0; axis < 3; ++axis) {
       const double sd = f % 3 == axis ? 10.0 * kSigma : kSigma;
       if (f % 3 == axis) in.x_in_world[static_cast<std::size_t>(3 * f + axis)] += sd * random.gaussian();
-      constexpr int kDiagonal[3] = {0, 3, 5};
-      in.covariance[static_cast<std::size_t>(6 * f + kDiagonal[axis])] = sd * sd;
+      in.covariance[at(6 * f) + math::kSymmetric3Diagonal[at(axis)]] = sd * sd;
     }
   }
   Trajectories ignorant = in;
@@ -300,7 +301,7 @@ TEST(Smooth, VariancesOfNothingAreCountedAndReplaced) {
   Trajectories in = hand();
   in.covariance.assign(6 * 400, 0.0);
   for (std::size_t f = 0; f < 400; ++f)
-    for (const std::size_t d : {0u, 3u, 5u}) in.covariance[6 * f + d] = kSigma * kSigma;
+    for (const std::size_t d : math::kSymmetric3Diagonal) in.covariance[6 * f + d] = kSigma * kSigma;
   in.covariance[6 * 10] = 0.0;
   in.covariance[6 * 20 + 3] = -1.0;
   in.covariance[6 * 30 + 5] = HUGE_VAL;
@@ -365,8 +366,8 @@ TEST(Smooth, FilledStretchesCountAsOneObservation) {
   }
   in.covariance.assign(6 * 400, 0.0);
   for (int f = 0; f < 400; ++f)
-    for (const int d : {0, 3, 5})
-      in.covariance[static_cast<std::size_t>(6 * f + d)] = f >= 100 && f < 140 ? 4e-4 : kSigma * kSigma;
+    for (const std::size_t d : math::kSymmetric3Diagonal)
+      in.covariance[at(6 * f) + d] = f >= 100 && f < 140 ? 4e-4 : kSigma * kSigma;
   const auto result = smooth(in).value();
   EXPECT_EQ(result.trajectories.made_by(120, 0), "cubic");
   EXPECT_EQ(result.trajectories.state[120], SampleState::interpolated);
@@ -393,7 +394,7 @@ TEST(Smooth, ColouredNoiseIsToldFromWhite) {
 
 TEST(Smooth, TheSpectrumHasThePowerOfTheNoise) {
   const auto result = smooth(hand(2000)).value();
-  const Spectrum& spectrum = result.markers.front().spectrum;
+  const data::Spectrum& spectrum = result.markers.front().spectrum;
   ASSERT_GT(spectrum.frequency_hz.size(), 10u);
   // White noise of variance s^2 per axis: s^2 / (rate / 2) per Hz, three axes.
   const double expected = 3.0 * kSigma * kSigma / 50.0;

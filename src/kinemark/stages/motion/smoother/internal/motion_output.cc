@@ -6,6 +6,7 @@
 #include <array>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/model/coordinate_rates.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -88,7 +89,7 @@ void coordinate_covariances(const MatrixXd& joint, int place, double rate_hz, co
         for (const Index i : moved_by)
           for (const Index j : moved_by) window(a, b) += E(c, i) * E(c, j) * joint(a * n + i, b * n + j);
     const Eigen::Matrix3d C = T * window * T.transpose();
-    out.col(c) << C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2);
+    math::pack_symmetric3(C, out.col(c).data());
   }
 }
 

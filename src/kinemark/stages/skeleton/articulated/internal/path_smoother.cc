@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
@@ -142,9 +143,7 @@ std::vector<Piece> cut(std::span<const PathPoint> points, double rate_hz) {
 
 void store(SmoothedPath& path, std::size_t frame, const Vector3d& place, const Matrix3d& C) {
   path.place[frame] = place;
-  double* c = path.covariance.data() + 6 * frame;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) *c++ = 0.5 * (C(i, j) + C(j, i));
+  math::pack_symmetric3(0.5 * (C + C.transpose()), path.covariance.data() + 6 * frame);
 }
 
 void smooth_piece(std::span<const PathPoint> points, const Piece& piece, const Walk& walk,
@@ -220,10 +219,7 @@ bool holds_a_place(const PathPoint& point) {
 }
 
 Eigen::Matrix3d SmoothedPath::covariance_at(std::size_t frame) const {
-  const double* c = covariance.data() + 6 * frame;
-  Matrix3d C;
-  C << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
-  return C;
+  return math::unpack_symmetric3(covariance.data() + 6 * frame);
 }
 
 SmoothedPath smooth_path(std::span<const PathPoint> points, double rate_hz, double white_jerk) {

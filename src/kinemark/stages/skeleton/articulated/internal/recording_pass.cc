@@ -10,6 +10,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/symmetric3.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
@@ -37,14 +38,9 @@ FlaggedFrame flag(std::int64_t f, const ChainFrame& frame) {
 
 }  // namespace
 
-void store_symmetric(double* to, const Matrix3d& C) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) *to++ = 0.5 * (C(i, j) + C(j, i));
-}
+void store_symmetric(double* to, const Matrix3d& C) { math::pack_symmetric3(0.5 * (C + C.transpose()), to); }
 
-Matrix3d load_symmetric(const double* c) {
-  return Matrix3d{{c[0], c[1], c[2]}, {c[1], c[3], c[4]}, {c[2], c[4], c[5]}};
-}
+Matrix3d load_symmetric(const double* c) { return math::unpack_symmetric3(c); }
 
 bool is_misfit(const Chain& chain, double cost_m2, double noise_sd_m, int seen) {
   const double free = std::max(3.0 * seen - chain.frame_parameters(), 1.0);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
 #include "kinemark/stages/skeleton/functional/words.h"
 
@@ -14,10 +15,7 @@ void set_centre(data::Skeleton& skeleton, std::size_t i, const Eigen::Vector3d& 
                 const Eigen::Matrix3d& covariance, data::CentreState state) {
   skeleton.state[i] = state;
   Eigen::Map<Eigen::Vector3d>(skeleton.centre_in_world.data() + 3 * i) = centre;
-  double* c = skeleton.covariance.data() + 6 * i;
-  int k = 0;
-  for (int row = 0; row < 3; ++row)
-    for (int column = row; column < 3; ++column) c[k++] = covariance(row, column);
+  math::pack_symmetric3(covariance, skeleton.covariance.data() + 6 * i);
 }
 
 /// One side's share of a frame.

@@ -10,6 +10,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::DefectKind;
+
 constexpr std::size_t kMostSingle = 10;
 
 /// One step of all markers that is as long as several.
@@ -20,7 +22,7 @@ struct Leap {
 };
 
 /// A clock that loses frames all the time is one finding; most often it was resampled by leaving frames out.
-Finding describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t) {
+data::Defect describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t) {
   std::vector<double> spacing;
   std::vector<double> times;
   for (std::size_t i = 0; i < leaps.size(); ++i) {
@@ -34,7 +36,7 @@ Finding describe_many(const std::vector<Leap>& leaps, const data::Trajectories& 
     how =
         fmt::format("most often every {:.0f} frames: {:.6g} Hz from which every {:.0f}th frame was left out?",
                     usual, t.time.rate_hz * (usual + 1.0) / usual, usual + 1.0);
-  return {.defect = Defect::clock_jump,
+  return {.kind = DefectKind::clock_jump,
           .first_frame = leaps.front().frame,
           .last_frame = leaps.back().frame,
           .evidence = median_of(times),
@@ -47,14 +49,14 @@ Finding describe_many(const std::vector<Leap>& leaps, const data::Trajectories& 
 
 }  // namespace
 
-void find_clock_jumps(std::span<const double> time_s, Findings& out) {
+void find_clock_jumps(std::span<const double> time_s, Defects& out) {
   std::vector<double> ticks;
   for (std::size_t f = 1; f < time_s.size(); ++f)
     if (std::isfinite(time_s[f] - time_s[f - 1])) ticks.push_back(time_s[f] - time_s[f - 1]);
   const double usual = median_of(ticks);
   if (!(usual > 0.0)) {
     if (time_s.size() > 1)
-      out.push_back({.defect = Defect::clock_jump,
+      out.push_back({.kind = DefectKind::clock_jump,
                      .first_frame = 0,
                      .last_frame = static_cast<std::int64_t>(time_s.size()) - 1,
                      .evidence = HUGE_VAL,
@@ -70,7 +72,7 @@ void find_clock_jumps(std::span<const double> time_s, Findings& out) {
     std::string what = fmt::format("{:.6g} s after the one before, {:.3g} times the usual {:.6g} s", tick,
                                    tick / usual, usual);
     if (!std::isfinite(time_s[f])) what = "at a time that is not a number";
-    out.push_back({.defect = Defect::clock_jump,
+    out.push_back({.kind = DefectKind::clock_jump,
                    .first_frame = frame,
                    .last_frame = frame,
                    .evidence = std::isfinite(off) ? off : HUGE_VAL,
@@ -81,7 +83,7 @@ void find_clock_jumps(std::span<const double> time_s, Findings& out) {
 
 // A lost frame makes one step of all markers a whole multiple of the steps before and after it, in their
 // direction. A body does not do that: it would have to start and stop in all its parts within one frame.
-void find_leaps(const data::Trajectories& t, Findings& out) {
+void find_leaps(const data::Trajectories& t, Defects& out) {
   constexpr int kLeastMarkers = 3;
   std::vector<Leap> leaps;
   for (std::int64_t f = 2; f + 1 < t.frames(); ++f) {
@@ -115,7 +117,7 @@ void find_leaps(const data::Trajectories& t, Findings& out) {
     return;
   }
   for (const Leap& l : leaps)
-    out.push_back({.defect = Defect::clock_jump,
+    out.push_back({.kind = DefectKind::clock_jump,
                    .first_frame = l.frame,
                    .last_frame = l.frame,
                    .evidence = l.times,

@@ -11,19 +11,19 @@
 
 namespace kinemark::trajectory::internal {
 
-using Findings = std::vector<Finding>;
+using Defects = std::vector<data::Defect>;
 
-void find_zeros(const data::Trajectories& t, Findings& out);
-void find_unit_slips(const data::Trajectories& t, Findings& out);
-void find_duplicated_frames(const data::Trajectories& t, Findings& out);
+void find_zeros(const data::Trajectories& t, Defects& out);
+void find_unit_slips(const data::Trajectories& t, Defects& out);
+void find_duplicated_frames(const data::Trajectories& t, Defects& out);
 /// `out` holds the duplicated frames: repeats within them are no news.
-void find_stuck(const data::Trajectories& t, const ScreenOptions& options, Findings& out);
-void find_clock_jumps(std::span<const double> frame_time_s, Findings& out);
+void find_stuck(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
+void find_clock_jumps(std::span<const double> frame_time_s, Defects& out);
 /// The same from the markers, where nobody wrote the times down.
-void find_leaps(const data::Trajectories& t, Findings& out);
-void find_swaps(const data::Trajectories& t, const ScreenOptions& options, Findings& out);
+void find_leaps(const data::Trajectories& t, Defects& out);
+void find_swaps(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
 /// `out` holds the swaps: a short one is no spike.
-void find_spikes(const data::Trajectories& t, const ScreenOptions& options, Findings& out);
+void find_spikes(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
 
 /// "frame 7" or "frames 7 to 9".
 [[nodiscard]] std::string frames_in_words(std::int64_t first, std::int64_t last);

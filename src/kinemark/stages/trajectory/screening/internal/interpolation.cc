@@ -8,6 +8,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::InterpolationKernel;
+
 // All kernels but hold, linear and Lagrange are cubics between two knots, given by the slopes there (knots
 // one apart). Those at the ends only need to exist: they are not used.
 
@@ -72,7 +74,7 @@ Weights hermite_weights(double u) {
 
 }  // namespace
 
-bool residuals(std::span<const double> y, int factor, int phase, Kernel kernel, Knots& knots,
+bool residuals(std::span<const double> y, int factor, int phase, InterpolationKernel kernel, Knots& knots,
                std::span<double> out) {
   std::ranges::fill(out, kNotPredicted);
   const auto f = static_cast<std::size_t>(factor);
@@ -83,22 +85,22 @@ bool residuals(std::span<const double> y, int factor, int phase, Kernel kernel, 
   knots.value.resize(count);
   knots.slope.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) knots.value[i] = y[p + i * f];
-  if (kernel == Kernel::spline) spline_slopes(knots);
-  if (kernel == Kernel::catmull_rom) catmull_rom_slopes(knots);
-  if (kernel == Kernel::pchip) pchip_slopes(knots);
-  if (kernel == Kernel::akima) akima_slopes(knots);
+  if (kernel == InterpolationKernel::spline) spline_slopes(knots);
+  if (kernel == InterpolationKernel::catmull_rom) catmull_rom_slopes(knots);
+  if (kernel == InterpolationKernel::pchip) pchip_slopes(knots);
+  if (kernel == InterpolationKernel::akima) akima_slopes(knots);
   const double* v = knots.value.data();
   const double* s = knots.slope.data();
   for (std::size_t j = 1; j < f; ++j) {
     const double u = static_cast<double>(j) / static_cast<double>(f);
-    const Weights w = kernel == Kernel::lagrange ? lagrange_weights(u) : hermite_weights(u);
+    const Weights w = kernel == InterpolationKernel::lagrange ? lagrange_weights(u) : hermite_weights(u);
     for (std::size_t i = edge; i + edge + 1 < count; ++i) {
       double made = v[i];
-      if (kernel == Kernel::linear)
+      if (kernel == InterpolationKernel::linear)
         made = (1.0 - u) * v[i] + u * v[i + 1];
-      else if (kernel == Kernel::lagrange)
+      else if (kernel == InterpolationKernel::lagrange)
         made = w[0] * v[i - 1] + w[1] * v[i] + w[2] * v[i + 1] + w[3] * v[i + 2];
-      else if (kernel != Kernel::hold)
+      else if (kernel != InterpolationKernel::hold)
         made = w[0] * v[i] + w[1] * v[i + 1] + w[2] * s[i] + w[3] * s[i + 1];
       const std::size_t at = p + i * f + j;
       out[at] = y[at] - made;

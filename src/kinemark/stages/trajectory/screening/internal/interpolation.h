@@ -10,15 +10,20 @@
 
 namespace kinemark::trajectory::internal {
 
-inline constexpr std::array kKernels{Kernel::hold,     Kernel::linear, Kernel::spline, Kernel::catmull_rom,
-                                     Kernel::lagrange, Kernel::pchip,  Kernel::akima};
+inline constexpr std::array kKernels{
+    data::InterpolationKernel::hold,     data::InterpolationKernel::linear,
+    data::InterpolationKernel::spline,   data::InterpolationKernel::catmull_rom,
+    data::InterpolationKernel::lagrange, data::InterpolationKernel::pchip,
+    data::InterpolationKernel::akima};
 
 /// Knots without use at both ends of a stretch: the end condition of a spline is unknown and fades by 0.27
 /// per knot; the others lean on two neighbours.
-[[nodiscard]] constexpr int edge_knots(Kernel kernel) { return kernel == Kernel::spline ? 8 : 2; }
+[[nodiscard]] constexpr int edge_knots(data::InterpolationKernel kernel) {
+  return kernel == data::InterpolationKernel::spline ? 8 : 2;
+}
 /// Frames that a stretch needs to be worth a look.
-[[nodiscard]] constexpr int min_stretch(int factor, Kernel kernel) {
-  return factor * (kernel == Kernel::spline ? 24 : 12);
+[[nodiscard]] constexpr int min_stretch(int factor, data::InterpolationKernel kernel) {
+  return factor * (kernel == data::InterpolationKernel::spline ? 24 : 12);
 }
 
 /// Memory that residuals() reuses.
@@ -28,8 +33,8 @@ struct Knots {
 
 /// Suppose that samples phase, phase + factor, ... are real: predict those in between and write y minus
 /// prediction; `kNotPredicted` at knots and where knots are too few. False when nothing is predicted. O(n).
-bool residuals(std::span<const double> y, int factor, int phase, Kernel kernel, Knots& knots,
-               std::span<double> out);
+bool residuals(std::span<const double> y, int factor, int phase, data::InterpolationKernel kernel,
+               Knots& knots, std::span<double> out);
 inline constexpr double kNotPredicted = 1e300;
 
 }  // namespace kinemark::trajectory::internal

@@ -10,6 +10,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::InterpolationKernel;
+
 constexpr std::int64_t kBlockKnots = 16;
 constexpr std::int64_t kPieceFrames = 2048;
 constexpr std::int64_t kMinBlocks = 6;
@@ -56,7 +58,7 @@ std::vector<int> path_of(const PhaseTable& table, const std::vector<std::size_t>
 }
 
 /// Evidence for one phase per row.
-Candidate weigh(const PhaseTable& table, Kernel kernel, const std::vector<std::size_t>& order,
+Candidate weigh(const PhaseTable& table, InterpolationKernel kernel, const std::vector<std::size_t>& order,
                 const std::vector<int>& path) {
   const auto f = static_cast<std::size_t>(table.factor);
   std::vector<double> ratio;
@@ -119,7 +121,7 @@ std::vector<Piece> pieces_of(const data::Trajectories& t, std::int64_t marker, s
     }
     std::int64_t end = f + 1;
     while (end < t.frames() && end - f < kPieceFrames && t.present(end, marker)) ++end;
-    if (end - f >= min_stretch(2, Kernel::linear)) {
+    if (end - f >= min_stretch(2, InterpolationKernel::linear)) {
       spans.emplace_back(f, end);
       total += end - f;
     }
@@ -148,7 +150,7 @@ void PhaseTable::append(const PhaseTable& other) {
   frame.insert(frame.end(), other.frame.begin(), other.frame.end());
 }
 
-void add_rows(const Piece& piece, Kernel kernel, Knots& knots, PhaseTable& table) {
+void add_rows(const Piece& piece, InterpolationKernel kernel, Knots& knots, PhaseTable& table) {
   const int f = table.factor;
   const auto n = static_cast<std::int64_t>(piece.y.size());
   if (n < min_stretch(f, kernel)) return;
@@ -187,7 +189,7 @@ void add_rows(const Piece& piece, Kernel kernel, Knots& knots, PhaseTable& table
   }
 }
 
-Candidate judge(const PhaseTable& table, Kernel kernel) {
+Candidate judge(const PhaseTable& table, InterpolationKernel kernel) {
   const auto f = static_cast<std::size_t>(table.factor);
   Candidate none;
   none.blocks = static_cast<std::int64_t>(table.rows());
@@ -217,10 +219,10 @@ Candidate judge(const PhaseTable& table, Kernel kernel) {
   return s.fires ? s : c;
 }
 
-std::vector<PhaseRun> follow_phase(const PhaseTable& table) {
+std::vector<data::PhaseRun> follow_phase(const PhaseTable& table) {
   const std::vector<std::size_t> order = rows_in_time(table);
   const std::vector<int> path = path_of(table, order);
-  std::vector<PhaseRun> runs;
+  std::vector<data::PhaseRun> runs;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (!runs.empty() && runs.back().phase == path[i]) continue;
     const std::int64_t start = i == 0 ? 0 : (table.frame[order[i - 1]] + table.frame[order[i]]) / 2;

@@ -40,12 +40,12 @@ struct PhaseTable {
   void append(const PhaseTable& other);
 };
 
-void add_rows(const Piece& piece, Kernel kernel, Knots& knots, PhaseTable& table);
+void add_rows(const Piece& piece, data::InterpolationKernel kernel, Knots& knots, PhaseTable& table);
 
 /// Verdict of one table.
 struct Candidate {
   int factor = 1, phase = 0;
-  Kernel kernel = Kernel::none;
+  data::InterpolationKernel kernel = data::InterpolationKernel::none;
   double ratio = 1.0, agreement = 0.0;
   std::int64_t blocks = 0;
   double residual_m = 0.0, rounding_m = 0.0;
@@ -56,10 +56,10 @@ struct Candidate {
 };
 
 /// The phase that wins most blocks, and whether it wins as only an interpolated stream lets it.
-[[nodiscard]] Candidate judge(const PhaseTable& table, Kernel kernel);
+[[nodiscard]] Candidate judge(const PhaseTable& table, data::InterpolationKernel kernel);
 
 /// Phase in force along time: cheapest path through the blocks where each change costs as much as four blocks
 /// that say something else. Starts at frame 0. Sorts nothing away: any order of rows will do.
-[[nodiscard]] std::vector<PhaseRun> follow_phase(const PhaseTable& table);
+[[nodiscard]] std::vector<data::PhaseRun> follow_phase(const PhaseTable& table);
 
 }  // namespace kinemark::trajectory::internal

@@ -11,6 +11,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::DefectKind;
+
 using data::Trajectories;
 
 constexpr double kHarmless = 2e-5;   // m per frame: a body at rest, or an encoder
@@ -59,7 +61,7 @@ bool held_regularly(const std::vector<char>& whole) {
 
 }  // namespace
 
-void find_zeros(const Trajectories& t, Findings& out) {
+void find_zeros(const Trajectories& t, Defects& out) {
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     for (std::int64_t f = 0; f < t.frames(); ++f) {
       if (!is_zero(t, f, m)) continue;
@@ -71,7 +73,7 @@ void find_zeros(const Trajectories& t, Findings& out) {
                                      ? fmt::format("the samples beside are {:.0f} mm away", 1e3 * nearest)
                                      : std::string("it is never seen anywhere else");
       out.push_back(
-          {.defect = Defect::zero,
+          {.kind = DefectKind::zero,
            .marker = m,
            .first_frame = first,
            .last_frame = f,
@@ -83,7 +85,7 @@ void find_zeros(const Trajectories& t, Findings& out) {
   }
 }
 
-void find_duplicated_frames(const Trajectories& t, Findings& out) {
+void find_duplicated_frames(const Trajectories& t, Defects& out) {
   const auto frames = static_cast<std::size_t>(t.frames());
   const auto markers = static_cast<std::size_t>(t.markers());
   std::vector<char> whole(frames, 0);  // every marker repeats
@@ -134,7 +136,7 @@ void find_duplicated_frames(const Trajectories& t, Findings& out) {
     }
     if (log_all > std::log(1e-4) || 2 * moving < seen) continue;
     out.push_back(
-        {.defect = Defect::duplicated_frame,
+        {.kind = DefectKind::duplicated_frame,
          .first_frame = first,
          .last_frame = f,
          .evidence = -log_all,
@@ -145,9 +147,9 @@ void find_duplicated_frames(const Trajectories& t, Findings& out) {
   }
 }
 
-void find_stuck(const Trajectories& t, const ScreenOptions& options, Findings& out) {
+void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& out) {
   std::vector<char> duplicated(static_cast<std::size_t>(t.frames()), 0);
-  for (const Finding& d : out)
+  for (const data::Defect& d : out)
     for (std::int64_t f = d.first_frame; f <= d.last_frame; ++f) duplicated[static_cast<std::size_t>(f)] = 1;
   const double held =
       std::min(std::ceil(options.min_stuck_s * t.time.rate_hz), static_cast<double>(t.frames()) + 1.0);
@@ -186,7 +188,7 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Findings& o
       if (!rare || !abrupt || length < 5.0 * usual || beside.size() < 5 || step < kHarmless) continue;
       const double ratio = length * step / rounding;
       out.push_back(
-          {.defect = Defect::stuck,
+          {.kind = DefectKind::stuck,
            .marker = m,
            .first_frame = first,
            .last_frame = last,

@@ -12,6 +12,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::DefectKind;
+
 using data::Trajectories;
 using Eigen::Vector3d;
 
@@ -71,12 +73,12 @@ bool worth_a_look(const Trajectories& t, std::int64_t m, std::int64_t f, double 
 
 }  // namespace
 
-void find_spikes(const Trajectories& t, const ScreenOptions& options, Findings& out) {
+void find_spikes(const Trajectories& t, const ScreenOptions& options, Defects& out) {
   const std::array<Cubic, kMostSamples> cubics{Cubic(1), Cubic(2), Cubic(3)};
-  const Findings swaps = out;
+  const Defects swaps = out;
   const auto swapped = [&](std::int64_t m, std::int64_t first, std::int64_t last) {
-    return std::ranges::any_of(swaps, [&](const Finding& s) {
-      const bool mine = s.marker == m || (s.defect == Defect::label_swap && s.other_marker == m);
+    return std::ranges::any_of(swaps, [&](const data::Defect& s) {
+      const bool mine = s.marker == m || (s.kind == DefectKind::label_swap && s.other_marker == m);
       return mine && s.first_frame <= last + 1 && s.last_frame + 1 >= first;
     });
   };
@@ -91,7 +93,7 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Findings& 
         const std::int64_t last = f + width - 1;
         if (!swapped(m, f, last))
           out.push_back(
-              {.defect = Defect::spike,
+              {.kind = DefectKind::spike,
                .marker = m,
                .first_frame = f,
                .last_frame = last,

@@ -13,6 +13,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::DefectKind;
+
 using data::Trajectories;
 using Eigen::Vector3d;
 
@@ -139,7 +141,7 @@ void follow(Trajectories& t, double least, std::vector<Jump>& jumps, std::vector
 
 /// Pair beginnings with ends; what is left lasts to an end of the recording, and the shorter side is called
 /// wrong.
-void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Findings& out) {
+void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Defects& out) {
   for (std::size_t a = 0; a < found.size(); ++a) {
     if (found[a].frame < 0) continue;
     const Exchange start = found[a];
@@ -158,7 +160,7 @@ void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Findin
       first = 0;
       last = start.frame - 1;
     }
-    out.push_back({.defect = Defect::label_swap,
+    out.push_back({.kind = DefectKind::label_swap,
                    .marker = start.one,
                    .other_marker = start.other,
                    .first_frame = first,
@@ -205,7 +207,7 @@ std::int64_t host_of(const Trajectories& t, std::int64_t guest, std::int64_t fir
   return host;
 }
 
-void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double least, Findings& out) {
+void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double least, Defects& out) {
   const std::int64_t longest = frames_in(t, kLongestVisit);
   for (std::size_t a = 0; a < jumps.size(); ++a) {
     const Jump& there = jumps[a];
@@ -229,7 +231,7 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
       if (host < 0 || distance > 0.5 * least) break;
       const double ratio = jump / std::max(std::max(distance, off), 1e-6);
       out.push_back(
-          {.defect = Defect::swap_within,
+          {.kind = DefectKind::swap_within,
            .marker = m,
            .other_marker = host,
            .first_frame = there.frame,
@@ -248,7 +250,7 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
 
 }  // namespace
 
-void find_swaps(const Trajectories& recorded, const ScreenOptions& options, Findings& out) {
+void find_swaps(const Trajectories& recorded, const ScreenOptions& options, Defects& out) {
   Trajectories t = recorded;
   std::vector<Jump> jumps;
   std::vector<Exchange> exchanges;

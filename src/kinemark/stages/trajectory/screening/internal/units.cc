@@ -10,6 +10,8 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
+using data::DefectKind;
+
 constexpr double kThousand = 1000.0;
 constexpr double kNeighbour = 1.0;  // m, on the same body
 
@@ -48,7 +50,7 @@ int slip_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// Slips with time: the part that is in another unit than most of the marker.
-void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Findings& out) {
+void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Defects& out) {
   std::vector<std::pair<std::int64_t, int>> levels{{0, 0}};  // from frame: power of a thousand
   std::int64_t last = -1;
   for (std::int64_t f = 0; f < t.frames(); ++f) {
@@ -74,7 +76,7 @@ void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Findings& o
     const std::int64_t end = i + 1 < levels.size() ? levels[i + 1].first : t.frames();
     const bool large = levels[i].second > usual;
     out.push_back(
-        {.defect = Defect::unit_slip,
+        {.kind = DefectKind::unit_slip,
          .marker = m,
          .first_frame = levels[i].first,
          .last_frame = end - 1,
@@ -105,23 +107,23 @@ bool goes_along(const data::Trajectories& t, std::int64_t marker, double scale, 
 }
 
 /// Findings of all markers over the same frames are one finding about the recording.
-void merge_common(const data::Trajectories& t, Findings& slips) {
+void merge_common(const data::Trajectories& t, Defects& slips) {
   for (std::size_t i = 0; i < slips.size(); ++i) {
     if (slips[i].marker < 0) continue;
     std::int64_t with = 0;
     std::int64_t seen = 0;
-    const auto same = [&](const Finding& f) {
+    const auto same = [&](const data::Defect& f) {
       return f.first_frame == slips[i].first_frame && f.last_frame == slips[i].last_frame && f.marker >= 0;
     };
     for (std::int64_t m = 0; m < t.markers(); ++m) seen += t.present(slips[i].first_frame, m) ? 1 : 0;
     with = std::ranges::count_if(slips, same);
     if (with < 2 || with < seen) continue;
-    Finding all = slips[i];
+    data::Defect all = slips[i];
     all.marker = -1;
     all.sentence = fmt::format("All {} markers that are seen change by a factor of a thousand in {}.", seen,
                                frames_in_words(all.first_frame, all.last_frame));
-    const Finding key = slips[i];
-    std::erase_if(slips, [&](const Finding& f) {
+    const data::Defect key = slips[i];
+    std::erase_if(slips, [&](const data::Defect& f) {
       return f.first_frame == key.first_frame && f.last_frame == key.last_frame && f.marker >= 0;
     });
     slips.insert(slips.begin() + static_cast<std::ptrdiff_t>(std::min(i, slips.size())), all);
@@ -130,8 +132,8 @@ void merge_common(const data::Trajectories& t, Findings& slips) {
 
 }  // namespace
 
-void find_unit_slips(const data::Trajectories& t, Findings& out) {
-  Findings slips;
+void find_unit_slips(const data::Trajectories& t, Defects& out) {
+  Defects slips;
   for (std::int64_t m = 0; m < t.markers(); ++m) find_slips_in_time(t, m, slips);
   merge_common(t, slips);
   std::vector<Extent> extents;
@@ -154,7 +156,7 @@ void find_unit_slips(const data::Trajectories& t, Findings& out) {
     for (const double factor : {kThousand, 1.0 / kThousand}) {
       if (!near(e.distance / distance, factor, 3.0) || !near(e.spread / spread, factor, 10.0)) continue;
       if (!goes_along(t, m, 1.0 / factor, spread)) continue;
-      slips.push_back({.defect = Defect::unit_slip,
+      slips.push_back({.kind = DefectKind::unit_slip,
                        .marker = m,
                        .first_frame = 0,
                        .last_frame = t.frames() - 1,
@@ -169,7 +171,7 @@ void find_unit_slips(const data::Trajectories& t, Findings& out) {
   // Nobody is recorded at 200 m, nor within 2 mm of the origin.
   if (!distances.empty() && (distance > 200.0 || (distance < 0.002 && distance > 0.0)))
     slips.push_back(
-        {.defect = Defect::unit_slip,
+        {.kind = DefectKind::unit_slip,
          .first_frame = 0,
          .last_frame = t.frames() - 1,
          .evidence = distance > 1.0 ? distance : 1.0 / distance,

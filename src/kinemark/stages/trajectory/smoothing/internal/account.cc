@@ -28,7 +28,7 @@ double chi_square_above(double x, int freedom) {
 }
 
 void autocorrelate(const MarkerSamples& samples, const std::vector<double>& residual,
-                   MarkerAccount& account) {
+                   data::MarkerAccount& account) {
   double power = 0.0, count = 0.0;
   for (const double r : residual) {
     if (std::isnan(r)) continue;
@@ -112,14 +112,14 @@ class Psd {
   std::vector<std::int64_t> bins_;
 };
 
-Spectrum spectrum(const MarkerSamples& samples, const std::vector<double>& residual, double rate_hz) {
+data::Spectrum spectrum(const MarkerSamples& samples, const std::vector<double>& residual, double rate_hz) {
   std::int64_t longest = 0;
   const auto all = sample_of(stretches(samples.judged));
   for (const Stretch& s : all) longest = std::max(longest, s.length());
   if (longest < kShortestSegment) return {};
   const std::int64_t length = std::min(longest, kLongestSegment);
   const Psd psd(length, rate_hz);
-  Spectrum out;
+  data::Spectrum out;
   out.frequency_hz = psd.frequencies();
   double segments = 0.0;
   for (const Stretch& s : all) {
@@ -137,7 +137,7 @@ Spectrum spectrum(const MarkerSamples& samples, const std::vector<double>& resid
 }  // namespace
 
 void judge_residuals(const MarkerSamples& samples, double rate_hz, MarkerResult& result) {
-  MarkerAccount& account = result.account;
+  data::MarkerAccount& account = result.account;
   std::vector<double> residual(static_cast<std::size_t>(3 * samples.frames), kNaN);
   for (std::int64_t f = 0; f < samples.frames; ++f)
     if (samples.judged[static_cast<std::size_t>(f)] != 0)

@@ -8,6 +8,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/math/digital_filter.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/cutoff.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
 
@@ -56,7 +57,7 @@ NoiseShares noise_shares(const Plan& plan, double rate_hz) {
 }
 
 Plan make_plan(const MarkerSamples& samples, const SmoothOptions& options, double rate_hz,
-               const std::vector<Stretch>& all, MarkerAccount& account) {
+               const std::vector<Stretch>& all, data::MarkerAccount& account) {
   if (options.method == FilterMethod::none) {
     account.words = "Not filtered; two-point differences.";
     return {.filters = false};
@@ -110,7 +111,7 @@ double noise_from(const MarkerSamples& samples, const MarkerResult& result, doub
 
 Status smooth_butterworth(const MarkerSamples& samples, const SmoothOptions& options, double rate_hz,
                           MarkerResult& result) {
-  MarkerAccount& account = result.account;
+  data::MarkerAccount& account = result.account;
   if (!samples.time_s.empty())
     return fail(Code::not_supported,
                 fmt::format("marker '{}' is not seen at even times, which filter {} needs; use kalman",
@@ -159,8 +160,7 @@ Status smooth_butterworth(const MarkerSamples& samples, const SmoothOptions& opt
   const double variance = noise * noise * shares.passes[0];
   for (std::int64_t f = 0; f < samples.frames; ++f) {
     if (samples.present[static_cast<std::size_t>(f)] == 0) continue;
-    const double own[6] = {variance, 0.0, 0.0, variance, 0.0, variance};
-    std::copy_n(own, 6, result.covariance.begin() + 6 * f);
+    math::pack_isotropic3(variance, result.covariance.data() + 6 * f);
   }
   return {};
 }

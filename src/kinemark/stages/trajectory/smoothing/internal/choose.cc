@@ -163,7 +163,7 @@ Choice choose(std::span<const Series> parts, const ChooseOptions& options) {
     choice.order = family.order();
     choice.cutoff_hz = std::exp(best.log_cutoff);
   }
-  std::ranges::sort(choice.candidates, {}, &Candidate::order);
+  std::ranges::sort(choice.candidates, {}, &data::FilterCandidate::order);
   return choice;
 }
 

@@ -30,7 +30,7 @@ struct Choice {
   int order = 0;
   double cutoff_hz = 0.0;
   double noise_sd_m = 0.0;  ///< as given or found; NaN when there are too few samples to tell
-  std::vector<Candidate> candidates;
+  std::vector<data::FilterCandidate> candidates;
   bool enough = true;  ///< false: too few samples to choose by, the defaults were taken
 };
 

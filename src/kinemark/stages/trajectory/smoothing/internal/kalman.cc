@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/choose.h"
 #include "kinemark/stages/trajectory/smoothing/internal/error_bars.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
@@ -60,7 +62,7 @@ class Writer {
           if (d > 0)
             (*sds[d])[to] = std::sqrt(v);
           else
-            result_.covariance[static_cast<std::size_t>(6 * f) + kDiagonal[first_axis + axis]] = v;
+            result_.covariance[at(6 * f) + math::kSymmetric3Diagonal[at(first_axis + axis)]] = v;
         }
       }
     }
@@ -73,8 +75,7 @@ class Writer {
       c[1] = c[2] = c[4] = std::isnan(c[0]) ? kNaN : 0.0;
       if (in == nullptr || samples_.present[static_cast<std::size_t>(f)] == 0) continue;
       const double* r = in->covariance.data() + 6 * in->index(f, result_.marker);
-      constexpr int kPairs[3][3] = {{1, 0, 3}, {2, 0, 5}, {4, 3, 5}};
-      for (const auto& [off, a, b] : kPairs) {
+      for (const auto& [off, a, b] : math::kSymmetric3Pairs) {
         const double rho = r[off] / std::sqrt(r[a] * r[b]);
         if (std::abs(rho) <= 1.0) c[off] = rho * std::sqrt(c[a] * c[b]);
       }
@@ -107,9 +108,8 @@ class Writer {
         result_.covariance.empty())
       return false;
     for (std::int64_t f = begin; f < end; ++f)
-      for (const int d : kDiagonal)
-        if (!(std::sqrt(result_.covariance[static_cast<std::size_t>(6 * f + d)]) <= options.max_bridge_sd_m))
-          return false;
+      for (const std::size_t d : math::kSymmetric3Diagonal)
+        if (!(std::sqrt(result_.covariance[at(6 * f) + d]) <= options.max_bridge_sd_m)) return false;
     return true;
   }
 
@@ -120,13 +120,12 @@ class Writer {
     if (!result_.covariance.empty()) std::fill_n(result_.covariance.begin() + 6 * f, 6, kNaN);
   }
 
-  static constexpr int kDiagonal[3] = {0, 3, 5};
   const MarkerSamples& samples_;
   MarkerResult& result_;
   double noise_variance_;
 };
 
-void describe(const Choice& choice, const SmoothOptions& options, MarkerAccount& account) {
+void describe(const Choice& choice, const SmoothOptions& options, data::MarkerAccount& account) {
   const bool gcv = options.method == FilterMethod::gcv;
   account.criterion_name = options.order > 0 && options.cutoff_hz > 0.0 ? "" : gcv ? "GCV, m^2" : "SURE, m^2";
   account.candidates = choice.candidates;
@@ -152,7 +151,7 @@ void describe(const Choice& choice, const SmoothOptions& options, MarkerAccount&
 
 void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, const SmoothOptions& options,
                    MarkerResult& result) {
-  MarkerAccount& account = result.account;
+  data::MarkerAccount& account = result.account;
   std::vector<Array<double>> columns, judged_columns;
   ChooseOptions choosing;
   choosing.criterion = options.method == FilterMethod::gcv ? Criterion::gcv : Criterion::sure;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/index.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/choose.h"
 
 namespace kinemark::trajectory::smoothing {
@@ -14,7 +16,6 @@ namespace {
 
 constexpr double kEvenTimes = 1e-6;     ///< of the interval: offsets that differ less are the same
 constexpr double kSameVariance = 1e-9;  ///< relative
-constexpr int kDiagonal[3] = {0, 3, 5};
 
 bool usable(double variance) { return std::isfinite(variance) && variance > 0.0; }
 
@@ -77,7 +78,7 @@ void take_variances(const data::Trajectories& in, std::int64_t marker, MarkerSam
   Array<double> known;
   for (std::int64_t f = 0; f < out.frames; ++f) {
     if (out.present[static_cast<std::size_t>(f)] == 0) continue;
-    for (const int d : kDiagonal)
+    for (const std::size_t d : math::kSymmetric3Diagonal)
       if (const double v = in.covariance[6 * in.index(f, marker) + d]; usable(v)) known.push_back(v);
   }
   if (known.empty()) return;
@@ -91,7 +92,7 @@ void take_variances(const data::Trajectories& in, std::int64_t marker, MarkerSam
     if (out.present[static_cast<std::size_t>(f)] == 0) continue;
     bool bad = false;
     for (int axis = 0; axis < 3; ++axis) {
-      const double v = in.covariance[6 * in.index(f, marker) + kDiagonal[axis]];
+      const double v = in.covariance[6 * in.index(f, marker) + math::kSymmetric3Diagonal[at(axis)]];
       bad = bad || !usable(v);
       double& relative = out.variance[static_cast<std::size_t>(axis * out.frames + f)];
       relative = usable(v) ? v / median : 1.0;

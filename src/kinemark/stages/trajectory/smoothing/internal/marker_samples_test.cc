@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "kinemark/math/symmetric3.h"
+
 namespace kinemark::trajectory::smoothing {
 namespace {
 
@@ -27,7 +29,7 @@ Trajectories two_markers(int frames) {
 void set_variances(Trajectories& t, double v) {
   t.covariance.assign(6 * t.state.size(), 0.0);
   for (std::size_t i = 0; i < t.state.size(); ++i)
-    for (const std::size_t d : {0u, 3u, 5u}) t.covariance[6 * i + d] = v;
+    for (const std::size_t d : math::kSymmetric3Diagonal) t.covariance[6 * i + d] = v;
 }
 
 TEST(MarkerSamples, TakesOneMarker) {
@@ -58,7 +60,7 @@ TEST(MarkerSamples, VariancesAreRelativeToTheMedian) {
   EXPECT_TRUE(s.has_covariance);
   EXPECT_NEAR(s.typical_sd_m, 0.002, 1e-12);
   EXPECT_TRUE(s.variance.empty());  // all the same
-  for (const std::size_t d : {0u, 3u, 5u}) t.covariance[6 * t.index(3, 0) + d] = 4e-5;
+  for (const std::size_t d : math::kSymmetric3Diagonal) t.covariance[6 * t.index(3, 0) + d] = 4e-5;
   s = marker_samples(t, 0).value();
   EXPECT_TRUE(s.same_for_all_axes);
   EXPECT_NEAR(s.variance[3], 10.0, 1e-9);

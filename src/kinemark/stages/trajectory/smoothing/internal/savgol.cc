@@ -9,6 +9,7 @@
 #include <map>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
 
@@ -124,7 +125,7 @@ double half_power_hz(const Window& window, double rate_hz) {
 }
 
 int choose_half(const MarkerSamples& samples, const std::vector<Stretch>& all, int degree, double rate_hz,
-                Windows& windows, const SmoothOptions& options, MarkerAccount& account) {
+                Windows& windows, const SmoothOptions& options, data::MarkerAccount& account) {
   std::int64_t longest = 1;
   for (const Stretch& s : all) longest = std::max(longest, s.length());
   const int narrowest = degree / 2 + 1;
@@ -161,7 +162,7 @@ int choose_half(const MarkerSamples& samples, const std::vector<Stretch>& all, i
 
 Status smooth_savgol(const MarkerSamples& samples, const SmoothOptions& options, double rate_hz,
                      MarkerResult& result) {
-  MarkerAccount& account = result.account;
+  data::MarkerAccount& account = result.account;
   if (!samples.time_s.empty())
     return fail(Code::not_supported,
                 fmt::format("marker '{}' is not seen at even times, which filter savgol needs; use kalman",
@@ -211,8 +212,7 @@ Status smooth_savgol(const MarkerSamples& samples, const SmoothOptions& options,
   for (const Stretch& stretch : all) {
     windows.each(stretch, half, [&](std::int64_t f, std::int64_t, int where, const Window& window) {
       const double v = noise * noise * window.at(0, where).squaredNorm();
-      const double own[6] = {v, 0.0, 0.0, v, 0.0, v};
-      std::copy_n(own, 6, result.covariance.begin() + 6 * f);
+      math::pack_isotropic3(v, result.covariance.data() + 6 * f);
       for (int d = 1; d <= std::min(3, window.determined()); ++d)
         std::fill_n(sds[d]->begin() + 3 * f, 3, noise * window.at(d, where).norm() * std::pow(rate_hz, d));
     });

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/data/derivatives.h"
+
+namespace kinemark::data {
+
+/// One filter that was tried: the smaller its criterion, the better.
+struct FilterCandidate {
+  int order = 0;
+  double cutoff_hz = kNaN;  ///< best of this order; savgol: -3 dB of the window
+  double criterion = kNaN;  ///< see MarkerAccount::criterion_name
+};
+
+/// Power spectral density at a few frequencies, summed over the axes. All three have one length, or are empty
+/// when no stretch without gaps is long enough.
+struct Spectrum {
+  std::vector<double> frequency_hz;        ///< rising, > 0, log-spaced
+  std::vector<double> raw_m2_per_hz;       ///< of what went in (mean of each stretch removed)
+  std::vector<double> residual_m2_per_hz;  ///< of what the filter took away
+};
+
+/// What smoothing did to one marker, and why.
+struct MarkerAccount {
+  std::string name;
+  FilterUsed used;         ///< method, order, cut-off, noise level
+  std::string words;       ///< one or two sentences for people: what the filter did and why it was chosen
+  std::string noise_from;  ///< "given", "covariance", "data", or "" when unknown
+  double process_noise =
+      0.0;  ///< m^2 / s^(2 order - 1), spectral density of the order-th derivative (kalman, gcv)
+  std::string criterion_name;               ///< "SURE, m^2", "GCV, m^2", "" when nothing was chosen
+  std::vector<FilterCandidate> candidates;  ///< one per order tried
+  double residual_rms_m = kNaN;  ///< in - out over measured samples, per axis; NaN when there are none
+  std::vector<double>
+      autocorrelation;        ///< of the residuals, lags 1, 2, ... frames; empty when too few samples
+  double ljung_box_p = kNaN;  ///< chance of such autocorrelation in white noise; small: the residual is not
+                              ///< white; NaN when too few samples
+  bool white = true;          ///< no autocorrelation larger than what the filter itself explains
+  /// Standard deviations of position, velocity, acceleration and jerk against what the model alone says: at
+  /// seen samples, and for what gaps and ends add. 1 means the model was right.
+  std::array<double, 4> bar_scale{1.0, 1.0, 1.0, 1.0};
+  std::array<double, 4> gap_bar_scale{1.0, 1.0, 1.0, 1.0};
+  std::int64_t measured = 0, bridged = 0, left_missing = 0;  ///< frames
+  std::int64_t bad_variances =
+      0;  ///< samples whose variance was not positive and finite: the median was taken
+  Spectrum spectrum;
+};
+
+}  // namespace kinemark::data
