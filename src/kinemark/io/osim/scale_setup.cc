@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "kinemark/io/osim/internal/ik_tasks_xml.h"
 #include "kinemark/io/osim/internal/xml_file.h"
@@ -41,8 +43,10 @@ Eigen::Vector3d read_axes(XmlFile& file, pugi::xml_node node) {
   return axes;
 }
 
-ScaleMeasurement read_measurement(XmlFile& file, pugi::xml_node node) {
-  ScaleMeasurement measurement{.name = name_of(node), .apply = file.flag(node, "apply", true)};
+/// Nothing when it is switched off or scales no body.
+std::optional<data::ScaleMeasurement> read_measurement(XmlFile& file, pugi::xml_node node) {
+  data::ScaleMeasurement measurement{.name = name_of(node)};
+  const bool apply = file.flag(node, "apply", true);
   for (const pugi::xml_node pair : objects_of(node, "MarkerPairSet")) {
     const auto words = words_of(text_of(pair, "markers"));
     if (words.size() != 2) {
@@ -55,36 +59,40 @@ ScaleMeasurement read_measurement(XmlFile& file, pugi::xml_node node) {
     if (name_of(body).empty()) file.note(body, "has no name; need that of a body");
     measurement.bodies.push_back({.body = name_of(body), .axes = read_axes(file, body)});
   }
+  if (!apply || measurement.bodies.empty()) return std::nullopt;
   return measurement;
 }
 
-ScaleByHand read_scale(XmlFile& file, pugi::xml_node node) {
+/// Nothing when it is switched off.
+std::optional<data::BodyFactors> read_scale(XmlFile& file, pugi::xml_node node) {
   // The body stands in <segment>; files edited by hand name the scale after it instead.
   std::string body = text_of(node, "segment");
   if (body.empty() || body == "Unassigned") body = name_of(node);
   if (body.empty()) file.note(node, "names no <segment>");
   if (body.starts_with("/bodyset/")) body.erase(0, std::string("/bodyset/").size());
-  const ScaleByHand scale{.body = std::move(body),
-                          .factors = file.vector3(node, "scales", Eigen::Vector3d::Ones()),
-                          .apply = file.flag(node, "apply", true)};
+  const data::BodyFactors scale{.body = std::move(body),
+                                .factors = file.vector3(node, "scales", Eigen::Vector3d::Ones())};
+  const bool apply = file.flag(node, "apply", true);
   if (!(scale.factors.minCoeff() > 0.0)) file.note(node.child("scales"), "must be above 0");
+  if (!apply) return std::nullopt;
   return scale;
 }
 
-std::vector<ScaleByHand> read_scales(XmlFile& file, pugi::xml_node owner) {
-  std::vector<ScaleByHand> scales;
-  for (const pugi::xml_node node : objects_of(owner, "ScaleSet")) scales.push_back(read_scale(file, node));
+std::vector<data::BodyFactors> read_scales(XmlFile& file, pugi::xml_node owner) {
+  std::vector<data::BodyFactors> scales;
+  for (const pugi::xml_node node : objects_of(owner, "ScaleSet"))
+    if (auto scale = read_scale(file, node)) scales.push_back(std::move(*scale));
   return scales;
 }
 
-std::vector<ScaleSetup::Step> read_order(XmlFile& file, pugi::xml_node scaler) {
-  std::vector<ScaleSetup::Step> order;
+std::vector<data::ScaleStep> read_order(XmlFile& file, pugi::xml_node scaler) {
+  std::vector<data::ScaleStep> order;
   for (const auto& word : words_of(text_of(scaler, "scaling_order"))) {
     const std::string step = lower(word);
     if (step == "measurements")
-      order.push_back(ScaleSetup::Step::measurements);
+      order.push_back(data::ScaleStep::measurements);
     else if (step == "manualscale")
-      order.push_back(ScaleSetup::Step::manual_scale);
+      order.push_back(data::ScaleStep::manual);
     else if (step != "unassigned")
       file.note(scaler.child("scaling_order"),
                 fmt::format("holds {}; need measurements, manualScale or both", in_quotes(word)));
@@ -95,18 +103,24 @@ std::vector<ScaleSetup::Step> read_order(XmlFile& file, pugi::xml_node scaler) {
 void read_scaler(XmlFile& file, pugi::xml_node scaler, const std::filesystem::path& folder,
                  ScaleSetup& setup) {
   setup.scale = scaler && file.flag(scaler, "apply", true);
-  setup.order = read_order(file, scaler);
+  data::ScaleRecipe recipe;
+  recipe.order = read_order(file, scaler);
   for (const pugi::xml_node node : objects_of(scaler, "MeasurementSet"))
-    setup.measurements.push_back(read_measurement(file, node));
-  setup.manual = read_scales(file, scaler);
+    if (auto measurement = read_measurement(file, node))
+      recipe.measurements.push_back(std::move(*measurement));
+  recipe.manual = read_scales(file, scaler);
   setup.scale_marker_file = path_of(scaler, "marker_file", folder);
   if (const auto range = osim::read_time_range(file, scaler)) {
-    setup.scale_begin_s = range->first;
-    setup.scale_end_s = range->second;
+    recipe.first_time_s = range->first;
+    recipe.last_time_s = range->second;
   }
-  setup.preserve_mass_distribution = file.flag(scaler, "preserve_mass_distribution", false);
+  recipe.preserve_mass_distribution = file.flag(scaler, "preserve_mass_distribution", false);
   setup.scaled_model_file = path_of(scaler, "output_model_file", folder);
   setup.scale_set_file = path_of(scaler, "output_scale_file", folder);
+  if (setup.scale)
+    setup.recipe = std::move(recipe);
+  else
+    setup.recipe.order.clear();
 }
 
 void read_placer(XmlFile& file, pugi::xml_node placer, const std::filesystem::path& folder,
@@ -145,18 +159,18 @@ Result<ScaleSetup> read_scale_setup(const std::filesystem::path& path) {
   ScaleSetup setup{.name = name_of(tool)};
   const double mass = file->number(tool, "mass", -1.0), height = file->number(tool, "height", -1.0);
   if (!std::isfinite(mass)) file->note(tool.child("mass"), "must be finite");
-  setup.mass_kg = std::max(0.0, mass);
   setup.height_mm = std::isfinite(height) ? std::max(0.0, height) : 0.0;
   const pugi::xml_node maker = tool.child("GenericModelMaker");
   setup.model_file = path_of(maker, "model_file", folder);
   setup.marker_set_file = path_of(maker, "marker_set_file", folder);
   read_scaler(*file, tool.child("ModelScaler"), folder, setup);
+  setup.recipe.mass_kg = std::max(0.0, mass);
   read_placer(*file, tool.child("MarkerPlacer"), folder, setup);
   if (file->error()) return std::unexpected(*file->error());
   return setup;
 }
 
-Result<std::vector<ScaleByHand>> read_scale_set(const std::filesystem::path& path) {
+Result<std::vector<data::BodyFactors>> read_scale_set(const std::filesystem::path& path) {
   auto file = XmlFile::read(path);
   if (!file) return std::unexpected(file.error());
   const pugi::xml_node set = file->find_object({"ScaleSet"});

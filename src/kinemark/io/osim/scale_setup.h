@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -11,51 +10,24 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/model_description.h"
+#include "kinemark/data/scale_recipe.h"
 #include "kinemark/io/osim/ik_setup.h"
 
 namespace kinemark::io {
 
-/// Bodies that a measurement scales, and along which axes.
-struct ScaledBody {
-  std::string body;
-  Eigen::Vector3d axes = Eigen::Vector3d::Ones();  ///< 1 where the body is scaled, else 0
-};
-
-struct ScaleMeasurement {
-  struct Pair {
-    std::string first, second;
-  };
-  std::string name;
-  bool apply = true;
-  std::vector<Pair> pairs;
-  std::vector<ScaledBody> bodies;
-};
-
-struct ScaleByHand {
-  std::string body;
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  bool apply = true;
-};
-
 /// OpenSim's setup of scaling. Paths are resolved against the folder of the setup file; one that the file
 /// leaves out (or calls "Unassigned") is empty. Nothing but sets named by `file=` is opened.
 struct ScaleSetup {
-  enum class Step : std::uint8_t { measurements, manual_scale };
-
   std::string name;
-  double mass_kg = 0.0;    ///< 0: not said (OpenSim writes -1)
   double height_mm = 0.0;  ///< 0: not said; for information only
 
   std::filesystem::path model_file, marker_set_file;  ///< GenericModelMaker
 
   bool scale = true;  ///< ModelScaler
-  std::vector<Step> order;
-  std::vector<ScaleMeasurement> measurements;
-  std::vector<ScaleByHand> manual;
+  /// What applies of it: without measurements and factors that are switched off or name no body; without any
+  /// where the ModelScaler itself is. Its mass is the subject's (OpenSim writes -1 where it is not known).
+  data::ScaleRecipe recipe;
   std::filesystem::path scale_marker_file;
-  double scale_begin_s = -std::numeric_limits<double>::infinity();
-  double scale_end_s = std::numeric_limits<double>::infinity();
-  bool preserve_mass_distribution = false;
   std::filesystem::path scaled_model_file, scale_set_file;
 
   bool place = true;  ///< MarkerPlacer
@@ -72,8 +44,8 @@ struct ScaleSetup {
 /// with file, element and what was found.
 [[nodiscard]] Result<ScaleSetup> read_scale_setup(const std::filesystem::path& path);
 
-/// The factors of a ScaleSet file, as ScaleTool writes them.
-[[nodiscard]] Result<std::vector<ScaleByHand>> read_scale_set(const std::filesystem::path& path);
+/// The factors of a ScaleSet file, as ScaleTool writes them; those that apply.
+[[nodiscard]] Result<std::vector<data::BodyFactors>> read_scale_set(const std::filesystem::path& path);
 
 /// A marker of a MarkerSet file.
 struct MarkerOfSet {

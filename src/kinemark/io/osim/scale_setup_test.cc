@@ -44,27 +44,27 @@ TEST_F(ScaleSetupFile, reads_the_gait2354_setup) {
   const auto setup = read_scale_setup(data / "opensim-gait2354/subject01_Setup_Scale.xml");
   ASSERT_TRUE(setup) << setup.error().message;
   EXPECT_EQ(setup->name, "subject01");
-  EXPECT_DOUBLE_EQ(setup->mass_kg, 72.6);
+  EXPECT_DOUBLE_EQ(setup->recipe.mass_kg, 72.6);
   EXPECT_DOUBLE_EQ(setup->height_mm, 1803.4);
   EXPECT_EQ(setup->model_file, data / "opensim-gait2354/gait2354_simbody.osim");
   EXPECT_EQ(setup->marker_set_file, data / "opensim-gait2354/gait2354_Scale_MarkerSet.xml");
-  ASSERT_EQ(setup->order.size(), 2U);
-  EXPECT_EQ(setup->order[0], ScaleSetup::Step::measurements);
-  EXPECT_EQ(setup->order[1], ScaleSetup::Step::manual_scale);
-  ASSERT_EQ(setup->measurements.size(), 5U);
-  EXPECT_EQ(setup->measurements[2].name, "thigh");
-  ASSERT_EQ(setup->measurements[2].pairs.size(), 2U);
-  EXPECT_EQ(setup->measurements[2].pairs[1].first, "L.ASIS");
-  EXPECT_EQ(setup->measurements[2].pairs[1].second, "L.Knee.Lat");
-  ASSERT_EQ(setup->measurements[2].bodies.size(), 4U);
-  EXPECT_EQ(setup->measurements[2].bodies[0].body, "femur_r");
-  EXPECT_EQ(setup->measurements[2].bodies[0].axes, Eigen::Vector3d::Ones());
-  ASSERT_EQ(setup->manual.size(), 4U);
-  EXPECT_EQ(setup->manual[3].body, "tibia_l");
-  EXPECT_DOUBLE_EQ(setup->manual[3].factors.y(), 0.988523);
-  EXPECT_DOUBLE_EQ(setup->scale_begin_s, 1.0);
-  EXPECT_DOUBLE_EQ(setup->scale_end_s, 2.0);
-  EXPECT_TRUE(setup->preserve_mass_distribution);
+  ASSERT_EQ(setup->recipe.order.size(), 2U);
+  EXPECT_EQ(setup->recipe.order[0], data::ScaleStep::measurements);
+  EXPECT_EQ(setup->recipe.order[1], data::ScaleStep::manual);
+  ASSERT_EQ(setup->recipe.measurements.size(), 5U);
+  EXPECT_EQ(setup->recipe.measurements[2].name, "thigh");
+  ASSERT_EQ(setup->recipe.measurements[2].pairs.size(), 2U);
+  EXPECT_EQ(setup->recipe.measurements[2].pairs[1].first, "L.ASIS");
+  EXPECT_EQ(setup->recipe.measurements[2].pairs[1].second, "L.Knee.Lat");
+  ASSERT_EQ(setup->recipe.measurements[2].bodies.size(), 4U);
+  EXPECT_EQ(setup->recipe.measurements[2].bodies[0].body, "femur_r");
+  EXPECT_EQ(setup->recipe.measurements[2].bodies[0].axes, Eigen::Vector3d::Ones());
+  ASSERT_EQ(setup->recipe.manual.size(), 4U);
+  EXPECT_EQ(setup->recipe.manual[3].body, "tibia_l");
+  EXPECT_DOUBLE_EQ(setup->recipe.manual[3].factors.y(), 0.988523);
+  EXPECT_DOUBLE_EQ(setup->recipe.first_time_s, 1.0);
+  EXPECT_DOUBLE_EQ(setup->recipe.last_time_s, 2.0);
+  EXPECT_TRUE(setup->recipe.preserve_mass_distribution);
   EXPECT_TRUE(setup->place);
   EXPECT_EQ(setup->tasks.markers.size(), 39U);
   EXPECT_EQ(setup->tasks.coordinates.size(), 5U);
@@ -77,22 +77,20 @@ TEST_F(ScaleSetupFile, reads_a_setup_whose_files_are_unassigned) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   const auto setup = read_scale_setup(data / "monkey-arm/setup_scale_han_20171122.xml");
   ASSERT_TRUE(setup) << setup.error().message;
-  EXPECT_DOUBLE_EQ(setup->mass_kg, 0.53);
+  EXPECT_DOUBLE_EQ(setup->recipe.mass_kg, 0.53);
   EXPECT_DOUBLE_EQ(setup->height_mm, 0.0);
   EXPECT_TRUE(setup->model_file.empty());
   EXPECT_TRUE(setup->marker_set_file.empty());
-  ASSERT_EQ(setup->measurements.size(), 3U);
-  EXPECT_FALSE(setup->measurements[2].apply);
-  EXPECT_TRUE(setup->measurements[2].bodies.empty());
-  ASSERT_EQ(setup->manual.size(), 6U);
-  EXPECT_EQ(setup->manual[0].body, "sternum");
-  EXPECT_FALSE(setup->manual[4].apply);
+  ASSERT_EQ(setup->recipe.measurements.size(), 2U) << "the third is switched off";
+  EXPECT_EQ(setup->recipe.measurements[1].name, "radius");
+  ASSERT_EQ(setup->recipe.manual.size(), 5U) << "the fifth of six is switched off";
+  EXPECT_EQ(setup->recipe.manual[0].body, "sternum");
   EXPECT_FALSE(setup->tasks.markers[0].apply);
 }
 
 TEST_F(ScaleSetupFile, reads_axes_in_any_order_and_case) {
-  EXPECT_EQ(read(measurement("A B", "Z x"))->measurements[0].bodies[0].axes, Eigen::Vector3d(1, 0, 1));
-  EXPECT_EQ(read(measurement("A B", "Y"))->measurements[0].bodies[0].axes, Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(read(measurement("A B", "Z x"))->recipe.measurements[0].bodies[0].axes, Eigen::Vector3d(1, 0, 1));
+  EXPECT_EQ(read(measurement("A B", "Y"))->recipe.measurements[0].bodies[0].axes, Eigen::Vector3d(0, 1, 0));
 }
 
 TEST_F(ScaleSetupFile, parts_that_are_absent_are_not_applied) {
@@ -100,14 +98,38 @@ TEST_F(ScaleSetupFile, parts_that_are_absent_are_not_applied) {
   ASSERT_TRUE(setup) << setup.error().message;
   EXPECT_FALSE(setup->scale);
   EXPECT_FALSE(setup->place);
-  EXPECT_EQ(setup->mass_kg, 0.0);
-  EXPECT_EQ(setup->scale_begin_s, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(setup->recipe.mass_kg, 0.0);
+  EXPECT_EQ(setup->recipe.first_time_s, -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(setup->recipe.order.empty());
+}
+
+TEST_F(ScaleSetupFile, a_scaler_that_is_switched_off_leaves_the_mass_alone_to_the_recipe) {
+  std::string scaler = measurement("A B", "X");
+  scaler.insert(std::string("<ModelScaler>").size(),
+                "<apply>false</apply><preserve_mass_distribution>true</preserve_mass_distribution>");
+  const auto setup = read("<mass>70</mass>" + scaler);
+  ASSERT_TRUE(setup) << setup.error().message;
+  EXPECT_FALSE(setup->scale);
+  EXPECT_TRUE(setup->recipe.order.empty());
+  EXPECT_TRUE(setup->recipe.measurements.empty());
+  EXPECT_FALSE(setup->recipe.preserve_mass_distribution);
+  EXPECT_DOUBLE_EQ(setup->recipe.mass_kg, 70.0);
+}
+
+TEST_F(ScaleSetupFile, a_measurement_without_bodies_is_left_out) {
+  std::string scaler = measurement("A B", "X");
+  const auto from = scaler.find("<BodyScale "), to = scaler.find("</objects></BodyScaleSet>");
+  scaler.erase(from, to - from);
+  const auto setup = read(scaler);
+  ASSERT_TRUE(setup) << setup.error().message;
+  EXPECT_TRUE(setup->recipe.measurements.empty());
+  EXPECT_FALSE(setup->recipe.measures());
 }
 
 TEST_F(ScaleSetupFile, a_time_range_of_minus_one_means_everything) {
   const auto setup = read("<ModelScaler><time_range>-1 -1</time_range></ModelScaler>");
   ASSERT_TRUE(setup) << setup.error().message;
-  EXPECT_EQ(setup->scale_end_s, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(setup->recipe.last_time_s, std::numeric_limits<double>::infinity());
 }
 
 TEST_F(ScaleSetupFile, says_what_is_wrong_and_where) {

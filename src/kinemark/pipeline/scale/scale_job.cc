@@ -39,7 +39,7 @@ class ScaleRun {
     setup_ = std::move(*setup);
     if (job_.model.empty()) job_.model = setup_->model_file;
     if (job_.output.empty()) job_.output = setup_->output_model_file;
-    if (job_.mass_kg == 0.0) job_.mass_kg = setup_->mass_kg;
+    if (job_.mass_kg == 0.0) job_.mass_kg = setup_->recipe.mass_kg;
     return {};
   }
 
@@ -85,18 +85,15 @@ class ScaleRun {
 
   Status scale_by_setup() {
     if (!setup_) return {};
-    const motion::ScaleOptions options = scale_options(*setup_);
+    data::ScaleRecipe recipe = setup_->recipe;
+    recipe.mass_kg = job_.mass_kg;
     data::Trajectories recording;
-    const bool measures =
-        std::ranges::find(options.order, motion::ScaleStep::measurements) != options.order.end() &&
-        !options.measurements.empty();
+    const bool measures = recipe.measures();
     if (measures)
       if (auto s = read_trial(setup_->scale_marker_file, "the measurements of the setup", recording, true);
           !s)
         return s;
-    motion::ScaleOptions with_mass = options;
-    with_mass.mass_kg = job_.mass_kg;
-    auto scaled = motion::scale_model(out_.model, measures ? &recording : nullptr, with_mass);
+    auto scaled = motion::scale_model(out_.model, measures ? &recording : nullptr, recipe);
     if (!scaled) return fail_at(job_.setup.string(), scaled.error());
     out_.model = scaled->model;
     for (std::size_t b = 0; b < out_.factors.size(); ++b)

@@ -41,7 +41,7 @@ struct ScaleOutcome {
   std::optional<motion::PlaceResult> placed;       ///< markers put where the static trial shows them
   std::optional<motion::AdaptResult> from_static;  ///< sizes from a static trial without a setup
   std::optional<motion::AdaptResult> from_motion;  ///< sizes and places from the motion
-  std::vector<motion::BodyFactors> factors;        ///< of every body, all steps together
+  std::vector<data::BodyFactors> factors;          ///< of every body, all steps together
   std::vector<std::string> clavicles;              ///< set free
   std::vector<std::string> notes;                  ///< sentences for the user
   std::vector<std::filesystem::path> written;

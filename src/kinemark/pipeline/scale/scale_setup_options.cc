@@ -38,30 +38,6 @@ Result<double> value_from_file(const io::ScaleSetup& setup, const data::Table& t
 
 }  // namespace
 
-motion::ScaleOptions scale_options(const io::ScaleSetup& setup) {
-  motion::ScaleOptions options;
-  options.order.clear();
-  if (!setup.scale) return options;
-  for (const auto step : setup.order)
-    options.order.push_back(step == io::ScaleSetup::Step::measurements ? motion::ScaleStep::measurements
-                                                                       : motion::ScaleStep::manual);
-  for (const auto& given : setup.measurements) {
-    if (!given.apply || given.bodies.empty()) continue;
-    motion::Measurement measurement{.name = given.name, .pairs = {}, .bodies = {}};
-    for (const auto& pair : given.pairs) measurement.pairs.push_back({pair.first, pair.second});
-    for (const auto& body : given.bodies)
-      measurement.bodies.push_back({.body = body.body, .axes = body.axes});
-    options.measurements.push_back(std::move(measurement));
-  }
-  for (const auto& given : setup.manual)
-    if (given.apply) options.manual.push_back({.body = given.body, .factors = given.factors});
-  options.mass_kg = setup.mass_kg;
-  options.preserve_mass_distribution = setup.preserve_mass_distribution;
-  options.first_time_s = bounded(setup.scale_begin_s);
-  options.last_time_s = bounded(setup.scale_end_s);
-  return options;
-}
-
 Result<motion::PlaceOptions> place_options(const io::ScaleSetup& setup,
                                            const std::vector<io::MarkerOfSet>& set,
                                            const data::ModelDescription& model) {

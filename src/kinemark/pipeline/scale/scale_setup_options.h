@@ -6,16 +6,12 @@
 #include "kinemark/data/model_description.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/stages/motion/scaling/place.h"
-#include "kinemark/stages/motion/scaling/scale.h"
 
 namespace kinemark::pipeline {
 
-/// What a ScaleTool file asks of scale_model(); parts that do not apply are left out.
-[[nodiscard]] motion::ScaleOptions scale_options(const io::ScaleSetup& setup);
-
-/// What it asks of place_markers(). `fixed`: markers of its set that stay. Tasks of markers that the model
-/// lacks are passed over, as OpenSim does; tasks of unknown coordinates, and values that the coordinate file
-/// does not hold, are errors.
+/// What a ScaleTool file asks of place_markers(). `fixed`: markers of its set that stay. Tasks of markers
+/// that the model lacks are passed over, as OpenSim does; tasks of unknown coordinates, and values that the
+/// coordinate file does not hold, are errors.
 [[nodiscard]] Result<motion::PlaceOptions> place_options(const io::ScaleSetup& setup,
                                                          const std::vector<io::MarkerOfSet>& set,
                                                          const data::ModelDescription& model);

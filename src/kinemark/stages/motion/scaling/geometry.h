@@ -12,6 +12,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/model_description.h"
+#include "kinemark/data/scale_recipe.h"
 
 namespace kinemark::motion {
 
@@ -47,12 +48,8 @@ struct GeometryParameter {
 
 /// Segments that grow together, each along the axes that count.
 struct ScaleGroup {
-  struct Part {
-    std::string body;
-    Eigen::Vector3d axes = Eigen::Vector3d::Ones();  ///< 1 where the size counts, else 0
-  };
   std::string name;
-  std::vector<Part> parts;
+  std::vector<data::ScaledBody> parts;
 };
 
 /// Groups for a body whose segments are named as OpenSim's models name them: pelvis and trunk in height

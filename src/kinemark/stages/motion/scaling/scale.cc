@@ -42,7 +42,7 @@ Result<Eigen::Matrix3Xd> default_places(const data::ModelDescription& model) {
 struct Scaler {
   const data::ModelDescription& model;
   const data::Trajectories* recording;
-  const ScaleOptions& options;
+  const data::ScaleRecipe& recipe;
   ScaleResult result;
 
   Status set(const std::string& owner, const std::string& body, const Vector3d& factors,
@@ -64,7 +64,7 @@ struct Scaler {
     return {};
   }
 
-  Result<MeasuredPair> measure(const Measurement& measurement, const MarkerPair& pair,
+  Result<MeasuredPair> measure(const data::ScaleMeasurement& measurement, const data::MarkerPair& pair,
                                const Eigen::Matrix3Xd& places) const {
     MeasuredPair out{.first = pair.first, .second = pair.second};
     std::int64_t recorded[2];
@@ -87,7 +87,7 @@ struct Scaler {
     const double slack = kTimeSlack / recording->time.rate_hz;
     for (std::int64_t f = 0; f < recording->frames(); ++f) {
       const double t = recording->time.time_s(f);
-      if (t < options.first_time_s - slack || t > options.last_time_s + slack) continue;
+      if (t < recipe.first_time_s - slack || t > recipe.last_time_s + slack) continue;
       if (!recording->present(f, recorded[0]) || !recording->present(f, recorded[1])) continue;
       const double d = (recording->x(f, recorded[0]) - recording->x(f, recorded[1])).norm();
       sum += d;
@@ -104,12 +104,12 @@ struct Scaler {
   }
 
   Status measure_all() {
-    if (options.measurements.empty()) return {};
+    if (recipe.measurements.empty()) return {};
     if (recording == nullptr)
       return fail(Code::usage, "measurements need a static trial; give one or leave them out");
     const auto places = default_places(model);
     if (!places) return std::unexpected(places.error());
-    for (const auto& measurement : options.measurements) {
+    for (const auto& measurement : recipe.measurements) {
       if (measurement.pairs.empty())
         return fail(Code::bad_input, fmt::format("measurement '{}' has no marker pair", measurement.name));
       MeasurementResult out{.name = measurement.name, .factor = 0.0};
@@ -139,14 +139,14 @@ struct Scaler {
   }
 
   Status set_manual() {
-    for (const auto& manual : options.manual)
+    for (const auto& manual : recipe.manual)
       if (auto s = set("a manual scale", manual.body, manual.factors, Vector3d::Ones()); !s) return s;
     return {};
   }
 };
 
 /// A massless body between two others belongs to the one that hangs on it.
-void fill_between(const data::ModelDescription& model, std::vector<BodyFactors>& factors) {
+void fill_between(const data::ModelDescription& model, std::vector<data::BodyFactors>& factors) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!model.bodies[b].name.ends_with("_intermediate") || factors[b].factors != Vector3d::Ones()) continue;
     for (const auto& joint : model.joints)
@@ -217,21 +217,21 @@ Status set_total_mass(data::ModelDescription& model, double mass_kg) {
 }
 
 Result<ScaleResult> scale_model(const data::ModelDescription& model, const data::Trajectories* recording,
-                                const ScaleOptions& options) {
+                                const data::ScaleRecipe& recipe) {
   if (auto s = model.validate(); !s) return std::unexpected(s.error());
-  Scaler scaler{.model = model, .recording = recording, .options = options, .result = {}};
+  Scaler scaler{.model = model, .recording = recording, .recipe = recipe, .result = {}};
   for (const auto& body : model.bodies) scaler.result.factors.push_back({.body = body.name});
-  for (const ScaleStep step : options.order)
-    if (auto s = step == ScaleStep::measurements ? scaler.measure_all() : scaler.set_manual(); !s)
+  for (const data::ScaleStep step : recipe.order)
+    if (auto s = step == data::ScaleStep::measurements ? scaler.measure_all() : scaler.set_manual(); !s)
       return std::unexpected(s.error());
   ScaleResult& result = scaler.result;
   fill_between(model, result.factors);
   std::vector<Vector3d> factors;
   for (const auto& body : result.factors) factors.push_back(body.factors);
   result.model = model;
-  apply_factors(result.model, factors, !options.preserve_mass_distribution);
-  if (options.mass_kg != 0.0)
-    if (auto s = set_total_mass(result.model, options.mass_kg); !s) return std::unexpected(s.error());
+  apply_factors(result.model, factors, !recipe.preserve_mass_distribution);
+  if (recipe.mass_kg != 0.0)
+    if (auto s = set_total_mass(result.model, recipe.mass_kg); !s) return std::unexpected(s.error());
   return std::move(result);
 }
 

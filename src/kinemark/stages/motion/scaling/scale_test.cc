@@ -28,7 +28,7 @@ data::Trajectories static_trial(const data::ModelDescription& model) {
   return testing_leg::record(model, how);
 }
 
-Measurement thigh_measurement() {
+data::ScaleMeasurement thigh_measurement() {
   return {.name = "thigh", .pairs = {{"THI", "KNM"}, {"THA", "KNE"}}, .bodies = {{.body = "femur_r"}}};
 }
 
@@ -94,9 +94,9 @@ TEST(ScaleModel, measured_over_model_distance_averaged_over_pairs) {
   factors[1] = Vector3d::Constant(1.1);
   apply_factors(subject, factors, false);
   const auto recording = static_trial(subject);
-  ScaleOptions options;
-  options.measurements = {thigh_measurement()};
-  const auto result = scale_model(model, &recording, options);
+  data::ScaleRecipe recipe;
+  recipe.measurements = {thigh_measurement()};
+  const auto result = scale_model(model, &recording, recipe);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->factors[1].factors.isApprox(Vector3d::Constant(1.1), 1e-9));
   EXPECT_EQ(result->factors[2].factors, Vector3d::Ones());
@@ -121,10 +121,10 @@ TEST(ScaleModel, a_pair_is_measured_in_the_frames_that_show_both) {
       recording.x(f, thi) += (f % 4 == 1 ? 0.003 : -0.003) * along;
     if (f % 2 == 0) recording.set_missing(f, f % 4 == 0 ? thi : knm);
   }
-  ScaleOptions options;
-  options.measurements = {thigh_measurement()};
-  options.measurements[0].pairs = {{"THI", "KNM"}};
-  const auto result = scale_model(model, &recording, options);
+  data::ScaleRecipe recipe;
+  recipe.measurements = {thigh_measurement()};
+  recipe.measurements[0].pairs = {{"THI", "KNM"}};
+  const auto result = scale_model(model, &recording, recipe);
   ASSERT_TRUE(result) << result.error().message;
   const auto& pair = result->measurements[0].pairs[0];
   EXPECT_NEAR(pair.measured_m, pair.model_m, 1e-9);
@@ -135,43 +135,43 @@ TEST(ScaleModel, a_pair_is_measured_in_the_frames_that_show_both) {
 TEST(ScaleModel, a_factor_is_the_mean_of_its_pairs) {
   const auto model = leg();
   auto recording = static_trial(model);
-  ScaleOptions options;
-  options.measurements = {thigh_measurement()};
+  data::ScaleRecipe recipe;
+  recipe.measurements = {thigh_measurement()};
   // One pair 10 % longer, the other as it is.
   const auto thi = find_recorded(recording, "THI"), knm = find_recorded(recording, "KNM");
   for (std::int64_t f = 0; f < recording.frames(); ++f)
     recording.x(f, thi) += 0.1 * (recording.x(f, thi) - recording.x(f, knm));
-  EXPECT_NEAR(scale_model(model, &recording, options)->measurements[0].factor, 1.05, 1e-9);
+  EXPECT_NEAR(scale_model(model, &recording, recipe)->measurements[0].factor, 1.05, 1e-9);
 }
 
 TEST(ScaleModel, later_steps_win_and_axes_are_kept_apart) {
   const auto model = leg();
   const auto recording = static_trial(model);
-  ScaleOptions options;
-  options.measurements = {thigh_measurement()};
-  options.manual = {{.body = "femur_r", .factors = Vector3d(1.3, 1.4, 1.5)}};
-  EXPECT_TRUE(scale_model(model, &recording, options)->factors[1].factors.isApprox(Vector3d(1.3, 1.4, 1.5)));
-  options.order = {ScaleStep::manual, ScaleStep::measurements};
-  options.measurements[0].bodies[0].axes = Vector3d(0, 1, 0);
+  data::ScaleRecipe recipe;
+  recipe.measurements = {thigh_measurement()};
+  recipe.manual = {{.body = "femur_r", .factors = Vector3d(1.3, 1.4, 1.5)}};
+  EXPECT_TRUE(scale_model(model, &recording, recipe)->factors[1].factors.isApprox(Vector3d(1.3, 1.4, 1.5)));
+  recipe.order = {data::ScaleStep::manual, data::ScaleStep::measurements};
+  recipe.measurements[0].bodies[0].axes = Vector3d(0, 1, 0);
   EXPECT_TRUE(
-      scale_model(model, &recording, options)->factors[1].factors.isApprox(Vector3d(1.3, 1.0, 1.5), 1e-9));
+      scale_model(model, &recording, recipe)->factors[1].factors.isApprox(Vector3d(1.3, 1.0, 1.5), 1e-9));
 }
 
 TEST(ScaleModel, the_mass_is_that_of_the_subject) {
   const auto model = leg();
-  ScaleOptions options;
-  options.manual = {{.body = "femur_r", .factors = Vector3d::Constant(1.2)}};
-  options.mass_kg = 50.0;
+  data::ScaleRecipe recipe;
+  recipe.manual = {{.body = "femur_r", .factors = Vector3d::Constant(1.2)}};
+  recipe.mass_kg = 50.0;
   const auto mass = [](const data::ModelDescription& m) {
     double sum = 0.0;
     for (const auto& body : m.bodies) sum += body.mass;
     return sum;
   };
-  const auto by_volume = scale_model(model, nullptr, options)->model;
+  const auto by_volume = scale_model(model, nullptr, recipe)->model;
   EXPECT_NEAR(mass(by_volume), 50.0, 1e-12);
   EXPECT_NEAR(by_volume.bodies[1].mass / by_volume.bodies[2].mass, 9.0 * std::pow(1.2, 3) / 3.7, 1e-12);
-  options.preserve_mass_distribution = true;
-  const auto preserved = scale_model(model, nullptr, options)->model;
+  recipe.preserve_mass_distribution = true;
+  const auto preserved = scale_model(model, nullptr, recipe)->model;
   EXPECT_NEAR(mass(preserved), 50.0, 1e-12);
   EXPECT_NEAR(preserved.bodies[1].mass / preserved.bodies[2].mass, 9.0 / 3.7, 1e-12);
 }
@@ -180,9 +180,9 @@ TEST(ScaleModel, finds_markers_behind_a_subject_prefix) {
   const auto model = leg();
   auto recording = static_trial(model);
   for (auto& name : recording.names) name = "Ann:" + name;
-  ScaleOptions options;
-  options.measurements = {thigh_measurement()};
-  EXPECT_TRUE(scale_model(model, &recording, options));
+  data::ScaleRecipe recipe;
+  recipe.measurements = {thigh_measurement()};
+  EXPECT_TRUE(scale_model(model, &recording, recipe));
   EXPECT_EQ(find_recorded(recording, "THI"), 3);
   recording.names[4] = "Bob:THI";
   EXPECT_EQ(find_recorded(recording, "THI"), -1);
@@ -191,38 +191,38 @@ TEST(ScaleModel, finds_markers_behind_a_subject_prefix) {
 TEST(ScaleModel, says_what_is_wrong) {
   const auto model = leg();
   auto recording = static_trial(model);
-  ScaleOptions options;
-  options.measurements = {thigh_measurement()};
+  data::ScaleRecipe recipe;
+  recipe.measurements = {thigh_measurement()};
   const auto message = [&](const data::Trajectories* r) {
-    const auto result = scale_model(model, r, options);
+    const auto result = scale_model(model, r, recipe);
     return result ? std::string("it ran") : result.error().message;
   };
   EXPECT_THAT(message(nullptr), HasSubstr("need a static trial"));
-  options.first_time_s = 50.0;
+  recipe.first_time_s = 50.0;
   EXPECT_THAT(message(&recording), HasSubstr("no frame of the time range shows both 'THI' and 'KNM'"));
-  options.first_time_s = -1e300;
-  options.measurements[0].pairs[1].second = "GONE";
+  recipe.first_time_s = -1e300;
+  recipe.measurements[0].pairs[1].second = "GONE";
   EXPECT_THAT(message(&recording), HasSubstr("needs marker 'GONE', which the model does not have"));
-  options.measurements[0] = thigh_measurement();
+  recipe.measurements[0] = thigh_measurement();
   auto together = model;
   for (auto& marker : together.markers)
     if (marker.name == "KNM") marker.x_in_body = together.markers[3].x_in_body;
-  EXPECT_THAT(scale_model(together, &recording, options).error().message,
+  EXPECT_THAT(scale_model(together, &recording, recipe).error().message,
               HasSubstr("'THI' and 'KNM' are at one place in the model"));
   auto lacking = recording;
   lacking.names[3] = "renamed";
-  EXPECT_THAT(scale_model(model, &lacking, options).error().message,
+  EXPECT_THAT(scale_model(model, &lacking, recipe).error().message,
               HasSubstr("needs marker 'THI', which the recording does not have"));
-  options.measurements[0].pairs.clear();
+  recipe.measurements[0].pairs.clear();
   EXPECT_THAT(message(&recording), HasSubstr("has no marker pair"));
-  options.measurements[0] = thigh_measurement();
-  options.measurements[0].bodies[0].body = "tail";
+  recipe.measurements[0] = thigh_measurement();
+  recipe.measurements[0].bodies[0].body = "tail";
   EXPECT_THAT(message(&recording), HasSubstr("names body 'tail'"));
-  options.measurements.clear();
-  options.manual = {{.body = "femur_r", .factors = Vector3d::Constant(1000.0)}};
+  recipe.measurements.clear();
+  recipe.manual = {{.body = "femur_r", .factors = Vector3d::Constant(1000.0)}};
   EXPECT_THAT(message(&recording), HasSubstr("wrong unit"));
-  options.manual.clear();
-  options.mass_kg = -3.0;
+  recipe.manual.clear();
+  recipe.mass_kg = -3.0;
   EXPECT_THAT(message(&recording), HasSubstr("mass of -3 kg"));
 }
 
