@@ -11,13 +11,13 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
-#include "kinemark/stages/skeleton/articulated/internal/continuity.h"
-#include "kinemark/stages/skeleton/articulated/internal/findings.h"
-#include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
-#include "kinemark/stages/skeleton/articulated/internal/recording_pass.h"
-#include "kinemark/stages/skeleton/articulated/internal/widening.h"
+#include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
+#include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
+#include "kinemark/stages/skeleton/articulated/geometry/fit_rounds.h"
+#include "kinemark/stages/skeleton/articulated/recording/continuity.h"
+#include "kinemark/stages/skeleton/articulated/recording/findings.h"
+#include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
+#include "kinemark/stages/skeleton/articulated/recording/widening.h"
 
 namespace kinemark::skeleton {
 namespace {
