@@ -21,15 +21,9 @@ Status read_names(JointsArguments& arguments) {
   const auto sides = skeleton::parse_sides(arguments.sides);
   if (!sides) return std::unexpected(sides.error());
   job.sides = *sides;
-  if (arguments.kind == "auto")
-    job.kind = skeleton::KindChoice::automatic;
-  else if (arguments.kind == "ball")
-    job.kind = skeleton::KindChoice::ball;
-  else if (arguments.kind == "hinge")
-    job.kind = skeleton::KindChoice::hinge;
-  else
-    return fail(Code::usage,
-                fmt::format("'{}' is not a kind of joint; use auto, ball or hinge", arguments.kind));
+  const auto kind = data::parse_joint_choice(arguments.kind);
+  if (!kind) return std::unexpected(kind.error());
+  job.kind = *kind;
   return {};
 }
 

@@ -23,7 +23,7 @@ CentreErrors refused(const LimbRecording& limb) {
 CentreErrors by_the_field(const LimbRecording& limb, skeleton::FunctionalMethod method) {
   skeleton::FunctionalOptions options;
   options.method = method;
-  options.kind = skeleton::KindChoice::ball;
+  options.kind = data::JointChoice::ball;
   const auto found = skeleton::find_joints(limb.markers, limb.layout, options);
   // Where SCoRE cannot be used another method stands in, which is not asked here.
   const bool stood_in =
@@ -33,7 +33,7 @@ CentreErrors by_the_field(const LimbRecording& limb, skeleton::FunctionalMethod 
 
 CentreErrors by_us(const LimbRecording& limb, bool continuity, const skeleton::CentreBound* bound) {
   skeleton::ArticulatedOptions options;
-  options.joint = skeleton::JointChoice::ball;
+  options.joint = data::JointChoice::ball;
   options.continuity = continuity;
   const auto found = skeleton::fit_articulated(limb.markers, limb.layout, options);
   return found ? judge_centres(found->skeleton, limb, bound) : refused(limb);

@@ -123,13 +123,13 @@ void ehrig(int seeds) {
       const auto layout = two_segments(ball.markers, {"P0", "P1", "P2", "P3"}, {"C0", "C1", "C2", "C3"});
       const auto find = [&](skeleton::FunctionalMethod method) {
         return skeleton::find_joints(ball.markers, layout,
-                                     {.method = method, .kind = skeleton::KindChoice::ball})
+                                     {.method = method, .kind = data::JointChoice::ball})
             .value();
       };
       score.add(find(skeleton::FunctionalMethod::score), ball);
       gamage.add(find(skeleton::FunctionalMethod::gamage), ball);
       plain.add(find(skeleton::FunctionalMethod::gamage_plain), ball);
-      const skeleton::ArticulatedOptions options{.joint = skeleton::JointChoice::ball, .continuity = false};
+      const skeleton::ArticulatedOptions options{.joint = data::JointChoice::ball, .continuity = false};
       ours.add(skeleton::fit_articulated(ball.markers, layout, options).value().skeleton, ball);
     }
     const auto rms = [&](double squares) { return kMm * std::sqrt(squares / seeds); };
@@ -204,8 +204,7 @@ void hip(const fs::path& data) {
             fmt::format("{:.2f} mm over {} frames, {:.0f} deg of motion", kMm * fit.residual_rms_m,
                         fit.frames, motion.range_rad * kDegPerRad));
 
-  const auto score =
-      skeleton::find_joints(trial.markers, layout, {.kind = skeleton::KindChoice::ball}).value();
+  const auto score = skeleton::find_joints(trial.markers, layout, {.kind = data::JointChoice::ball}).value();
   const auto carried = skeleton::carry_joints(score, walk.markers).value();
   const auto walk_layout = two_segments(walk.markers, pelvis, thigh);
   const auto walk_pelvis =
@@ -215,7 +214,7 @@ void hip(const fs::path& data) {
             "within 6.5 mm of LeftHipCenterScore",
             fmt::format("{:.2f} mm on average", kMm * theirs.mean_distance_m));
 
-  const skeleton::ArticulatedOptions options{.joint = skeleton::JointChoice::ball, .continuity = false};
+  const skeleton::ArticulatedOptions options{.joint = data::JointChoice::ball, .continuity = false};
   const auto ours = skeleton::fit_articulated(trial.markers, layout, options);
   if (!ours) {
     print_row(false, "functional left hip carried to the walk, articulated", "an interval that covers it",

@@ -156,9 +156,7 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.noise_sd_m = job.noise_sd_m;
     options.continuity = job.continuity;
     options.soft_tissue = job.soft_tissue;
-    options.joint = job.kind == skeleton::KindChoice::hinge  ? skeleton::JointChoice::hinge
-                    : job.kind == skeleton::KindChoice::ball ? skeleton::JointChoice::ball
-                                                             : skeleton::JointChoice::automatic;
+    options.joint = job.kind;
     options.threads = job.threads;
     auto fit = skeleton::fit_articulated(markers, layout, options, progress);
     if (!fit) return std::unexpected(fit.error());

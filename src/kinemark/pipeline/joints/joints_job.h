@@ -14,6 +14,7 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/stages/skeleton/functional/functional.h"
@@ -32,7 +33,7 @@ struct JointsJob {
   std::filesystem::path output;
   std::string method = "articulated";  ///< that, or a name of parse_functional_method()
   skeleton::Sides sides = skeleton::Sides::both;
-  skeleton::KindChoice kind = skeleton::KindChoice::automatic;
+  data::JointChoice kind = data::JointChoice::automatic;
   double noise_sd_m = 0.0;      ///< per axis; 0: found
   bool continuity = true;       ///< articulated: smooth in time and bridge
   bool soft_tissue = false;     ///< articulated alone: every marker has a noise of its own

@@ -9,6 +9,7 @@
 
 #include "kinemark/core/array.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/skeleton/functional/constant_distance.h"
@@ -34,13 +35,10 @@ enum class Sides : std::uint8_t { both, parent, child };
 [[nodiscard]] std::string_view to_string(Sides sides);  ///< "both", "parent", "child"
 [[nodiscard]] Result<Sides> parse_sides(std::string_view name);
 
-/// Ball or hinge: given, or by RelativeMotion::kind().
-enum class KindChoice : std::uint8_t { automatic, ball, hinge };
-
 struct FunctionalOptions {
   FunctionalMethod method = FunctionalMethod::score;
   Sides sides = Sides::both;
-  KindChoice kind = KindChoice::automatic;
+  data::JointChoice kind = data::JointChoice::automatic;  ///< automatic: by RelativeMotion::kind()
   double noise_sd_m = 0.0;  ///< of the markers, per axis; 0: found from how they keep their shape
   ConstantDistanceOptions constant_distance;
   Array<std::uint8_t> mask;  ///< F x M, 0: the sample is not used (made by the recorder); empty: all are

@@ -13,9 +13,6 @@ namespace kinemark::skeleton {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Before any motion is seen a joint is taken to lie within so much (SD per axis, m) of the mean of the
-/// segment's markers. It bounds what is said of directions that the motion leaves open.
-constexpr double kPriorSd_m = 0.3;
 /// Blocks of consecutive frames of which one at a time is left out to see how far the answer moves: residuals
 /// of a living body are alike from frame to frame, and only blocks show that.
 constexpr int kBlocks = 30;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/data/joint_choice.h"
+
 namespace kinemark::skeleton {
 namespace {
 
@@ -26,12 +28,13 @@ Solution solve(const ScoreSums& sums, data::JointKind kind, double residual_vari
   Solution s;
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(sums.normal);
   s.directions = eigen.eigenvectors();
-  const double prior = residual_variance / (kPriorSd_m * kPriorSd_m) + 1e-12 * eigen.eigenvalues()(5);
+  const double prior =
+      residual_variance / (data::kJointPriorSd_m * data::kJointPriorSd_m) + 1e-12 * eigen.eigenvalues()(5);
   int first = 0;
   if (kind == data::JointKind::hinge) {
     const Vector6 e = s.directions.col(0);
     s.axis << e.head<3>().normalized(), e.tail<3>().normalized();
-    s.open(0) = kPriorSd_m;
+    s.open(0) = data::kJointPriorSd_m;
     first = 1;
   }
   for (int i = first; i < 6; ++i) {
@@ -41,8 +44,9 @@ Solution solve(const ScoreSums& sums, data::JointKind kind, double residual_vari
     // Noise of the poses looks like motion: by its share of the eigenvalue the place is drawn to the markers.
     const double from_prior = prior / (value + prior);
     const double from_noise = std::min(1.0, e.dot(pose_noise * e) / (value + prior));
-    s.open(i) = std::min(kPriorSd_m, kPriorSd_m * (from_prior + from_noise * from_noise) +
-                                         from_noise * std::abs(e.dot(s.centre)));
+    s.open(i) =
+        std::min(data::kJointPriorSd_m, data::kJointPriorSd_m * (from_prior + from_noise * from_noise) +
+                                            from_noise * std::abs(e.dot(s.centre)));
   }
   return s;
 }

@@ -33,7 +33,7 @@ struct ScoreSums {
 /// point on it that lies nearest to the markers of both segments.
 ///
 /// The covariance comes from leaving out one block of frames at a time, plus what motion and noise of the
-/// poses leave open (kPriorSd_m). Frames: those of motion.frames. Fewer than 4: nothing is known.
+/// poses leave open (data::kJointPriorSd_m). Frames: those of motion.frames. Fewer than 4: nothing is known.
 [[nodiscard]] JointFit fit_score(const Samples& samples, const SegmentPoses& parent,
                                  const SegmentPoses& child, const RelativeMotion& motion,
                                  data::JointKind kind);

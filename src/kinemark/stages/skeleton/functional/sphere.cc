@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/data/joint_choice.h"
+
 namespace kinemark::skeleton {
 namespace {
 
@@ -96,8 +98,9 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
     c.place.setZero();
     // A distance's variance s^2 counts in these equations as 4 r^2 s^2; the prior is weighed against that.
     const double r2 = std::max(1e-12, (eigen.eigenvalues().sum() + (means - before).squaredNorm()));
-    const double prior = 2.0 * c.noise_variance * r2 / (total * kPriorSd_m * kPriorSd_m) +
-                         1e-9 * eigen.eigenvalues()(2) + 1e-300;
+    const double prior =
+        2.0 * c.noise_variance * r2 / (total * data::kJointPriorSd_m * data::kJointPriorSd_m) +
+        1e-9 * eigen.eigenvalues()(2) + 1e-300;
     for (int k = options.about_axis ? 1 : 0; k < 3; ++k) {
       const Eigen::Vector3d e = c.directions.col(k);
       const double value = std::max(0.0, eigen.eigenvalues()(k));
@@ -106,10 +109,11 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
       const double from_prior = prior / (value + prior);
       const double from_noise = std::min(1.0, 2.0 * c.noise_variance / (value + prior));
       const double drawn = options.correct_bias ? 0.0 : from_noise * std::abs(e.dot(c.place - means));
-      c.open(k) = std::min(kPriorSd_m, kPriorSd_m * (from_prior + from_noise * from_noise) + drawn);
+      c.open(k) = std::min(data::kJointPriorSd_m,
+                           data::kJointPriorSd_m * (from_prior + from_noise * from_noise) + drawn);
     }
     if (options.about_axis) {
-      c.open(0) = kPriorSd_m;
+      c.open(0) = data::kJointPriorSd_m;
       c.place += c.axis * c.axis.dot(means);
     }
     double variance = 0.0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
 #include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
 
@@ -42,11 +43,11 @@ GlobalFit::GlobalFit(Chain& chain, const ChainSamples& samples, GlobalFrames& fr
   set_noise(sigma_m);
 }
 
-void GlobalFit::set_noise(double sigma_m) { prior_weight_ = std::pow(sigma_m / kJointPriorSd_m, 2); }
+void GlobalFit::set_noise(double sigma_m) { prior_weight_ = std::pow(sigma_m / data::kJointPriorSd_m, 2); }
 
 Matrix3d GlobalFit::prior_information(int j, bool in_parent) const {
   Matrix3d out = prior_weight_ * Matrix3d::Identity();
-  const double hold = prior_weight_ * std::pow(kJointPriorSd_m / kHingeHold_m, 2);
+  const double hold = prior_weight_ * std::pow(data::kJointPriorSd_m / kHingeHold_m, 2);
   for (const HingeAxis& hinge : hinges_) {
     const Vector3d& axis = in_parent ? hinge.in_parent : hinge.in_child;
     if (hinge.joint == j) out += hold * axis * axis.transpose();

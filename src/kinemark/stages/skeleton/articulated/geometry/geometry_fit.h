@@ -13,9 +13,8 @@
 
 namespace kinemark::skeleton {
 
-/// SD per axis of a joint about the mean of a segment's markers before anything is seen, m.
-constexpr double kJointPriorSd_m = 0.3;
-/// The same along the axis of a joint that is held there, m.
+/// SD of a joint about the mean of a segment's markers along an axis on which it is held, m; on the others it
+/// is data::kJointPriorSd_m.
 constexpr double kHingeHold_m = 1e-3;
 
 /// A joint's place from the mean of the markers of one of its segments, in that segment's axes, m.
@@ -32,9 +31,9 @@ struct GlobalFrames {
 /// Fits the geometry of `chain`, in place. Keeps references to all three.
 class GlobalFit {
  public:
-  /// Beforehand every joint is taken to lie about the mean of its segments' markers, by kJointPriorSd_m. With
-  /// noise `sigma_m` that says nothing beside what frames tell, and holds what they leave open (the place
-  /// along a hinge's axis). 0: nothing is known beforehand.
+  /// Beforehand every joint is taken to lie about the mean of its segments' markers, by
+  /// data::kJointPriorSd_m. With noise `sigma_m` that says nothing beside what frames tell, and holds what
+  /// they leave open (the place along a hinge's axis). 0: nothing is known beforehand.
   GlobalFit(Chain& chain, const ChainSamples& samples, GlobalFrames& frames, double sigma_m = 0.0);
 
   /// Damped Gauss-Newton with variable projection: S dg = sum (b_g - G^T H^-1 b), S = sum (H_gg - G^T H^-1

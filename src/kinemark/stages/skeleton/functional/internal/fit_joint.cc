@@ -24,8 +24,8 @@ double noise_of_turns(const Samples& samples, const JointTask& task) {
 data::JointKind choose_kind(const Samples& samples, const JointTask& task, const FunctionalOptions& options) {
   if (options.method == FunctionalMethod::sara || options.method == FunctionalMethod::cylinder)
     return data::JointKind::hinge;
-  if (options.kind != KindChoice::automatic)
-    return options.kind == KindChoice::hinge ? data::JointKind::hinge : data::JointKind::ball;
+  if (options.kind != data::JointChoice::automatic)
+    return options.kind == data::JointChoice::hinge ? data::JointKind::hinge : data::JointKind::ball;
   return task.motion.kind(noise_of_turns(samples, task));
 }
 
