@@ -270,6 +270,7 @@ STAGES = {
     "layers": script(sys.executable, "tools/check_layers.py"),
     "licences": script(sys.executable, "tools/check_spdx.py"),
     "readmes": script(sys.executable, "tools/check_readmes.py"),
+    "public-headers": script(sys.executable, "tools/check_public_headers.py"),
     "tools": tools,
     "build": build("ci"),
     "tests": unit_tests("ci"),
