@@ -62,7 +62,7 @@ struct NwbOutline {
     none,
     per_marker,
     per_sample
-  } offsets = Offsets::none;  ///< which of them there are
+  } offsets = Offsets::none;  ///< of this recording
 
   /// The outline of a recording that is there.
   static NwbOutline of(const data::Trajectories& trajectories, const data::Derivatives* derivatives);
