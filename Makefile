@@ -29,6 +29,9 @@ test:  ## everything that CI runs
 
 accept: release  ## the acceptance table, slow rows included
 	python3 tests/acceptance/run.py
+	cmake --install build/release --prefix build/release/prefix
+	cmake -S tests/consumer/headers -B build/release/headers -G Ninja -DEACH=ON -DCMAKE_PREFIX_PATH=$(CURDIR)/build/release/prefix
+	cmake --build build/release/headers --parallel $(JOBS)
 
 bench: release  ## speed and cost beside OpenSim and ezc3d, on the same files in one run
 	tools/setup --oracles
@@ -45,9 +48,15 @@ lint:  ## clang-tidy, layers, licences, READMEs, layout
 	cmake --preset asan
 	tools/check_format
 	tools/check_layers.py
+	tools/check_public_headers.py
 	tools/check_spdx.py
 	tools/check_readmes.py
 	tools/check_tidy --build build/asan
+
+docs:  ## API documentation of the public headers: build/release/docs/html/index.html
+	tools/setup
+	cmake --preset release -DKINEMARK_DEVELOPER=ON
+	cmake --build --preset release --target docs
 
 format:  ## lay out all C++ files
 	tools/check_format --fix
@@ -55,4 +64,4 @@ format:  ## lay out all C++ files
 clean:  ## remove what was built
 	rm -rf build demo
 
-.PHONY: help demo program release test accept bench fuzz lint format clean
+.PHONY: help demo program release test accept bench fuzz lint docs format clean

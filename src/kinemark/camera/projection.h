@@ -13,7 +13,7 @@ namespace kinemark::camera {
 /// Where a camera sees a point, in pixels (pinhole) or half-sides of the sheet, warp included
 /// (lateral-effect).
 struct Projection {
-  Eigen::Vector2d image;
+  Eigen::Vector2d image;                ///< x right, y down
   Eigen::Vector3d x_in_cam;             ///< m
   Eigen::Matrix<double, 2, 3> d_point;  ///< by the point in the world, per m
   bool in_front = false;                ///< depth > 0; elsewhere image is the mirrored one and means nothing

@@ -10,6 +10,7 @@
 
 namespace kinemark::camera {
 
+/// What the four channels of a lateral-effect camera say of a point light, and where it falls.
 struct Response {
   Eigen::Vector4d phi;                  ///< of channels +x, -x, +y, -y; sum near 1 (duo-lateral: 2)
   Eigen::Matrix<double, 4, 3> d_point;  ///< by the point in the world, per m
@@ -32,9 +33,11 @@ using ResponseJacobian = Eigen::Ref<Eigen::Matrix<double, 4, Eigen::Dynamic>>;
 
 /// Response at a known place of the sheet (half-sides, warp included), with derivatives by that place.
 struct SpotResponse {
-  Eigen::Vector4d phi;
-  Eigen::Matrix<double, 4, 2> d_spot;
+  Eigen::Vector4d phi;                 ///< of channels +x, -x, +y, -y
+  Eigen::Matrix<double, 4, 2> d_spot;  ///< by the place of the spot, per half-side
 };
+/// @param spot  half-sides; beyond the detector's edge it counts as lying there. O(terms of the warp);
+/// allocates nothing.
 [[nodiscard]] SpotResponse respond_at(const data::Detector& detector, const Eigen::Vector2d& spot);
 
 }  // namespace kinemark::camera

@@ -12,8 +12,8 @@ namespace kinemark::camera {
 
 /// Currents at +x, -x, +y, -y per photocurrent, and their derivatives by the place of the spot (half-sides).
 struct Shares {
-  Eigen::Vector4d share;
-  Eigen::Matrix<double, 4, 2> d_spot;
+  Eigen::Vector4d share;               ///< at +x, -x, +y, -y
+  Eigen::Matrix<double, 4, 2> d_spot;  ///< per half-side
 };
 
 /// Tetra-lateral sheet, |x|, |y| < 1: harmonic measures of the four edges of a square, in closed form by the

@@ -22,13 +22,14 @@ enum class Code : std::uint8_t {
 
 /// One failure, told in one sentence: "file: place: what is wrong; what was expected".
 struct Error {
-  Code code = Code::bad_input;
-  std::string message;
+  Code code = Code::bad_input;  ///< what kind of failure
+  std::string message;          ///< one sentence for people
 };
 
 /// The value, or the reason why there is none. Library functions never print and never exit.
 template <class T>
 using Result = std::expected<T, Error>;
+/// Success, or the reason why not.
 using Status = std::expected<void, Error>;
 
 /// Shorthand for returning a failure: `return fail(Code::io, "cannot open x.c3d");`

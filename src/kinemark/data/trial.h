@@ -18,9 +18,9 @@ namespace kinemark::data {
 struct AnalogChannels {
   std::vector<std::string> names;  ///< K
   std::vector<std::string> units;  ///< K, as the file says ("V", "N", "Nmm"), may be empty
-  double rate_hz = 0.0;
-  std::int64_t samples = 0;  ///< S
-  Array<double> values;      ///< S x K
+  double rate_hz = 0.0;            ///< of each channel
+  std::int64_t samples = 0;        ///< S
+  Array<double> values;            ///< S x K
 };
 
 /// An instant that somebody labelled.
@@ -50,12 +50,13 @@ struct Trial {
   Array<float>
       residual_m;  ///< F x M reconstruction residual, NaN where not measured; empty when the file has none
   Array<std::uint8_t>
-      camera_mask;  ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
-  AnalogChannels analog;
-  std::vector<Event> events;
-  std::vector<ForcePlate> force_plates;
-  std::vector<std::string> warnings;  ///< what was odd about the file, one sentence each
+      camera_mask;            ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
+  AnalogChannels analog;      ///< no channels: the file has none
+  std::vector<Event> events;  ///< in the order of the file
+  std::vector<ForcePlate> force_plates;  ///< in the order of the file
+  std::vector<std::string> warnings;     ///< what was odd about the file, one sentence each
 
+  /// number of the last frame in the file's own counting
   [[nodiscard]] std::int64_t last_frame() const { return first_frame + markers.frames() - 1; }
   /// Markers are valid and all other arrays have the shapes they promise.
   [[nodiscard]] Status validate() const;

@@ -15,9 +15,9 @@ namespace kinemark::math {
 /// derivative is basis * (d readings - scale * d shares), but for a term that vanishes with the misfit. Golub
 /// & Pereyra (1973), SIAM J. Numer. Anal. 10:413; Kaufman (1975), BIT 15:49.
 struct ScaleFree {
-  double scale = 0.0;
-  Eigen::Matrix<double, 3, 4> basis;
-  Eigen::Vector3d residual;
+  double scale = 0.0;                 ///< s, readings per share
+  Eigen::Matrix<double, 3, 4> basis;  ///< rows: orthonormal, at right angles to the shares
+  Eigen::Vector3d residual;           ///< basis * readings
 };
 
 /// `shares` must not be zero; its first element may have any sign. O(1), allocates nothing.

@@ -22,6 +22,7 @@ void velocities(const Model& model, Workspace& w, const VectorXd& v);
 /// Velocity (m/s) and acceleration at zero vdot (m/s^2, "Jdot v") of a world point moving with a body. After
 /// velocities().
 [[nodiscard]] Vector3d point_velocity(const Workspace& w, int body, const Vector3d& x_in_world);
+/// Acceleration of such a point at zero vdot, m/s^2. After velocities().
 [[nodiscard]] Vector3d point_bias_acceleration(const Workspace& w, int body, const Vector3d& x_in_world);
 
 /// d(point)/dv, 3 x nv, of a world point moving with a body. J must have that size already. After
@@ -38,6 +39,7 @@ void marker_bias_acceleration(const Model& model, const Workspace& w, VectorXd& 
 /// Gap of every point constraint, point of a minus point of b, 3K, m; and its Jacobian 3K x nv. After
 /// kinematics().
 void point_constraint_gaps(const Model& model, const Workspace& w, VectorXd& gap);
+/// Jacobian of the gaps, 3K x nv, per unit of speed. After kinematics().
 void point_constraint_jacobian(const Model& model, const Workspace& w, Eigen::MatrixXd& C);
 
 }  // namespace kinemark::model

@@ -26,7 +26,7 @@ struct C3dSeen {
   std::int64_t unmeasured = 0;    ///< samples with coordinates and a fourth word of 0
   std::int64_t with_cameras = 0;  ///< samples with a camera mask
 
-  C3dSeen& operator+=(const C3dSeen& other);
+  C3dSeen& operator+=(const C3dSeen& other);  ///< adds the counts of another piece
 };
 
 /// Decode `frames` whole frames at `bytes`.

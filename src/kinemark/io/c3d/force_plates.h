@@ -16,7 +16,7 @@ struct C3dForcePlate {
   int number = 1;            ///< as the file counts, from 1
   bool sound = true;         ///< corners and origin are numbers that can be true
   int calibration_rows = 0;  ///< of CAL_MATRIX, 0 without
-  data::ForcePlate plate;
+  data::ForcePlate plate;    ///< corners and origin in metres
 };
 
 /// The plates in use whose type and analog channels make sense; the others, and geometry that cannot be true,

@@ -11,11 +11,12 @@
 
 namespace kinemark::io {
 
+/// Options of write_c3d().
 struct C3dWriteOptions {
-  bool force = false;                 ///< replace a file that exists
-  std::string software = "kinemark";  ///< MANUFACTURER:SOFTWARE
-  std::string units = "mm";           ///< length unit in the file: "mm", "cm", "m", ...
-  Processor processor = Processor::intel;
+  bool force = false;                      ///< replace a file that exists
+  std::string software = "kinemark";       ///< MANUFACTURER:SOFTWARE
+  std::string units = "mm";                ///< length unit in the file: "mm", "cm", "m", ...
+  Processor processor = Processor::intel;  ///< how numbers are stored
   bool integers = false;  ///< 16-bit samples: half the size, rounded to 1/32000 of the largest coordinate
 };
 

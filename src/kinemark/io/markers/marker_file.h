@@ -9,6 +9,7 @@
 
 namespace kinemark::io {
 
+/// Options of read_markers().
 struct MarkerReadOptions {
   double rate_hz = 0.0;  ///< of the frames, for files that tell none (Visual3D text); 0: not given
 };

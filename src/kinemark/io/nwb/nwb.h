@@ -20,9 +20,9 @@ namespace kinemark::io {
 
 /// What one NWB file holds.
 struct NwbFile {
-  data::Trajectories trajectories;
-  std::optional<data::Derivatives> derivatives;
-  NwbMetadata metadata;
+  data::Trajectories trajectories;               ///< positions, m, with their provenance
+  std::optional<data::Derivatives> derivatives;  ///< where the file has them
+  NwbMetadata metadata;                          ///< who, when, how
   std::vector<std::string> warnings;  ///< what was odd about the file or could not be used, one sentence each
 };
 
@@ -34,6 +34,7 @@ struct NwbFile {
 /// lengths: Code::not_supported; cannot be opened: Code::io.
 [[nodiscard]] Result<NwbFile> read_nwb(const std::filesystem::path& path);
 
+/// Options of write_nwb() and NwbWriter.
 struct NwbWriteOptions {
   bool force = false;   ///< replace a file that exists
   int compression = 4;  ///< deflate level, 0 (none) to 9; bytes are shuffled and checksummed in any case
@@ -48,15 +49,20 @@ struct NwbWriteOptions {
 
 /// What a file will hold, told before its samples are there.
 struct NwbOutline {
-  std::vector<std::string> names;  ///< M, unique
-  TimeBase time;
-  bool method = false;  ///< which method made a sample
-  bool covariance = false;
-  bool velocity = false, velocity_sd = false;
-  bool acceleration = false, acceleration_sd = false;
-  bool jerk = false, jerk_sd = false;
-  bool filters = false;  ///< the filter of each marker
-  enum class Offsets : std::uint8_t { none, per_marker, per_sample } offsets = Offsets::none;
+  std::vector<std::string> names;                      ///< M, unique
+  TimeBase time;                                       ///< F = time.frames
+  bool method = false;                                 ///< which method made a sample
+  bool covariance = false;                             ///< of positions
+  bool velocity = false, velocity_sd = false;          ///< which of them there are
+  bool acceleration = false, acceleration_sd = false;  ///< which of them there are
+  bool jerk = false, jerk_sd = false;                  ///< which of them there are
+  bool filters = false;                                ///< the filter of each marker
+  /// Whether samples have times of their own: none, one offset a marker, one a sample.
+  enum class Offsets : std::uint8_t {
+    none,
+    per_marker,
+    per_sample
+  } offsets = Offsets::none;  ///< of this recording
 
   /// The outline of a recording that is there.
   static NwbOutline of(const data::Trajectories& trajectories, const data::Derivatives* derivatives);
@@ -69,8 +75,8 @@ class NwbWriter {
   /// Errors as write_nwb().
   static Result<NwbWriter> create(const std::filesystem::path& path, const NwbOutline& outline,
                                   const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
-  NwbWriter(NwbWriter&& other) noexcept;
-  NwbWriter& operator=(NwbWriter&& other) noexcept;
+  NwbWriter(NwbWriter&& other) noexcept;             ///< takes the open file over
+  NwbWriter& operator=(NwbWriter&& other) noexcept;  ///< closes its own and takes the other over
   ~NwbWriter();
 
   /// Write frames [first_frame, first_frame + piece.frames()) of the markers that `piece` names. Its arrays

@@ -18,15 +18,17 @@ namespace kinemark::io {
 /// One ExternalForce that is switched on, given in the ground's frame. Identifiers are what three columns'
 /// names begin with; empty: none.
 struct ExternalForce {
-  std::string name;
+  std::string name;  ///< unique
   std::string body;  ///< of the model
+  /// Beginnings of three columns' names: force in N, its point in m, moment in N m; empty: none.
   std::string force, point, torque;
 };
 
+/// An ExternalLoads file: which columns of a table act where.
 struct ExternalLoads {
-  std::string source;               ///< the file, for sentences
-  std::filesystem::path data_file;  ///< seen from the file's folder
-  std::vector<ExternalForce> forces;
+  std::string source;                 ///< the file, for sentences
+  std::filesystem::path data_file;    ///< seen from the file's folder
+  std::vector<ExternalForce> forces;  ///< those that are switched on
 };
 
 /// Read an ExternalLoads file. Code::not_supported, one sentence: a force or point in the frame of a body, or

@@ -12,12 +12,13 @@
 
 namespace kinemark::io {
 
+/// What recover_recording() kept and what not.
 struct RecoverReport {
-  std::int64_t messages = 0;         ///< kept
-  std::uint64_t bytes_left_out = 0;  ///< of the original
-  RecordingEnd end = RecordingEnd::closed;
-  std::vector<RecordingDamage> damage;
-  std::vector<std::string> warnings;  ///< what was odd about the original, one sentence each
+  std::int64_t messages = 0;                ///< kept
+  std::uint64_t bytes_left_out = 0;         ///< of the original
+  RecordingEnd end = RecordingEnd::closed;  ///< how the original ended
+  std::vector<RecordingDamage> damage;      ///< pieces that were left out
+  std::vector<std::string> warnings;        ///< what was odd about the original, one sentence each
 };
 
 /// Write everything that can be read of a recording, past damage too, as a new closed recording with summary

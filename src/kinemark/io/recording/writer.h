@@ -20,11 +20,13 @@ enum class SyncPolicy : std::uint8_t {
   always,      ///< before append() returns; costs milliseconds to tens of milliseconds each
 };
 
+/// Options of RecordingWriter.
 struct RecordingOptions {
-  bool force = false;  ///< replace a file that exists
-  SyncPolicy sync = SyncPolicy::background;
-  double sync_interval_s = 1.0;  ///< of the background thread; 0.01 to 3600
+  bool force = false;                        ///< replace a file that exists
+  SyncPolicy sync = SyncPolicy::background;  ///< when bytes are forced to the disk
+  double sync_interval_s = 1.0;              ///< of the background thread; 0.01 to 3600
 
+  /// Ranges hold.
   [[nodiscard]] Status check() const;
 };
 
@@ -40,16 +42,18 @@ class RecordingWriter {
   /// cannot be made, Code::usage for options out of range.
   static Result<RecordingWriter> create(const std::filesystem::path& path,
                                         const RecordingOptions& options = {});
-  RecordingWriter(RecordingWriter&&) noexcept;
+  RecordingWriter(RecordingWriter&&) noexcept;  ///< takes the open recording over
   RecordingWriter& operator=(RecordingWriter&&) = delete;
   /// Without close() the file stays as after a kill: readable, marked as not closed.
   ~RecordingWriter();
 
   /// Index of the new channel, from 0.
   [[nodiscard]] Result<std::uint16_t> add_channel(const RecordingChannel& channel);
+  /// Note names and values, at any place among the messages.
   [[nodiscard]] Status add_metadata(const RecordingMetadata& metadata);
   /// All messages or none, in one write().
   [[nodiscard]] Status append(std::span<const RecordingMessage> messages);
+  /// one message
   [[nodiscard]] Status append(const RecordingMessage& message) { return append({&message, 1}); }
   /// Wait until everything acknowledged is on the disk.
   [[nodiscard]] Status sync();

@@ -31,6 +31,7 @@ namespace kinemark::io {
 /// SIMM header (datacolumns or datarows), radians elsewhere.
 [[nodiscard]] bool angles_are_degrees(const data::Table& table);
 
+/// Options of write_table().
 struct TableWriteOptions {
   bool force = false;  ///< replace a file that exists
   int version = 1;     ///< 1 (read by every OpenSim) or 3

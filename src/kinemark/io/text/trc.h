@@ -33,11 +33,13 @@ namespace kinemark::io {
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
 [[nodiscard]] Result<data::Trial> parse_trc(std::string_view text, std::string_view name);
 
+/// Unit of the coordinates in a file.
 enum class LengthUnit : std::uint8_t { millimetre, metre };
 
+/// Options of write_trc().
 struct TrcWriteOptions {
-  bool force = false;  ///< replace a file that exists
-  LengthUnit units = LengthUnit::millimetre;
+  bool force = false;                         ///< replace a file that exists
+  LengthUnit units = LengthUnit::millimetre;  ///< of the coordinates
   int decimals =
       -1;  ///< digits after the point of coordinates, 0 to 17; -1: the shortest that read back exactly
 };

@@ -24,17 +24,20 @@ struct SegmentOrientations {
   Array<double> angles_rad;        ///< F x S x 3; NaN where a cell is missing
 
   [[nodiscard]] std::int64_t find(std::string_view name) const;  ///< index, or -1
+  /// The three angles of a signal in a frame, rad; NaN where missing.
   [[nodiscard]] Eigen::Map<const Eigen::Vector3d> angles(std::int64_t frame, std::int64_t signal) const;
   /// Takes directions of the segment to the laboratory; NaN where an angle is missing.
   [[nodiscard]] Eigen::Matrix3d world_from_segment(std::int64_t frame, std::int64_t signal) const;
 };
 
+/// What a Visual3D text holds.
 struct V3dFile {
   data::Trial trial;                 ///< signals of type LANDMARK and TARGET, in metres
   SegmentOrientations orientations;  ///< signals of type LINK_MODEL_BASED
   std::string recorded_as;           ///< the source file that row 1 names, in UTF-8
 };
 
+/// Options of read_v3d().
 struct V3dReadOptions {
   double rate_hz = 0.0;  ///< of the rows, which the file does not tell; must be given, > 0
 };

@@ -14,8 +14,8 @@
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/new_folder.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 #include "kinemark/stages/simulation/rig_calibration.h"
 
 namespace kinemark::pipeline {

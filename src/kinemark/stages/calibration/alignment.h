@@ -13,16 +13,18 @@
 
 namespace kinemark::calibration {
 
+/// Options of compare_alignment() and align_by_tree(): how far a camera may stand from its wanted pose.
 struct AlignmentOptions {
-  double shift_tolerance_m = 2e-3;
-  double turn_tolerance_deg = 0.1;
+  double shift_tolerance_m = 2e-3;  ///< > 0, of the lens, each axis
+  double turn_tolerance_deg = 0.1;  ///< > 0, about each axis
 
+  /// Tolerances are positive.
   [[nodiscard]] Status check() const;
 };
 
 /// One camera against the wanted pose, in the axes of the wanted camera: right, down, forward.
 struct CameraAlignment {
-  std::string camera;
+  std::string camera;       ///< its name
   Eigen::Vector3d shift_m;  ///< lens, from the wanted place
   Eigen::Vector3d
       turn_deg;  ///< what is missing: tilt up, pan to the right, roll clockwise as seen from behind
@@ -30,10 +32,11 @@ struct CameraAlignment {
                   turn_sd_deg = Eigen::Vector3d::Zero();  ///< 0: unknown
 };
 
+/// All cameras of a rig against their wanted poses.
 struct Alignment {
-  std::vector<CameraAlignment> cameras;
-  bool aligned = false;  ///< everything is within tolerance
-  std::string next;      ///< one thing to do: the worst, by its tolerance
+  std::vector<CameraAlignment> cameras;  ///< in the order of the rig
+  bool aligned = false;                  ///< everything is within tolerance
+  std::string next;                      ///< one thing to do: the worst, by its tolerance
 };
 
 /// Compare two rigs of the same cameras. The world of `found` is laid on that of `wanted` first, by lenses

@@ -16,7 +16,7 @@ namespace kinemark::calibration {
 /// Where the stage held the LED.
 struct ScanPlaces {
   Eigen::Matrix3Xd x_in_stage;  ///< m; a column per place, twelve or more
-  int frames_per_place = 10;
+  int frames_per_place = 10;    ///< recorded at each place, >= 1
 };
 
 /// The places as one rigid object of as many LEDs, seen in one pose: what calibrate_bundle() takes. Places

@@ -11,7 +11,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/internal/start.h"

@@ -20,7 +20,7 @@ struct CountSighting {
 
 /// A point and how well it is known.
 struct Located {
-  Eigen::Vector3d x_in_world;
+  Eigen::Vector3d x_in_world;   ///< m
   Eigen::Matrix3d information;  ///< inverse covariance from the noise of the counts, m^-2
   double chi2 = 0.0;            ///< misfit; 3 (sightings - 1) degrees of freedom
   double farthest_spot = 0.0;   ///< of its spots: larger of |x|, |y|, half-sides

@@ -39,8 +39,9 @@ struct ChainOptions {
   /// Losses go with the pose: none while the chain's end points away from a certain side, twice the share
   /// (0.98 at most) while it points there, as near an animal's mouth.
   bool pose_correlated = false;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of poses, noise and losses
 
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
@@ -62,11 +63,12 @@ struct SleeveOptions {
   double mouth_loss = 0.6;    ///< chance that an LED near the hand is hidden for a whole visit to the mouth
   bool obstacles = false;  ///< head, trunk and the cage's front bars stand between LEDs and cameras as well
   double missing = 0.0;    ///< share of samples lost besides, each on its own
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of poses, noise and losses
 
   /// Three cameras, a narrow beam, 0.9 hidden at the mouth and a fifth of the rest lost: about 30 % is seen.
   [[nodiscard]] static SleeveOptions hard();
-  [[nodiscard]] std::int64_t frames() const;
+  [[nodiscard]] std::int64_t frames() const;  ///< frames that the duration and rate give
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 

@@ -11,6 +11,7 @@
 
 namespace kinemark::simulation {
 
+/// A recording of a simulated subject, and the truth.
 struct SimulatedSubject {
   data::Trajectories markers;       ///< as recorded: soft tissue, noise, gaps; measured or missing
   data::Trajectories true_markers;  ///< where rigid bones would carry them; nothing missing

@@ -24,10 +24,10 @@ enum class MotionKind : std::uint8_t {
 
 /// Options of simulate_subject().
 struct SubjectOptions {
-  MotionKind motion = MotionKind::mixed;
-  double duration_s = 10.0;   ///< > 0; round(duration rate) frames, at most 10 million
-  double rate_hz = 100.0;     ///< > 0
-  std::uint64_t seed = 1;     ///< of everything below
+  MotionKind motion = MotionKind::mixed;  ///< how the subject moves
+  double duration_s = 10.0;               ///< > 0; round(duration rate) frames, at most 10 million
+  double rate_hz = 100.0;                 ///< > 0
+  std::uint64_t seed = 1;                 ///< of everything below
   double full_turns = 0.0;    ///< turns of the whole body about the vertical over the recording (free roots
                               ///< only); a walking subject then goes round in a circle instead of on the spot
   double noise_sd_m = 0.001;  ///< >= 0, Gaussian, per axis
@@ -43,7 +43,7 @@ struct SubjectOptions {
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
-  [[nodiscard]] std::int64_t frames() const;
+  [[nodiscard]] std::int64_t frames() const;  ///< round(duration_s * rate_hz)
 };
 
 }  // namespace kinemark::simulation

@@ -12,9 +12,10 @@ namespace kinemark::simulation {
 /// How a recorder fills in between the samples that its cameras gave.
 enum class Upsampling : std::uint8_t { linear, cubic };
 
+/// Options of upsample().
 struct UpsampleOptions {
-  int factor = 4;  ///< 1 to 100; 4 makes 240 Hz of 60
-  Upsampling how = Upsampling::linear;
+  int factor = 4;                       ///< 1 to 100; 4 makes 240 Hz of 60
+  Upsampling how = Upsampling::linear;  ///< straight lines or cubics between samples
   /// Samples that were made are called `upsampled`; without it `measured`, as a stream that tells nothing.
   bool tell = false;
 };

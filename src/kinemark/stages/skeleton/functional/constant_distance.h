@@ -14,13 +14,16 @@
 
 namespace kinemark::skeleton {
 
+/// Options of the constant-distance method.
 struct ConstantDistanceOptions {
   int complete_frames = 30;  ///< the first so many frames that show every marker inform the distances; >= 2
   double penalty_m = 1e-5;   ///< weight of the mean distances against their variances (0.01 in millimetres)
 
+  /// Ranges hold.
   [[nodiscard]] Status check() const;
 };
 
+/// What the constant-distance method found of one joint.
 struct ConstantDistanceFit {
   std::vector<int> markers;           ///< of the parent, then of the child
   Eigen::VectorXd distances_m;        ///< of each from the joint, mean over the chosen frames

@@ -16,6 +16,7 @@
 
 namespace kinemark::skeleton {
 
+/// Which of the field's methods places the joints.
 enum class FunctionalMethod : std::uint8_t {
   score,              ///< SCoRE for ball joints, SARA for hinges
   sara,               ///< SARA: every joint is a hinge
@@ -33,16 +34,19 @@ enum class FunctionalMethod : std::uint8_t {
 /// In which segments' axes the centre is held still. Sphere fits hold one and look at the other's markers.
 enum class Sides : std::uint8_t { both, parent, child };
 [[nodiscard]] std::string_view to_string(Sides sides);  ///< "both", "parent", "child"
+/// The choice of that name; the failure lists all names.
 [[nodiscard]] Result<Sides> parse_sides(std::string_view name);
 
+/// Options of find_joints().
 struct FunctionalOptions {
-  FunctionalMethod method = FunctionalMethod::score;
-  Sides sides = Sides::both;
-  data::JointChoice kind = data::JointChoice::automatic;  ///< automatic: by RelativeMotion::kind()
+  FunctionalMethod method = FunctionalMethod::score;  ///< of all joints
+  Sides sides = Sides::both;                          ///< which segment holds the centre still
+  data::JointChoice kind = data::JointChoice::automatic;  ///< of all joints; automatic: by RelativeMotion::kind()
   double noise_sd_m = 0.0;  ///< of the markers, per axis; 0: found from how they keep their shape
-  ConstantDistanceOptions constant_distance;
+  ConstantDistanceOptions constant_distance;  ///< of that method alone
   Array<std::uint8_t> mask;  ///< F x M, 0: the sample is not used (made by the recorder); empty: all are
 
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 

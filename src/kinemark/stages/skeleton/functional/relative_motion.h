@@ -24,6 +24,7 @@ struct RelativeMotion {
   [[nodiscard]] data::JointKind kind(double noise_rad) const;
 };
 
+/// Over the frames in which both poses are known. O(F).
 [[nodiscard]] RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& child);
 
 /// Rotation vector of a rotation, length 0 to pi.

@@ -13,16 +13,17 @@ namespace kinemark::skeleton {
 
 /// Normal equations of o_a + R_a p_a = o_b + R_b p_b, added up over frames.
 struct ScoreSums {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
-  double squares = 0.0;  ///< of o_b - o_a, m^2
-  double frames = 0.0;
+  Matrix6 normal = Matrix6::Zero();  ///< of the frames' rotations, weighted
+  Vector6 right = Vector6::Zero();   ///< right-hand side, m
+  double squares = 0.0;              ///< of o_b - o_a, m^2
+  double frames = 0.0;               ///< number of frames, as a weight
 
   /// One frame, with weights (3 x 3, symmetric) of the gap's components in world.
   void add(const SegmentPoses& a, const SegmentPoses& b, std::int64_t frame, const Eigen::Matrix3d& weight);
+  /// One frame with weight 1.
   void add(const SegmentPoses& a, const SegmentPoses& b, std::int64_t frame);
-  ScoreSums& operator-=(const ScoreSums& other);
-  ScoreSums& operator+=(const ScoreSums& other);
+  ScoreSums& operator-=(const ScoreSums& other);  ///< takes frames out
+  ScoreSums& operator+=(const ScoreSums& other);  ///< adds the frames of another
   /// Sum of squares left at p.
   [[nodiscard]] double cost(const Vector6& p) const;
 };

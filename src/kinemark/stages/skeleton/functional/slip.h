@@ -17,15 +17,17 @@ struct Slip {
   int segment = 0;  ///< of the layout
   int marker = -1;  ///< of the recording; -1: all markers of the segment together, seen by a joint
   int joint = -1;   ///< that shows it when marker is -1
-  double shift_m = 0.0, sd_m = 0.0;
-  std::int64_t frame = 0;  ///< about when
-  std::string sentence;
+  double shift_m = 0.0, sd_m = 0.0;  ///< how far, and its standard deviation
+  std::int64_t frame = 0;            ///< about when
+  std::string sentence;              ///< the same in words
 };
 
+/// Options of find_slips().
 struct SlipOptions {
   double sure_sd = 5.0;    ///< > 0; shifts below so many of their SDs are chance
   double least_m = 0.002;  ///< >= 0; smaller ones do not matter
 
+  /// Ranges hold.
   [[nodiscard]] Status check() const;
 };
 

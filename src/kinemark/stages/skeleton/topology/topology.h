@@ -15,6 +15,7 @@
 
 namespace kinemark::skeleton {
 
+/// Options of find_topology().
 struct TopologyOptions {
   double noise_sd_m = 0.0;         ///< of the markers, per axis; 0: found from the steadiest distances
   double least_motion_m = 0.002;   ///< > 0; segments that move less against each other cannot be told apart
@@ -27,6 +28,7 @@ struct TopologyOptions {
   double doubtful_margin = 2.0;  ///< >= 1; joints whose replacement is not so many times worse are, too
   Array<std::uint8_t> mask;      ///< F x M, 0: not used; empty: all are
 
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
@@ -34,16 +36,17 @@ struct TopologyOptions {
 struct MarkerEvidence {
   double nats = 0.0;  ///< mean log odds of sharing its segment with the others there, less the best other's
   int second_segment = -1;  ///< that other, or -1
-  bool doubtful = false;
+  bool doubtful = false;    ///< nats below the threshold of the options
 };
 
 /// Confidence in one joint.
 struct JointEvidence {
   double residual_m = 0.0;  ///< of the point, or the distance, that the two segments share
   double margin = 0.0;      ///< residual of the best replacement over its own; infinite where there is none
-  bool doubtful = false;
+  bool doubtful = false;    ///< margin below the threshold of the options
 };
 
+/// Segments and joints found, and the evidence for each.
 struct Topology {
   data::SegmentLayout layout;           ///< segments by their first marker; joints away from the first
   std::vector<MarkerEvidence> markers;  ///< M

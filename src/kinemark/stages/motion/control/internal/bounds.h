@@ -21,7 +21,7 @@
 #include "kinemark/model/workspace.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
 #include "kinemark/stages/motion/control/internal/plan.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kinemark/stages/motion/control/internal/recorder.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 namespace {

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/scaling/internal/schur.h"
 

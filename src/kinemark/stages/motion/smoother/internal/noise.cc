@@ -9,7 +9,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 namespace {

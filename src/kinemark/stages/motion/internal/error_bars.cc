@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
