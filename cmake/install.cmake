@@ -6,10 +6,11 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers that other projects may include. tools/check_public_headers.py holds the same rule.
+# Headers that other projects may include: not those of internals, test helpers and the inner folders of the articulated
+# model. tools/check_public_headers.py holds the same rule.
 function(kinemark_public_headers out)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/kinemark/*.h)
-  list(FILTER headers EXCLUDE REGEX "/(internal|testing)/|/test_[^/]*$|_for_test\\.h$")
+  list(FILTER headers EXCLUDE REGEX "/(internal|testing)/|/test_[^/]*$|_for_test\\.h$|/skeleton/articulated/[^/]+/")
   set(${out} ${headers} PARENT_SCOPE)
 endfunction()
 

@@ -5,8 +5,8 @@
 
     tools/check_public_headers.py [ROOT] [--list] [--installed FOLDER]
 
-Public are the headers of src/kinemark, except those in `internal/` and `testing/`, `test_*.h` and `*_for_test.h`
-(cmake/install.cmake holds the same rule). A public header
+Public are the headers of src/kinemark, except those in `internal/` and `testing/`, `test_*.h`, `*_for_test.h` and those of
+the folders in INNER (cmake/install.cmake holds the same rule). A public header
 
 - includes of ours only public headers, and of others only OUTSIDE, which kinemarkConfig.cmake finds;
 - names no `internal` namespace, neither opens one nor takes something from one.
@@ -25,6 +25,9 @@ from check_spdx import files_of
 # First parts of the includes that consumers get with find_package(kinemark); what has no folder is of the standard.
 OUTSIDE = {"Eigen", "fmt", "nlohmann", "toml++"}
 
+# Folders whose subfolders are parts of one stage.
+INNER = ("kinemark/stages/skeleton/articulated",)
+
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.MULTILINE)
 INTERNAL = re.compile(r"\binternal\s*::|\bnamespace\s+[\w:]*\binternal\b")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
@@ -34,7 +37,10 @@ def is_public(path):
     """Whether a header, named relative to src/, is installed."""
     path = PurePosixPath(path)
     return not (
-        {"internal", "testing"} & set(path.parts[:-1]) or path.name.startswith("test_") or path.stem.endswith("_for_test")
+        {"internal", "testing"} & set(path.parts[:-1])
+        or path.name.startswith("test_")
+        or path.stem.endswith("_for_test")
+        or any(folder.as_posix() in INNER for folder in path.parent.parents)
     )
 
 

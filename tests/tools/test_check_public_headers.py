@@ -19,6 +19,7 @@ RIGHT = {
     "src/kinemark/data/testing/tables.h": "",
     "src/kinemark/data/test_table.h": "",
     "src/kinemark/data/small_table_for_test.h": "",
+    "src/kinemark/stages/skeleton/articulated/chain/chain.h": "namespace kinemark::skeleton::internal {}\n",
     "cli/console.h": "",
 }
 PUBLIC = ["kinemark/core/result.h", "kinemark/core/version.h", "kinemark/data/table.h"]
