@@ -10,7 +10,7 @@ from support import PROJECT, Tree, load_script
 
 acceptance = load_script(PROJECT / "tests" / "acceptance" / "run.py")
 
-GOOD = 'print("a note")\nprint("PASS | angles | <= 1 deg | 0.5 deg")\nprint("SKIP|oracle|same|absent")\n'
+GOOD = 'print("a remark")\nprint("NOTE | cost | - | 5 s")\nprint("PASS | angles | <= 1 deg | 0.5 deg")\nprint("SKIP|oracle|same|absent")\n'
 BAD = 'print("the reason")\nprint("FAIL | speed | >= 10 | 3")\nraise SystemExit(1)\n'
 
 
@@ -37,7 +37,8 @@ class RunAcceptance(unittest.TestCase):
         self.assertIn("SKIP | oracle  | same     | absent\n", said)
         self.assertIn("PASS | it runs | yes      | yes\n", said)
         self.assertTrue(said.endswith("acceptance: 2 passed, 0 failed, 1 skipped, 0 known\n"), said)
-        self.assertNotIn("a note", said)
+        self.assertIn("NOTE | cost    | -        | 5 s\n", said)
+        self.assertNotIn("a remark", said)
 
     def test_a_failed_row_fails_the_run_and_shows_the_notes(self):
         status, said = self.run_with('[bad]\nscript = "bad.py"\n', {"bad.py": BAD})
@@ -49,6 +50,7 @@ class RunAcceptance(unittest.TestCase):
     def test_nothing_passes_by_silence_by_crashing_or_by_running_on(self):
         for text, expected in [
             ("pass\n", "printed none, exit status 0"),
+            ('print("NOTE | cost | - | 5 s")\n', "printed none, exit status 0"),
             (GOOD + "raise SystemExit(1)\n", "exit status 0 | 1"),
             (BAD.replace("Exit(1)", "Exit(3)"), "exit status 0 | 3"),
             ("import time\ntime.sleep(60)\n", "still running"),
@@ -87,6 +89,7 @@ class RunAcceptance(unittest.TestCase):
             ({"measured": 3, "script": passes}, "passes now; take it out of expected_failures"),
             ({"measured": 3, "row": "spee"}, "prints no such row"),
             ({"measured": 3, "figure": "([0-9]+) m/s"}, "no figure"),
+            ({"measured": 3, "better": "lower", "script": BAD.replace("10 | 3", "10 | 3 and 4")}, "3 and 4 (worse than"),
         ]:
             with self.subTest(**settings):
                 status, said = self.known(**settings)
