@@ -39,7 +39,8 @@ struct RecordingReadOptions {
 };
 
 /// Reads a recording message by message. Every message handed out has passed its checksum. Damage is not an
-/// error but an end: end() and damage() tell. Memory: at most about 40 MB, and never more than the file is
+/// error: reading ends there, and end() and damage() report it. Memory: at most about 40 MB, and never more
+/// than the file is
 /// long, whatever the file claims.
 class RecordingReader {
  public:
@@ -77,7 +78,7 @@ class RecordingReader {
   struct Group {
     Found found = Found::damaged;
     std::size_t bytes = 0;    ///< of the group's records, check record left out
-    std::uint64_t check = 0;  ///< what the check record says
+    std::uint64_t check = 0;  ///< checksum in the check record
     std::string what;
   };
 
