@@ -29,7 +29,7 @@ enum class FunctionalMethod : std::uint8_t {
 /// The method of that name; the failure lists all names.
 [[nodiscard]] Result<FunctionalMethod> parse_functional_method(std::string_view name);
 
-/// In which segments' axes the centre is held still. Sphere fits hold one and look at the other's markers.
+/// The segments in whose axes the centre is constant. Sphere fits use one and fit the other's markers.
 enum class Sides : std::uint8_t { both, parent, child };
 [[nodiscard]] std::string_view to_string(Sides sides);  ///< "both", "parent", "child"
 [[nodiscard]] Result<Sides> parse_sides(std::string_view name);
@@ -52,9 +52,10 @@ struct FunctionalOptions {
 ///
 /// A segment's pose comes from three of its markers or more that are not on a line; frames without are left
 /// out. Where a method cannot be used (two markers on a segment), the nearest one that can is, and the
-/// joint's `method` and a warning say so; a joint of which nothing can be known stays undetermined, with a
-/// warning. A centre's covariance holds the place's own (residuals, blocks of frames left out), what the
-/// motion leaves open, and the frame's noise scaled by what the gap between the segments shows.
+/// joint's `method` and a warning say so; a joint without any information stays undetermined, with a warning.
+/// A centre's covariance is the sum of that of its position in the segments (residuals, blocks of frames left
+/// out), of the directions that the motion does not fix, and of the frame's noise, scaled by the gap between
+/// the segments.
 ///
 /// Code::bad_input with one sentence when the layout does not fit, has no joint, or not one joint can be
 /// placed. O(F M).

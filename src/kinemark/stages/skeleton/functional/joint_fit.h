@@ -13,25 +13,24 @@ namespace kinemark::skeleton {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Before any motion is seen a joint is taken to lie within so much (SD per axis, m) of the mean of the
-/// segment's markers. It bounds what is said of directions that the motion leaves open.
+/// Prior standard deviation (per axis, m) of a joint's position about the mean of the segment's markers. It
+/// bounds the variance in directions that the motion does not fix.
 constexpr double kPriorSd_m = 0.3;
-/// Blocks of consecutive frames of which one at a time is left out to see how far the answer moves: residuals
-/// of a living body are alike from frame to frame, and only blocks show that.
+/// Number of blocks of consecutive frames for the jackknife: one block at a time is left out. Residuals of a
+/// living body are correlated from frame to frame, so single frames would understate the variance.
 constexpr int kBlocks = 30;
 
-/// Where a joint lies in its two segments.
+/// Position of a joint in its two segments.
 struct JointFit {
   data::JointKind kind = data::JointKind::ball;
-  bool in_parent = false, in_child = false;  ///< the place is known in that segment
+  bool in_parent = false, in_child = false;  ///< the position is known in that segment
   Vector6 centre = Vector6::Zero();          ///< in parent's axes, in child's axes, m
   Matrix6 covariance = Matrix6::Zero();      ///< m^2
-  Matrix6 open = Matrix6::Zero();            ///< the part of it that motion and noise of the poses leave open
+  Matrix6 open = Matrix6::Zero();            ///< the part of it due to lack of motion and noise of the poses
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(), axis_in_child = Eigen::Vector3d::Zero();
-  double axis_sd_rad = 0.0;  ///< of each tilt
-  double residual_rms_m =
-      0.0;                  ///< length of the gap between the two places, or distance from the spheres, RMS
-  std::int64_t frames = 0;  ///< used
+  double axis_sd_rad = 0.0;     ///< of each tilt
+  double residual_rms_m = 0.0;  ///< distance between the two positions, or distance from the spheres, RMS
+  std::int64_t frames = 0;      ///< used
   std::string method;
 };
 
