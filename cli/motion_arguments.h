@@ -69,7 +69,7 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Quality gates");
 }
 
-/// Into the job what was given on the command line.
+/// Copy the command line's arguments to the job.
 template <class Job>
 [[nodiscard]] Status apply(const Globals& globals, const MotionArguments& a, Job& job) {
   for (const auto& text : a.weights) {
