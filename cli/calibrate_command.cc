@@ -30,7 +30,7 @@ int run_calibrate(const Globals& globals, pipeline::CalibrateJob& job) {
   const auto done = pipeline::calibrate_rig_file(job, show_progress(globals, "steps"));
   if (!done) {
     const int status = report_error(done.error());
-    // A model that the counts contradict is a quality gate that was missed, not a bad file.
+    // A model that does not fit the counts is a missed quality gate, not a bad file.
     return done.error().message.starts_with("calibration refused") ? 1 : status;
   }
   for (const auto& warning : done->at("warnings")) say(globals, warning.get<std::string>());

@@ -9,7 +9,7 @@
 namespace kinemark::cli {
 namespace {
 
-/// More markers than this are told of in the report only.
+/// With more markers than this the details are in the report only.
 constexpr std::size_t kMarkersTold = 12;
 
 struct CleanArguments {
