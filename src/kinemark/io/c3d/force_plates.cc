@@ -13,7 +13,7 @@
 namespace kinemark::io {
 namespace {
 
-constexpr double kFar = 1000.0;  // m; a corner further away is a number gone wrong
+constexpr double kFar = 1000.0;  // m; a corner further away is an invalid number
 
 bool near(const Eigen::Vector3d& x) { return (x.array().abs() < kFar).all(); }
 

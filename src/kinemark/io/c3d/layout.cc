@@ -31,7 +31,7 @@ std::optional<std::int64_t> count_of(const C3dParameters& p, std::string_view gr
 
 bool usable(double value) { return std::isfinite(value) && value > 0.0; }
 
-/// What a frame consists of, and how many were promised.
+/// Contents of a frame, and the stated number of frames.
 struct Shape {
   std::int64_t points = 0;
   std::int64_t channels = 0;
@@ -84,7 +84,7 @@ std::optional<std::int64_t> field(const C3dParameters& p, std::string_view name)
   return found->numbers.size() < 2 ? low : low + 65536 * as_count(found->numbers[1]);
 }
 
-/// What the file says of its number of frames, the most trustworthy first.
+/// The numbers of frames stated in the file, the most trustworthy first.
 std::vector<Claim> frame_claims(const C3dHeader& h, const C3dParameters& p) {
   std::vector<Claim> claims;
   const auto first = field(p, "ACTUAL_START_FIELD");
@@ -137,7 +137,8 @@ Result<std::int64_t> settle_frames(const std::vector<Claim>& claims, std::size_t
                                    best.source, best.frames, there));
     return there;
   }
-  // Sixteen bits end at 65535: a longer file that says so nowhere else is believed by its size.
+  // Sixteen bits end at 65535: without another entry the number of frames of a longer file follows from its
+  // size.
   if (there >= kMaxWord && best.frames <= kMaxWord) {
     warnings.push_back(fmt::format("{} promises {} frames, the file holds {}, which are read", best.source,
                                    best.frames, there));

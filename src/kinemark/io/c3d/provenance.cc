@@ -22,7 +22,7 @@ constexpr std::int64_t kMaxLength = 65535;
 constexpr double kSmallest_m = 1e-6;
 constexpr double kStep = 1.05;
 
-/// What is told of a sample.
+/// The stored description of a sample.
 struct Told {
   std::uint8_t state = 0, method = 0, deviation = 0;
   friend bool operator==(const Told&, const Told&) = default;
@@ -70,7 +70,7 @@ bool c3d_tells_all(const data::Trajectories& t) {
          });
 }
 
-/// May a sample that C3D tells as `word` be `told`?
+/// True when a sample that C3D stores as `word` may have the state `told`.
 bool agree(SampleState word, SampleState told) {
   switch (told) {
     case SampleState::missing:

@@ -31,7 +31,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return out;
 }
 
-/// How a message calls a file with this extension.
+/// Name of the format in messages, by extension.
 std::string named(const std::string& extension) {
   return extension.empty() ? "a file without an extension" : "a " + extension + " file";
 }

@@ -115,7 +115,7 @@ void NwbWriter::Open::add_clock(Handle series, std::size_t marker, bool first) {
     }
     return;
   }
-  // Offsets of markers are known with their samples.
+  // Offsets of markers become known with their samples.
   unclocked.emplace_back(marker, std::move(series));
 }
 

@@ -181,7 +181,7 @@ Status RecordingReader::read_group() {
   return {};
 }
 
-/// The empty string, or what makes no sense.
+/// The empty string, or a description of the error.
 std::string RecordingReader::take_records(std::span<const std::byte> records) {
   while (!records.empty()) {
     Cursor head(records);

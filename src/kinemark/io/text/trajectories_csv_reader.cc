@@ -197,7 +197,7 @@ Status Parser::finish() {
     auto time = internal::even_time(time_column, 0.0, {}, told);
     if (!time) return fail(Code::bad_input, "the column time_s does not increase from frame to frame");
     t.time = *time;
-    // A CSV never states a rate; only an uneven clock is news.
+    // A CSV never states a rate; only an uneven clock is worth a warning.
     for (std::string& warning : told)
       if (warning.find("uneven") != std::string::npos) trial_.warnings.push_back(std::move(warning));
   }

@@ -28,7 +28,7 @@ using Kind = V3dHeader::Slot::Kind;
 constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
 constexpr std::size_t kSamplesAlways = 1'000'000;
 
-/// What the rows told beside their numbers.
+/// Properties of the rows besides their numbers.
 struct Tally {
   std::int64_t part_blank = 0, short_rows = 0, extra_rows = 0, jumps = 0;
 };

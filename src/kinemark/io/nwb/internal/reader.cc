@@ -36,7 +36,7 @@ std::vector<SampleState> control_states(Input& in, hid_t series) {
   return out;
 }
 
-/// States that the file tells, or `measured` for all.
+/// States stored in the file, or `measured` for all.
 std::vector<SampleState> read_states(Input& in, hid_t series, std::size_t frames) {
   std::vector<SampleState> out(frames, SampleState::measured);
   if (const std::vector<SampleState> meaning = control_states(in, series); !meaning.empty()) {

@@ -101,7 +101,7 @@ Handle write_root(Output& out, const NwbMetadata& m, const NwbOutline& outline) 
 
   const Handle general = out.group(file, "general");
   out.texts(general.id(), "was_generated_by", {m.software, fallback(m.version, "unknown")}, 2);
-  // A subject is demanded, even where nothing is known of it.
+  // NWB requires a subject, even an unknown one.
   const Handle subject = out.group(general.id(), "subject", "Subject");
   out.text(subject.id(), "subject_id", fallback(m.subject_id, kUnknownSubject));
   out.text(subject.id(), "description", "subject of the recording");

@@ -80,7 +80,7 @@ double resolution_of(std::string_view number) {
     exponent = std::atoi(std::string(number.substr(exponent_at + 1, 8)).c_str());
   const std::size_t point = digits.find('.');
   if (point != std::string_view::npos) {
-    // Printers fill up with zeros that say nothing: "0.017000" is rounded to 0.001.
+    // Trailing zeros carry no information: "0.017000" is rounded to 0.001.
     const std::size_t last = digits.find_last_not_of('0');
     exponent -= static_cast<double>(last - point);
   }
