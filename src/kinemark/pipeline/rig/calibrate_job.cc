@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A recording with what it says of the thing it shows.
+/// A recording with its description of the known object.
 struct Known {
   fs::path path;
   io::CountsRecording recording;
