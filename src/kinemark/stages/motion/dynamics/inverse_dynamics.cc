@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 using internal::AppliedForce;
 using internal::FrameDynamics;
 
-constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that nothing ever determined
+constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that is never determined
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -116,7 +116,7 @@ class Worker {
   VectorXd q_, qd_, qdd_, by_q_, by_v_, by_a_, tau_by_q_, tau_by_v_, tau_by_a_;
 };
 
-/// Sums over frames of what a root still needs.
+/// Sums over frames of the residual force of a root.
 struct RootSums {
   double force = 0.0, moment = 0.0;
 };
