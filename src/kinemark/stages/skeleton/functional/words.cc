@@ -13,7 +13,7 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr double kKnown_m = 0.01;     ///< a place known worse is called not known
+constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 

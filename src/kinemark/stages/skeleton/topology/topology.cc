@@ -15,8 +15,8 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr double kMostWork = 1e9;         ///< samples of pairs looked at
-constexpr std::int64_t kFewFrames = 200;  ///< never looked at fewer than these for want of time
+constexpr double kMostWork = 1e9;         ///< largest number of pair samples
+constexpr std::int64_t kFewFrames = 200;  ///< fewest frames, even if that limit is exceeded
 constexpr std::size_t kNamesTold = 8;
 
 std::vector<std::int64_t> draw_frames(const data::Trajectories& t, const TopologyOptions& options) {
@@ -76,7 +76,7 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
     }
     const double own = odds_to(clusters.segment[i]);
     evidence.nats = (std::isnan(own) ? 0.0 : own) - (evidence.second_segment < 0 ? 0.0 : best);
-    // One marker that it moves against, on its own segment, is as much a reason as another segment that fits.
+    // Motion against one marker of its own segment is as much evidence as another segment that fits.
     const bool moves =
         internal::least_odds(clusters.odds, clusters.pairs, clusters.segment, i) < -options.doubtful_nats;
     evidence.doubtful = evidence.second_segment >= 0 && (moves || evidence.nats < options.doubtful_nats);

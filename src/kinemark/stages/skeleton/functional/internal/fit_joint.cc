@@ -12,7 +12,7 @@
 namespace kinemark::skeleton::internal {
 namespace {
 
-/// Turns of the poses by noise alone, rad per axis: of a frame in the middle.
+/// Rotation error of the poses by noise alone, rad per axis, in the middle frame.
 double noise_of_turns(const Samples& samples, const JointTask& task) {
   if (task.motion.frames.empty()) return 0.0;
   const std::int64_t f = task.motion.frames[task.motion.frames.size() / 2];
