@@ -19,7 +19,8 @@ struct Leap {
   int seen = 0;
 };
 
-/// A clock that loses frames all the time is one finding; most often it was resampled by leaving frames out.
+/// A clock that loses frames all the time is reported as one finding; most often the recording was resampled
+/// by leaving frames out.
 Finding describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t) {
   std::vector<double> spacing;
   std::vector<double> times;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kAccountLags = 10;
 constexpr std::int64_t kFewestPairs = 30;
-constexpr double kMuch = 0.15;  ///< autocorrelation that matters however long the recording is
+constexpr double kMuch = 0.15;  ///< autocorrelation that is relevant for any length of recording
 constexpr std::int64_t kShortestSegment = 32, kLongestSegment = 512;
 constexpr int kMostFrequencies = 24;
 
