@@ -147,7 +147,7 @@ void add_tai_chi(CLI::App& command, const Globals& globals, Run& run) {
                      "Recording of the 21 landmarks (taichi.v3d); simulated subjects when absent");
   taichi
       ->add_option("--rate", arguments->files.rate_hz,
-                   "Frame rate of a recording that tells none (.v3d), Hz; 179 when absent")
+                   "Frame rate of a recording that stores none (.v3d), Hz; 179 when absent")
       ->check(CLI::PositiveNumber);
   add_options(*taichi, *arguments, "Subjects to simulate");
   taichi->callback([&globals, arguments, &run] {

@@ -196,7 +196,7 @@ double side_of_body(const Plate& plate, const Vector3d& markers, std::vector<std
   const double height = (markers - plate.place.centre).dot(plate.place.world_from_plate.col(2));
   if (!(height > 0.0)) return -1.0;
   warnings.push_back(
-      fmt::format("{} has corners that run the wrong way round (its z axis points at the body); its axes are "
+      fmt::format("{} has corners in the opposite order (its z axis points at the body); its axes are "
                   "taken as they are",
                   plate.name));
   return 1.0;
@@ -210,8 +210,8 @@ void settle_sign(Plate& plate, double side, std::vector<std::string>& warnings) 
     if (std::isfinite(w[2]) && std::abs(w[2]) < 1e9) push += side * w[2] * std::abs(w[2]);
   if (push >= 0.0) return;
   for (Vector6& w : plate.measured) w = -w;
-  warnings.push_back(fmt::format(
-      "{} tells what the body does to it, not what it does to the body; turned round", plate.name));
+  warnings.push_back(
+      fmt::format("{} stores the force of the body on the plate; its sign was reversed", plate.name));
 }
 
 data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options,

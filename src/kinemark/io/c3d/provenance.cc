@@ -149,7 +149,8 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
   }
   if (!sound || samples != t.frames() * t.markers()) {
     trial.warnings.emplace_back(
-        "KINEMARK:RUNS does not fit the samples; what was filled how is not known beyond their residuals");
+        "KINEMARK:RUNS does not fit the samples; the provenance of the samples is known from their residuals "
+        "only");
     return;
   }
 
@@ -177,9 +178,8 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
     }
   }
   if (disagreeing > 0)
-    trial.warnings.push_back(
-        fmt::format("KINEMARK:RUNS and the residuals disagree on {} samples, and the residuals are believed",
-                    disagreeing));
+    trial.warnings.push_back(fmt::format(
+        "KINEMARK:RUNS and the residuals disagree on {} samples; the residuals are used", disagreeing));
 }
 
 }  // namespace kinemark::io

@@ -111,7 +111,7 @@ Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
   }
   if (!reader.parameters_.has_group("POINT"))
     trial.warnings.push_back(fmt::format(
-        "has no readable POINT parameters; the header alone is believed ({} numbers)", to_string(processor)));
+        "has no readable POINT parameters; the header alone is used ({} numbers)", to_string(processor)));
   auto layout = settle_layout(reader.header_, reader.parameters_, processor, size, trial.warnings);
   if (!layout) return fail_at(name, layout.error());
   reader.layout_ = std::move(*layout);

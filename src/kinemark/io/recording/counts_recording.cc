@@ -87,7 +87,7 @@ class Assembly {
     const std::int64_t frame = counts_.time.frames + steps_between(next_, message.sequence);
     if (frame < counts_.time.frames) return ++repeated_, true;
     if (frame >= frames_allowed_) {
-      warnings_.push_back(fmt::format("frame {} follows frame {}: too far to be true; the rest was left out",
+      warnings_.push_back(fmt::format("frame {} follows frame {}: an implausible step; the rest was left out",
                                       frame, counts_.time.frames - 1));
       return false;
     }

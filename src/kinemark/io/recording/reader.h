@@ -20,7 +20,7 @@ namespace kinemark::io {
 /// How a recording ends.
 enum class RecordingEnd : std::uint8_t {
   closed,   ///< by close(), summary intact
-  open,     ///< after a whole group: the recorder was stopped, or records still
+  open,     ///< after a whole group: the recorder was stopped, or is still recording
   cut,      ///< within a record
   damaged,  ///< by bytes that do not match their checksum or make no sense
 };

@@ -194,8 +194,7 @@ void judge_rows(data::Trial& trial, const TrcHeader& header, const Tally& tally,
   const std::int64_t rows = trial.markers.frames();
   const auto warn = [&](std::string sentence) { trial.warnings.push_back(std::move(sentence)); };
   if (header.frames && *header.frames != static_cast<double>(rows))
-    warn(
-        fmt::format("header says {} frames, {} rows are there; the rows are believed", *header.frames, rows));
+    warn(fmt::format("header says {} frames, {} rows are there; the rows are used", *header.frames, rows));
   if (next_text_line > 0)
     warn(fmt::format("a blank line ends the data; line {} and what follows is not read", next_text_line));
   if (tally.frame_jumps > 0)

@@ -179,7 +179,7 @@ Eigen::Matrix3d SegmentOrientations::world_from_segment(std::int64_t frame, std:
 Result<V3dFile> parse_v3d(std::string_view text, std::string_view name, const V3dReadOptions& options) {
   if (!(options.rate_hz > 0.0) || !std::isfinite(options.rate_hz))
     return fail(Code::usage,
-                fmt::format("{}: a Visual3D text export tells no rate; give the rate of its rows "
+                fmt::format("{}: a Visual3D text export stores no rate; give the rate of its rows "
                             "in Hz (--rate)",
                             name));
   auto file = parse(text, options.rate_hz);

@@ -98,7 +98,7 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
   if (topology->layout.segments.size() < 2)
     return fail(Code::bad_input,
                 fmt::format("all {} markers keep their distances: they are on one segment, or "
-                            "nothing moved, so no joint can be seen",
+                            "nothing moved, so no joint can be found",
                             markers.markers()));
   outcome.notes.insert(outcome.notes.end(), topology->warnings.begin(), topology->warnings.end());
   outcome.topology = std::move(*topology);

@@ -79,14 +79,14 @@ void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, Torqu
       account.warnings.push_back(
           fmt::format("torques are without force plates: '{}' is carried by {}, so that the torques of limbs "
                       "on the ground lack "
-                      "what the ground does",
+                      "the ground reaction",
                       root.body, carried));
     else if (root.force_rms_n > 0.1 * dynamics.body_weight_n)
-      account.warnings.push_back(
-          fmt::format("with the given forces '{}' still needs {}: ground that no plate measures, or a misfit "
-                      "of model, motion "
-                      "and plates",
-                      root.body, carried));
+      account.warnings.push_back(fmt::format(
+          "with the given forces '{}' has a residual of {}: contact that no plate measures, or a misfit "
+          "of model, motion "
+          "and plates",
+          root.body, carried));
   }
 }
 

@@ -54,7 +54,7 @@ void say_next(const AlignmentOptions& options, Alignment& out) {
                                         {"roll it clockwise", "roll it counter-clockwise"}}};
   double worst = 1.0;
   out.aligned = true;
-  out.next = "nothing: all cameras stand within tolerance";
+  out.next = "nothing: all cameras are within tolerance";
   for (const auto& c : out.cameras)
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<Eigen::Index>(a);

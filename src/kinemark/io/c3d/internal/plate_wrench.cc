@@ -63,7 +63,7 @@ Result<Eigen::MatrixXd> calibration(const C3dForcePlate& plate, std::size_t size
                                              plate.plate.type, size, size));
   Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(plate.plate.calibration.data(), n, n);
   if (!m.allFinite() || m.isZero(0.0))
-    return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of what is no number");
+    return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of values that are not numbers");
   return m;
 }
 

@@ -71,8 +71,9 @@ Result<PositionSeries> describe(Input& in, const std::string& path, std::string 
   const std::string unit = in.text_attribute(data.id(), "unit").value_or(pose ? "pixels" : "meters");
   const auto metres = metres_per_unit(unit);
   if (!metres)
-    return fail(Code::not_supported,
-                fmt::format("{}: is in '{}', which is no length; need meters or the like", path, unit));
+    return fail(
+        Code::not_supported,
+        fmt::format("{}: is in '{}', which is not a unit of length; need meters or the like", path, unit));
   out.metres_per_number = *metres * in.number_attribute(data.id(), "conversion").value_or(1.0);
   out.metres_offset = *metres * in.number_attribute(data.id(), "offset").value_or(0.0);
   if (const Handle frame = in.object(group.id(), "reference_frame"))
@@ -227,7 +228,7 @@ Result<PositionGroup> find_positions(Input& in) {
   // H5Lexists() is negative where the links themselves are damaged.
   if (says_ours || (table && H5Lexists(table.id(), "series", H5P_DEFAULT) != 0))
     return fail(Code::bad_input,
-                "its table of markers is gone or cannot be read; the file is broken. Nothing was read.");
+                "its table of markers is missing or cannot be read; the file is damaged. Nothing was read.");
   return find_foreign(in);
 }
 

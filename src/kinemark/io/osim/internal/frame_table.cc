@@ -119,7 +119,7 @@ Attachment FrameTable::offset_frame(pugi::xml_node node) {
   if (const auto parent = socket(node, "parent"))
     frame = *parent;
   else
-    file_.note(node, "does not say on which frame it sits");
+    file_.note(node, "does not name its frame");
   --depth_;
   frame.body_from_frame = frame.body_from_frame * read_transform(file_, node, "translation", "orientation");
   return resolved_.insert_or_assign(node, frame).first->second;

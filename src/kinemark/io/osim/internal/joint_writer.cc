@@ -72,7 +72,7 @@ Result<std::array<AxisDescription, 3>> three_axes(const JointDescription& joint,
     if (axis.is_rotation == rotations) axes.push_back(axis);
   const auto refuse = [&](std::string_view why) {
     return fail(Code::not_supported,
-                fmt::format("joint '{}' {}, which OpenSim has no form for", joint.name, why));
+                fmt::format("joint '{}' {}, which OpenSim cannot represent", joint.name, why));
   };
   if (axes.size() > 3)
     return refuse(rotations ? "has more than three rotations" : "has more than three translations");

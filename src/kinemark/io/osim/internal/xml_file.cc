@@ -122,7 +122,7 @@ void XmlFile::inline_files(const std::filesystem::path* folder) {
   for (const pugi::xml_node node : finder.found) {
     const std::string wanted(trim(node.attribute("file").value()));
     if (folder == nullptr)
-      return note(node, fmt::format("stands in another file, {}, which is not at hand", in_quotes(wanted)));
+      return note(node, fmt::format("stands in another file, {}, which is not available", in_quotes(wanted)));
     const auto other = read(*folder / wanted);
     if (!other) return note(node, other.error().message, other.error().code);
     const pugi::xml_node source = other->find_object({node.name()});

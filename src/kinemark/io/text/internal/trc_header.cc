@@ -137,7 +137,7 @@ Status read_names(Lines& lines, TrcHeader& header) {
     header.warnings.push_back(fmt::format("{} markers between the named ones have no name and are not read",
                                           header.marker.size() - header.names.size()));
   if (header.markers && *header.markers != static_cast<double>(header.names.size()))
-    header.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are believed",
+    header.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are used",
                                           *header.markers, header.names.size()));
   return {};
 }

@@ -69,7 +69,8 @@ class CameraTask : public Task {
   [[nodiscard]] Status bind(const model::Model& model) override {
     if (!status_) return status_;
     if (!seen()) return fail(Code::bad_input, "no camera sees it in two frames in a row");
-    if (!point_.x_in_body.allFinite()) return fail(Code::bad_input, "its place in the body is not a number");
+    if (!point_.x_in_body.allFinite())
+      return fail(Code::bad_input, "its position in the body is not a number");
     const auto body = internal::body_by_name(model, point_.body);
     if (!body) return std::unexpected(body.error());
     body_ = *body;

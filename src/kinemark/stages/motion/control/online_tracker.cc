@@ -210,7 +210,7 @@ Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
   if (s.window().ended()) return fail(Code::usage, "a frame came after the end of the stream");
   if (s.window().frames() - s.next_frame > s.filter.window_frames())
     return fail(Code::usage,
-                "poses are ready that nobody fetched; call next() after every frame until it has none");
+                "poses are waiting to be fetched; call next() after every frame until it has none");
   if (s.window().frames() == 0) {
     s.t0_s = time_s;
   } else {

@@ -36,9 +36,10 @@ Status check_input(const model::Model& model, const data::JointMotion& motion,
     return fail(Code::bad_input, fmt::format("the motion has {} coordinates, the model {}", motion.size(),
                                              model.coordinate_count()));
   if (!model.point_constraints().empty())
-    return fail(Code::not_supported,
-                "the model has closed loops, whose inner forces motion alone does not tell; inverse dynamics "
-                "needs a tree");
+    return fail(
+        Code::not_supported,
+        "the model has closed loops, whose inner forces do not follow from the motion; inverse dynamics "
+        "needs a tree");
   if (std::ranges::all_of(model.bodies(), [](const auto& body) { return body.mass == 0.0; }))
     return fail(Code::bad_input, "no body of the model has a mass; torques need masses and inertias");
   for (const auto* rates : {&motion.v, &motion.a})

@@ -27,7 +27,7 @@ std::string describe_hinge(const data::SkeletonJoint& joint, const Eigen::Matrix
   std::string text = direction
                          ? fmt::format("axis direction known to {:.1f} deg", joint.axis_sd_rad * kDegPerRad)
                          : std::string("axis direction not known");
-  text += across < kKnown_m ? fmt::format(", its place to {}", millimetres(across)) : ", its place not";
+  text += across < kKnown_m ? fmt::format(", its position to {}", millimetres(across)) : ", its position not";
   return text + ", position along it not";
 }
 

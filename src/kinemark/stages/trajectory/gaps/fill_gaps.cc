@@ -232,7 +232,7 @@ SwapFinding tell(const data::Trajectories& in, const internal::Swap& s) {
           .last_frame = s.end - 1,
           .distance_m = s.distance_m,
           .sentence = fmt::format(
-              "markers '{}' and '{}' sit in each other's place in frames {} to {}, {:.0f} mm apart",
+              "markers '{}' and '{}' have exchanged labels in frames {} to {}, {:.0f} mm apart",
               in.names[static_cast<std::size_t>(s.first_marker)],
               in.names[static_cast<std::size_t>(s.second_marker)], s.first, s.end - 1, 1e3 * s.distance_m)};
 }

@@ -155,7 +155,7 @@ Status lock_named(const TrackOptions& options, Plan& plan) {
     const int c = model.description().find_coordinate(name);
     if (c < 0)
       return fail(Code::bad_input,
-                  fmt::format("coordinate '{}' shall be locked, and the model does not have it", name));
+                  fmt::format("coordinate '{}' is to be locked, but the model does not have it", name));
     const int speed = model.coordinates()[at(c)].speed_idx;
     if (speed < 0)
       return fail(

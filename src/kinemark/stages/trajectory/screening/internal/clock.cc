@@ -41,7 +41,7 @@ Finding describe_many(const std::vector<Leap>& leaps, const data::Trajectories& 
           .evidence = median_of(times),
           .confidence = 0.95,
           .sentence = fmt::format(
-              "At {} places between frames {} and {} all markers go {:.2f} times as far as in the "
+              "At {} instants between frames {} and {} all markers go {:.2f} times as far as in the "
               "frames beside, {}",
               leaps.size(), leaps.front().frame, leaps.back().frame, median_of(times), how)};
 }

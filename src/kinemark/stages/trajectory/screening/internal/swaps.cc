@@ -170,7 +170,7 @@ void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Findin
                        "their paths {:.0f} times better{}.",
                        t.names[static_cast<std::size_t>(start.one)],
                        t.names[static_cast<std::size_t>(start.other)], frames_in_words(first, last), ratio,
-                       ends ? "" : "; which side is right cannot be told, the shorter one is named")});
+                       ends ? "" : "; which side is right cannot be decided, the shorter one is named")});
   }
 }
 
