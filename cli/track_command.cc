@@ -107,8 +107,8 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand(
       "track", "Joint angles and torques from markers by direct marker control, with bounds");
   command->footer(
-      "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (what the "
-      "error cannot exceed,\nNaN where the markers do not determine the coordinate), Q_tau.sto and "
+      "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (bounds on "
+      "the error,\nNaN where the markers do not determine the coordinate), Q_tau.sto and "
       "Q_tau_sd.sto (N m, N), Q_rank.sto (directions that the\nlevels fix), Q_marker_errors.sto and "
       "Q_report.json. Exit status 1: the files are there, but a quality gate was missed.");
   const auto arguments = std::make_shared<TrackArguments>();
@@ -127,7 +127,7 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Tasks");
   command->add_flag("--no-lock", a.no_lock, "Leave coordinates that no marker moves to the posture task")
       ->group("Tasks");
-  command->add_option("--omega", options.omega_rad_s, "Stiffness of the pull, rad/s")
+  command->add_option("--omega", options.omega_rad_s, "Stiffness of the tracking, rad/s")
       ->capture_default_str()
       ->group("Control");
   command->add_option("--step", a.step_ms, "Largest step, ms; 0: omega x step = 0.5 or less")
@@ -142,7 +142,7 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
   command->add_option("--cutoff", options.cutoff_hz, "Low-pass of the goals, Hz; 0: none")
       ->capture_default_str()
       ->group("Control");
-  command->add_flag("--no-feed-forward", a.no_feed_forward, "Use places only, not their rates")
+  command->add_flag("--no-feed-forward", a.no_feed_forward, "Use positions only, not their rates")
       ->group("Control");
   command->callback([&globals, arguments, &run] {
     run = [&globals, arguments] { return run_command(globals, *arguments); };

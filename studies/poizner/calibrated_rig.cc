@@ -44,7 +44,7 @@ math::SE3 align_ours(const CalibratedRig& rig, const calibration::StillPoses& tr
 math::SE3 align_classic(const data::Rig& classic, const calibration::StillPoses& tree,
                         const simulation::TreePosesRecording& recorded) {
   constexpr double kBright =
-      100.0;  // counts of every channel: away from the edge, where the table is at a loss
+      100.0;  // counts of every channel: away from the edge, where the table does not hold
   Pairs pairs;
   for (int pose = 0; pose < std::min(kAligned, tree.poses()); ++pose)
     for (int led = 0; led < tree.leds(); ++led) {

@@ -61,8 +61,8 @@ void add_distances(const Cloud& cloud, StillMeasures& to) {
   }
 }
 
-/// Standard deviation of a distance between mean positions: what the rig's covariance does to both ends
-/// together, and the noise of `frames` frames.
+/// Standard deviation of a distance between mean positions: the rig's covariance propagated to both ends, and
+/// the noise of `frames` frames.
 double predict(const data::Rig& rig, const data::Counts& counts, const Cloud& cloud,
                const std::vector<Matrix3d>& frame_noise, const std::array<int, 2>& side) {
   const auto a = static_cast<std::size_t>(side[0]), b = static_cast<std::size_t>(side[1]);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// From what every seed gave to the lines of the table.
+// From the results of all seeds to the rows of the table.
 #include "studies/poizner/study_rows.h"
 
 #include <fmt/core.h>
@@ -237,7 +237,7 @@ std::vector<StudyRow> study_rows(const Seeds& seeds) {
   add_tree(seeds, rows);
   for (int wheel = 0; wheel < kWheels; ++wheel) add_wheel(seeds, wheel, rows);
   add_arm(seeds, rows);
-  // Shares of a few rigs say little: errors of one rig go together.
+  // Shares of a few rigs are not conclusive: errors of one rig are correlated.
   constexpr std::size_t kEnough = 10;
   if (seeds.size() >= kEnough) add_coverage_rows(seeds, rows);
   return rows;

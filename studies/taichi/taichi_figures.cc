@@ -33,7 +33,7 @@ VectorXd times(const TimeBase& time) {
   return VectorXd::LinSpaced(time.frames, time.time_s(0), time.time_s(time.frames - 1));
 }
 
-/// One coordinate in degrees, on the turn nearest to zero at the first frame and continuous from there on.
+/// One coordinate in degrees, on the branch nearest to zero at the first frame and continuous from there on.
 VectorXd angle_deg(const data::JointMotion& motion, std::string_view coordinate) {
   const auto c = motion.find(coordinate);
   check(c >= 0, "the figures draw coordinates of the human model");
@@ -105,7 +105,7 @@ std::string margins(const data::JointMotion& motion, const char* title) {
   return plot.svg();
 }
 
-/// Figure 4, lower part: control against least squares for one coordinate, and what it cannot exceed.
+/// Figure 4, lower part: control against least squares for one coordinate, and its bound.
 std::string joint_margin(const TaiChiDrawing& drawing, std::string_view coordinate) {
   const auto& ours = drawing.whole.motion;
   const auto c = ours.find(coordinate);

@@ -24,6 +24,7 @@
 namespace {
 
 using namespace kinemark;
+using testing_support::print_note;
 using testing_support::print_row;
 
 /// Sums over coordinates, frames and subjects of one estimator in one world.
@@ -129,8 +130,8 @@ int main(int argc, char** argv) {
   for (const auto& world : worlds) {
     const auto scores = compare(model, world, subjects);
     const bool noise_only = world.soft_tissue == 0.0;
-    print_row(true, fmt::format("least squares, {}", world.name), "reported", scores.least_squares.text());
-    print_row(true, fmt::format("direct marker control, {}", world.name), "reported", scores.control.text());
+    print_note(fmt::format("least squares, {}", world.name), scores.least_squares.text());
+    print_note(fmt::format("direct marker control, {}", world.name), scores.control.text());
     const auto& smoother = scores.smoother;
     const double covered = smoother.share(smoother.one, smoother.determined),
                  covered_two = smoother.share(smoother.two, smoother.determined);

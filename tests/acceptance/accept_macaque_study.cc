@@ -32,11 +32,10 @@ int main(int argc, char** argv) {
     if (row.limit) measured += fmt::format(", bound {:.4g}", *row.limit);
     if (row.classic) measured += fmt::format(", classic {:.4g}", *row.classic);
     if (row.paper) measured += fmt::format(", paper {:.4g}", *row.paper);
-    if (asked.empty()) {  // shares of a single seed: nothing is asked of them, so nothing passes
-      fmt::print("{}: {} {}\n", row.quantity, measured, row.unit);
-      continue;
-    }
-    testing_support::print_row(row.pass(), row.quantity, asked + row.unit, measured);
+    if (asked.empty())  // shares of a single seed: nothing is asked of them, so nothing passes
+      testing_support::print_note(row.quantity, measured + " " + row.unit);
+    else
+      testing_support::print_row(row.pass(), row.quantity, asked + row.unit, measured);
   }
   return testing_support::exit_status();
 }

@@ -23,6 +23,7 @@
 namespace {
 
 using namespace kinemark;
+using testing_support::print_note;
 using testing_support::print_row;
 
 double median(std::vector<double> values) {
@@ -86,8 +87,12 @@ void study(int last) {
     std::string asked;
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
     if (row.at_most) asked += fmt::format("<= {:.4g} ", *row.at_most);
-    print_row(row.pass(), row.quantity, asked + row.unit,
-              fmt::format("{:.4g}{}", row.ours, row.limit ? fmt::format(" (limit {:.4g})", *row.limit) : ""));
+    const std::string measured =
+        fmt::format("{:.4g}{}", row.ours, row.limit ? fmt::format(" (limit {:.4g})", *row.limit) : "");
+    if (asked.empty())
+      print_note(row.quantity, measured + " " + row.unit);
+    else
+      print_row(row.pass(), row.quantity, asked + row.unit, measured);
   }
   if (last < 10) return;
   std::vector<double> mean, most;

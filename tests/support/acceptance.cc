@@ -20,6 +20,11 @@ void print_row(bool passed, const std::string& check, const std::string& asked, 
   failed = failed || !passed;
 }
 
+void print_note(const std::string& check, const std::string& measured) {
+  fmt::print("NOTE | {} | - | {}\n", check, measured);
+  std::fflush(stdout);
+}
+
 int skip_all(const std::string& what) {
   fmt::print("SKIP | {} | - | NOT TESTED: the real recordings are absent; set KINEMARK_TEST_DATA\n", what);
   return 0;

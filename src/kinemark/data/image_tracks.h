@@ -13,8 +13,8 @@
 
 namespace kinemark::data {
 
-/// Labelled points in the images of calibrated cameras: F frames, C cameras, M markers. Images are free of
-/// nothing: distortion and warp are in them, as the cameras have them.
+/// Labelled points in the images of calibrated cameras: F frames, C cameras, M markers. Image coordinates are
+/// uncorrected: they contain the lens distortion and detector warp of the cameras.
 struct ImageTracks {
   std::vector<std::string> names;  ///< M
   std::vector<Camera> cameras;     ///< C, calibrated

@@ -39,7 +39,7 @@ struct JointMotion {
                               ///< when not computed, NaN where it is not known
   Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN
                           ///< where not determined
-  Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where not seen
+  Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where the marker was not seen
   Array<FrameStatus> status;   ///< F
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }                                  ///< F

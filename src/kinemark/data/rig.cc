@@ -51,8 +51,9 @@ Status check_pose(const Camera& camera) {
       (pose.rotation * pose.rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (off > 1e-6 || pose.rotation.determinant() < 0.0)
     return wrong(
-        camera, fmt::format("its rotation is not one: R R' differs from 1 by {:.2g}, determinant {:.6g}", off,
-                            pose.rotation.determinant()));
+        camera,
+        fmt::format("its rotation is not orthonormal: R R' differs from 1 by {:.2g}, determinant {:.6g}", off,
+                    pose.rotation.determinant()));
   return {};
 }
 

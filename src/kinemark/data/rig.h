@@ -95,7 +95,7 @@ struct Camera {
   [[nodiscard]] Eigen::Vector3d centre_in_world() const { return cam_from_world.inverse().translation; }
 };
 
-/// Where each calibrated parameter of a camera stands in Jacobians and in Rig::covariance. Values are the
+/// Index of each calibrated parameter of a camera in Jacobians and in Rig::covariance. Values are the
 /// fields of Camera, but for rotation: a small rotation vector (rad) applied after cam_from_world's, and
 /// centre: a shift of the lens in the world (m).
 struct ParameterLayout {

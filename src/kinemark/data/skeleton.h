@@ -14,18 +14,18 @@
 
 namespace kinemark::data {
 
-/// How the markers of a segment lie among themselves: on a line, in a plane, or neither.
+/// Geometry of a segment's markers: on a line, in a plane, or neither.
 enum class SegmentKind : std::uint8_t { line, plane, solid };
 
-/// How two segments move against each other: about a point, or about an axis.
+/// Relative motion of two segments: about a point, or about an axis.
 enum class JointKind : std::uint8_t { ball, hinge };
 
 /// What is known of a joint centre in one frame.
 enum class CentreState : std::uint8_t {
   undetermined,  ///< the visible markers leave a curve or more open: NaN
-  ambiguous,     ///< several places fit alike; the best one is given, its covariance is that place's own
+  ambiguous,     ///< several positions fit equally well; the best one is given with its own covariance
   bridged,       ///< chosen or found with the help of neighbouring frames
-  determined,    ///< one place fits, by the frame's own markers
+  determined,    ///< one position fits, from the markers of this frame alone
 };
 
 [[nodiscard]] std::string_view to_string(SegmentKind kind);  ///< "line", "plane", "solid"
@@ -33,8 +33,8 @@ enum class CentreState : std::uint8_t {
 /// "undetermined", "ambiguous", "bridged", "determined"
 [[nodiscard]] std::string_view to_string(CentreState state);
 
-/// Which markers ride on which segment and which segments meet in a joint: what every method of
-/// stages/skeleton needs to know beforehand.
+/// Which markers belong to which segment and which segments a joint connects: the input that every method of
+/// stages/skeleton needs.
 struct SegmentLayout {
   /// Markers that move together.
   struct Segment {
@@ -54,7 +54,7 @@ struct SegmentLayout {
   [[nodiscard]] Status validate(std::int64_t markers) const;
 };
 
-/// A rigid set of markers and their places in the segment's own axes.
+/// A rigid set of markers and their positions in the segment's own axes.
 struct SkeletonSegment {
   std::string name;                       ///< as in the layout
   SegmentKind kind = SegmentKind::solid;  ///< how its markers lie
@@ -74,7 +74,7 @@ struct SkeletonJoint {
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(),
                   axis_in_child = Eigen::Vector3d::Zero();  ///< unit length; zero for a ball joint
   double axis_sd_rad = 0.0;          ///< of each of the two tilts of the axis; NaN when unknown
-  double range_of_motion_rad = 0.0;  ///< largest turn of child against parent seen
+  double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen
   std::string method;                ///< "SCoRE", "articulated", ...
   std::string words;                 ///< what the motion shows of this joint and what it does not
 };
@@ -86,7 +86,7 @@ struct SkeletonLength {
   double length_m = 0.0, sd_m = 0.0;  ///< SD is NaN when unknown
 };
 
-/// Segments, joints and, frame by frame, the joints' places: F frames, J joints, metres.
+/// Segments, joints and, frame by frame, the joint centres: F frames, J joints, metres.
 struct Skeleton {
   std::vector<std::string> markers;       ///< M, as in the recording
   std::vector<SkeletonSegment> segments;  ///< as in the layout, with the places of their markers

@@ -23,7 +23,7 @@ struct Table {
   std::vector<std::string> columns;   ///< K names, time not among them
   Array<double> time_s;               ///< R, increasing
   Array<double> values;               ///< R x K, row first; NaN where the file has none
-  std::vector<std::string> warnings;  ///< what was odd about the file, one sentence each
+  std::vector<std::string> warnings;  ///< irregularities of the file, one sentence each
 
   [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(time_s.size()); }  ///< R
   [[nodiscard]] std::int64_t find(std::string_view column) const;  ///< index of a column, or -1

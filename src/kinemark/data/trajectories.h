@@ -14,7 +14,8 @@
 
 namespace kinemark::data {
 
-/// Where a sample comes from. Anything but `measured` was made by somebody or is not there.
+/// Provenance of a sample. Only `measured` samples come from the cameras; the others were computed or are
+/// absent.
 enum class SampleState : std::uint8_t { missing, measured, interpolated, model_filled, upsampled, rejected };
 
 /// Name of a state as written in files and tables: "missing", "measured", ...
@@ -35,8 +36,8 @@ struct Trajectories {
   std::vector<std::string> methods;
   /// F x M; 0 as recorded, k by methods[k - 1]; empty where nothing was made.
   Array<std::uint8_t> method;
-  /// When a marker was really seen, s after its frame's time: M (the same in every frame), F x M, or empty
-  /// (0).
+  /// Time at which a marker was actually measured, s after its frame's time: M (the same in every frame), F x
+  /// M, or empty (0).
   Array<double> sample_offset_s;
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }                               ///< F

@@ -23,7 +23,7 @@ struct AnalogChannels {
   Array<double> values;            ///< S x K
 };
 
-/// An instant that somebody labelled.
+/// A labelled instant (an event).
 struct Event {
   std::string label;    ///< "Foot Strike"
   std::string context;  ///< "Left", "Right", "General" or empty
@@ -44,7 +44,7 @@ struct Trial {
   std::string source;            ///< file name as given
   std::string format;            ///< "C3D", "TRC"
   std::string units_in_file;     ///< length unit of the file: "mm", "m", or empty when it did not say
-  std::string software;          ///< who wrote the file, or empty
+  std::string software;          ///< the program that wrote the file, or empty
   std::int64_t first_frame = 1;  ///< number of the first frame in the file's own counting
   Trajectories markers;          ///< t0 is (first_frame - 1) / rate for C3D, the first time written for TRC
   Array<float>
@@ -54,7 +54,7 @@ struct Trial {
   AnalogChannels analog;      ///< no channels: the file has none
   std::vector<Event> events;  ///< in the order of the file
   std::vector<ForcePlate> force_plates;  ///< in the order of the file
-  std::vector<std::string> warnings;     ///< what was odd about the file, one sentence each
+  std::vector<std::string> warnings;     ///< irregularities of the file, one sentence each
 
   /// number of the last frame in the file's own counting
   [[nodiscard]] std::int64_t last_frame() const { return first_frame + markers.frames() - 1; }

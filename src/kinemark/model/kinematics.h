@@ -9,14 +9,15 @@
 
 namespace kinemark::model {
 
-/// Poses of all bodies, motion fields of all joints and places of all markers in state x (state_count()
+/// Poses of all bodies, motion fields of all joints and positions of all markers in state x (state_count()
 /// numbers). Everything else here needs it first. O(bodies + markers).
 void kinematics(const Model& model, Workspace& w, const VectorXd& x);
 
 /// Body velocities and bias accelerations for speeds v (speed_count() numbers). After kinematics().
 void velocities(const Model& model, Workspace& w, const VectorXd& v);
 
-/// World place (m) of a point fixed in a body (tree index; data::kGround for the ground). After kinematics().
+/// World position (m) of a point fixed in a body (tree index; data::kGround for the ground). After
+/// kinematics().
 [[nodiscard]] Vector3d point_in_world(const Workspace& w, int body, const Vector3d& x_in_body);
 
 /// Velocity (m/s) and acceleration at zero vdot (m/s^2, "Jdot v") of a world point moving with a body. After

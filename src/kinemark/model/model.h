@@ -45,10 +45,10 @@ struct CompileOptions {
 /// A body tree compiled for computing: constant, shared by threads, each with a Workspace of its own.
 class Model {
  public:
-  /// How one of the file's coordinates follows from the state.
+  /// How one coordinate of the file is computed from the state.
   struct Coordinate {
-    int state_idx = -1;             ///< place in x; -1 when it belongs to a free joint or is coupled
-    int speed_idx = -1;             ///< place in v; -1 likewise
+    int state_idx = -1;             ///< index in x; -1 when it belongs to a free joint or is coupled
+    int speed_idx = -1;             ///< index in v; -1 likewise
     int free_joint = -1;            ///< index into free_joints(), or -1
     int free_axis = -1;             ///< 0-2 rotation, 3-5 translation, within the free joint
     int source = -1;                ///< the coordinate that this one is coupled to, or -1
@@ -78,9 +78,9 @@ class Model {
   /// One rigid body and the joint that carries it.
   struct Body {
     int parent = data::kGround;                    ///< always smaller than the body's own index
-    int description_idx = -1;                      ///< place in the description; -1 never occurs
+    int description_idx = -1;                      ///< index in the description; -1 never occurs
     math::SE3 parent_from_joint, body_from_joint;  ///< m
-    /// no turn, so that products are left out
+    /// no rotation, so that products are left out
     bool plain_parent_rotation = true, plain_child_rotation = true;
     int first_primitive = 0, last_primitive = 0;    ///< [first, last); translations first
     int first_column = 0, last_column = 0;          ///< [first, last)

@@ -19,7 +19,7 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
   [[nodiscard]] virtual std::size_t size() const = 0;  ///< bytes in all
-  /// What error sentences begin with: the file's name.
+  /// The file's name, with which error messages begin.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// Fill `out` from `offset`; returns how many bytes there were (fewer only at the end).
   [[nodiscard]] virtual Result<std::size_t> read_at(std::size_t offset, std::span<std::byte> out) const = 0;

@@ -27,7 +27,7 @@ struct C3dHeaderEvent {
   bool shown = true;    ///< the file's own flag that the event is to be shown
 };
 
-/// The first block of a C3D file, as it is; what is true of the file is decided in layout.h.
+/// The first block of a C3D file, as stored; layout.h resolves its contradictions with the parameters.
 struct C3dHeader {
   int parameter_block = 2;             ///< block at which the parameters begin
   int points = 0;                      ///< points in a frame

@@ -15,7 +15,7 @@
 
 namespace kinemark::io {
 
-/// What a C3D file holds and where, once header, parameters and file size have been heard.
+/// Contents of a C3D file and their byte positions, derived from header, parameters and file size.
 struct C3dLayout {
   Processor processor = Processor::intel;  ///< how numbers are stored
   bool is_float = true;                    ///< 32-bit float samples; else 16-bit integers
@@ -40,9 +40,10 @@ struct C3dLayout {
   [[nodiscard]] std::int64_t analog_per_frame() const { return analog_channels * samples_per_frame; }
 };
 
-/// Hear header, parameters and the file's size, and settle what is true. Parameters win over the header;
-/// where they cannot be true (the frames do not fit) the header is believed, and the file's size before
-/// both. Every contradiction is one sentence in `warnings`. Nothing that makes sense: Code::bad_input.
+/// Derive the layout from header, parameters and file size. Where they disagree, parameters take precedence
+/// over the header; where the parameters cannot be right (the frames do not fit into the file) the header is
+/// used, and the file size overrides both. Each contradiction adds one sentence to `warnings`.
+/// Code::bad_input when no consistent layout is found.
 [[nodiscard]] Result<C3dLayout> settle_layout(const C3dHeader& header, const C3dParameters& parameters,
                                               Processor processor, std::size_t file_bytes,
                                               std::vector<std::string>& warnings);

@@ -62,8 +62,8 @@ struct C3dParameters {
   C3dGroup& group(std::string_view name);
 };
 
-/// Read a parameter section, from its four-byte head to its end. Never fails: what cannot be read is left
-/// out and told in `warnings`. Entries are found by their pointers, which real files get right more often
+/// Read a parameter section, from its four-byte head to its end. Never fails: what cannot be read is left out
+/// and reported in `warnings`. Entries are found by their pointers, which real files get right more often
 /// than lengths; each holds at most the bytes up to the next one, so time and memory are bounded by the
 /// section.
 [[nodiscard]] C3dParameters parse_parameters(std::span<const std::byte> section, Processor processor,

@@ -29,7 +29,7 @@ struct PlateForces {
   /// axes: force on the body (N), moment about the centre of pressure (N m, along the plate's normal), centre
   /// of pressure on the plate's surface (m; NaN where the plate is empty). Bodies are left open.
   data::Wrenches wrenches;
-  std::vector<std::string> warnings;  ///< what was odd or mended, one sentence each
+  std::vector<std::string> warnings;  ///< irregularities and repairs, one sentence each
 };
 
 /// Forces of the plates of types 1, 2, 3, 4 and 7. Each frame gets the mean of the analog samples from half a

@@ -272,14 +272,14 @@ TEST(PlateForces, WhatTheBodyDoesToThePlateIsTurnedRound) {
     if (i % 7 >= 1) trial.analog.values[i] *= -1.0;
   const auto forces = through_a_file(trial).value();
   expect_truth(setting, forces.wrenches.items.at(0), 2);
-  EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 tells what the body does to it")));
+  EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 stores the force of the body")));
 }
 
 TEST(PlateForces, CornersTheWrongWayRoundAreTold) {
   Setting setting;
   setting.markers_below = true;  // all that is certain: the body is where the markers are
   const auto forces = through_a_file(setting.trial(5, [](double) { return 1.0; })).value();
-  EXPECT_THAT(forces.warnings, Contains(HasSubstr("corners that run the wrong way round")));
+  EXPECT_THAT(forces.warnings, Contains(HasSubstr("corners in the opposite order")));
   EXPECT_GT(-of_frame(forces.wrenches.items.at(0).force, 2).z(), 600.0);  // towards the markers
 }
 

@@ -26,8 +26,8 @@ struct C3dReadOptions {
 /// piece by piece, so that hours of data need no more memory than the caller's piece.
 class C3dReader {
  public:
-  /// Read header and parameters. Not a C3D file, or nothing that makes sense: Code::bad_input; cannot be
-  /// opened: Code::io.
+  /// Read header and parameters. Code::bad_input when it is not a C3D file or its head is not valid; Code::io
+  /// when it cannot be opened.
   static Result<C3dReader> open(const std::filesystem::path& path);
   /// Read header and parameters; Code::bad_input when it is no C3D file or makes no sense.
   static Result<C3dReader> open(std::unique_ptr<ByteSource> source);
@@ -55,7 +55,7 @@ class C3dReader {
 };
 
 /// The whole file, in metres. See decode_frames() for what is missing, measured or interpolated, and
-/// apply_provenance() for what our own files tell beyond that.
+/// apply_provenance() for what files of kinemark store in addition.
 /// Memory: the trial's arrays and half a megabyte per thread.
 [[nodiscard]] Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options = {});
 

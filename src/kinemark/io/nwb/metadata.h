@@ -17,7 +17,7 @@ struct NwbSource {
   std::string xxh3;        ///< XXH3 checksum of the content, 16 hexadecimal digits; empty when not known
 };
 
-/// What an NWB file tells beside the samples. Every field may stay as it is.
+/// Metadata of an NWB file. Every field is optional.
 struct NwbMetadata {
   std::string identifier;  ///< unique name of the recording; empty: made from everything else in this struct
   std::string session_description = "marker trajectories";  ///< one sentence

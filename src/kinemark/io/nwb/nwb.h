@@ -23,7 +23,8 @@ struct NwbFile {
   data::Trajectories trajectories;               ///< positions, m, with their provenance
   std::optional<data::Derivatives> derivatives;  ///< where the file has them
   NwbMetadata metadata;                          ///< who, when, how
-  std::vector<std::string> warnings;  ///< what was odd about the file or could not be used, one sentence each
+  std::vector<std::string>
+      warnings;  ///< irregularities of the file and parts that could not be used, one sentence each
 };
 
 /// Read marker positions and what belongs to them. Files of write_nwb() come back bit by bit. Of other files
@@ -47,7 +48,7 @@ struct NwbWriteOptions {
                                const data::Derivatives* derivatives = nullptr,
                                const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
 
-/// What a file will hold, told before its samples are there.
+/// Contents of a file, declared before its samples are written.
 struct NwbOutline {
   std::vector<std::string> names;                      ///< M, unique
   TimeBase time;                                       ///< F = time.frames
@@ -64,7 +65,7 @@ struct NwbOutline {
     per_sample
   } offsets = Offsets::none;  ///< of this recording
 
-  /// The outline of a recording that is there.
+  /// The outline of an existing recording.
   static NwbOutline of(const data::Trajectories& trajectories, const data::Derivatives* derivatives);
 };
 

@@ -12,14 +12,14 @@
 
 namespace kinemark::io {
 
-/// How much one marker counts.
+/// The weight of one marker.
 struct IkMarkerTask {
   std::string name;     ///< of the marker in the model
   double weight = 0.0;  ///< >= 0; OpenSim's default is 0
   bool apply = true;    ///< false: the marker takes no part
 };
 
-/// A coordinate pulled towards a value.
+/// A coordinate task: a coordinate with a target value and a weight.
 struct IkCoordinateTask {
   /// Where the value comes from.
   enum class Target : std::uint8_t {

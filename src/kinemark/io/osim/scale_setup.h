@@ -48,8 +48,8 @@ struct ScaleSetup {
   enum class Step : std::uint8_t { measurements, manual_scale };
 
   std::string name;        ///< of the subject; may be empty
-  double mass_kg = 0.0;    ///< 0: not said (OpenSim writes -1)
-  double height_mm = 0.0;  ///< 0: not said; for information only
+  double mass_kg = 0.0;    ///< 0: not given (OpenSim writes -1)
+  double height_mm = 0.0;  ///< 0: not given; for information only
 
   std::filesystem::path model_file, marker_set_file;  ///< GenericModelMaker
 

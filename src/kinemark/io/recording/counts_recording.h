@@ -22,7 +22,7 @@ struct CountsRecording {
   data::Counts counts;                      ///< F x L x C x 4 with times and flags
   std::vector<RecordingMetadata> metadata;  ///< in the order of the file
   RecordingEnd end = RecordingEnd::closed;  ///< how the file ends
-  /// What is odd, one sentence each: not closed, cut, damaged, frames lost, clock jumps.
+  /// Irregularities, one sentence each: not closed, cut, damaged, frames lost, clock jumps.
   std::vector<std::string> warnings;
 };
 
@@ -33,8 +33,8 @@ struct CountsRecording {
                                   std::span<const RecordingMetadata> metadata, bool force);
 
 /// Everything that can be kept of a recording of counts, closed or not, damaged or not. Frames that are
-/// missing in between are flagged kCountLost; every oddity is a warning. Code::bad_input when the file is no
-/// recording of counts. Memory: the counts, and at most 16 times the file for frames that are lost.
+/// missing in between are flagged kCountLost; every irregularity is a warning. Code::bad_input when the file
+/// is no recording of counts. Memory: the counts, and at most 16 times the file for frames that are lost.
 [[nodiscard]] Result<CountsRecording> read_counts(const std::filesystem::path& path);
 /// The same of a recording that is open already and of which nothing was read.
 [[nodiscard]] Result<CountsRecording> read_counts(RecordingReader reader);

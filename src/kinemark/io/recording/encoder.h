@@ -12,7 +12,7 @@
 
 namespace kinemark::io {
 
-/// Turns channels, metadata and messages into the bytes of a recording; knows nothing of files. The bytes of
+/// Encodes channels, metadata and messages as the bytes of a recording; does not access files. The bytes of
 /// all calls, in order, are the recording; every call but finish() makes one group: records, then a check
 /// record that covers them and follows from the check before.
 class RecordingEncoder {

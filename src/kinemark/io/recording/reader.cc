@@ -116,7 +116,7 @@ Result<RecordingReader::Group> RecordingReader::scan_group(std::uint64_t begin, 
     if (op == 0 || op == kFooter || op == kDataEnd || length > kMaxGroupBytes ||
         at + length - begin > kMaxGroupBytes + kRecordHead) {
       group.what =
-          fmt::format("a record of type {:#04x} and {} bytes has no place at byte {}", op, length, at);
+          fmt::format("a record of type {:#04x} and {} bytes is not valid at byte {}", op, length, at);
       return group;
     }
     if (at + kRecordHead + length > size)
@@ -181,7 +181,7 @@ Status RecordingReader::read_group() {
   return {};
 }
 
-/// The empty string, or what makes no sense.
+/// The empty string, or a description of the error.
 std::string RecordingReader::take_records(std::span<const std::byte> records) {
   while (!records.empty()) {
     Cursor head(records);

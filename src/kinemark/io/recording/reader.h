@@ -20,7 +20,7 @@ namespace kinemark::io {
 /// How a recording ends.
 enum class RecordingEnd : std::uint8_t {
   closed,   ///< by close(), summary intact
-  open,     ///< after a whole group: the recorder was stopped, or records still
+  open,     ///< after a whole group: the recorder was stopped, or is still recording
   cut,      ///< within a record
   damaged,  ///< by bytes that do not match their checksum or make no sense
 };
@@ -40,7 +40,8 @@ struct RecordingReadOptions {
 };
 
 /// Reads a recording message by message. Every message handed out has passed its checksum. Damage is not an
-/// error but an end: end() and damage() tell. Memory: at most about 40 MB, and never more than the file is
+/// error: reading ends there, and end() and damage() report it. Memory: at most about 40 MB, and never more
+/// than the file is
 /// long, whatever the file claims.
 class RecordingReader {
  public:
@@ -80,7 +81,7 @@ class RecordingReader {
   struct Group {
     Found found = Found::damaged;
     std::size_t bytes = 0;    ///< of the group's records, check record left out
-    std::uint64_t check = 0;  ///< what the check record says
+    std::uint64_t check = 0;  ///< checksum in the check record
     std::string what;
   };
 

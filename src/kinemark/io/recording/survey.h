@@ -31,7 +31,7 @@ struct ChannelSurvey {
   double first_time_s = 0.0, last_time_s = 0.0;  ///< earliest and latest log time
 };
 
-/// What a recording holds and what is odd about it.
+/// Contents and irregularities of a recording.
 struct RecordingSurvey {
   std::uint64_t bytes = 0;                  ///< bytes of the file
   std::int64_t messages = 0;                ///< of all channels
@@ -41,7 +41,7 @@ struct RecordingSurvey {
   RecordingEnd end = RecordingEnd::open;    ///< how the file ends
   std::vector<RecordingDamage> damage;      ///< pieces that cannot be read
   std::vector<ClockJump> clock_jumps;       ///< the first hundred
-  std::vector<std::string> warnings;        ///< all that is odd, one sentence each
+  std::vector<std::string> warnings;        ///< all irregularities, one sentence each
 };
 
 /// Reads the whole file, past damage where it can, and keeps no message. Errors as RecordingReader::open().

@@ -34,8 +34,8 @@ struct RecordingOptions {
 ///
 /// append() returns once the whole group is with the operating system: acknowledged. A program killed at any
 /// moment leaves every acknowledged message readable; at most the one being written is torn, and readers see
-/// that. A failure (disk full, file too large) takes the torn bytes back, is told once by append(), and ends
-/// the recording: what was acknowledged before stays. Not for two threads at once.
+/// that. A failure (disk full, file too large) takes the torn bytes back, is reported once by append(), and
+/// ends the recording: what was acknowledged before stays. Not for two threads at once.
 class RecordingWriter {
  public:
   /// The file appears at once, with its header; Code::io when it exists already (unless options.force) or

@@ -15,8 +15,8 @@
 
 namespace kinemark::io {
 
-/// Reads fields of one table into variables that already hold the defaults. The first thing that is wrong
-/// stops the rest; finish() returns it, or names a key that nobody asked for.
+/// Reads fields of one table into variables that already hold the defaults. Reading stops at the first error;
+/// finish() returns it, or names a key that was never read.
 class TomlFields {
  public:
   /// `where` begins every failure: "rig.toml: camera 'A'".

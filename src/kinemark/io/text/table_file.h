@@ -14,8 +14,9 @@ namespace kinemark::io {
 /// nColumns, inDegrees) and version 3 (DataType=double, or VecN whose cells "1,2,3" become the columns
 /// name_1, name_2, name_3), and tables that begin with the line of labels (warning).
 ///
-/// Values are as written; blank and NaN cells are NaN. Labels and rows are believed when the header counts
-/// them differently (warning). A row that repeats the time of the row before is left out (warning). A blank
+/// Values are as written; blank and NaN cells are NaN. Where the header's counts differ from the labels and
+/// rows, the labels and rows are used (warning). A row that repeats the time of the row before is left out
+/// (warning). A blank
 /// line ends the data. The first column is time, in any case of letters.
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a row with too few or too many

@@ -21,8 +21,8 @@ namespace kinemark::io {
 /// So is an exact (0, 0, 0), which programs write that know no blank, except where the marker passes through
 /// the origin: the frames just before and after the run of zeros (one of them suffices at an end of the
 /// trial) hold the marker within 5 mm of the origin. Markers without any sample stay, all missing. Zeros and
-/// such markers are told in the warnings, and so is a header whose NumFrames or NumMarkers contradict the
-/// rows and names, which are believed. A blank line ends the data.
+/// such markers are reported in the warnings, and so is a header whose NumFrames or NumMarkers contradict the
+/// rows and names; the rows and names are then used. A blank line ends the data.
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a marker name that occurs twice,
 /// an unknown unit, a file that ends inside its header or holds no row. Code::io when it cannot be read.
@@ -45,8 +45,8 @@ struct TrcWriteOptions {
 };
 
 /// Write the markers of a trial as OpenSim reads them: missing and rejected samples are NaN, never 0 0 0, and
-/// every row has 3 M + 2 cells. Analog data, events and states other than "not there" have no place in a TRC.
-/// Code::bad_input when a marker name holds a tab or line end, or the trial is invalid; Code::io as
+/// every row has 3 M + 2 cells. Analog data, events and states other than missing cannot be stored in a TRC
+/// file. Code::bad_input when a marker name holds a tab or line end, or the trial is invalid; Code::io as
 /// OutputFile.
 [[nodiscard]] Status write_trc(const std::filesystem::path& path, const data::Trial& trial,
                                const TrcWriteOptions& options = {});

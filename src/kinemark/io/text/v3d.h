@@ -17,7 +17,7 @@
 namespace kinemark::io {
 
 /// Signals of three angles through time, F frames and S signals, read as orientations of segments in the
-/// laboratory: turn about x, then about the new y, then about the new z (intrinsic X-Y-Z Cardan angles).
+/// laboratory: rotation about x, then about the new y, then about the new z (intrinsic X-Y-Z Cardan angles).
 struct SegmentOrientations {
   std::vector<std::string> names;  ///< S, the file's signal names
   std::int64_t frames = 0;         ///< F
@@ -39,7 +39,7 @@ struct V3dFile {
 
 /// Options of read_v3d().
 struct V3dReadOptions {
-  double rate_hz = 0.0;  ///< of the rows, which the file does not tell; must be given, > 0
+  double rate_hz = 0.0;  ///< of the rows, which the file does not store; must be given, > 0
 };
 
 /// Read a Visual3D text export.
@@ -51,9 +51,9 @@ struct V3dReadOptions {
 /// first, are not read (warning). A sample is missing when one of its three cells is blank, NaN or infinite
 /// or its row ends before it. Zeros are zeros. A blank line ends the data.
 ///
-/// LINK_MODEL_BASED is whatever the model of the file computed. That its angles are orientations of segments
-/// in the laboratory must be known or tested: they then turn the vectors between landmarks of one segment
-/// into constants.
+/// LINK_MODEL_BASED signals are whatever the model of the file computed. That their angles are orientations
+/// of segments in the laboratory must be known or tested: rotated into the segment, the vectors between
+/// landmarks of one segment are then constant.
 ///
 /// Code::usage without a positive rate; Code::bad_input, with line and column, for anything else that does
 /// not fit; Code::io when it cannot be read. O(bytes); memory at most 16 times the text + 125 MB.

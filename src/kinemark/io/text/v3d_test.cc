@@ -212,7 +212,7 @@ TEST(ParseV3d, WithoutARateItAsksForOne) {
     const auto file = parse_v3d(Text{}.join(), "t.v3d", {.rate_hz = rate});
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error().code, Code::usage);
-    EXPECT_THAT(file.error().message, HasSubstr("t.v3d: a Visual3D text export tells no rate"));
+    EXPECT_THAT(file.error().message, HasSubstr("t.v3d: a Visual3D text export stores no rate"));
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace kinemark::pipeline::internal {
 
-/// Makes a folder with its parents; those that it made go again when they stay empty.
+/// Creates a folder and its parents; those that were created are removed again if they stay empty.
 class NewFolder {
  public:
   explicit NewFolder(std::filesystem::path folder) {

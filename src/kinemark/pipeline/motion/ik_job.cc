@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How the recording lies to the model when they do not meet, in one sentence.
+/// One sentence on the offset between recording and model when they do not coincide.
 std::string offset_sentence(const motion::IkResult& result, const IkJob& job, const model::Model& model,
                             const data::Trajectories& markers) {
   const auto& mean = result.mean_marker_error_m;

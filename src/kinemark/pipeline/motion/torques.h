@@ -14,7 +14,7 @@
 
 namespace kinemark::pipeline {
 
-/// What there is to tell of the torques of a motion.
+/// Facts about the torques of a motion, for the report.
 struct TorqueAccount {
   std::vector<std::filesystem::path> files;  ///< of forces, as read
   std::vector<std::pair<std::string, std::string>>

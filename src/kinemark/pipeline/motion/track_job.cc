@@ -64,7 +64,7 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   return run;
 }
 
-/// What the levels fix together, frame by frame.
+/// Rank of all levels, frame by frame.
 data::Table rank_table(const motion::TrackResult& result) {
   data::Table table;
   table.name = "Rank of the tasks";
@@ -78,8 +78,8 @@ data::Table rank_table(const motion::TrackResult& result) {
   return table;
 }
 
-/// Standard deviations of the torques: those of the inverse dynamics of the motion as it came out. Where that
-/// cannot be done (closed loops, a few frames) they stay away, and a warning says why.
+/// Standard deviations of the torques, from inverse dynamics of the resulting motion. Where that is not
+/// possible (closed loops, few frames) they are absent, with a warning.
 void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
   auto motion = result.motion;
   const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
@@ -125,8 +125,8 @@ Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
   outcome.result = std::move(*result);
   TorqueAccount account;
   if (!job.forces.empty()) {
-    // What the controller pushes with knows nothing of the ground: torques anew, from the motion and the
-    // forces.
+    // The controller's torques do not include ground reactions: they are computed again from the motion and
+    // the forces.
     auto torques = add_torques(inputs->model, outcome.result.motion, job.forces,
                                {.error_bars = job.options.error_bars, .threads = job.options.threads});
     if (!torques) return std::unexpected(torques.error());

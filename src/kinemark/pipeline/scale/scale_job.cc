@@ -111,7 +111,7 @@ class ScaleRun {
     return place(trial, *options_of_placer);
   }
 
-  /// Sizes as well as one pose tells them, then the markers where they are.
+  /// Sizes as far as one pose determines them, then the marker positions.
   Status scale_by_static_trial() {
     if (job_.static_trial.empty() || setup_) return {};
     data::Trajectories trial;
@@ -169,7 +169,7 @@ class ScaleRun {
     return std::move(out_);
   }
 
-  /// Targets can be written: said before anything long is done.
+  /// Checks that the targets can be written before any long computation.
   Status check_targets() const {
     const auto staging = Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force);
     if (!staging) return std::unexpected(staging.error());
@@ -177,7 +177,7 @@ class ScaleRun {
   }
 
  private:
-  /// --static wins over the file that the setup names itself.
+  /// --static takes precedence over the file named by the setup.
   Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
                     bool by_setup = false) const {
     const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;

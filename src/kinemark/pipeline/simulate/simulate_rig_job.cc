@@ -29,7 +29,7 @@ constexpr std::array<std::pair<std::string_view, RigSceneKind>, 4> kScenes{
      {"sign", RigSceneKind::sign},
      {"markers", RigSceneKind::markers}}};
 
-/// A scene, how long it lasts unless told, and the stream of its noise.
+/// A scene, its default duration, and the stream of its noise.
 struct Staged {
   simulation::RigScene scene;
   double duration_s = 0.0;
@@ -184,7 +184,7 @@ std::vector<std::string> notes_on(const simulation::RigRecording& recorded) {
   return out;
 }
 
-/// A file to write: its name, and how.
+/// A file to write: its name and its writer.
 struct Output {
   std::string name;
   std::function<Status(const fs::path&)> write;
@@ -201,7 +201,7 @@ Output counts_file(std::string name, data::Counts counts, std::vector<io::Record
           }};
 }
 
-/// Recordings of known things: what a calibration has to know of them travels in the recording.
+/// Recordings of known objects, with their description for the calibration in the metadata.
 Status add_calibration(const RigJob& job, const simulation::PhysicalRig& rig, std::vector<Output>& out) {
   const auto known = [](std::map<std::string, std::string> values) {
     return io::RecordingMetadata{"calibration", std::move(values)};

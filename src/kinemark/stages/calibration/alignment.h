@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// How far cameras stand from where they should, and what to turn next.
+// Deviation of the cameras from their nominal poses, and the next adjustment to make.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ struct CameraAlignment {
   std::string camera;       ///< its name
   Eigen::Vector3d shift_m;  ///< lens, from the wanted place
   Eigen::Vector3d
-      turn_deg;  ///< what is missing: tilt up, pan to the right, roll clockwise as seen from behind
+      turn_deg;  ///< rotation still needed: tilt up, pan to the right, roll clockwise as seen from behind
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero(),
                   turn_sd_deg = Eigen::Vector3d::Zero();  ///< 0: unknown
 };
@@ -36,17 +36,17 @@ struct CameraAlignment {
 struct Alignment {
   std::vector<CameraAlignment> cameras;  ///< in the order of the rig
   bool aligned = false;                  ///< everything is within tolerance
-  std::string next;                      ///< one thing to do: the worst, by its tolerance
+  std::string next;  ///< the next adjustment: the largest deviation relative to its tolerance
 };
 
-/// Compare two rigs of the same cameras. The world of `found` is laid on that of `wanted` first, by lenses
-/// and lines of sight: only where cameras stand to each other matters. Standard deviations are those of
+/// Compare two rigs of the same cameras. The world of `found` is first aligned with that of `wanted` by
+/// lenses and optical axes: only the relative poses of the cameras matter. Standard deviations are those of
 /// found.covariance.
 [[nodiscard]] Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& found,
                                                   const AlignmentOptions& options = {});
 
 /// The same from sightings of the tree, by calibrate_bundle() without its grid: four poses will do, some
-/// hundred tell turns to a tenth of a degree. Fails as calibrate_bundle(), but never refuses a misfit.
+/// hundred give rotations to a tenth of a degree. Fails as calibrate_bundle(), but never refuses a misfit.
 [[nodiscard]] Result<Alignment> align_by_tree(const data::Rig& wanted, const StillPoses& tree,
                                               const AlignmentOptions& options = {});
 

@@ -20,10 +20,10 @@ namespace {
 using internal::BundleProblem;
 using internal::BundleState;
 
-constexpr int kManyLeds = 12;               // so many places fix the cameras without moving the object
-constexpr double kLargestSideError = 0.06;  // of a side, with cameras as the operator believes them to stand
+constexpr int kManyLeds = 12;  // with so many points one pose of the object determines the cameras
+constexpr double kLargestSideError = 0.06;  // of a side, with the cameras at their nominal poses
 
-/// Where the LEDs of one pose are, by rays alone; NaN where fewer than two cameras see one.
+/// Positions of the LEDs of one pose by intersection of rays; NaN where fewer than two cameras see one.
 std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree, int pose) {
   std::vector<Eigen::Vector3d> out;
   for (int led = 0; led < tree.leds(); ++led) {
@@ -40,7 +40,7 @@ std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree
 
 bool located(const Eigen::Vector3d& place) { return place.allFinite(); }
 
-/// Rigid motion that takes the tree to those of these places that were located.
+/// Rigid motion that maps the tree onto the located points.
 math::SE3 fit_tree(const StillPoses& tree, const std::vector<Eigen::Vector3d>& at) {
   const auto count = std::ranges::count_if(at, located);
   Eigen::Matrix3Xd from(3, count), to(3, count);
@@ -154,7 +154,7 @@ struct Progressing {
   }
 };
 
-/// Gauss-Newton with step halving until a step promises next to nothing.
+/// Gauss-Newton with step halving until the predicted gain of a step is negligible.
 Status converge(BundleProblem& problem, BundleState& state, const BundleOptions& options,
                 Progressing& progress) {
   constexpr double kDone = 0.05;  // of chi2: a quarter of one standard deviation along the worst direction
@@ -217,7 +217,7 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
   if (!grids.empty()) state.grid_shift.assign(grids.front().sightings.size(), Eigen::Vector2d::Zero());
 
   Progressing steps{progress, 0, 2 * options.max_iterations};
-  // A fifth of a long recording brings the cameras near; then all of it starts from there.
+  // A fifth of a long recording gives a starting point for the adjustment of all of it.
   constexpr std::size_t kFew = 60;
   if (first.usable.size() > 2 * kFew) {
     std::vector<int> few;

@@ -14,7 +14,7 @@
 
 namespace kinemark::calibration {
 
-/// Spread of what is believed before anything is seen, one standard deviation each.
+/// Prior standard deviations of the parameters.
 struct BundlePriors {
   double rotation_rad = 0.05;       ///< about each axis
   double centre_m = 0.060;          ///< of the lens, each axis
@@ -70,7 +70,7 @@ struct BundleResult {
 ///
 /// Maximum a posteriori: counts of a sighting are S phi(point; camera) + offset, the source's strength S
 /// eliminated in closed form; each pose and each grid LED is eliminated by a Schur complement. The world
-/// stays where `nominal` has the first camera; covariance is told in the gauge that holds the cloud of tree
+/// stays where `nominal` has the first camera; covariance is given in the gauge that fixes the cloud of tree
 /// LEDs.
 ///
 /// Fails when fewer than four poses (of an object of twelve LEDs or more: one) are seen by two cameras, when

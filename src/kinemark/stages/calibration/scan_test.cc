@@ -68,9 +68,9 @@ TEST(Scan, RefusesWhatDoesNotFit) {
   auto places = scan.places;
   places.frames_per_place = 4;
   EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message,
-              HasSubstr("300 frames do not fit 100 places"));
+              HasSubstr("300 frames do not fit 100 positions"));
   places.x_in_stage = places.x_in_stage.leftCols(5).eval();
-  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message, HasSubstr("a scan of 5 places"));
+  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message, HasSubstr("a scan of 5 positions"));
   scan.counts.leds.emplace_back("second");
   EXPECT_FALSE(scan_sightings(scan.counts, rig, scan.places));
 }

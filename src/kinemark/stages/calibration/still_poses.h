@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Still sightings: what a recording of something that does not move comes down to.
+// Still sightings: mean counts of a recording of an object at rest.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,9 @@ struct StillSighting {
   [[nodiscard]] bool seen() const { return variance > 0.0; }  ///< whether there is a mean
 };
 
-/// An object of L LEDs, held still in P places.
+/// An object of L LEDs, held still in P poses.
 struct StillPoses {
-  std::vector<Eigen::Vector3d> tree;     ///< L places of its LEDs in its own frame, m
+  std::vector<Eigen::Vector3d> tree;     ///< L positions of its LEDs in its own frame, m
   int cameras = 0;                       ///< C
   std::vector<StillSighting> sightings;  ///< P x L x C
 
@@ -63,8 +63,8 @@ struct FrameRange {
   std::int64_t first = 0, count = 0;  ///< first of them, and how many
 };
 
-/// Mean of an LED's counts over some frames, with its variance: noise of the conversions and what averaging
-/// leaves of the flicker. Not seen when the LED was occluded, lost, saturated or dark in one of them, or
+/// Mean of an LED's counts over some frames, with its variance: noise of the conversions and the residual
+/// flicker after averaging. Not seen when the LED was occluded, lost, saturated or dark in one of them, or
 /// moved: the scatter of its counts is beyond chance.
 [[nodiscard]] StillSighting still_sighting(const data::Counts& counts, const data::Electronics& electronics,
                                            const FrameRange& frames, std::int64_t led, std::int64_t camera,

@@ -28,7 +28,7 @@ struct ReconstructOptions {
   [[nodiscard]] Status check() const;
 };
 
-/// What became of one LED's frames.
+/// Counts of one LED's frames by outcome.
 struct LedSummary {
   std::string name;               ///< of the LED
   std::int64_t frames = 0;        ///< F
@@ -57,12 +57,12 @@ struct Reconstruction {
 [[nodiscard]] Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& rig,
                                                  const ReconstructOptions& options = {});
 
-/// The 1986 way: ratios, look-up tables, midpoint of two rays; nothing is rejected but what is dark, no
-/// covariance. Fails as above, and when a camera has no table.
+/// The method of 1986: ratios, look-up tables, midpoint of two rays; only dark frames are rejected, and there
+/// is no covariance. Fails as above, and when a camera has no table.
 [[nodiscard]] Result<Reconstruction> reconstruct_classic(const data::Counts& counts, const data::Rig& rig,
                                                          const ReconstructOptions& options = {});
 
-/// Names, numbers and ids of a recording fit a rig of lateral-effect cameras.
+/// Checks that names, numbers and ids of a recording fit a rig of lateral-effect cameras.
 [[nodiscard]] Status check_fit(const data::Counts& counts, const data::Rig& rig);
 
 /// F x L x C: 1 where a sighting has enough light, is complete and not saturated. Fails when no LED ever has.

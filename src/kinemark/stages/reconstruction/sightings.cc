@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Which sightings of a recording can serve.
+// Selects the usable sightings of a recording.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Status check_fit(const data::Counts& counts, const data::Rig& rig) {
 
 Result<Array<std::uint8_t>> usable_sightings(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
-  constexpr double kDark = 60.0;  // counts of all four channels: what offsets and stray light alone can make
+  constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
   Array<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<std::int64_t> of_camera(counts.cameras.size(), 0);
   std::vector<double> light;

@@ -65,7 +65,7 @@ void fill_coordinates(ExampleTrial& t) {
       const bool locked = j == kLocked;
       const double shape = std::sin(turn + w.phase) + 0.35 * std::sin(2.0 * turn + 1.7 * w.phase);
       m.q[i] = locked ? 0.0 : unit * (w.mean + w.amplitude * shape);
-      // A hidden wrist hurts its neighbours before it leaves nothing to go by.
+      // The error grows around the time in which the wrist is hidden.
       const bool near = wrist_hidden(f + 12) || wrist_hidden(f - 12);
       m.determined[i] = locked || !(wrist_hidden(f) && j >= kForearm);
       m.q_sd[i] = locked ? kNaN : unit * w.sd * (1.0 + 0.3 * std::cos(turn)) * (near && j >= 17 ? 2.6 : 1.0);

@@ -99,7 +99,7 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
   for (const std::string& warning : s.run.warnings)
     out.push_back({Verdict::good, "warning", "", warning, kNaN});
 
-  // In order, but what is serious before what is not.
+  // Stable order, serious findings first.
   std::vector<Finding> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
     std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });

@@ -21,7 +21,7 @@ struct LimbRecording {
   Array<double> x_true;           ///< F x M x 3, m: all markers, without noise
   Array<double> centre_in_world;  ///< F x J x 3, m: the joints between the segments
   Array<double> end_in_world;     ///< F x 3, m: the far end of the last segment
-  /// S matrices 3 x (markers of the segment), m: their places in segment axes, z along the bone from its
+  /// S matrices 3 x (markers of the segment), m: their positions in segment axes, z along the bone from its
   /// upper joint.
   std::vector<Eigen::Matrix3Xd> x_in_segment;
 };
@@ -36,7 +36,7 @@ struct ChainOptions {
   bool planar = false;        ///< staggered to both sides in one plane, not all around the bone
   double noise_sd_m = 0.001;  ///< per axis, >= 0
   double missing = 0.0;       ///< 0 to 0.95, share of samples lost, each on its own
-  /// Losses go with the pose: none while the chain's end points away from a certain side, twice the share
+  /// Losses depend on the pose: none while the chain's end points away from a certain side, twice the share
   /// (0.98 at most) while it points there, as near an animal's mouth.
   bool pose_correlated = false;
   std::uint64_t seed = 1;  ///< of poses, noise and losses

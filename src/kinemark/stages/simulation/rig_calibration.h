@@ -14,7 +14,8 @@
 
 namespace kinemark::simulation {
 
-/// The grid that hangs before one camera at a time, square to its axis as well as hands can do it.
+/// The grid that hangs before one camera at a time, square to its axis within the accuracy of mounting it by
+/// hand.
 struct GridOptions {
   int nodes = 15;                               ///< along each side, 3 to 101, odd
   double side_m = 1.0;                          ///< between the outermost LEDs, > 0
@@ -39,7 +40,7 @@ struct GridRecording {
   std::vector<Eigen::Matrix3Xd> x_in_cam;  ///< truth: where the LEDs were, m, in the order of the LEDs
 };
 
-/// Random(seed, 200): places of the LEDs on the board, the same board for all cameras. Random(seed, 210 +
+/// Random(seed, 200): positions of the LEDs on the board, the same board for all cameras. Random(seed, 210 +
 /// camera): tilt 2, distance, centre 2, roll, then noise, sample by sample.
 [[nodiscard]] Result<GridRecording> record_grid(const PhysicalRig& rig, const GridOptions& options = {});
 
@@ -67,7 +68,7 @@ struct TreePosesRecording {
 [[nodiscard]] Result<TreePosesRecording> record_tree_poses(const PhysicalRig& rig,
                                                            const TreePosesOptions& options = {});
 
-/// One LED on a motor stage that visits a lattice of places.
+/// One LED on a motor stage that visits a lattice of positions.
 struct ScanOptions {
   Eigen::Vector3i places{8, 9, 6};                       ///< along X, Y, Z, 2 to 50 each
   Eigen::Vector3d size_m{0.8, 0.8, 0.8};                 ///< of the lattice, about the world's origin

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The rig of 1986 as a workshop would build it: drawn from a seed, with what nobody told the operator.
+// The rig of 1986 with random manufacturing errors drawn from a seed, which are unknown to the operator.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,14 +30,14 @@ struct RigLight {
 [[nodiscard]] double photocurrent_a(const RigLight& light, double distance_m, double cos_led,
                                     double cos_camera);
 
-/// What a camera sees of the room.
+/// Light from the room at one camera.
 struct RoomLight {
   Eigen::Vector4d stray = Eigen::Vector4d::Zero();  ///< share of the stray light at each electrode
   double flicker_counts = 0.0;                      ///< amplitude, the same at all electrodes
   double flicker_phase_rad = 0.0;                   ///< at time 0
 };
 
-/// A rig with everything that acts on its counts.
+/// A rig with all effects on its counts.
 struct PhysicalRig {
   data::Rig rig;                ///< the truth; offsets without stray light
   data::Rig nominal;            ///< what the operator believes: drawings, and poses set by hand
@@ -89,7 +89,8 @@ struct ExpectedCounts {
 [[nodiscard]] ExpectedCounts expected_counts(const PhysicalRig& rig, int camera, const LedState& led,
                                              double intensity = 1.0);
 
-/// Light that reaches a camera by way of a mirror: as if from a second place, times a share of the LED's own.
+/// Light that reaches a camera by way of a mirror: as from a second position, with a share of the LED's
+/// intensity.
 [[nodiscard]] Eigen::Vector4d reflected_counts(const PhysicalRig& rig, int camera, const LedState& led,
                                                double intensity, const Eigen::Vector3d& place_in_world,
                                                double share);

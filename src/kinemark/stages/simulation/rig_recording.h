@@ -41,7 +41,7 @@ enum HiddenFlag : std::uint8_t {
 
 /// Counts of a moving scene, and the truth.
 struct RigRecording {
-  data::Counts counts;            ///< as recorded; saturation is flagged, occlusion is for others to find
+  data::Counts counts;            ///< as recorded; saturation is flagged, occlusion is left to reconstruction
   data::Trajectories truth;       ///< every LED at the time of the frame
   data::Derivatives derivatives;  ///< velocity and acceleration there
   data::Trajectories when_lit;    ///< every LED in the middle of its conversions (sample_offset_s)

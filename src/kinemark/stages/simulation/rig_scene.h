@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What LEDs do before the rig: where each is at any time, and what hides or mirrors it.
+// Scenes of LEDs before the rig: the position of each LED at any time, and what occludes or mirrors it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,13 +15,13 @@
 
 namespace kinemark::simulation {
 
-/// A mirror's doing at one instant; share 0: none.
+/// Reflection of an LED at one instant; share 0: none.
 struct Reflection {
-  Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< m, from where the light seems to come
+  Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< m, apparent position of the light
   double share = 0.0;                                        ///< of the LED's direct light
 };
 
-/// Frames in which something stands between an LED and a camera.
+/// Frames in which an LED is occluded from a camera.
 struct Occlusion {
   int led = 0;                                   ///< index into RigScene::leds
   int camera = -1;                               ///< -1: all of them
@@ -44,7 +44,7 @@ struct RigScene {
 /// Distances of its vertices 0-1, 0-2 and 1-2, m.
 [[nodiscard]] std::array<double, 3> tree_sides_m();
 
-/// Where the tree stands: centroid (m in world), then turned about X, Y and Z: Ry(yaw) Rx(pitch) Rz(roll).
+/// Pose of the tree: centroid (m in world), then turned about X, Y and Z: Ry(yaw) Rx(pitch) Rz(roll).
 struct TreePose {
   Eigen::Vector3d centroid_in_world = Eigen::Vector3d::Zero();  ///< m
   double yaw_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;        ///< turns about Y, X and Z
@@ -54,7 +54,7 @@ struct TreePose {
   [[nodiscard]] Eigen::Matrix3d leds_in_world() const;
 };
 
-/// Ten places of the tree that both cameras see, spread through the volume.
+/// Ten poses of the tree that both cameras see, spread through the volume.
 [[nodiscard]] const std::array<TreePose, 10>& tree_test_poses();
 
 /// Still LEDs "back left", "back right", "front", shining along Z.

@@ -37,8 +37,8 @@ struct SubjectOptions {
       0.3;  ///< 0 to 1, share of its variance that moves all markers of a segment together
   double dropout_random =
       0.0;  ///< 0 to 0.9, share of marker-frames lost in gaps of 0.01 s to seconds, anywhere
-  double dropout_sight = 0.0;  ///< 0 to 0.9, share lost where the pose turns markers away from or hides them
-                               ///< from a ring of cameras; on top of the random ones (may coincide)
+  double dropout_sight = 0.0;  ///< 0 to 0.9, share lost where the pose hides markers from a ring of cameras;
+                               ///< on top of the random ones (may coincide)
   int threads = 1;             ///< 0: all cores. Any number gives the same bits.
 
   /// Ranges hold and no number is NaN.

@@ -15,8 +15,8 @@ namespace kinemark::io::internal {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Channels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
 
-/// What one sample of a plate's channels says: force (N) and moment (N m) about the centre of its surface, in
-/// the plate's axes and with the sign of the file.
+/// What one sample of a plate's channels gives: force (N) and moment (N m) about the centre of its surface,
+/// in the plate's axes and with the sign of the file.
 class PlateWrench {
  public:
   /// `units` of all analog channels; `metres_per_unit` of the file's lengths. A plate that cannot be

@@ -15,11 +15,11 @@
 
 namespace kinemark::io::osim {
 
-/// A file of OpenSim's as a tree of elements, and the first thing found wrong with its content.
+/// An OpenSim file as a tree of elements, with the first error found in its content.
 ///
 /// Files in the field are not always well-formed: bytes that are not UTF-8 are taken as Latin-1, element
-/// names may hold "::", closing tags nobody opened at the end are passed over. A document that is cut short,
-/// or nested deeper than any real one, is refused.
+/// names may hold "::", unmatched closing tags at the end are ignored. A truncated or unreasonably deeply
+/// nested document is refused.
 ///
 /// The getters never stop: a bad value is noted (the first one wins) and the fallback returned, so that a
 /// reader goes straight on and looks at error() once.

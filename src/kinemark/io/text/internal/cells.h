@@ -57,7 +57,7 @@ class Lines {
 /// times the memory of their text.
 [[nodiscard]] Status check_header_line(std::string_view line, std::int64_t number);
 
-/// How cells are told apart: by single tabs (cells may be blank), or by runs of blanks.
+/// How cells are separated: by single tabs (cells may be blank), or by runs of blanks.
 enum class Separator : std::uint8_t { tab, blanks };
 
 enum class Cell : std::uint8_t {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a MotionJob that do not depend on how the motion is found: read, name the files, tell, write.
+// The steps of a MotionJob that do not depend on the estimator: read, name the files, report, write.
 #pragma once
 
 #include <cmath>
@@ -33,11 +33,11 @@ struct MotionInputs {
 [[nodiscard]] Status check_named(const MotionJob& job, std::string_view or_else = "");
 [[nodiscard]] Result<MotionInputs> read_inputs(const MotionJob& job);
 
-/// What is known of a run before anything is solved, with the hashes of model and markers.
+/// The record of a run before anything is solved, with the hashes of model and markers.
 [[nodiscard]] Result<report::IkRun> begin_run(const MotionJob& job, const MotionInputs& inputs);
-/// Files of forces, and what there is to tell of the torques.
+/// Files of forces, and the report on the torques.
 [[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);
-/// Nothing when the path is empty.
+/// No value when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
 
 /// What the estimate (IkResult, TrackResult) says of itself and of each marker, and why a marker that was
@@ -64,24 +64,24 @@ void add_estimate(report::IkRun& run, const Estimate& result, std::string_view w
 /// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
               std::string sentence);
-/// The gates that all have: length of the mean marker error, told in `offset_sentence`, and marker RMS.
+/// The gates that all have: length of the mean marker error, described by `offset_sentence`, and marker RMS.
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m);
 
 /// The job's output, files beside it by their suffixes, and further ones: refused where they exist.
 [[nodiscard]] Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,
                                     const std::vector<std::filesystem::path>& further = {});
-/// Write what will become `target`, one of the staging's.
+/// Write the file that commit() moves to `target`, one of the staging's targets.
 [[nodiscard]] Status put(const Staging& staging, const std::filesystem::path& target,
                          const data::Table& table);
 [[nodiscard]] Status put(const Staging& staging, const std::filesystem::path& target,
                          const std::string& text);
-/// Summarise the run and write, where they were staged, all that the motion holds, and Q_report.json. @param
+/// Summarise the run and write all tables of the motion and Q_report.json to their staged paths. @param
 /// markers  as for report::summarize()
 [[nodiscard]] Status write_motion(const MotionJob& job, const Staging& staging, report::IkRun run,
                                   const data::JointMotion& motion, const data::Trajectories* markers,
                                   MotionOutcome& outcome);
-/// Let appear what was put, unless the caller stops `what` in the last moment.
+/// Commit the staged files, unless the caller cancels `what` at the last moment.
 [[nodiscard]] Status reveal(Staging& staging, const Progress& progress, std::string_view what,
                             MotionOutcome& outcome);
 

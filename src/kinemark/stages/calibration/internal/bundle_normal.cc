@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kFlat = 1e-9;  // keeps a pose that one camera alone saw from being singular
+constexpr double kFlat = 1e-9;  // keeps a pose seen by one camera only from being singular
 
 Eigen::Matrix3d cross(const Vector3d& v) {
   Eigen::Matrix3d out;
@@ -142,8 +142,7 @@ void BundleProblem::add_grids(const BundleState& state, MatrixXd& a, VectorXd& g
       rows.fill(camera, world_from_cam * (place + cam_from_grid.translation), seen, grid_weight_[index],
                 free);
       const auto row = 3 * static_cast<Eigen::Index>(n), at = 2 * static_cast<Eigen::Index>(n);
-      // The grid stands before its camera: it goes along with that camera's pose, which therefore does not
-      // matter.
+      // The grid's pose is relative to its camera, so that the camera's pose has no effect.
       for (int k = 0; k < width; ++k)
         if (free[static_cast<std::size_t>(k)].index < ParameterLayout::focal) rows.d_free.col(k).setZero();
       const Eigen::Matrix3d d_cam = rows.d_point * world_from_cam.rotation;

@@ -11,7 +11,7 @@
 
 namespace kinemark::calibration::internal {
 
-/// A parameter that the bundle moves, and how far it may lie from where it starts.
+/// A free parameter of the bundle adjustment and the standard deviation of its prior.
 struct FreeParameter {
   int camera = 0;
   int index = 0;  ///< by data::ParameterLayout
@@ -26,7 +26,7 @@ struct BundleState {
   std::vector<Eigen::Vector2d> grid_shift;  // per node: the same grid stood before every camera
 };
 
-/// Place of a node of a grid that is off by `shift`, in the grid, m.
+/// Position of a grid node that is displaced by `shift`, in the grid, m.
 [[nodiscard]] Eigen::Vector3d on_grid(const GridSightings& grid, int node, const Eigen::Vector2d& shift);
 
 /// What the bundle minimises (bundle_problem.cc), and its normal equations with poses and grid nodes
@@ -39,7 +39,7 @@ class BundleProblem {
   BundleProblem(data::Rig nominal, const StillPoses& tree, const std::vector<GridSightings>& grids,
                 const BundleOptions& options);
 
-  /// Poses of the tree that take part (all, unless told).
+  /// Poses of the tree that take part (default: all).
   void use_poses(std::vector<int> poses) { poses_ = std::move(poses); }
   [[nodiscard]] const std::vector<int>& poses() const { return poses_; }
 

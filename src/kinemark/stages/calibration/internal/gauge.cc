@@ -12,7 +12,7 @@ using data::ParameterLayout;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Derivative of a turned (by w) and shifted (by t) point: w x arm + t.
+/// Derivative of a point by rotation w and translation t: w x arm + t.
 Eigen::Matrix<double, 3, 6> d_moved(const Vector3d& arm) {
   Eigen::Matrix<double, 3, 6> out;
   for (int i = 0; i < 3; ++i) out.col(i) = Vector3d::Unit(i).cross(arm);

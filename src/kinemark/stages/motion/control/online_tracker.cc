@@ -24,12 +24,12 @@ using data::FrameStatus;
 constexpr double kFastest_hz = 10000.0;
 constexpr double kLongestGap_s = 2.0;
 constexpr double kMostAhead_s = 0.5;  // of the stamps, by frames that come faster than the rate
-constexpr double kPatience_s = 1.0;   // then a start with fewer markers is good enough
+constexpr double kPatience_s = 1.0;   // after which a start with fewer markers is accepted
 constexpr double kEnough = 0.95;      // of the markers
 constexpr std::int64_t kFewest = 3;
 
-/// A recording of two frames that shows all markers in the model's default pose: what make_plan() needs to
-/// bring names together.
+/// A recording of two frames with all markers in the model's default pose, from which make_plan() matches the
+/// names.
 data::Trajectories pretend(const model::Model& model, const std::vector<std::string>& names, double rate_hz) {
   auto markers = data::Trajectories::all_missing(names, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = 2});
   model::Workspace w(model);
@@ -55,7 +55,7 @@ struct OnlineTracker::Impl {
       : plan(std::move(given)),
         options(opts),
         filter(internal::make_filter(plan.rate_hz, opts)),
-        // A window to look back, one of poses not fetched yet, and frames that the stream skips, at once.
+        // Largest number of frames: the window, poses not fetched yet, and skipped frames.
         capacity(2 * filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
         samples(plan.problem.model.marker_count(), capacity),
         readout(plan.problem.model),
@@ -140,7 +140,7 @@ struct OnlineTracker::Impl {
       pose.status = fixed ? FrameStatus::converged : FrameStatus::underdetermined;
   }
 
-  /// Of the goals: as given, or from what the filter has removed so far.
+  /// Noise of the goals: as given, or from the part removed by the filter so far.
   const MarkerVariances& noise() {
     const double gain = filter.noise_in_goal();
     variances.common.setZero(static_cast<Eigen::Index>(plan.problem.model.bodies().size()));
@@ -210,7 +210,7 @@ Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
   if (s.window().ended()) return fail(Code::usage, "a frame came after the end of the stream");
   if (s.window().frames() - s.next_frame > s.filter.window_frames())
     return fail(Code::usage,
-                "poses are ready that nobody fetched; call next() after every frame until it has none");
+                "poses are waiting to be fetched; call next() after every frame until it has none");
   if (s.window().frames() == 0) {
     s.t0_s = time_s;
   } else {

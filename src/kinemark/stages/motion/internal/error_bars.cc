@@ -27,9 +27,9 @@ using Eigen::VectorXd;
 
 constexpr std::int64_t kSampledFrames = 300;
 constexpr double kBlindRotation =
-    1.0 / 0.003;  // rad of error per m of marker error beyond which nothing is determined
+    1.0 / 0.003;  // rad of error per m of marker error beyond which a coordinate is not determined
 constexpr double kBlindTranslation = 20.0;  // m per m
-constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar says nothing
+constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar is not valid
 constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
 constexpr double kBlindFloor = 1e-13;       // lower: even a small share of a blind direction must show
 
@@ -221,7 +221,7 @@ MarkerVariances estimate_variances(const internal::Problem& problem, const data:
   variances.own.setConstant(M, pooled);
   variances.common.setZero(static_cast<Eigen::Index>(model.bodies().size()));
   if (total.freedom < 5.0 * static_cast<double>(unknowns))
-    return variances;  // too little to tell markers apart
+    return variances;  // too few data for variances of single markers
   const MatrixXd N = total.N.selfadjointView<Eigen::Lower>();
   const VectorXd v = math::nonnegative_least_squares(N, total.b);
   for (Eigen::Index m = 0; m < M; ++m)
@@ -247,7 +247,7 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
       frame.q = Eigen::Map<const VectorXd>(motion.q.data() + motion.index(f, 0), n);
       model::coordinate_jacobian(model, frame.w, frame.q, frame.E);
 
-      // Which coordinates do these markers fix?
+      // The coordinates that these markers determine.
       for (int m = 0; m < M; ++m) seen[m] = frame.weight[m] > 0.0 ? 1.0 : 0.0;
       if (seen.sum() == 0.0) continue;
       model::marker_normal_matrix(model, frame.w, seen, unit_H);

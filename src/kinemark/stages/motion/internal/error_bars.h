@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Standard deviations of inverse kinematics that stay honest on a living body.
+// Standard deviations of inverse kinematics that include soft tissue.
 //
-// The marker error has a part of its own in every marker (variance v_i per axis) and a part that all markers
+// The error of a marker is the sum of an independent part (variance v_i per axis) and a part that all markers
 // of a segment share (variance c_b per axis, soft tissue). Both are estimated from the residuals of the whole
 // recording: with P = I - J K J'W and blocks P_ik, the residuals satisfy
 //     E r_i . r_j = sum_k v_k <P_ik, P_jk> + sum_b c_b <P_ib, P_jb>,      P_ib = sum of P_ik over the markers
@@ -39,11 +39,11 @@ struct MarkerVariances {
                                                  const data::Trajectories& markers,
                                                  const Eigen::MatrixXd& states, int threads);
 
-/// Fill q_sd and determined of `motion` (whose q is there already).
+/// Fill q_sd and determined of `motion`, whose q is set.
 ///
 /// determined: with the markers of the frame alone, coordinate error per metre of marker error is below 333
 /// rad (a marker lever of 3 mm), or 20 m for translations, and the standard deviation below 0.5 rad or 0.5 m,
-/// where a linear error bar still means something; tasks and limits do not count. q_sd is NaN where not
+/// the range in which a linear error bar is valid; tasks and limits do not count. q_sd is NaN where not
 /// determined and 0 where locked.
 void compute_error_bars(const internal::Problem& problem, const data::Trajectories& markers,
                         const Eigen::MatrixXd& states, const MarkerVariances& variances, int threads,

@@ -147,7 +147,7 @@ double spread(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(squares / static_cast<double>(points.size()));
 }
 
-// A body changes the spread of its markers by moving, but never a hundredfold: that is a unit.
+// Motion of a body changes the spread of its markers, but never a hundredfold: the unit must be wrong.
 Status check_units(const Problem& problem, const data::Trajectories& markers) {
   model::Workspace w(problem.model);
   model::kinematics(problem.model, w, problem.model.default_state());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A recording and a model brought together: which marker is which, what is fixed, what is pulled where.
+// A recording matched with a model: correspondence of markers, fixed speeds and coordinate tasks.
 #pragma once
 
 #include <Eigen/Core>

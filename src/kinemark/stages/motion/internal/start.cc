@@ -75,7 +75,7 @@ FrameSolver::Outcome find_start(const Problem& problem, const IkOptions& options
   const auto& model = problem.model;
   const Eigen::VectorXd given = x;
   FrameSolver::Outcome best;
-  int found = 0;  // how often the cheapest pose has come out: three independent times are enough
+  int found = 0;  // how often the pose of least cost was found: three independent times are enough
   for (int start = 0; start < starts && found < 3; ++start) {
     Eigen::VectorXd candidate = given;
     if (start > 0) {

@@ -129,7 +129,7 @@ TEST(JointParameters, refuse_names_and_ties_that_make_no_sense) {
     return joint_parameters(model, joints, 0.02, tied).error().message;
   };
   EXPECT_THAT(message({"elbow"}, {}), HasSubstr("no joint 'elbow'"));
-  EXPECT_THAT(message({"ground_pelvis"}, {}), HasSubstr("hangs on the ground"));
+  EXPECT_THAT(message({"ground_pelvis"}, {}), HasSubstr("is connected to the ground"));
   EXPECT_THAT(message({}, {{"NONE", "knee_r"}}), HasSubstr("no marker 'NONE'"));
   EXPECT_THAT(message({}, {{"TIB", "knee_r"}}), HasSubstr("cannot sit on joint 'knee_r'"));
 }

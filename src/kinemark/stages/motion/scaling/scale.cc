@@ -30,7 +30,7 @@ Matrix3d stretched_inertia(const Matrix3d& inertia, const Vector3d& factors) {
   return after.trace() * Matrix3d::Identity() - after;
 }
 
-/// Marker places of the model in its default pose, world.
+/// Marker positions of the model in its default pose, world.
 Result<Eigen::Matrix3Xd> default_places(const data::ModelDescription& model) {
   const auto compiled = model::Model::compile(model);
   if (!compiled) return std::unexpected(compiled.error());

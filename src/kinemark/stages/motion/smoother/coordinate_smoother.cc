@@ -18,12 +18,12 @@ using Eigen::VectorXd;
 
 constexpr std::array<double, 4> kThirdDifference = {-1.0, 3.0, -3.0, 1.0};
 // Ratio of the variance of a step to that of the noise. Below the first the bandwidth is a 600th of the rate
-// and the matrix loses its digits; above the second nothing is smoothed any more.
+// and the matrix becomes ill-conditioned; above the second there is no smoothing.
 constexpr double kSmallestRatio = 1e-12, kLargestRatio = 1e4;
-constexpr Index kBlock = 1500, kBlocks = 4;  // what the ratio is estimated on in long recordings
+constexpr Index kBlock = 1500, kBlocks = 4;  // blocks from which the ratio is estimated in long recordings
 constexpr double kWidestSpread = 30.0;       // relative SDs beyond it count as this much
 
-/// A = D'D / ratio + diag(weight) as L diag(d) L', and what follows from it.
+/// A = D'D / ratio + diag(weight) as L diag(d) L', with its solutions and inverse band.
 class Band {
  public:
   Band(const VectorXd& weight, double ratio) : d_(weight), l_(3, weight.size()) {

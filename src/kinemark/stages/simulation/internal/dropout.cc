@@ -83,7 +83,8 @@ double second_best(const Vector3d& marker, const Vector3d& outward, int own_segm
   for (const Vector3d& camera : cameras) {
     double seen = outward.dot((camera - marker).normalized());
     for (std::size_t s = 0; s < capsules.size() && seen > second; ++s) {
-      if (static_cast<int>(s) == own_segment) continue;  // facing speaks for the segment under the marker
+      if (static_cast<int>(s) == own_segment)
+        continue;  // the facing angle covers the segment under the marker
       const double free =
           distance_of_lines(marker, camera, capsules[s].from, capsules[s].to) - segments.all[s].radius_m;
       seen = std::min(seen, free / kGraze_m);

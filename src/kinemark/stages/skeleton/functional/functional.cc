@@ -28,7 +28,7 @@ data::SkeletonSegment describe_segment(const SegmentPoses& poses) {
   return out;
 }
 
-/// Noise of all markers together, from every segment that tells.
+/// Noise of all markers together, from every segment with an estimate.
 double common_noise(const std::vector<SegmentPoses>& poses) {
   double squares = 0.0, weight = 0.0;
   for (const SegmentPoses& p : poses) {
@@ -74,7 +74,8 @@ void carry_into_segments(const ConstantDistanceFit& fit, const internal::JointTa
   out.method = "constant distance";
 }
 
-/// One joint into the skeleton. The sentence that says why not, or what was done differently, or nothing.
+/// Add one joint to the skeleton. Returns a sentence on failure or on deviations from the requested method,
+/// else an empty one.
 std::string find_joint(const Samples& samples, const internal::JointTask& task,
                        const FunctionalOptions& options, std::size_t j, data::Skeleton& skeleton,
                        bool& placed) {

@@ -17,7 +17,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;  ///< parent's axes, then child's
 /// of a living body are alike from frame to frame, and only blocks show that.
 constexpr int kBlocks = 30;
 
-/// Where a joint lies in its two segments.
+/// Position of a joint in its two segments.
 struct JointFit {
   data::JointKind kind = data::JointKind::ball;  ///< ball or hinge
   bool in_parent = false, in_child = false;      ///< the place is known in that segment

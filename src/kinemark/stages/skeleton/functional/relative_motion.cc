@@ -11,7 +11,7 @@ namespace kinemark::skeleton {
 namespace {
 
 constexpr double kHingeRatio = 0.25;
-constexpr double kHingeNoise = 3.0;  ///< turns below so many SDs of the noise are none
+constexpr double kHingeNoise = 3.0;  ///< rotations below so many SDs of the noise count as none
 
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return rotation_vector(a.transpose() * b).norm();

@@ -30,8 +30,8 @@ struct ScoreSums {
 
 /// Symmetrical centre of rotation estimation (SCoRE; Ehrig, Taylor, Duda & Heller 2006, J Biomech 39:2798)
 /// for a ball joint, symmetrical axis of rotation analysis (SARA; the same authors 2007, J Biomech 40:2150)
-/// for a hinge: of the same equations the axis is the direction that they leave open, and the centre the
-/// point on it that lies nearest to the markers of both segments.
+/// for a hinge: the axis is the direction that the same equations do not fix, and the centre the point on it
+/// nearest to the markers of both segments.
 ///
 /// The covariance comes from leaving out one block of frames at a time, plus what motion and noise of the
 /// poses leave open (data::kJointPriorSd_m). Frames: those of motion.frames. Fewer than 4: nothing is known.

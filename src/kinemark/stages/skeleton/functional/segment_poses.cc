@@ -18,7 +18,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return Eigen::Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
 }
 
-/// A segment without poses: markers along z at the places that their distances tell.
+/// A segment without poses: markers along z at the positions given by their distances.
 void lay_on_line(const Samples& samples, SegmentPoses& out) {
   out.kind = data::SegmentKind::line;
   const auto K = out.markers.size();

@@ -36,7 +36,8 @@ struct SegmentPoses {
   std::string name;               ///< as in the layout
   std::vector<int> markers;       ///< in the recording
   Eigen::Matrix3Xd x_in_segment;  ///< one column a marker, m; NaN for one that could not be placed
-  data::SegmentKind kind = data::SegmentKind::line;  ///< line: no frame fixes the turn about z, no poses
+  data::SegmentKind kind =
+      data::SegmentKind::line;  ///< line: the rotation about z is not determined, no poses
   double noise_sd_m =
       0.0;  ///< of the markers, per axis: as given, else about the rigid shape; NaN when unknown
   std::vector<std::uint8_t> known;                  ///< F: 1 where the pose is known
@@ -64,7 +65,7 @@ struct SegmentPoses {
 /// Options of find_segment_poses() and pose_known_shape().
 struct SegmentPoseOptions {
   double noise_sd_m = 0.0;        ///< per axis; 0: found from the shape's residuals
-  double max_turn_sd_rad = 0.35;  ///< a frame whose visible markers fix the turn worse has no pose
+  double max_turn_sd_rad = 0.35;  ///< a frame whose rotation is less certain has no pose
   double odd_factor = 8.0;        ///< a frame this many times worse than the median is odd
 };
 
@@ -81,12 +82,12 @@ struct SegmentPoseOptions {
                                             const Eigen::Matrix3Xd& x_in_segment,
                                             const SegmentPoseOptions& options = {});
 
-/// What noise of the markers (none where it is unknown) makes of a segment's pose in a frame where it is
-/// known.
+/// Uncertainty of a segment's pose in a frame, from the noise of the markers (none where that is unknown).
 struct PoseNoise {
   Eigen::Vector3d visible_mean = Eigen::Vector3d::Zero();  ///< of the visible markers, in the segment, m
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();  ///< covariance of the small turn, in the segment, rad^2
-  double mean_variance = 0.0;                      ///< of the visible markers' mean, per axis, m^2
+  Eigen::Matrix3d turn =
+      Eigen::Matrix3d::Zero();  ///< covariance of the rotation error, in the segment, rad^2
+  double mean_variance = 0.0;   ///< of the visible markers' mean, per axis, m^2
 
   /// Covariance in world of a point of the segment, m^2.
   [[nodiscard]] Eigen::Matrix3d at(const Eigen::Matrix3d& world_from_segment, const Eigen::Vector3d& x) const;

@@ -36,7 +36,8 @@ struct SphereOptions {
 ///
 /// @param still   Segment in whose axes the centre rests; frames in which its pose is unknown are left out.
 /// @param moving  Markers that move about it; each may be missing at any time.
-/// Covariance as in fit_score(): blocks of frames left out, plus what the motion leaves open.
+/// Covariance as in fit_score(): blocks of frames left out, plus the variance that the motion leaves
+/// undetermined.
 [[nodiscard]] SphereFit fit_spheres(const Samples& samples, const SegmentPoses& still,
                                     const std::vector<int>& moving, const SphereOptions& options = {});
 

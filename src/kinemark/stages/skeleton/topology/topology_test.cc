@@ -76,7 +76,7 @@ TEST(Topology, NothingMovesIsOneSegmentAndSaidSo) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->layout.segments.size(), 1U);
   ASSERT_EQ(found->warnings.size(), 1U);
-  EXPECT_NE(found->warnings[0].find("no joint can be seen"), std::string::npos);
+  EXPECT_NE(found->warnings[0].find("no joint can be found"), std::string::npos);
 }
 
 TEST(Topology, PairsNeverSeenTogetherAreReported) {

@@ -37,7 +37,7 @@ Status check_shapes(const data::Counts& counts, const data::Rig& rig, const data
 /// F x L x C: enough light, complete, not saturated.
 std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
-  constexpr double kDark = 60.0;  // counts of all four channels: what offsets and stray light alone can make
+  constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
   std::vector<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<double> light;
   for (std::int64_t led = 0; led < counts.led_count(); ++led)
@@ -151,7 +151,7 @@ void put(const internal::LedPath::Sample& s, std::size_t index, SmoothedCounts& 
   out.points.state[index] = s.seen ? data::SampleState::measured : data::SampleState::model_filled;
 }
 
-/// Add what one stretch tells to what is known of its LED.
+/// Add the statistics of one stretch to those of its LED.
 void merge(LedFit& all, const LedFit& one) {
   const auto total = all.sightings + one.sightings;
   if (total > 0)

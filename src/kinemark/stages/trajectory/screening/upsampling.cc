@@ -201,8 +201,8 @@ void write_sentences(const data::Trajectories& t, UpsamplingReport& report) {
   report.sentences.emplace_back(
       "Not visible to this test: interpolation followed by a low-pass filter, band-limited resampling, "
       "factors that are "
-      "no integer, and streams without noise above their rounding. For the first two only the spectrum "
-      "tells.");
+      "no integer, and streams without noise above their rounding. Only the spectrum shows the first "
+      "two.");
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ Status UpsamplingOptions::check() const {
     return fail(Code::usage, fmt::format("the largest upsampling factor is {}; need 2 to 12", max_factor));
   if (max_frames < 1000)
     return fail(Code::usage,
-                fmt::format("the upsampling detector may look at {} frames; need 1000 or more", max_frames));
+                fmt::format("the upsampling detector may use {} frames; need 1000 or more", max_frames));
   return {};
 }
 

@@ -35,7 +35,7 @@ GeometryLayout::GeometryLayout(const Problem& problem, const data::ModelDescript
       Term term{.moves = given.moves, .column = k, .direction = given.direction};
       if (given.moves == Moves::marker) {
         const int m = model.description().find_marker(full.markers[at(given.idx)].name);
-        if (m < 0) continue;  // never seen: only its prior knows it
+        if (m < 0) continue;  // never seen: only its prior determines it
         term.body = model.markers()[at(m)].body;
         of_marker[at(m)].push_back(static_cast<int>(terms.size()));
         terms.push_back(term);

@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kSmallestVariance = 1e-10;  // 10 um: nothing is measured better
+constexpr double kSmallestVariance = 1e-10;  // 10 um, a lower bound of marker noise
 constexpr double kWidest = 10.0;             // a marker's variance over the usual one, and its inverse
 constexpr double kChance = 2.5;              // standard errors that a slow share must exceed
 
@@ -50,7 +50,7 @@ double slow_share(const data::JointMotion& motion, Index m) {
 }
 
 struct Spread {
-  double usual = 0.0;  ///< m^2, variance per axis as most frames show it; 0 when they are few
+  double usual = 0.0;  ///< m^2, robust variance per axis; 0 with few frames
   double share = 1.0;  ///< of the variance over all frames, at most 1: small where single frames make the sum
 };
 
@@ -136,15 +136,15 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   split.common_slow.array() /= count.array().max(1.0);
   split.any_slow = share.maxCoeff() > 0.0;
 
-  // Trust is shared out by the whole variance of a marker, half way to equal trust: markers that win trust
-  // by their residuals alone pull the pose to themselves and look even better.
+  // Weights follow from the whole variance of a marker, shrunk half way towards equal weights: a marker with
+  // small residuals would otherwise attract the pose and obtain even smaller residuals.
   const VectorXd total = own + common;
   const double usual_total = median(total), usual_white = median(split.white);
   const double usual_weight = median(problem.weight);
   for (Index m = 0; m < M; ++m) {
     MarkerTrust trust;
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;
-    // Outliers are judged by what the other frames show, not by a variance that they made themselves.
+    // Outliers are judged by the other frames, not by a variance that they have raised themselves.
     if (bend_sd > 0.0) {
       const double usual_frames = given_sd_m > 0.0 ? 1.0 : spread(start.motion, m).share;
       trust.bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual_frames * total[m]));

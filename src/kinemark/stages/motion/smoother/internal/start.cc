@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSmallestStep = 1e-10;  // rad or m
-// Third difference at 100 Hz of something that moves as people do, where nothing is known: 100 rad/s^3.
+// Default third difference at 100 Hz, from a typical jerk of human motion, 100 rad/s^3.
 constexpr double kUsualStep = 1e-4, kUsualRate_hz = 100.0;
 
 /// Every stretch of frames [first, last] in which `good` is false.
@@ -127,7 +127,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     const auto& coordinate = model.coordinates()[at(c)];
     if (coordinate.speed_idx < 0) continue;
     turns[at(coordinate.speed_idx)] = motion.is_rotation[at(c)];
-    if (model.description().coordinates[at(c)].locked) continue;  // held: any number will do
+    if (model.description().coordinates[at(c)].locked) continue;  // locked: any number will do
     for (std::int64_t f = 0; f < F; ++f) {
       y[at(f)] = states(coordinate.state_idx, f);
       sd[at(f)] =
@@ -143,7 +143,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
       }
       estimate(free.speed_idx + i);
     }
-    // Turns add up along the path, in the axes of the body.
+    // Rotations add up along the path, in the axes of the body.
     MatrixXd path = MatrixXd::Zero(3, F);
     VectorXd turn;
     for (std::int64_t f = 1; f < F; ++f) {

@@ -12,7 +12,7 @@
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr std::int64_t kShapeFrames = 3000;  ///< more tell the shape no better than noise allows
+constexpr std::int64_t kShapeFrames = 3000;  ///< more frames do not improve the shape
 constexpr int kRounds = 60;
 constexpr double kSettled_m = 1e-9;
 /// Least share of the whole shape's inertia about a line that the visible markers must have.

@@ -11,11 +11,11 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 constexpr double kCrossed = 0.5;    // steps with exchanged labels to steps as labelled
-constexpr double kLeapM = 0.008;    // a leap is at least so far from where the path led, and
+constexpr double kLeapM = 0.008;    // a jump is at least so far from the predicted position, and
 constexpr double kLeapUsual = 6.0;  // so many times the median of that
 constexpr std::size_t kMaxLeaps = 40;
 
-/// Where the path leads: straight on from the two frames before.
+/// Predicted position: linear continuation of the two frames before.
 Eigen::Vector3d ahead(const Recording& r, Index m, Index frame) {
   if (frame < 2 || !r.usable(m, frame - 2)) return r.x(m, frame - 1);
   return 2.0 * r.x(m, frame - 1) - r.x(m, frame - 2);

@@ -125,8 +125,8 @@ class FrameCheck {
     return pairs;
   }
 
-  /// Markers at least half of whose partners are at the wrong distance; the worst goes first, and is then
-  /// nobody's partner.
+  /// Markers at least half of whose partners are at the wrong distance; the worst is removed first and no
+  /// longer used as a partner.
   [[nodiscard]] std::vector<Index> find_out_of_place(Index frame) const {
     std::vector<Index> out;
     const auto is_out = [&](Index m) { return std::ranges::find(out, m) != out.end(); };
@@ -165,7 +165,7 @@ class FrameCheck {
 };
 
 /// Frame in [border - 2, border + 2] from which the two markers have exchanged their paths, or -1. Also where
-/// a sample is missing there, behind which the exchange can have happened unseen.
+/// a sample is missing there, during which the exchange can have happened unseen.
 Index find_exchange(const Recording& r, Index a, Index b, Index border) {
   for (const Index shift : {0, -1, 1, -2, 2}) {
     const Index f = border + shift;

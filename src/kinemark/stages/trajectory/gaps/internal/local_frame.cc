@@ -9,7 +9,7 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-constexpr double kThinM = 0.005;  // a shape that is nowhere wider than this about a line gives no turn
+constexpr double kThinM = 0.005;  // a shape narrower than this about a line gives no rotation
 
 Eigen::Matrix3d turn_between(const Eigen::Matrix3d& S) {  // S = sum w (local) (world)'
   Eigen::Matrix4d N;

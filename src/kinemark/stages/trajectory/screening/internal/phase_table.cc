@@ -14,7 +14,7 @@ constexpr std::int64_t kBlockKnots = 16;
 constexpr std::int64_t kPieceFrames = 2048;
 constexpr std::int64_t kMinBlocks = 6;
 constexpr float kChangeCost = 8.0F;
-constexpr float kMostCost = 2.0F;  // of one block that says something else: an outlier cannot force a change
+constexpr float kMostCost = 2.0F;  // of one contradicting block, so that an outlier cannot force a change
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -210,7 +210,7 @@ Candidate judge(const PhaseTable& table, Kernel kernel) {
   for (std::size_t i = 1; i < path.size(); ++i) changes += path[i] != path[i - 1] ? 1 : 0;
   if (changes == 0) return c;
   Candidate s = weigh(table, kernel, order, path);
-  // Each change could be placed to please: it must pay for itself several times over.
+  // The times of changes are free parameters: each change must gain several times its cost.
   const double paid = static_cast<double>(s.blocks - 12 * changes) * std::log(static_cast<double>(f));
   s.fires = s.ratio < 0.5 && s.agreement >= 0.9 && paid > 14.0;
   s.slips = true;
