@@ -362,7 +362,7 @@ STAGES = {
     "build": (build("ci"), 20),
     "tests": (unit_tests("ci"), 5),
     "cli": (cli, 2.5),
-    "consumer": (consumer, 4),
+    "consumer": (consumer, 2),
     "docs": (docs, 0.5),
     "acceptance": (acceptance, 8),
     "viewer-page": (viewer_page, 0.5),
