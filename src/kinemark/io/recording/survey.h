@@ -23,7 +23,7 @@ struct ClockJump {
 
 /// What one channel holds.
 struct ChannelSurvey {
-  std::int64_t messages = 0;
+  std::int64_t messages = 0;                     ///< that can be read
   std::int64_t bytes = 0;                        ///< of their data
   std::int64_t lost = 0;                         ///< numbers that were stepped over
   std::int64_t out_of_order = 0;                 ///< numbers that repeat or go back
