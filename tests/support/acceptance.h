@@ -11,7 +11,8 @@ namespace kinemark::testing_support {
 /// Print "PASS | check | asked | measured" (or FAIL) and remember a failure.
 void print_row(bool passed, const std::string& check, const std::string& asked, const std::string& measured);
 
-/// Print "NOTE | check | - | measured": a number of which nothing is asked, shown in the table and not counted.
+/// Print "NOTE | check | - | measured": a number of which nothing is asked, shown in the table and not
+/// counted.
 void print_note(const std::string& check, const std::string& measured);
 
 /// Print one SKIP row, loudly, for a program that cannot run without the real recordings; returns 0.
