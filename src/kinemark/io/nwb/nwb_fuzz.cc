@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A small file of ours with the edits that the bytes ask for (groups and datasets gone, linked elsewhere, of other
-// shapes and types, other samples and attributes): a valid recording or one sentence. Whatever the reader itself
-// looks at is reached. The structures that HDF5 keeps for itself are left whole: HDF5 1.10 can crash on damaged ones.
+// A small file of ours with the edits that the bytes ask for (groups and datasets gone, linked elsewhere, of
+// other shapes and types, other samples and attributes): a valid recording or one sentence. Whatever the
+// reader itself looks at is reached. The structures that HDF5 keeps for itself are left whole: HDF5 1.10 can
+// crash on damaged ones.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -71,11 +72,21 @@ class Editor {
   void edit() {
     const std::string at = path();
     switch (bytes_.ConsumeIntegralInRange(0, 6)) {
-      case 0: H5Ldelete(file_, at.c_str(), H5P_DEFAULT); break;
-      case 1: set_attribute(at, true); break;
-      case 2: set_attribute(at, false); break;
-      case 3: replace(at); break;
-      case 4: set_samples(at); break;
+      case 0:
+        H5Ldelete(file_, at.c_str(), H5P_DEFAULT);
+        break;
+      case 1:
+        set_attribute(at, true);
+        break;
+      case 2:
+        set_attribute(at, false);
+        break;
+      case 3:
+        replace(at);
+        break;
+      case 4:
+        set_samples(at);
+        break;
       case 5:
         H5Ldelete(file_, at.c_str(), H5P_DEFAULT);
         H5Lcreate_soft(path().c_str(), file_, at.c_str(), H5P_DEFAULT, H5P_DEFAULT);
@@ -121,9 +132,8 @@ class Editor {
     const std::array types = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_U8LE, H5T_STD_I64LE, words.id()};
     const hid_t type = types[index(types.size())];
     H5Ldelete(file_, at.c_str(), H5P_DEFAULT);
-    const Handle space(dims.empty()
-                           ? H5Screate(H5S_SCALAR)
-                           : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
+    const Handle space(dims.empty() ? H5Screate(H5S_SCALAR)
+                                    : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
                        H5Sclose);
     const Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     const std::vector<hsize_t> chunk(dims.size(), 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as each of OpenSim's files that say what to do (IK setup and tasks, scale setup, factors, marker set): an
-// answer or one sentence.
+// Any bytes as each of OpenSim's files that say what to do (IK setup and tasks, scale setup, factors, marker
+// set): an answer or one sentence.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
