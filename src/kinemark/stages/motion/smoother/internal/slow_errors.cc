@@ -98,8 +98,9 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
       sum_B.col(i).setZero();
     }
     // Errors of neighbouring frames are the same error: sums of B grow with the square of the looks.
-    const double looks = static_cast<double>(
-        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride);
+    const std::int64_t looked_at =
+        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
+    const auto looks = static_cast<double>(looked_at);
     const std::int64_t middle = std::min(F - 1, b * block_ + block_ / 2);
     std::copy_n(motion.q.data() + motion.index(middle, 0), C, q.data());
     model::kinematics(model, w, states.col(middle));
