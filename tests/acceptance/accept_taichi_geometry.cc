@@ -34,9 +34,7 @@ void check_fit(const data::ModelDescription& model, const data::Trajectories& la
                   kMillimetres * fit.rms_second_m));
 }
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("geometry adapted to the tai chi recording");
   const auto landmarks = acceptance::tai_chi_landmarks(*data);
@@ -48,3 +46,7 @@ int main() {
   check_fit(model, landmarks, Freedom::places, "clavicles, joints and places adapted", 3.0, 3.5);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("taichi_geometry", run_check);
+
+}  // namespace
