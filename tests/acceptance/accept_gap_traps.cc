@@ -176,9 +176,7 @@ void run(Case& c) {
                  s.first_frame < c.first + c.frames && s.last_frame >= c.first;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const auto data = test_data_folder();
   if (!data) return skip_all("gap traps");
   const int gaps = argc > 1 ? std::atoi(argv[1]) : 10;
@@ -226,3 +224,7 @@ int main(int argc, char** argv) {
             ">= 90 % of the swaps", fmt::format("{} of {}", flagged, swaps));
   return exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("gap_traps", run_check);
+
+}  // namespace

@@ -299,9 +299,7 @@ void knee(const fs::path& data) {
             fmt::format("{}; {}", data::to_string(automatic.joints[0].kind), automatic.joints[0].words));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   const auto asked = [&](const char* name) { return what == name || what == "all"; };
   if (asked("ehrig")) ehrig(argc > 2 ? std::atoi(argv[2]) : 10);
@@ -312,3 +310,7 @@ int main(int argc, char** argv) {
   if (asked("knee")) knee(*data);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joint_methods", run_check);
+
+}  // namespace

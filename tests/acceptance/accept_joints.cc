@@ -159,9 +159,7 @@ void chain(const Run& run, Tally& pooled) {
             fmt::format("{:.1f} and {:.1f} % of {}", 100.0 * one, 100.0 * two, all.lengths));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   Run run;
   if (argc > 1) run.seeds = std::max(1, std::atoi(argv[1]));
   run.quick = run.seeds < 3;
@@ -181,3 +179,7 @@ int main(int argc, char** argv) {
   print_flags("all cells", !run.quick && (wanted("staggered") || wanted("weak") || wanted("chain")), pooled);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joints", run_check);
+
+}  // namespace

@@ -80,9 +80,7 @@ void in_time(const Run& run, const char* what, const simulation::SleeveOptions& 
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   Run run;
   if (argc > 1) run.seeds = std::max(1, std::atoi(argv[1]));
   run.quick = run.seeds < 3;
@@ -98,3 +96,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joints_sleeve", run_check);
+
+}  // namespace

@@ -123,10 +123,8 @@ struct Sums {
   }
 };
 
-}  // namespace
-
-/// accept_one_camera [SUBJECTS]
-int main(int argc, char** argv) {
+/// accept_motion one_camera [SUBJECTS]
+int run_check(int argc, char** argv) {
   const int subjects = argc > 1 ? std::stoi(argv[1]) : 2;
   const auto model = model::Model::compile(
                          io::read_osim(testing_support::project_folder() / "models" / "human.osim").value())
@@ -167,3 +165,7 @@ int main(int argc, char** argv) {
                   bar_lit));
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("one_camera", run_check);
+
+}  // namespace

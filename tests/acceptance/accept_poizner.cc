@@ -246,10 +246,8 @@ void speed() {
   }
 }
 
-}  // namespace
-
-/// accept_poizner study LAST_SEED | stress | speed
-int main(int argc, char** argv) {
+/// accept_rig poizner study LAST_SEED | stress | speed
+int run_check(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string what = arguments.empty() ? "study" : arguments.front();
   if (what == "study") study(arguments.size() > 1 ? std::stoi(arguments[1]) : 10);
@@ -257,3 +255,7 @@ int main(int argc, char** argv) {
   if (what == "speed") speed();
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("poizner", run_check);
+
+}  // namespace

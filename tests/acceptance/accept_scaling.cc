@@ -260,9 +260,7 @@ void quick(const data::ModelDescription& human) {
             fmt::format("{:.2f}", worst));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const int subjects = arguments.size() > 1 ? std::stoi(arguments[1]) : 40;
   const auto human = io::read_osim(testing_support::project_folder() / "models/human.osim").value();
@@ -274,3 +272,7 @@ int main(int argc, char** argv) {
   if (which == "tissue") tissue(human, subjects);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("scaling", run_check);
+
+}  // namespace

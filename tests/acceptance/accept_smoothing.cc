@@ -375,9 +375,7 @@ void online(const std::vector<Movement>& movements) {
             "online twin that waits for all, beside offline", "1e-9 m", fmt::format("{:.1e} m", worst));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "quick";
   const auto movements = testing_support::movements();
   using testing_support::Axes;
@@ -395,3 +393,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("smoothing", run_check);
+
+}  // namespace

@@ -159,10 +159,8 @@ void stability(const Scene& scene, const LandmarkSet& set, const std::string& na
             "no failure", fmt::format("{} failures{}", failures, first));
 }
 
-}  // namespace
-
-/// accept_taichi_control whole | sets | stability [RUNS]
-int main(int argc, char** argv) {
+/// accept_studies taichi_control whole | sets | stability [RUNS]
+int run_check(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("direct marker control of the tai chi recording");
   const Scene scene = prepare(*data);
@@ -178,3 +176,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("taichi_control", run_check);
+
+}  // namespace

@@ -306,9 +306,7 @@ void person(const fs::path& file, bool moves) {
                         found.layout.joints.size(), bad, quiet, unsure, list));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   if (what != "people") {
     chains();
@@ -323,3 +321,7 @@ int main(int argc, char** argv) {
   // joints' ranges, only a static trial.
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("topology", run_check);
+
+}  // namespace

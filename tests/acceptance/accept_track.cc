@@ -248,10 +248,8 @@ void bounds(int seeds) {
   }
 }
 
-}  // namespace
-
-/// accept_track [SEEDS]: subjects per row.
-int main(int argc, char** argv) {
+/// accept_motion track [SEEDS]: subjects per row.
+int run_check(int argc, char** argv) {
   const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
   equations();
   one_level(seeds);
@@ -259,3 +257,7 @@ int main(int argc, char** argv) {
   bounds(seeds);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("track", run_check);
+
+}  // namespace

@@ -29,10 +29,8 @@ double exceeded_by_one_percent(std::vector<double> values) {
   return values[static_cast<std::size_t>(rank)];
 }
 
-}  // namespace
-
-/// accept_track_live [MINUTES]
-int main(int argc, char** argv) {
+/// accept_motion track_live [MINUTES]
+int run_check(int argc, char** argv) {
   const double minutes = argc > 1 ? std::atof(argv[1]) : 10.0;
   const auto model = human();
   const auto s = subject(model, 1e-3, kRate_hz, 60.0 * minutes, 1);
@@ -89,3 +87,7 @@ int main(int argc, char** argv) {
             fmt::format("{:.1e} in {} frames", differ, common));
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("track_live", run_check);
+
+}  // namespace

@@ -315,9 +315,7 @@ void check_real(const std::filesystem::path& folder) {
             "each reported as such", fmt::format("{} of 14{}", told, wrong));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const int streams = argc > 1 ? std::stoi(argv[1]) : 2000;
   const bool with_recordings = argc <= 2;
   const auto folder = testing_support::test_data_folder();
@@ -334,3 +332,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("upsampling", run_check);
+
+}  // namespace

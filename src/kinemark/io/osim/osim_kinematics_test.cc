@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "kinemark/io/osim/ik_setup.h"
-#include "kinemark/io/osim/internal/place_bodies_for_test.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/testing/place_bodies.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/io/text/trc.h"
 #include "support/test_data.h"

@@ -8,7 +8,7 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/recording/internal/mcap.h"
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 
 namespace kinemark::io {
 namespace {

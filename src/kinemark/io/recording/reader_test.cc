@@ -7,14 +7,13 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/recording/internal/mcap.h"
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 #include "support/scratch.h"
 
 namespace kinemark::io {
 namespace {
 
 using namespace internal;
-using testing::HasSubstr;
 
 std::string error_of(std::string_view bytes) {
   return read_everything(std::as_bytes(std::span(bytes))).error;

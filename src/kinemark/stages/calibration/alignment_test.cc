@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "kinemark/core/units.h"
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {

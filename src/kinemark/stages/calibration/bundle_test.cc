@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "kinemark/stages/calibration/internal/rays.h"
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {

@@ -9,13 +9,13 @@
 #include <cmath>
 
 #include "kinemark/camera/projection.h"
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/track.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 #include "support/allocations.h"
 
 namespace kinemark::motion {

@@ -21,7 +21,6 @@
 namespace kinemark::motion {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 

@@ -12,7 +12,7 @@
 #include "kinemark/camera/projection.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {

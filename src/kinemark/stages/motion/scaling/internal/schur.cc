@@ -12,7 +12,6 @@
 namespace kinemark::motion::internal {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Moves = GeometryTerm::Moves;
