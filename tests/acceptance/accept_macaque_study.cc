@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
     if (row.limit) measured += fmt::format(", bound {:.4g}", *row.limit);
     if (row.classic) measured += fmt::format(", classic {:.4g}", *row.classic);
     if (row.paper) measured += fmt::format(", paper {:.4g}", *row.paper);
-    if (asked.empty()) {  // shares of a single seed: nothing is asked of them, so nothing passes
+    if (asked.empty()) {  // shares of a single seed have no bound, so none passes
       fmt::print("{}: {} {}\n", row.quantity, measured, row.unit);
       continue;
     }
