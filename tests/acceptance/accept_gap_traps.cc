@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // What goes wrong in real marker sets: swapped labels, another subject, noise, few markers. `automatic` must
-// be no worse than a prototype with a gate, and say when two markers of a rigid group have changed places.
-// Usage: accept_gap_traps GAPS_PER_TRIAL [SEED]
+// be no worse than a prototype with a gate, and report when two markers of a rigid group have exchanged
+// labels. Usage: accept_gap_traps GAPS_PER_TRIAL [SEED]
 #include <fmt/core.h>
 
 #include <Eigen/Core>

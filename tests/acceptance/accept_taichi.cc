@@ -85,7 +85,7 @@ void check_reader(const io::V3dFile& file) {
   const auto as_read = [&](std::int64_t f, std::int64_t s) -> Eigen::Matrix3d {
     return file.orientations.world_from_segment(f, s);
   };
-  // The same three turns about fixed axes: Rz Ry Rx.
+  // The same three rotations about fixed axes: Rz Ry Rx.
   const auto fixed = [&](std::int64_t f, std::int64_t s) -> Eigen::Matrix3d {
     const Vector3d a = file.orientations.angles(f, s);
     return (Eigen::AngleAxisd(a.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(a.y(), Vector3d::UnitY()) *

@@ -65,10 +65,10 @@ void equations() {
     MatrixXd J;
     model::mass_matrix(model, w, t.M);
     model::marker_jacobian(model, w, J);
-    // One marker each of pelvis, hand, foot and head: nothing that a level asks for conflicts with another.
+    // One marker each of pelvis, hand, foot and head: the goals of the levels do not conflict.
     for (const char* name : {"RASI", "LFIN", "RTOE", "RFHD"}) {
       const auto m = model.description().find_marker(name);
-      if (m < 0) continue;  // told below: all four must be there
+      if (m < 0) continue;  // reported below: all four must be there
       t.J.push_back(J.middleRows(3 * m, 3));
       VectorXd r(3);
       for (auto& value : r) value = random.gaussian();

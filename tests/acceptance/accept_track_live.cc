@@ -58,7 +58,7 @@ int run_check(int argc, char** argv) {
     busy.push_back(static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC);
     wait.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
   }
-  // Judged by the processor's time: on a machine that does other things the clock on the wall tells of those.
+  // Measured in processor time: wall time on a busy machine includes other work.
   const double answer_s = exceeded_by_one_percent(busy), wall_s = exceeded_by_one_percent(wait);
   print_row(answer_s < 2e-3,
             fmt::format("{} frames at 240 Hz with bounds and deviations: 99 % of the answers within", F),

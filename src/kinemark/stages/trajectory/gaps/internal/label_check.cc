@@ -80,7 +80,7 @@ class FrameCheck {
  public:
   FrameCheck(const Recording& r, const Partners& partners) : r_(r), partners_(partners) {}
 
-  /// Mean squared deviate of the distances that marker `of` would have at the place of `at`, without
+  /// Mean squared deviate of the distances that marker `of` would have at the position of `at`, without
   /// `without`.
   [[nodiscard]] double misfit(Index of, Index at, Index without, Index frame) const {
     double sum = 0.0;
