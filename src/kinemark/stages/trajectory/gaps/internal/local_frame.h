@@ -18,8 +18,8 @@ struct Placement {
 
 /// A frame that goes with a few markers, as rigidly as they allow.
 ///
-/// Three markers and more that do not lie on a line give a turn (weighted least squares, Horn 1987, J. Opt.
-/// Soc. Am. A 4(4):629-642); fewer only a place; none leaves the world as it is.
+/// Three markers and more that do not lie on a line give a turn (weighted least squares,
+/// math::fit_rotation()); fewer only a place; none leaves the world as it is.
 class LocalFrame {
  public:
   /// @param sd_m  Of the distance to the target, per marker; weights are 1 / (sd^2 + (1 mm)^2).
