@@ -18,6 +18,7 @@
 #include "acceptance/gap_trials.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/gaps/candidates.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "support/acceptance.h"
@@ -210,10 +211,9 @@ int run_check(int argc, char** argv) {
       swaps += c.swapped.first >= 0 ? 1 : 0;
       flagged += c.flagged ? 1 : 0;
     }
-    std::ranges::sort(rms);
     const auto n = static_cast<double>(rms.size());
     const double pooled = std::sqrt(square / n);
-    const double median = 0.5 * (rms[(rms.size() - 1) / 2] + rms[rms.size() / 2]);
+    const double median = math::median(rms);
     const Trap& t = kTraps[trap];
     print_row(pooled <= t.rms_mm && median <= t.median_mm, fmt::format("gap trap: {}", t.name),
               fmt::format("RMS <= {:.2f} mm, median <= {:.2f} mm (with gate)", t.rms_mm, t.median_mm),

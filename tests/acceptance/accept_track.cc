@@ -14,6 +14,7 @@
 #include "acceptance/track_subject.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -191,9 +192,7 @@ Held count_bounds(const model::Model& model, const motion::TrackResult& track,
       ratios.push_back(bound / std::max(miss, 1e-12));
     }
   if (ratios.empty()) return held;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  held.ratio = ratios[ratios.size() / 2];
+  held.ratio = math::upper_median(ratios);
   return held;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "acceptance/track_subject.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/motion/control/online_tracker.h"
 #include "support/acceptance.h"
 
@@ -23,10 +24,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kRate_hz = 240.0;
 
-double exceeded_by_one_percent(std::vector<double> values) {
-  const auto rank = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+double exceeded_by_one_percent(const std::vector<double>& values) {
+  return math::nth_smallest(values, static_cast<std::size_t>(0.99 * static_cast<double>(values.size())));
 }
 
 /// accept_motion track_live [MINUTES]

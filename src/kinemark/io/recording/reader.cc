@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/io/recording/internal/mcap.h"
 
 namespace kinemark::io {
@@ -25,17 +26,8 @@ std::string_view text_of(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::string_view to_string(RecordingEnd end) {
-  switch (end) {
-    case RecordingEnd::closed:
-      return "closed";
-    case RecordingEnd::open:
-      return "open";
-    case RecordingEnd::cut:
-      return "cut";
-    case RecordingEnd::damaged:
-      return "damaged";
-  }
-  return "damaged";
+  static constexpr EnumNames<RecordingEnd::damaged> kNames{"closed", "open", "cut", "damaged"};
+  return kNames[end];
 }
 
 RecordingReader::RecordingReader(std::unique_ptr<ByteSource> source, const RecordingReadOptions& options)

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
@@ -110,10 +111,8 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
       variance_(c, b) = std::max(0.0, looks * gain.col(c).dot(sum_B * gain.col(c)));
   }
   for (Index c = 0; c < C; ++c) {
-    VectorXd sorted = variance_.row(c).transpose();
-    std::nth_element(sorted.data(), sorted.data() + sorted.size() / 2, sorted.data() + sorted.size());
-    const double usual = sorted[sorted.size() / 2];
     VectorXd row = variance_.row(c).transpose();
+    const double usual = math::upper_median({row.data(), at(row.size())});
     for (double& v : row)
       if (!(v <= kBlind * usual)) v = std::numeric_limits<double>::quiet_NaN();
     bridge(row);
