@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share that turn markers into a motion of the model: `ik` and `track`.
+// Arguments common to the commands that estimate a motion of the model from markers: `ik` and `track`.
 #pragma once
 
 #include <fmt/core.h>

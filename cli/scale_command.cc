@@ -4,16 +4,11 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/core/text.h"
 #include "kinemark/pipeline/scale/scale_job.h"
 
 namespace kinemark::cli {
 namespace {
-
-std::string join(const std::vector<std::string>& names) {
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
 
 void print_adapted(const Globals& globals, const motion::AdaptResult& result, const char* what) {
   say(globals,

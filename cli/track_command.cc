@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/motion_arguments.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/motion/track_job.h"
 
@@ -63,12 +64,6 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   return {};
 }
 
-std::string names(const std::vector<std::string>& list) {
-  std::string text;
-  for (const auto& name : list) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome) {
   const auto& result = outcome.result;
   const auto& motion = result.motion;
@@ -84,10 +79,10 @@ void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome
                   *std::max_element(result.rank.begin(), result.rank.end()), result.free_speeds));
   if (!result.locked_coordinates.empty())
     say(globals, fmt::format("note: Held at rest because no tracked marker moves them: {}",
-                             names(result.locked_coordinates)));
+                             join(result.locked_coordinates)));
   if (!result.undetermined_coordinates.empty())
     say(globals, fmt::format("note: Determined in fewer than 95 % of the frames: {}",
-                             names(result.undetermined_coordinates)));
+                             join(result.undetermined_coordinates)));
   print_motion(globals, outcome);
 }
 

@@ -9,22 +9,20 @@
 #include <array>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::studies {
 namespace {
 
 constexpr double kMillimetres = 1e3;
 using Seeds = std::vector<PoiznerSeed>;
+using math::median;
 
 template <class Get>
 std::vector<double> over(const Seeds& seeds, double unit, const Get& get) {
   std::vector<double> out;
   for (const auto& seed : seeds) out.push_back(unit * get(seed));
   return out;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
 }
 
 /// NaN when one of the values is: a rig without a number is not hidden by others.

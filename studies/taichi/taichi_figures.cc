@@ -74,7 +74,7 @@ Eigen::MatrixX3d errors(const data::JointMotion& motion, std::string_view landma
   return out;
 }
 
-/// Figure 3: height and forward place of one landmark, goal and tracked.
+/// Figure 3: height and forward position of one landmark, goal and tracked.
 std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int axis) {
   constexpr std::array<const char*, 3> kAxis{"forward", "up", "right"};
   const auto m = drawing.goals.find(landmark);

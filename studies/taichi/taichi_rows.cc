@@ -15,7 +15,7 @@ namespace {
 constexpr double kMillimetres = 1e3;
 using Subjects = std::vector<TaiChiSubject>;
 
-/// Largest over subjects; NaN wins.
+/// Largest over subjects; NaN if any is NaN.
 template <class Get>
 double worst(const Subjects& subjects, double unit, const Get& get) {
   double out = -1e300;

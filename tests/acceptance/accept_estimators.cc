@@ -115,10 +115,8 @@ Scores compare(const model::Model& model, const World& world, int subjects) {
   return scores;
 }
 
-}  // namespace
-
-/// accept_estimators [SUBJECTS]
-int main(int argc, char** argv) {
+/// accept_motion estimators [SUBJECTS]
+int run_check(int argc, char** argv) {
   const int subjects = argc > 1 ? std::stoi(argv[1]) : 3;
   const auto model = model::Model::compile(
                          io::read_osim(testing_support::project_folder() / "models" / "human.osim").value())
@@ -146,3 +144,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("estimators", run_check);
+
+}  // namespace

@@ -246,10 +246,8 @@ void arm(const fs::path& data) {
             fmt::format("status {}: {}", twin.exit_status, sentence));
 }
 
-}  // namespace
-
-/// accept_ik [CASE...]: all cases, or those named.
-int main(int argc, char** argv) {
+/// accept_motion ik [CASE...]: all cases, or those named.
+int run_check(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("inverse kinematics on real recordings");
   const std::vector<std::pair<std::string, void (*)(const fs::path&)>> cases = {{"nimble", nimble},
@@ -264,3 +262,7 @@ int main(int argc, char** argv) {
     if (named.empty() || std::find(named.begin(), named.end(), name) != named.end()) run(*data);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("ik", run_check);
+
+}  // namespace

@@ -9,8 +9,10 @@
 #include "studies/macaque/study_macaque_job.h"
 #include "support/acceptance.h"
 
-/// accept_macaque_study quick | all [SEEDS]   quick: few cells, one seed
-int main(int argc, char** argv) {
+namespace {
+
+/// accept_studies macaque_study quick | all [SEEDS]   quick: few cells, one seed
+int run_check(int argc, char** argv) {
   using namespace kinemark;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   studies::MacaqueJob job;
@@ -39,3 +41,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("macaque_study", run_check);
+
+}  // namespace

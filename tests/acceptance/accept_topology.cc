@@ -225,7 +225,7 @@ double distance_sd(const data::Trajectories& markers, int a, int b) {
 /// Neighbouring body parts whose markers' distances vary less do not move against each other in a recording.
 constexpr double kStill_m = 0.010;
 
-/// `moves`: the recording shows enough to ask for segments; else silence is what is asked for.
+/// `moves`: the recording shows enough motion to require segments; otherwise none may be found.
 void person(const fs::path& file, bool moves) {
   auto trial = io::read_markers(file).value();
   // Only the markers of the body: the file may hold computed points as well.
@@ -306,9 +306,7 @@ void person(const fs::path& file, bool moves) {
                         found.layout.joints.size(), bad, quiet, unsure, list));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   if (what != "people") {
     chains();
@@ -323,3 +321,7 @@ int main(int argc, char** argv) {
   // joints' ranges, only a static trial.
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("topology", run_check);
+
+}  // namespace

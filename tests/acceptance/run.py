@@ -12,8 +12,8 @@ that prints one row per bound on stdout,
 
 with FAIL or SKIP in place of PASS, or NOTE for a number of which nothing is asked; other lines are shown when the
 check fails. A check that prints no row (notes apart), ends with a status other than 0 without a FAIL row, or runs too
-long has failed; so has an `accept_*` program that checks.toml does not list, and so has a SKIP row (it lacks the real
-recordings), unless KINEMARK_ALLOW_MISSING_DATA=1. A known shortfall stands in checks.toml as an
+long has failed; so has a check of an `accept_*` program that checks.toml does not list, and so has a SKIP row (it
+lacks the real recordings), unless KINEMARK_ALLOW_MISSING_DATA=1. A known shortfall stands in checks.toml as an
 [[expected_failures]]: its rows are run like all others and shown as KNOWN; it fails once its rows pass (take it out
 then), are not printed, or are more than a tenth worse than the figure kept there. A check finds the kinemark program
 in KINEMARK_PROGRAM, the real recordings in KINEMARK_TEST_DATA, and a folder that it may fill in KINEMARK_SCRATCH.
@@ -115,8 +115,14 @@ def refuse_skips(rows):
 
 
 def unlisted(checks, binaries):
-    listed = {settings.get("program") for settings in checks.values()}
-    return sorted(path.name for path in binaries.glob("accept_*") if os.access(path, os.X_OK) and path.name not in listed)
+    """"PROGRAM CHECK" of what the acceptance programs offer and no table asks for."""
+    listed = {(settings["program"], *settings.get("arguments", [])[:1]) for settings in checks.values() if "program" in settings}
+    found = []
+    for path in sorted(binaries.glob("accept_*")):
+        if os.access(path, os.X_OK):
+            ran = subprocess.run([path, "--list"], stdout=subprocess.PIPE, text=True, check=False)
+            found += [f"{path.name} {name}" for name in ran.stdout.split() if (path.name, name) not in listed]
+    return found
 
 
 def command_of(settings, binaries, here):

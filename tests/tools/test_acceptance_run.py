@@ -20,7 +20,7 @@ class RunAcceptance(unittest.TestCase):
         with Tree({"checks.toml": checks, "build/bin/.keep": "", **scripts}) as root:
             for name in programs:
                 program = root / "build" / "bin" / name
-                program.write_text("#!/bin/sh\necho 'PASS | it runs | yes | yes'\n")
+                program.write_text("#!/bin/sh\n[ $1 = --list ] && echo check && exit\necho 'PASS | it runs | yes | '$1\n")
                 program.chmod(0o755)
             out = io.StringIO()
             allowed = mock.patch.dict(os.environ, KINEMARK_ALLOW_MISSING_DATA=allow_missing)
@@ -30,12 +30,12 @@ class RunAcceptance(unittest.TestCase):
 
     def test_collects_rows_of_scripts_and_programs(self):
         status, said = self.run_with(
-            '[one]\nscript = "one.py"\n[two]\nprogram = "accept_two"\n', {"one.py": GOOD}, programs=["accept_two"]
+            '[one]\nscript = "one.py"\n[two]\nprogram = "accept_two"\narguments = ["check"]\n', {"one.py": GOOD}, programs=["accept_two"]
         )
         self.assertEqual(status, 0, said)
         self.assertIn("PASS | angles  | <= 1 deg | 0.5 deg\n", said)
         self.assertIn("SKIP | oracle  | same     | absent\n", said)
-        self.assertIn("PASS | it runs | yes      | yes\n", said)
+        self.assertIn("PASS | it runs | yes      | check\n", said)
         self.assertTrue(said.endswith("acceptance: 2 passed, 0 failed, 1 skipped, 0 known\n"), said)
         self.assertIn("NOTE | cost    | -        | 5 s\n", said)
         self.assertNotIn("a remark", said)
@@ -102,7 +102,7 @@ class RunAcceptance(unittest.TestCase):
         self.assertIn("is not there; build it first", said)
         status, said = self.run_with("", {}, programs=["accept_forgotten"])
         self.assertEqual(status, 1)
-        self.assertIn("accept_forgotten | is listed in checks.toml", said)
+        self.assertIn("accept_forgotten check | is listed in checks.toml", said)
 
     def test_quick_and_names_choose(self):
         checks = '[slow]\nscript = "bad.py"\n[fast]\nscript = "one.py"\nquick = true\n'

@@ -16,7 +16,6 @@ using data::ParameterLayout;
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Eigen::Vector4d;
 
 /// Channels from electrodes: row k of the result holds the shares of the electrodes in channel k.
 Matrix4d mixing(const data::Detector& detector) {

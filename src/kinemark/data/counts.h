@@ -20,7 +20,8 @@ enum CountFlag : std::uint8_t {
   kCountLost = 4,       ///< never recorded; the four counts are 0
 };
 
-/// What a rig of lateral-effect cameras converts: F frames, L LEDs lit in turn, C cameras with four channels.
+/// Output of the converters of a rig of lateral-effect cameras: F frames, L LEDs lit in turn, C cameras with
+/// four channels.
 ///
 /// A channel is one electrode, in the order +x, -x, +y, -y of the detector (pin-cushion detectors: the
 /// corners

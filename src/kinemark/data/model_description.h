@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What a model file says, in SI units: bodies, joints as chains of primitive motions, coordinates, couplings,
-// loop constraints and markers. model::Model compiles it for computing.
+// The contents of a model file, in SI units: bodies, joints as chains of primitive motions, coordinates,
+// couplings, loop constraints and markers. model::Model compiles it for computing.
 #pragma once
 
 #include <Eigen/Core>
@@ -48,8 +48,8 @@ struct AxisDescription {
   math::ScalarFunction second_function;             ///< g, dimensionless
 };
 
-/// A joint places the child body: world_from_child = world_from_parent * parent_from_joint * motion *
-/// child_from_joint^-1.
+/// A joint defines the pose of the child body: world_from_child = world_from_parent * parent_from_joint *
+/// motion * child_from_joint^-1.
 ///
 /// motion = translation by all translation axes, taken in the joint frame of the parent, then the rotations,
 /// body-fixed, in the order listed (OpenSim's SpatialTransform).

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A rig of cameras: everything that turns a point in the laboratory into what the cameras report.
+// A rig of cameras: all parameters of the map from a point in the laboratory to the output of the cameras.
 #pragma once
 
 #include <Eigen/Core>

@@ -29,7 +29,7 @@ TEST(Kinds, NamesReadBack) {
                           DetectorKind::generic})
     EXPECT_EQ(parse_detector_kind(to_string(kind)), kind);
   EXPECT_THAT(parse_camera_kind("fisheye").error().message,
-              "'fisheye' is not a kind of camera; known are pinhole, lateral-effect");
+              "there is no kind of camera 'fisheye'; there are pinhole and lateral-effect");
   EXPECT_THAT(parse_detector_kind("ccd").error().message, HasSubstr("duo-lateral"));
 }
 

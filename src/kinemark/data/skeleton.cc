@@ -10,34 +10,21 @@
 #include <set>
 #include <string>
 
+#include "kinemark/core/enum_names.h"
+
 namespace kinemark::data {
 
 std::string_view to_string(SegmentKind kind) {
-  switch (kind) {
-    case SegmentKind::line:
-      return "line";
-    case SegmentKind::plane:
-      return "plane";
-    case SegmentKind::solid:
-      return "solid";
-  }
-  return "unknown";
+  static constexpr EnumNames<SegmentKind::solid> kNames{"line", "plane", "solid"};
+  return kNames[kind];
 }
 
 std::string_view to_string(JointKind kind) { return kind == JointKind::hinge ? "hinge" : "ball"; }
 
 std::string_view to_string(CentreState state) {
-  switch (state) {
-    case CentreState::undetermined:
-      return "undetermined";
-    case CentreState::ambiguous:
-      return "ambiguous";
-    case CentreState::bridged:
-      return "bridged";
-    case CentreState::determined:
-      return "determined";
-  }
-  return "unknown";
+  static constexpr EnumNames<CentreState::determined> kNames{"undetermined", "ambiguous", "bridged",
+                                                             "determined"};
+  return kNames[state];
 }
 
 Status SegmentLayout::validate(std::int64_t markers) const {

@@ -9,6 +9,11 @@ namespace kinemark::math {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// Matrix [v] with [v] x = v cross x.
+[[nodiscard]] inline Matrix3d skew(const Vector3d& v) {
+  return Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
+}
+
 /// Rigid transform target_from_source: x_in_target = rotation * x_in_source + translation.
 struct SE3 {
   Matrix3d rotation = Matrix3d::Identity();  ///< 3 x 3, orthonormal, determinant 1

@@ -52,7 +52,7 @@ double evaluate_primitive(const Model::Primitive& primitive, int k, Workspace& w
   return f.f * g.f;
 }
 
-// R <- R * rotation(axis, angle); two columns turn when the axis is a coordinate axis.
+// R <- R * rotation(axis, angle); only two columns change when the axis is a coordinate axis.
 void rotate_by(Matrix3d& R, const Model::Primitive& primitive, double angle) {
   const double s = std::sin(angle), c = std::cos(angle);
   if (primitive.principal >= 0) {

@@ -8,8 +8,8 @@
 //   quaternion) v  nv speeds: one per independent coordinate, six per free joint (velocity of the joint
 //   origin along the axes of
 //      the parent's joint frame, then angular velocity along the axes of the child's joint frame)
-// Coupled coordinates are functions of independent ones and own no speed. A joint to the ground that can move
-// and turn in all directions is a free joint: its Euler angles are computed on output only, so that no
+// Coupled coordinates are functions of independent ones and own no speed. A joint to the ground with all
+// translations and rotations is a free joint: its Euler angles are computed on output only, so that no
 // posture is singular.
 #pragma once
 

@@ -34,8 +34,8 @@ void add_marker_forces(const Model& model, Workspace& w, const VectorXd& weight,
 /// clear_forces().
 void project_forces(const Model& model, Workspace& w, VectorXd& g);
 
-/// H -= sum over the added forces of force . d2 point / dv dv. With marker forces this turns a Gauss-Newton
-/// matrix into the exact Hessian of sum w |r|^2 / 2. After project_forces().
+/// H -= sum over the added forces of force . d2 point / dv dv. With marker forces this makes a Gauss-Newton
+/// matrix the exact Hessian of sum w |r|^2 / 2. After project_forces().
 void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H);
 
 }  // namespace kinemark::model

@@ -19,7 +19,7 @@ namespace kinemark::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = 512UL << 10;
-// 255 blocks is what the section's head can say; the start of the data can leave it more room.
+// The section's head can state at most 255 blocks; the start of the data may allow more.
 constexpr std::size_t kMaxSectionBytes = 4096 * kC3dBlock;
 
 /// Read exactly out.size() bytes.

@@ -81,7 +81,7 @@ class NwbWriter {
   ~NwbWriter();
 
   /// Write frames [first_frame, first_frame + piece.frames()) of the markers that `piece` names. Its arrays
-  /// and `derivatives` must hold what the outline promised and fit the outline's names and frames (else
+  /// and `derivatives` must hold what the outline declares and fit the outline's names and frames (else
   /// ContractError); its clock is not looked at. Pieces of whole multiples of 4096 frames are fastest.
   [[nodiscard]] Status write(const data::Trajectories& piece, const data::Derivatives* derivatives = nullptr,
                              std::int64_t first_frame = 0);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Files as other programs write them: no table of ours, any place, unit, clock and number of coordinates.
+// Files as other programs write them: without kinemark's table, with any path, unit, clock and number of
+// coordinates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Documents that are wrong, or made to hurt: one sentence with the place each, quickly.
+// Invalid and malicious documents: each is refused quickly with one sentence that names the position.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 
 namespace kinemark::io {
 namespace {

@@ -28,8 +28,8 @@ namespace kinemark::io {
 /// The same from memory; `name` stands for the file in messages.
 [[nodiscard]] Result<data::Table> parse_table(std::string_view text, std::string_view name);
 
-/// Whether rotational columns are in degrees: what the file says, else the habit of its kind: degrees under a
-/// SIMM header (datacolumns or datarows), radians elsewhere.
+/// Whether rotational columns are in degrees: as stated in the file, else the convention of its kind: degrees
+/// under a SIMM header (datacolumns or datarows), radians elsewhere.
 [[nodiscard]] bool angles_are_degrees(const data::Table& table);
 
 /// Options of write_table().
@@ -40,8 +40,9 @@ struct TableWriteOptions {
 };
 
 /// Write a table as OpenSim reads it. Header lines that the table carries are kept, except those that count
-/// or version; inDegrees is written as angles_are_degrees(), and left out where it is no and nobody stated
-/// it. An empty name becomes the file's. Code::bad_input when the table is invalid or a name holds a tab or
+/// or version; inDegrees is written as angles_are_degrees(), and left out where it is no and the input did
+/// not state it. An empty name becomes the file's. Code::bad_input when the table is invalid or a name holds
+/// a tab or
 /// line end; Code::io as OutputFile.
 [[nodiscard]] Status write_table(const std::filesystem::path& path, const data::Table& table,
                                  const TableWriteOptions& options = {});

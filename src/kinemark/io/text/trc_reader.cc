@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/time_column.h"
@@ -150,11 +151,9 @@ std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m) {
 
 /// "'A', 'B' and 3 more"
 std::string list(const std::vector<std::string_view>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), kNamesInWarning); ++i)
-    out += fmt::format("{}'{}'", i == 0 ? "" : ", ", excerpt(names[i]));
-  if (names.size() > kNamesInWarning) out += fmt::format(" and {} more", names.size() - kNamesInWarning);
-  return out;
+  std::vector<std::string> quoted;
+  for (const auto name : names) quoted.push_back(fmt::format("'{}'", excerpt(name)));
+  return join_some(quoted, kNamesInWarning);
 }
 
 /// Zeros out, and the warnings about markers.

@@ -77,5 +77,16 @@ TEST(SegmentsFile, OneSentenceForWhatIsWrong) {
   expect_refused(arm + "[[joint]]\nparent = \"fore\"\nchild = \"fore\"\n", "circle");
 }
 
+TEST(SegmentsFile, NamesWithLineEndsAndOtherControlCharactersAreReadBack) {
+  const std::vector<std::string> markers = {"a\tb", "c"};
+  const auto layout =
+      parse_segments("[[segment]]\nname = \"one\\ntwo\\u007F\"\nmarkers = [\"a\\tb\"]\n", "x.toml", markers);
+  ASSERT_TRUE(layout) << layout.error().message;
+  const auto back = parse_segments(segments_text(*layout, markers), "x.toml", markers);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->segments[0].name, "one\ntwo\x7F");
+  EXPECT_EQ(back->segments[0].markers, std::vector<int>{0});
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

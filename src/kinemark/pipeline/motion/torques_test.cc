@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A person of one piece stands on force plates: what the files say must carry the weight to the newton.
+// A rigid person stands on force plates: the forces of the files must carry the weight to the newton.
 #include "kinemark/pipeline/motion/torques.h"
 
 #include <gmock/gmock.h>

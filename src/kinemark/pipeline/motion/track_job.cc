@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/core/text.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
@@ -14,11 +15,7 @@
 namespace kinemark::pipeline {
 namespace {
 
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
+std::string list(const std::vector<std::string>& names) { return names.empty() ? "none" : join(names); }
 
 std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob& job,
                                                                   const motion::TrackResult& result) {

@@ -4,13 +4,13 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "kinemark/core/units.h"
 #include "kinemark/math/euler.h"
+#include "kinemark/math/rotation_fit.h"
 #include "kinemark/stages/calibration/bundle.h"
 
 namespace kinemark::calibration {
@@ -86,8 +86,7 @@ Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& fo
   if (wanted.camera_count() != found.camera_count() || wanted.camera_count() == 0)
     return fail(Code::bad_input, fmt::format("{} cameras are wanted and {} were found", wanted.camera_count(),
                                              found.camera_count()));
-  const Eigen::Matrix4d motion = Eigen::umeyama(marks(found), marks(wanted), false);
-  const math::SE3 wanted_from_found{motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
+  const math::SE3 wanted_from_found = math::fit_rigid(marks(found), marks(wanted)).target_from_source;
   Alignment out;
   for (int c = 0; c < wanted.camera_count(); ++c) {
     const auto at = static_cast<std::size_t>(c);

@@ -25,7 +25,7 @@ struct AlignmentOptions {
 /// One camera against the wanted pose, in the axes of the wanted camera: right, down, forward.
 struct CameraAlignment {
   std::string camera;       ///< its name
-  Eigen::Vector3d shift_m;  ///< lens, from the wanted place
+  Eigen::Vector3d shift_m;  ///< lens, from the wanted position
   Eigen::Vector3d
       turn_deg;  ///< rotation still needed: tilt up, pan to the right, roll clockwise as seen from behind
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero(),

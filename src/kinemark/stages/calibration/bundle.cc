@@ -4,12 +4,13 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "kinemark/camera/parameters.h"
+#include "kinemark/math/rotation_fit.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/calibration/internal/bundle_problem.h"
 #include "kinemark/stages/calibration/internal/gauge.h"
 #include "kinemark/stages/calibration/internal/rays.h"
@@ -50,8 +51,7 @@ math::SE3 fit_tree(const StillPoses& tree, const std::vector<Eigen::Vector3d>& a
     from.col(column) = tree.tree[led];
     to.col(column++) = at[led];
   }
-  const Eigen::Matrix4d motion = Eigen::umeyama(from, to, false);
-  return {motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
+  return math::fit_rigid(from, to).target_from_source;
 }
 
 struct Start {
@@ -99,18 +99,17 @@ Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vec
   out.rms_m = std::sqrt(squares / std::max(count, 1));
   for (int a = 0; a < tree.leds(); ++a)
     for (int b = a + 1; b < tree.leds(); ++b) {
-      auto& sides = found[static_cast<std::size_t>(a * tree.leds() + b)];
+      const auto& sides = found[static_cast<std::size_t>(a * tree.leds() + b)];
       if (sides.empty()) continue;
-      const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-      std::nth_element(sides.begin(), middle, sides.end());
+      const double side = math::upper_median(sides);
       const double given =
           (tree.tree[static_cast<std::size_t>(a)] - tree.tree[static_cast<std::size_t>(b)]).norm();
-      const double share = std::abs(*middle - given) / given;
+      const double share = std::abs(side - given) / given;
       if (share <= out.worst_share) continue;
       out.worst_share = share;
       out.sentence =
           fmt::format("LEDs {} and {} are {:.1f} mm apart on the tree and {:.1f} mm in the recording", a + 1,
-                      b + 1, 1e3 * given, 1e3 * *middle);
+                      b + 1, 1e3 * given, 1e3 * side);
     }
   return out;
 }

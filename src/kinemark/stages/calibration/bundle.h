@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Self-calibration of lateral-effect cameras from an object of known size that was held still in many places.
+// Self-calibration of lateral-effect cameras from an object of known size that was held still in many poses.
 #pragma once
 
 #include <Eigen/Core>

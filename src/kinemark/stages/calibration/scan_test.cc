@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-/// A lattice of 5 x 5 x 4 places, three frames each, the stage turned and shifted a little.
+/// A lattice of 5 x 5 x 4 positions, three frames each, the stage slightly rotated and shifted.
 struct Scan {
   ScanPlaces places;
   math::SE3 world_from_stage;

@@ -11,7 +11,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 #include "support/allocations.h"
 
 namespace kinemark::motion {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 
 namespace kinemark::reconstruction {
@@ -45,9 +46,7 @@ Result<Array<std::uint8_t>> usable_sightings(const data::Counts& counts, double 
         if ((counts.flags[counts.index(f, led, c)] & (data::kCountOccluded | data::kCountLost)) == 0)
           light.push_back(counts.at(f, led, c).sum());
       if (light.empty()) continue;
-      const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
-      std::nth_element(light.begin(), middle, light.end());
-      const double least = std::max(dim_share * *middle, kDark);
+      const double least = std::max(dim_share * math::upper_median(light), kDark);
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         const auto i = counts.index(f, led, c);
         out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > least;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/text.h"
+
 #include "kinemark/stages/report/internal/findings.h"
 
 namespace kinemark::report::internal {
@@ -47,9 +49,8 @@ void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
       out.push_back({Verdict::good, "marker", names.front(),
                      fmt::format("Marker {} was left out: {}", names.front(), why), kNaN});
     else
-      out.push_back(
-          {Verdict::good, "marker", "",
-           fmt::format("{} markers were left out: {}: {}", names.size(), why, fmt::join(names, ", ")), kNaN});
+      out.push_back({Verdict::good, "marker", "",
+                     fmt::format("{} markers were left out: {}: {}", names.size(), why, join(names)), kNaN});
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/report/internal/findings.h"
 
 namespace kinemark::report {
@@ -58,13 +59,6 @@ struct Errors {
   }
 };
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return kNaN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& motion, std::int64_t coordinate) {
   const auto j = static_cast<std::size_t>(coordinate);
   CoordinateSummary s{.name = motion.coordinates[j], .is_rotation = motion.is_rotation[j]};
@@ -78,7 +72,7 @@ CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& moti
     s.max = std::fmax(s.max, motion.q[i]);
     if (!motion.q_sd.empty() && std::isfinite(motion.q_sd[i])) sds.push_back(motion.q_sd[i]);
   }
-  s.median_sd = median(sds);
+  s.median_sd = math::upper_median(sds);
   return s;
 }
 

@@ -32,7 +32,7 @@ struct GridOptions {
 /// The grid as every camera recorded it, and where its LEDs really were.
 struct GridRecording {
   /// Per camera: one camera, nodes x nodes LEDs named "i,j" (i to the camera's right, j down, both from 0),
-  /// `samples` frames. LEDs are lit one at a time; each has the time of its turn.
+  /// `samples` frames. LEDs are lit one at a time; each has the time of its own slot.
   std::vector<data::Counts> counts;
   int nodes = 0;                           ///< along each side
   double spacing_m = 0.0;                  ///< between neighbours, as the operator believes

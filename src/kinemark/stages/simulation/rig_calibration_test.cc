@@ -43,7 +43,7 @@ TEST(Grid, HangsBeforeEachCamera) {
     EXPECT_GT(counts.at(0, 14 * 15 + 7, 0)[0], 3.0 * counts.at(0, 14 * 15 + 7, 0)[1]);
     EXPECT_GT(counts.at(0, 7 * 15 + 14, 0)[2], 3.0 * counts.at(0, 7 * 15 + 14, 0)[3]);
   }
-  // One board: relative places of LEDs are the same before both cameras, whatever its pose.
+  // One board: relative positions of LEDs are the same before both cameras, whatever its pose.
   const auto distance = [&grid](std::size_t c) {
     return (grid.x_in_cam[c].col(0) - grid.x_in_cam[c].col(224)).norm();
   };

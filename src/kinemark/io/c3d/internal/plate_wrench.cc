@@ -118,7 +118,7 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
   } else {
     wrench.matrix_ = Eigen::MatrixXd::Identity(6, 6);
   }
-  // Sensors lie evenly about the middle: what is left of ORIGIN is the depth.
+  // Sensors lie evenly about the middle: the remaining component of ORIGIN is the depth.
   if (sensors) wrench.centre_.head<2>().setZero();
   return wrench;
 }

@@ -20,7 +20,7 @@ using Channels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>
 class PlateWrench {
  public:
   /// `units` of all analog channels; `metres_per_unit` of the file's lengths. A plate that cannot be
-  /// computed: Code::not_supported or bad_input, a half sentence that says why.
+  /// computed: Code::not_supported or bad_input, with the reason as half a sentence.
   static Result<PlateWrench> create(const C3dForcePlate& plate, const std::vector<std::string>& units,
                                     double metres_per_unit);
 

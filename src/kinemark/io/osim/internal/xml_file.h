@@ -35,7 +35,7 @@ class XmlFile {
   /// The first element below the document element whose tag is one of `tags`, or that element itself.
   [[nodiscard]] pugi::xml_node find_object(std::initializer_list<const char*> tags) const;
   [[nodiscard]] pugi::xml_node document() const { return tree_.document_element(); }
-  /// Version of the document, 10500 for the oldest ones, which do not say.
+  /// Version of the document, 10500 for the oldest ones, which do not state it.
   [[nodiscard]] int version() const;
   [[nodiscard]] const std::string& name() const { return name_; }
 

@@ -106,7 +106,7 @@ class Cells {
   bool begin_cell() {
     if (done_) return false;
     while (p_ != end_ && (is_space(*p_) || (!tabs_ && *p_ == '\t'))) ++p_;
-    // Runs of blanks end with the last cell; a tab promises one more.
+    // Runs of blanks end with the last cell; after a tab follows one more.
     return tabs_ || p_ != end_;
   }
   Cell finish_blank() {

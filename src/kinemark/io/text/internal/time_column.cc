@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -62,9 +63,7 @@ double rounded_rate(std::span<const double> time_s, double resolution_s, double 
 double median_step(std::span<const double> time_s) {
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return math::upper_median(steps);
 }
 
 bool usable(double rate_hz) { return rate_hz > 0.0 && std::isfinite(rate_hz); }

@@ -40,8 +40,8 @@ struct MotionInputs {
 /// No value when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
 
-/// What the estimate (IkResult, TrackResult) says of itself and of each marker, and why a marker that was
-/// seen may have the weight 0.
+/// Summary of the estimate (IkResult, TrackResult) and of each marker, with the reason for a weight of 0 of a
+/// marker that was seen.
 template <class Estimate>
 void add_estimate(report::IkRun& run, const Estimate& result, std::string_view why_weightless) {
   run.solve_s = result.solve_seconds;

@@ -53,7 +53,7 @@ class BundleProblem {
 
   struct Step {
     bool solved = false;
-    double decrement = 0.0;  // g' A^-1 g: the fall of the cost that the step promises, times two
+    double decrement = 0.0;  // g' A^-1 g: the predicted decrease of the cost by the step, times two
     Eigen::VectorXd global;
     std::vector<Eigen::Matrix<double, 6, 1>> poses;  // by poses()
     std::vector<Eigen::Vector2d> nodes;
@@ -66,7 +66,8 @@ class BundleProblem {
   [[nodiscard]] Eigen::MatrixXd covariance() const;
   [[nodiscard]] const std::vector<FreeParameter>& free() const { return free_; }
 
-  /// Derivative of pose `p` of poses() (turn, then shift) by the free parameters, from the last solve().
+  /// Derivative of pose `p` of poses() (rotation, then translation) by the free parameters, from the last
+  /// solve().
   [[nodiscard]] Eigen::MatrixXd pose_by_free(std::size_t p) const;
 
   struct Misfit {

@@ -10,7 +10,7 @@
 
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/tasks.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {

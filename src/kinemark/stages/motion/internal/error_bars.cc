@@ -21,7 +21,6 @@
 namespace kinemark::motion {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -31,7 +30,7 @@ constexpr double kBlindRotation =
 constexpr double kBlindTranslation = 20.0;  // m per m
 constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar is not valid
 constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
-constexpr double kBlindFloor = 1e-13;       // lower: even a small share of a blind direction must show
+constexpr double kBlindFloor = 1e-13;  // lower: even a small share of an undetermined direction must show
 
 /// One thread's view of one frame: pose, visible markers, inverse normal matrices.
 struct Frame {
@@ -62,7 +61,7 @@ struct Frame {
       H(i, i) = 1.0;
     }
     llt.compute(H);
-    while (llt.info() != Eigen::Success) {  // rounding left a blind direction below zero
+    while (llt.info() != Eigen::Success) {  // rounding made the pivot of an undetermined direction negative
       floor = std::max(10.0 * floor, 1e-16);
       if (floor > 1e6) break;
       H.diagonal().array() += floor;

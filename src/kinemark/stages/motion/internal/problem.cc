@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 
+#include "kinemark/core/text.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/workspace.h"
 
@@ -16,12 +17,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i == 12) return text + fmt::format(", and {} more", names.size() - i);
-    text += (i ? ", " : "") + names[i];
-  }
-  return text.empty() ? "none" : text;
+  return names.empty() ? "none" : join_some(names, 12);
 }
 
 /// Recording's marker for each name: exact, or the only one whose name ends in ":name".

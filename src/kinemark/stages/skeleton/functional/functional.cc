@@ -4,10 +4,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
 #include "kinemark/stages/skeleton/functional/words.h"
@@ -15,9 +14,9 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr std::array<std::string_view, 6> kMethods = {"score",        "sara",     "gamage",
-                                                      "gamage-plain", "cylinder", "constant-distance"};
-constexpr std::array<std::string_view, 3> kSides = {"both", "parent", "child"};
+constexpr EnumNames<FunctionalMethod::constant_distance> kMethods{
+    "score", "sara", "gamage", "gamage-plain", "cylinder", "constant-distance"};
+constexpr EnumNames<Sides::child> kSides{"both", "parent", "child"};
 
 data::SkeletonSegment describe_segment(const SegmentPoses& poses) {
   data::SkeletonSegment out;
@@ -123,26 +122,15 @@ Status check_input(const data::Trajectories& trajectories, const data::SegmentLa
 
 }  // namespace
 
-std::string_view to_string(FunctionalMethod method) { return kMethods[static_cast<std::size_t>(method)]; }
+std::string_view to_string(FunctionalMethod method) { return kMethods[method]; }
 
 Result<FunctionalMethod> parse_functional_method(std::string_view name) {
-  const auto at = std::ranges::find(kMethods, name);
-  if (at == kMethods.end())
-    return fail(Code::usage,
-                fmt::format("'{}' is not a method; use score, sara, gamage, gamage-plain, cylinder or "
-                            "constant-distance",
-                            name));
-  return static_cast<FunctionalMethod>(at - kMethods.begin());
+  return kMethods.parse(name, "method");
 }
 
-std::string_view to_string(Sides sides) { return kSides[static_cast<std::size_t>(sides)]; }
+std::string_view to_string(Sides sides) { return kSides[sides]; }
 
-Result<Sides> parse_sides(std::string_view name) {
-  const auto at = std::ranges::find(kSides, name);
-  if (at == kSides.end())
-    return fail(Code::usage, fmt::format("'{}' is not a side; use both, parent or child", name));
-  return static_cast<Sides>(at - kSides.begin());
-}
+Result<Sides> parse_sides(std::string_view name) { return kSides.parse(name, "side"); }
 
 Status FunctionalOptions::check() const {
   if (!(noise_sd_m >= 0.0) || !std::isfinite(noise_sd_m))

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/rotation_fit.h"
+
 namespace kinemark::skeleton {
 namespace {
 
@@ -40,7 +42,7 @@ RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& ch
     sum += turns.back();
   }
   if (turns.empty()) return motion;
-  const Eigen::Matrix3d mean = kabsch(sum);
+  const Eigen::Matrix3d mean = math::fit_rotation(sum).rotation;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const Eigen::Matrix3d& turn : turns) {
     const Eigen::Vector3d v = rotation_vector(mean.transpose() * turn);

@@ -95,7 +95,4 @@ struct PoseNoise {
 /// Of a frame whose pose is known.
 [[nodiscard]] PoseNoise pose_noise(const Samples& samples, const SegmentPoses& poses, std::int64_t frame);
 
-/// Rotation R with world ~ R segment in the least-squares sense; both with their means taken off.
-[[nodiscard]] Eigen::Matrix3d kabsch(const Eigen::Matrix3d& sum_world_segment);
-
 }  // namespace kinemark::skeleton

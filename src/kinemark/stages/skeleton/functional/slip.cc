@@ -60,8 +60,8 @@ Eigen::Index change_point(const Path& path) {
   return best;
 }
 
-/// Mean of some columns and the variance of that mean (sum over axes), from blocks; infinite where one column
-/// or none tells nothing of it.
+/// Mean of some columns and the variance of that mean (sum over axes), from blocks; infinite with one column
+/// or none.
 struct Part {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double variance = 0.0;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/core/text.h"
 #include "kinemark/stages/skeleton/topology/internal/edges.h"
 #include "kinemark/stages/skeleton/topology/internal/pairs.h"
 
@@ -26,13 +27,6 @@ std::vector<std::int64_t> draw_frames(const data::Trajectories& t, const Topolog
   std::vector<std::int64_t> frames;
   for (std::int64_t i = 0; i < n; ++i) frames.push_back(i * t.frames() / n);
   return frames;
-}
-
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < kNamesTold; ++i) text += (i ? ", " : "") + names[i];
-  if (names.size() > kNamesTold) text += fmt::format(" and {} more", names.size() - kNamesTold);
-  return text;
 }
 
 /// The recording cut to the frames drawn: what fits and poses are made of.
@@ -89,7 +83,7 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
   }
   if (!doubtful.empty())
     out.warnings.push_back(fmt::format("Segment of {} of {} markers doubtful: {}.", doubtful.size(),
-                                       clusters.markers.size(), list(doubtful)));
+                                       clusters.markers.size(), join_some(doubtful, kNamesTold)));
 }
 
 /// Tree edges as joints that lead away from the first segment of each tree.
@@ -120,12 +114,12 @@ void add_joints(const std::vector<internal::TreeEdge>& tree, const TopologyOptio
       }
   }
   if (!doubtful.empty())
-    out.warnings.push_back(
-        fmt::format("Another joint would do nearly as well (times worse) in place of: {}.", list(doubtful)));
+    out.warnings.push_back(fmt::format("Another joint would do nearly as well (times worse) in place of: {}.",
+                                       join_some(doubtful, kNamesTold)));
   if (roots.size() > 1)
     out.warnings.push_back(
         fmt::format("The segments make {} groups that were never seen together, beginning with: {}.",
-                    roots.size(), list(roots)));
+                    roots.size(), join_some(roots, kNamesTold)));
 }
 
 void warn_of_unseen(const Clusters& clusters, const std::vector<std::string>& names, Topology& out) {
@@ -140,11 +134,11 @@ void warn_of_unseen(const Clusters& clusters, const std::vector<std::string>& na
     }
   for (const int m : out.left_out) lost.push_back(names[static_cast<std::size_t>(m)]);
   if (!pairs.empty())
-    out.warnings.push_back(
-        fmt::format("{} pairs of markers were hardly ever seen together: {}.", pairs.size(), list(pairs)));
+    out.warnings.push_back(fmt::format("{} pairs of markers were hardly ever seen together: {}.",
+                                       pairs.size(), join_some(pairs, kNamesTold)));
   if (!lost.empty())
-    out.warnings.push_back(
-        fmt::format("{} markers were hardly ever seen and are on no segment: {}.", lost.size(), list(lost)));
+    out.warnings.push_back(fmt::format("{} markers were hardly ever seen and are on no segment: {}.",
+                                       lost.size(), join_some(lost, kNamesTold)));
 }
 
 Clusters find_clusters(const Samples& samples, const std::vector<std::int64_t>& frames,

@@ -17,9 +17,9 @@ namespace kinemark::skeleton {
 
 /// Options of find_topology().
 struct TopologyOptions {
-  double noise_sd_m = 0.0;          ///< of the markers, per axis; 0: found from the steadiest distances
-  double least_motion_m = 0.002;    ///< > 0; segments that move less against each other cannot be told apart
-  double most_motion_m = 0.1;       ///< > least_motion_m; spread of distances between segments, at most
+  double noise_sd_m = 0.0;        ///< of the markers, per axis; 0: found from the steadiest distances
+  double least_motion_m = 0.002;  ///< > 0; segments that move less against each other cannot be distinguished
+  double most_motion_m = 0.1;     ///< > least_motion_m; spread of distances between segments, at most
   std::int64_t least_frames = 20;   ///< >= 6; pairs seen together in fewer count as never seen together
   std::int64_t most_frames = 4000;  ///< >= 100; of longer recordings so many evenly spaced frames are used
   double doubtful_nats = 6.0;    ///< >= 0; markers with less evidence for their segment, or so much against

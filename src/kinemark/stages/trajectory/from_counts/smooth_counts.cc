@@ -13,6 +13,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
 
 namespace kinemark::trajectory {
@@ -47,12 +48,10 @@ std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_sh
         if ((counts.flags[counts.index(f, led, c)] & kUnusable) == 0)
           light.push_back(counts.at(f, led, c).sum());
       if (light.empty()) continue;
-      const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
-      std::nth_element(light.begin(), middle, light.end());
+      const double least = std::max(dim_share * math::upper_median(light), kDark);
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         const auto i = counts.index(f, led, c);
-        out[i] = (counts.flags[i] & kUnusable) == 0 &&
-                 counts.at(f, led, c).sum() > std::max(dim_share * *middle, kDark);
+        out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > least;
       }
     }
   return out;

@@ -30,7 +30,7 @@ struct GapCandidates {
   int windows = 0;
   std::int64_t window_frames = 0;
   std::vector<std::int64_t> predictors;  ///< markers, most rigid first
-  std::vector<std::int64_t> dropped;     ///< markers in the wrong place
+  std::vector<std::int64_t> dropped;     ///< markers at wrong positions
 };
 
 /// Compare all candidates for one stretch of missing samples, as a whole (not in pieces) and whatever the

@@ -22,7 +22,6 @@ namespace {
 using internal::Combination;
 using internal::Filled;
 using internal::Filler;
-using internal::FillKind;
 using internal::GapSpan;
 using internal::Index;
 using internal::Neighbour;

@@ -23,7 +23,8 @@ class ReturningMarkers {
   void start(const Eigen::VectorXd& weight);
   /// Not followed so far: its weight is above 0 for the first time since it was 0.
   [[nodiscard]] bool is_new(int marker, const Eigen::VectorXd& weight) const;
-  /// From `time_s` on lead the marker: by how much it misses its goal there (m), and their velocities (m/s).
+  /// Ease in the marker from `time_s` on: its distance from the goal at that time (m), and the difference of
+  /// velocities (m/s).
   void lead(int marker, double time_s, const Eigen::Vector3d& miss, const Eigen::Vector3d& miss_rate);
   /// The eased goals; discards the transitions of markers whose weight is 0.
   void apply(double time_s, GoalValues& goal);

@@ -3,14 +3,15 @@
 #include "kinemark/stages/motion/control/internal/walker.h"
 
 #include <cmath>
+#include <utility>
 
 #include "kinemark/model/kinematics.h"
 
 namespace kinemark::motion::internal {
 
-Walker::Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity, double t0_s)
+Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, double t0_s)
     : plan_(plan),
-      filter_(filter),
+      filter_(std::move(filter)),
       samples_(plan.problem.model.marker_count(), capacity),
       controller_(plan),
       solver_(plan.problem, plan.start_options),

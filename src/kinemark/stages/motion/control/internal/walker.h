@@ -15,7 +15,7 @@ namespace kinemark::motion::internal {
 class Walker {
  public:
   /// The plan must outlive the walker and stay as it is.
-  Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity, double t0_s);
+  Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, double t0_s);
   /// Use the derivatives of a recording in place of the filter; `d` must outlive the walker.
   void use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d);
 

@@ -27,7 +27,7 @@ constexpr double kLeastGain = 1e-7;  // of the cost
 constexpr double kNoPlacePrior_m = 1.0;
 constexpr double kLeastNoise_m = 1e-5;
 constexpr double kSettled = 0.1;  // standard deviations: largest distance to the minimum after the last step
-constexpr double kNear = 0.3;     // standard deviations that a step must win before settle() takes over
+constexpr double kNear = 0.3;     // standard deviations: gain of a step below which settle() takes over
 constexpr int kSettleSteps = 20;
 constexpr int kQuietRounds = 3;
 constexpr double kSameMotion = 0.1;  // shares of motion that need no further round
@@ -99,8 +99,8 @@ double Adaptation::cost(const ProjectedSums& sums, const VectorXd& x, const Vect
   return sums.cost + (prior.array() * x.array().square()).sum();
 }
 
-/// Levenberg-Marquardt on the Schur complement, from where we are, until a step wins less than least_sd
-/// standard deviations of a parameter would.
+/// Levenberg-Marquardt on the Schur complement, from the current geometry, until the gain of a step is below
+/// that of least_sd standard deviations of a parameter.
 Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
   const VectorXd prior = priors();
   sums_ = projection_.solve(x_, states_);

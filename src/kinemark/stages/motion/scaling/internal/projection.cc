@@ -32,13 +32,12 @@ std::vector<GeometryParameter> rename_markers(const data::ModelDescription& full
 }  // namespace
 
 Projection::Projection(const data::ModelDescription& full, const std::vector<GeometryParameter>& parameters,
-                       Problem problem, const IkOptions& options, const data::Trajectories& markers,
-                       int threads)
+                       Problem problem, IkOptions options, const data::Trajectories& markers, int threads)
     : problem_(std::move(problem)),
       layout_(problem_, full, parameters),
       base_(problem_.model.description()),
       parameters_(rename_markers(full, base_, parameters)),
-      options_(options),
+      options_(std::move(options)),
       markers_(markers),
       threads_(threads) {}
 

@@ -26,7 +26,7 @@ struct ProjectedSums {
 class Projection {
  public:
   Projection(const data::ModelDescription& full, const std::vector<GeometryParameter>& parameters,
-             Problem problem, const IkOptions& options, const data::Trajectories& markers, int threads);
+             Problem problem, IkOptions options, const data::Trajectories& markers, int threads);
 
   /// Visit every stride-th frame only.
   void set_frames(std::int64_t stride) { stride_ = stride; }

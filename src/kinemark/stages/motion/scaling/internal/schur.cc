@@ -12,12 +12,11 @@
 namespace kinemark::motion::internal {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Moves = GeometryTerm::Moves;
 
-constexpr double kFloor = 1e-10;  // of the total weight: blind directions of a posture stay where they are
+constexpr double kFloor = 1e-10;  // of the total weight: holds undetermined directions of a posture
 
 bool hangs_on(const model::Model& model, int body, int ancestor) {
   while (body > ancestor) body = model.bodies()[at(body)].parent;

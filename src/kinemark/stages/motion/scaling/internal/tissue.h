@@ -6,7 +6,7 @@
 // angles next to the segment, orthonormal over the recording, b_c random with variance s/K. Part of b is its
 // own, part is shared by the markers of the segment. The geometry then has the covariance
 //     S^-1 (sum_f G V G' + sum_ic (s_i/K) g g' + sum_bc (s_b/K) g g' + priors) S^-1,   g = sum_f phi_c G_i R,
-// with G = Jp'W - Jp'W Jq H^-1 Jq'W, R world_from_body and V what is left over, independent.
+// with G = Jp'W - Jp'W Jq H^-1 Jq'W, R world_from_body and V the remaining, independent part.
 #pragma once
 
 #include <Eigen/Core>

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
 
@@ -22,12 +23,7 @@ constexpr double kSmallestVariance = 1e-10;  // 10 um, a lower bound of marker n
 constexpr double kWidest = 10.0;             // a marker's variance over the usual one, and its inverse
 constexpr double kChance = 2.5;              // standard errors that a slow share must exceed
 
-double median(VectorXd values) {
-  if (values.size() == 0) return 0.0;
-  auto middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
-}
+double usual_of(const VectorXd& values) { return math::upper_median({values.data(), at(values.size())}); }
 
 /// Share of a marker's residual variance that is not white, beyond chance.
 double slow_share(const data::JointMotion& motion, Index m) {
@@ -68,7 +64,7 @@ Spread spread(const data::JointMotion& motion, Index m) {
   if (count < kFewest) return {};
   const double all = squares.head(count).mean() / 3.0;
   if (!(all > 0.0)) return {};
-  const double usual = median(squares.head(count)) / kMedianOfChiSquare3;
+  const double usual = usual_of(squares.head(count)) / kMedianOfChiSquare3;
   return {.usual = usual, .share = std::min(1.0, usual / all)};
 }
 
@@ -123,7 +119,7 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
     if (std::isfinite(summary.common_sd_m)) common[m] = summary.common_sd_m * summary.common_sd_m;
     share[m] = slow_share(start.motion, m);
   }
-  const double usual = std::max(kSmallestVariance, median(own));
+  const double usual = std::max(kSmallestVariance, usual_of(own));
   own = own.cwiseMax(usual / kWidest).cwiseMin(usual * kWidest);
   split.white = own.cwiseProduct((1.0 - share.array()).matrix()).cwiseMax(kSmallestVariance);
   split.slow = own.cwiseProduct(share);
@@ -139,8 +135,8 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   // Weights follow from the whole variance of a marker, shrunk half way towards equal weights: a marker with
   // small residuals would otherwise attract the pose and obtain even smaller residuals.
   const VectorXd total = own + common;
-  const double usual_total = median(total), usual_white = median(split.white);
-  const double usual_weight = median(problem.weight);
+  const double usual_total = usual_of(total), usual_white = usual_of(split.white);
+  const double usual_weight = usual_of(problem.weight);
   for (Index m = 0; m < M; ++m) {
     MarkerTrust trust;
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;

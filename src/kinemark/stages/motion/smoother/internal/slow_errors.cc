@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
@@ -99,8 +100,8 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
     }
     // Errors of neighbouring frames are fully correlated: sums of B grow with the square of the number of
     // frames used.
-    const double looks = static_cast<double>(
-        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride);
+    const std::int64_t used = 1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
+    const auto looks = static_cast<double>(used);
     const std::int64_t middle = std::min(F - 1, b * block_ + block_ / 2);
     std::copy_n(motion.q.data() + motion.index(middle, 0), C, q.data());
     model::kinematics(model, w, states.col(middle));
@@ -110,10 +111,8 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
       variance_(c, b) = std::max(0.0, looks * gain.col(c).dot(sum_B * gain.col(c)));
   }
   for (Index c = 0; c < C; ++c) {
-    VectorXd sorted = variance_.row(c).transpose();
-    std::nth_element(sorted.data(), sorted.data() + sorted.size() / 2, sorted.data() + sorted.size());
-    const double usual = sorted[sorted.size() / 2];
     VectorXd row = variance_.row(c).transpose();
+    const double usual = math::upper_median({row.data(), at(row.size())});
     for (double& v : row)
       if (!(v <= kBlind * usual)) v = std::numeric_limits<double>::quiet_NaN();
     bridge(row);

@@ -8,6 +8,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/smoother/coordinate_smoother.h"
 
@@ -79,10 +80,8 @@ double pooled_sd(const data::JointMotion& motion, std::int64_t f, const int (&co
   return std::sqrt(squares / 3.0);
 }
 
-double usual_of(std::vector<double> values, double fallback) {
-  if (values.empty()) return fallback;
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-  return values[values.size() / 2];
+double usual_of(const std::vector<double>& values, double fallback) {
+  return values.empty() ? fallback : math::upper_median(values);
 }
 
 }  // namespace

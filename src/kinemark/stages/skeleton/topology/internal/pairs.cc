@@ -8,9 +8,12 @@
 #include <numeric>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
+
+using math::quantile;
 
 constexpr double kMostNats = 50.0;  ///< evidence saturates, so that one pair cannot outweigh all others
 constexpr int kGrid = 80;           ///< grid of sizes of motion
@@ -18,12 +21,6 @@ constexpr double kSlow = 0.3;       ///< distances that correlate so far vary by
 constexpr double kUneven = 1.5;     ///< and so do those whose spread differs so much between markers
 constexpr double kFinest_m = 5e-5;  ///< smallest motion of the grid
 constexpr double kOneFifth = 0.2, kFourFifths = 0.8;
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::ranges::nth_element(values, values.begin() + at);
-  return values[static_cast<std::size_t>(at)];
-}
 
 /// log of a mean of exp(terms) under weights.
 double log_mean(const Eigen::ArrayXd& terms, const Eigen::ArrayXd& weights) {

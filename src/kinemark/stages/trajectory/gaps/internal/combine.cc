@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::trajectory::internal {
 namespace {
 
@@ -46,8 +48,7 @@ Eigen::MatrixXd median_fill(const std::vector<Fill>& fills, const std::vector<st
   std::vector<double> v(use.size());
   for (Index i = 0; i < median.size(); ++i) {
     for (std::size_t k = 0; k < use.size(); ++k) v[k] = fills[use[k]].gap(i);
-    std::ranges::sort(v);
-    median(i) = 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
+    median(i) = math::median(v);
   }
   return median;
 }

@@ -12,7 +12,7 @@ namespace kinemark::trajectory::internal {
 /// The fill that is used, combined from the candidates.
 struct Combination {
   std::vector<double> weights;  ///< per candidate, >= 0, sum 1
-  std::vector<bool> guarded;    ///< per candidate: left out because it strays
+  std::vector<bool> guarded;    ///< per candidate: left out because it deviates from the others
   Eigen::MatrixXd gap;          ///< L x 3, m
   Eigen::VectorXd sd_m;         ///< L, per axis; NaN without windows
 };

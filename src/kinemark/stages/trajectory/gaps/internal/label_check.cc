@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::trajectory::internal {
 namespace {
 
@@ -56,16 +58,10 @@ Partners find_partners(const Recording& r) {
         if (r.usable(a, f) && r.usable(b, f)) d.push_back((r.x(a, f) - r.x(b, f)).norm());
       }
       if (d.size() < 8 || 10 * static_cast<Index>(d.size()) < 3 * sampled) continue;
-      const auto quantile = [&](double q) {
-        const auto at = d.begin() + std::lround(q * static_cast<double>(d.size() - 1));
-        std::ranges::nth_element(d, at);
-        return *at;
-      };
-      const double low = quantile(0.2);
-      const double high = quantile(0.8);
-      const double median = quantile(0.5);
-      keep_steadiest(partners[static_cast<std::size_t>(a)], {b, median, high - low});
-      keep_steadiest(partners[static_cast<std::size_t>(b)], {a, median, high - low});
+      const double range = math::quantile(d, 0.8) - math::quantile(d, 0.2);
+      const double median = math::quantile(d, 0.5);
+      keep_steadiest(partners[static_cast<std::size_t>(a)], {b, median, range});
+      keep_steadiest(partners[static_cast<std::size_t>(b)], {a, median, range});
     }
   return partners;
 }
@@ -80,7 +76,7 @@ class FrameCheck {
  public:
   FrameCheck(const Recording& r, const Partners& partners) : r_(r), partners_(partners) {}
 
-  /// Mean squared deviate of the distances that marker `of` would have at the place of `at`, without
+  /// Mean squared deviate of the distances that marker `of` would have at the position of `at`, without
   /// `without`.
   [[nodiscard]] double misfit(Index of, Index at, Index without, Index frame) const {
     double sum = 0.0;

@@ -19,8 +19,8 @@ struct Placement {
 
 /// A local frame attached to a few markers.
 ///
-/// Three or more markers that are not on a line give rotation and translation (weighted least squares, Horn
-/// 1987, J. Opt. Soc. Am. A 4(4):629-642); fewer give a translation only; none the world frame.
+/// Three or more markers that are not on a line give rotation and translation (weighted least squares,
+/// math::fit_rotation()); fewer give a translation only; none the world frame.
 class LocalFrame {
  public:
   /// @param sd_m  Of the distance to the target, per marker; weights are 1 / (sd^2 + (1 mm)^2).

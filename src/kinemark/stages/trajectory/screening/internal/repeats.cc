@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 
 namespace kinemark::trajectory::internal {
@@ -169,8 +170,7 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Findings& o
     if (runs.empty()) continue;
     // Usual runs of the marker: an upsampled stream by holding has runs of its factor, a coarse one at rest
     // has long ones.
-    std::ranges::sort(lengths);
-    const double usual = lengths[lengths.size() * 9 / 10];
+    const double usual = math::nth_smallest(lengths, lengths.size() * 9 / 10);
     const double rounding = rounding_of(t, m);
     for (const auto& [first, last] : runs) {
       const auto length = static_cast<double>(last - first + 1);

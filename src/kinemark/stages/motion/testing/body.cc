@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 #include <cmath>
 
