@@ -25,25 +25,27 @@ namespace kinemark::motion {
 struct SmootherTuning {
   Eigen::VectorXd step_variance;     ///< nv, of the third difference of each speed's own coordinate
   std::vector<MarkerTrust> markers;  ///< one per used marker, in the order of motion.markers
-  double rate_hz = 0.0;
+  double rate_hz = 0.0;              ///< of the recording that it was found on
 };
 
+/// What the smoother found: the motion, and how well it fits the markers.
 struct SmootherResult {
   /// q, v, a, q_sd, determined, marker_error (measured minus model), status. A frame without any marker is
   /// bridged like any other gap. Determined: the SD is at most 0.5 rad or 0.5 m.
   data::JointMotion motion;
-  RateErrors errors;             ///< covariance of q, v, a by coordinate; empty without error bars
-  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
-  SmootherTuning tuning;
-  std::vector<MarkerSummary> markers;
+  RateErrors errors;                   ///< covariance of q, v, a by coordinate; empty without error bars
+  std::int64_t first_frame = 0;        ///< index in the recording of motion's frame 0
+  SmootherTuning tuning;               ///< as used
+  std::vector<MarkerSummary> markers;  ///< one a used marker
+  /// names that only one of the two has
   std::vector<std::string> model_markers_without_data, data_markers_without_model;
-  std::vector<ExcludedMarker> excluded_markers;
-  std::vector<std::string> warnings;
-  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;  ///< measured to model, where seen
-  Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();
-  double max_loop_gap_m = 0.0;  ///< largest gap of a closed loop
-  int iterations = 0;           ///< steps over the whole recording
-  bool converged = false;
+  std::vector<ExcludedMarker> excluded_markers;                   ///< shared and not used
+  std::vector<std::string> warnings;                              ///< one sentence each
+  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;      ///< measured to model, where seen
+  Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();  ///< measured minus model
+  double max_loop_gap_m = 0.0;                                    ///< largest gap of a closed loop
+  int iterations = 0;                                             ///< steps over the whole recording
+  bool converged = false;                                         ///< false: the iteration limit was reached
   double start_seconds = 0.0, solve_seconds = 0.0;  ///< wall time: least squares; smoother with error bars
 };
 
