@@ -81,7 +81,7 @@ std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-      out += fmt::format("\\u{:04X}", static_cast<int>(c));  // a name may hold a line's end, a line of TOML not
+      out += fmt::format("\\u{:04X}", static_cast<int>(c));  // a line of TOML holds no line's end
       continue;
     }
     if (c == '"' || c == '\\') out += '\\';
