@@ -23,7 +23,7 @@ struct NoiseSplit {
 
 /// Least squares has no robust loss: one wild sample makes its own marker look bad and the others of the
 /// segment good, in all frames. Frames with a residual beyond `bend_sd` of what most frames of that marker
-/// show lose their residuals in start.motion, and the noise in start.markers is estimated anew without them;
+/// show lose their residuals in start.motion, and the noise in start.fit is estimated anew without them;
 /// when they are more than a tenth of all they are no outliers, and nothing changes.
 void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
                         int threads, IkResult& start);
