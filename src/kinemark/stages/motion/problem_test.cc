@@ -35,7 +35,7 @@ TEST(Problem, KeepsTheMarkersThatBothSidesHaveInTheModelsOrder) {
   EXPECT_THAT(problem.fit.excluded_as(data::kNotInModel), ElementsAre("stranger"));
   EXPECT_EQ(problem.fit.excluded.size(), 2U);
   EXPECT_EQ(problem.fit.markers.size(), 13U);
-  EXPECT_EQ(problem.fit.markers[0].body, "thigh");
+  EXPECT_EQ(problem.fit.markers[0].body, "trunk");
 }
 
 TEST(Problem, AMarkerOfSeveralSubjectsIsNotGuessed) {
