@@ -100,7 +100,8 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
     }
     // Errors of neighbouring frames are fully correlated: sums of B grow with the square of the number of
     // frames used.
-    const std::int64_t used = 1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
+    const std::int64_t used =
+        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
     const auto looks = static_cast<double>(used);
     const std::int64_t middle = std::min(F - 1, b * block_ + block_ / 2);
     std::copy_n(motion.q.data() + motion.index(middle, 0), C, q.data());
