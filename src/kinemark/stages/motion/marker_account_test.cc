@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/marker_fit.h"
 #include "kinemark/model/model.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 
