@@ -28,11 +28,11 @@ void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
   const auto& summary = outcome.summary;
   say(globals,
       fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; solved in {:.3f} s ({:.0f} frames/s).",
-                  motion.frames(), motion.time.rate_hz, result.markers.size(), motion.size(),
+                  motion.frames(), motion.time.rate_hz, result.fit.markers.size(), motion.size(),
                   result.solve_seconds, static_cast<double>(motion.frames()) / result.solve_seconds));
   say(globals,
       fmt::format("Marker error {:.2f} mm RMS, {:.1f} mm at most; {:.1f} % of the coordinates determined.",
-                  1e3 * result.rms_marker_error_m, 1e3 * result.max_marker_error_m,
+                  1e3 * result.fit.rms_error_m, 1e3 * result.fit.max_error_m,
                   100.0 * summary.determined_fraction));
   const auto partly = coordinates_partly_determined(summary, motion.frames());
   if (!partly.empty()) say(globals, partly);

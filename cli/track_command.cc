@@ -69,12 +69,12 @@ void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome
   const auto& motion = result.motion;
   say(globals,
       fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; {} steps of {:.3g} ms in {:.3f} s.",
-                  motion.frames(), motion.time.rate_hz, result.markers.size(), motion.size(), result.steps,
-                  1e3 * result.step_s, result.solve_seconds));
+                  motion.frames(), motion.time.rate_hz, result.fit.markers.size(), motion.size(),
+                  result.steps, 1e3 * result.step_s, result.solve_seconds));
   say(globals,
       fmt::format("Marker error {:.2f} mm RMS against the recording, {:.2f} mm against the goals; rank "
                   "{} to {} of {}.",
-                  1e3 * result.rms_marker_error_m, 1e3 * result.rms_goal_error_m,
+                  1e3 * result.fit.rms_error_m, 1e3 * result.rms_goal_error_m,
                   *std::min_element(result.rank.begin(), result.rank.end()),
                   *std::max_element(result.rank.begin(), result.rank.end()), result.free_speeds));
   if (!result.locked_coordinates.empty())

@@ -89,9 +89,9 @@ std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int ax
     plot.line(name, colour, times(motion.time), goal.segment(first, motion.frames()) - error.col(axis));
   };
   add("least squares, all 21", kLeastSquares, drawing.least_squares.motion,
-      drawing.least_squares.first_frame);
-  add("whole body", kWhole, drawing.whole.motion, drawing.whole.first_frame);
-  add("2 + 2 landmarks", kPaper, drawing.paper.motion, drawing.paper.first_frame);
+      drawing.least_squares.fit.first_frame);
+  add("whole body", kWhole, drawing.whole.motion, drawing.whole.fit.first_frame);
+  add("2 + 2 landmarks", kPaper, drawing.paper.motion, drawing.paper.fit.first_frame);
   return plot.svg();
 }
 
@@ -110,7 +110,7 @@ std::string joint_margin(const TaiChiDrawing& drawing, std::string_view coordina
   const auto& ours = drawing.whole.motion;
   const auto c = ours.find(coordinate);
   SvgPlot plot(std::string(coordinate), "time, s", fmt::format("{}: error and its bound, deg", coordinate));
-  const auto shift = drawing.whole.first_frame - drawing.least_squares.first_frame;
+  const auto shift = drawing.whole.fit.first_frame - drawing.least_squares.fit.first_frame;
   VectorXd bound = VectorXd::Constant(ours.frames(), kNaN);
   const auto& goal_bound = drawing.whole.goal_bound;
   for (std::int64_t f = 0; f < ours.frames() && !goal_bound.empty(); ++f)

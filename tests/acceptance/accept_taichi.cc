@@ -109,12 +109,12 @@ void check_medians(const data::Trajectories& landmarks, bool clavicles, double m
   if (clavicles) motion::add_clavicles(description).value();
   const auto model = model::Model::compile(description).value();
   const auto ik = motion::solve_ik(model, landmarks, studies::landmark_ik_options(description)).value();
-  print_row(kMillimetres * ik.rms_marker_error_m <= most_mm && landmarks.frames() == 1002,
+  print_row(kMillimetres * ik.fit.rms_error_m <= most_mm && landmarks.frames() == 1002,
             fmt::format("tai chi, least squares, 21 landmarks, scaled by medians, {} coordinates",
                         model.coordinate_count()),
             fmt::format("1002 rows at 60 Hz, RMS <= {} mm", most_mm),
             fmt::format("{} rows, {:.2f} mm, at most {:.1f} mm", landmarks.frames(),
-                        kMillimetres * ik.rms_marker_error_m, kMillimetres * ik.max_marker_error_m));
+                        kMillimetres * ik.fit.rms_error_m, kMillimetres * ik.fit.max_error_m));
 }
 
 int run_check(int /*argc*/, char** /*argv*/) {

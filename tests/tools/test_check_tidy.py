@@ -37,7 +37,9 @@ class CheckTidy(unittest.TestCase):
 
     def compile_with(self, flag):
         database = [
-            {"file": str(self.root / name), "command": f"c++ {flag} {name}"} for name in FILES if name.endswith(".cc")
+            {"file": str(self.root / name), "command": f"c++ {flag} -o {name}.o -c {name}"}
+            for name in FILES
+            if name.endswith(".cc")
         ]
         (self.build / "compile_commands.json").write_text(json.dumps(database))
 
@@ -54,8 +56,15 @@ class CheckTidy(unittest.TestCase):
         self.git("commit", "-m", "x")
 
     def run_tool(self, *arguments, bad=()):
-        """(exit status, files that clang-tidy saw); files in `bad` fail."""
-        looked_at = []
+        """(exit status, files that clang-tidy saw); files in `bad` fail. `self.together`: how many it saw at once."""
+        looked_at, self.together = [], []
+
+        def tidy_together(root, build, paths, command):
+            self.together.append(len(paths))
+            if set(paths) & set(bad):
+                return False
+            looked_at.extend(Path(path).name for path in paths)
+            return True
 
         def tidy(root, build, path):
             looked_at.append(Path(path).name)
@@ -71,6 +80,7 @@ class CheckTidy(unittest.TestCase):
         with (
             mock.patch.object(check_tidy, "ROOT", self.root),
             mock.patch.object(check_tidy, "tidy", tidy),
+            mock.patch.object(check_tidy, "tidy_together", tidy_together),
             mock.patch.object(check_tidy.subprocess, "run", run_or_pretend),
             contextlib.redirect_stdout(io.StringIO()) as out,
         ):
@@ -108,6 +118,26 @@ class CheckTidy(unittest.TestCase):
         (self.root / "tests/support/scratch.cc").write_text("int not_committed;\n")
         self.assertEqual(self.run_tool("--since", "HEAD~1"), (0, ["scratch.cc", "c.cc"]))
         self.assertIn("tidy: 2 of 4 files", self.said)
+
+    def test_what_changed_is_looked_at_together_and_one_by_one_where_that_fails(self):
+        self.git("init")
+        self.commit()
+        for name in ("b.cc", "c.cc", "b_test.cc"):
+            (self.root / "src/kinemark/core" / name).write_text("int changed;\n")
+        status, seen = self.run_tool("--since", "HEAD", bad=["src/kinemark/core/c.cc"])
+        self.assertEqual((status, sorted(seen), self.together), (1, ["b.cc", "b_test.cc", "c.cc"], [3]))
+        self.assertIn("src/kinemark/core/c.cc:\nwhat it said\n", self.said)
+        self.assertEqual(self.run_tool("--since", "HEAD"), (0, ["c.cc"]))
+        self.assertEqual(self.run_tool("--since", "HEAD"), (0, []))
+        # What passed among others is looked at by itself once all are.
+        self.assertEqual(self.run_tool("--all"), (0, ALL))
+        self.assertEqual(self.together, [])
+
+    def test_flags_are_what_two_files_have_in_common(self):
+        command = "/usr/bin/clang++-19 -DA -I/x -isystem /y -O1 -o made/a.cc.o -c /z/a.cc"
+        self.assertEqual(check_tidy.flags_of(command), ["-DA", "-I/x", "-isystem", "/y", "-O1"])
+        commands = {f"{i}.cc": f"c++ -O{i % 2} -o {i}.o -c {i}.cc" for i in range(30)}
+        self.assertEqual([len(batch) for batch in check_tidy.batches(commands)], [12, 3, 12, 3])
 
     def test_a_header_is_seen_through_the_source_beside_it_or_through_one_that_includes_it(self):
         self.git("init")

@@ -46,13 +46,14 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   run->seed = job.options.seed;
   run->threads = job.options.threads;
   run->options = describe_options(job, result);
-  internal::add_estimate(*run, result, "in no level, or given the weight 0");
+  run->solve_s = result.solve_seconds;
+  internal::add_fit(*run, result.fit, result.motion.time);
   run->locked_coordinates.insert(run->locked_coordinates.end(), result.locked_coordinates.begin(),
                                  result.locked_coordinates.end());
-  const double offset_m = result.mean_marker_error_m.norm();
+  const double offset_m = result.fit.mean_error_m.norm();
   internal::add_marker_gates(*run, job, offset_m,
                              fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
-                             result.rms_marker_error_m);
+                             result.fit.rms_error_m);
   internal::add_gate(
       *run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
       fmt::format("{} of {} frames are flagged: goals out of reach, or a body that ran away ({} "
@@ -83,7 +84,8 @@ void add_torque_deviations(const model::Model& model, const TrackJob& job, motio
   if (dynamics)
     result.motion.tau_sd = std::move(motion.tau_sd);
   else
-    result.warnings.push_back("standard deviations of torques are not known: " + dynamics.error().message);
+    result.fit.warnings.push_back("standard deviations of torques are not known: " +
+                                  dynamics.error().message);
 }
 
 /// The images join the lowest level.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
@@ -201,11 +202,11 @@ class ScaleRun {
   Status take_overall_size(const data::Trajectories& trial) {
     double measured = 0.0, modelled = 0.0;
     const auto& markers = out_.model.markers;
+    const data::NameIndex index(trial.names);
     for (std::size_t i = 0; i < markers.size(); ++i)
       for (std::size_t j = i + 1; j < markers.size(); ++j) {
         if (markers[i].body_idx != markers[j].body_idx) continue;
-        const auto a = motion::find_recorded(trial, markers[i].name),
-                   b = motion::find_recorded(trial, markers[j].name);
+        const auto a = index.find(markers[i].name), b = index.find(markers[j].name);
         if (a < 0 || b < 0) continue;
         double sum = 0.0, count = 0.0;
         for (std::int64_t f = 0; f < trial.frames(); f += 1 + trial.frames() / 500) {

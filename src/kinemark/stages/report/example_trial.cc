@@ -103,7 +103,10 @@ void fill_markers(ExampleTrial& t, std::uint64_t seed) {
       }
     }
     m.markers.emplace_back(kMarkers[k]);
-    t.run.markers.push_back({std::string(kMarkers[k]), k < 3 ? 10.0 : 1.0, noise_m + 0.4 * skin_m, ""});
+    t.run.fit.markers.push_back({.name = std::string(kMarkers[k]),
+                                 .weight = k < 3 ? 10.0 : 1.0,
+                                 .noise_sd_m = noise_m + 0.4 * skin_m,
+                                 .common_sd_m = 0.0});
   }
 }
 
@@ -127,7 +130,7 @@ void fill_run(ExampleTrial& t) {
        "0.5 % of the frames did not converge; the bound is 0.1 %. Look at the frames listed below."}};
   run.exit_status = 1;
   run.locked_coordinates = {std::string(kWaves[kLocked].name)};
-  run.markers.push_back({"L.Bicep", 0.0, kNaN, "it is at the origin in every frame."});
+  run.fit.excluded.push_back({"L.Bicep", "it is at the origin in every frame."});
   run.warnings = {"walk_03.trc: the header says 612 frames; 600 are there."};
 }
 

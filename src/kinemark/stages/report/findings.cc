@@ -38,7 +38,7 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
 /// One line for each reason, with all markers that have it, in the order in which they come.
 void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-  for (const MarkerSummary& m : s.markers) {
+  for (const MarkerRow& m : s.markers) {
     if (m.why_excluded.empty()) continue;
     auto at = std::ranges::find(reasons, m.why_excluded, [](const auto& reason) { return reason.first; });
     if (at == reasons.end()) at = reasons.insert(at, {m.why_excluded, {}});
@@ -93,7 +93,7 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
            from_s});
   }
   add_left_out(s, out);
-  for (const MarkerSummary& m : s.markers) {
+  for (const MarkerRow& m : s.markers) {
     if (m.why_excluded.empty() && m.used && m.seen_frames == 0 && !motion.marker_error.empty())
       out.push_back({Verdict::good, "marker", m.name, fmt::format("Marker {} is never seen.", m.name), kNaN});
   }

@@ -13,18 +13,11 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/report/report_parts.h"
 
 namespace kinemark::report {
-
-/// What the solver knew of one marker of the file or the model.
-struct MarkerFacts {
-  std::string name;          ///< in the model, or in the recording
-  double weight = 1.0;       ///< 0: not used
-  double noise_sd_m = kNaN;  ///< given or estimated standard deviation along one axis
-  std::string why_excluded;  ///< empty: used
-};
 
 /// Everything about a run that is not in its arrays. The caller fills this in.
 struct IkRun {
@@ -40,7 +33,9 @@ struct IkRun {
   std::vector<std::pair<std::string, std::string>> options;  ///< name and value, as they were used
   std::vector<InputFile> inputs;                             ///< files that were read
   std::vector<Gate> gates;                                   ///< bounds that decide the exit status
-  std::vector<MarkerFacts> markers;             ///< in any order; markers not listed have weight 1
+  /// Of names, weights, noise and what was left out; errors are computed from the motion, and its warnings
+  /// stand in `warnings`. Markers that are not listed have the weight 1.
+  data::MarkerFit fit;
   std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
   std::vector<std::string> warnings;            ///< one sentence each
 };
@@ -56,17 +51,17 @@ struct CoordinateSummary {
   double median_sd = kNaN;             ///< rad or m, over determined frames
 };
 
-/// One marker over the recording.
-struct MarkerSummary {
-  std::string name;                   ///< in the model
+/// A row of the page's table of markers, used or not.
+struct MarkerRow {
+  std::string name;                   ///< in the model, or in the recording
   bool used = true;                   ///< false: it took no part
   std::string why_excluded;           ///< a few words; empty when used
   double weight = 1.0;                ///< as given, >= 0
   std::int64_t seen_frames = 0;       ///< frames with an error, or with coordinates for excluded markers
   double rms_error_m = kNaN;          ///< of the distance between measured and model marker
-  double max_error_m = kNaN;          ///< NaN when never seen
-  std::int64_t max_error_frame = -1;  ///< frame of the largest distance; -1 when never seen
-  double noise_sd_m = kNaN;           ///< per axis, as used for the error bars; NaN when not estimated
+  double max_error_m = kNaN;          ///< largest distance; NaN when never seen
+  std::int64_t max_error_frame = -1;  ///< its frame; -1 when never seen
+  double noise_sd_m = kNaN;           ///< standard deviation along one axis, given or estimated
 };
 
 /// A frame that fits badly.
@@ -90,7 +85,7 @@ struct IkSummary {
   double rms_error_m = kNaN;                    ///< over all frames and seen markers
   double max_error_m = kNaN;                    ///< over the same
   std::vector<CoordinateSummary> coordinates;   ///< n
-  std::vector<MarkerSummary> markers;           ///< used ones in the motion's order, then the excluded ones
+  std::vector<MarkerRow> markers;               ///< used ones in the motion's order, then the excluded ones
   std::vector<WorstFrame> worst_frames;         ///< the worst first
   std::vector<Finding> findings;                ///< the serious ones first
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/bounds.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
@@ -34,17 +35,15 @@ data::Trajectories pretend(const model::Model& model, const std::vector<std::str
   auto markers = data::Trajectories::all_missing(names, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = 2});
   model::Workspace w(model);
   model::kinematics(model, w, model.default_state());
-  for (std::int64_t m = 0; m < markers.markers(); ++m) {
-    const auto& name = names[at(m)];
-    const auto colon = name.rfind(':');
-    auto idx = model.description().find_marker(name);
-    if (idx < 0 && colon != std::string::npos) idx = model.description().find_marker(name.substr(colon + 1));
-    for (std::int64_t f = 0; f < 2; ++f) {
-      markers.x(f, m) =
-          idx < 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(w.marker.col(idx));
+  for (std::int64_t f = 0; f < 2; ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) {
+      markers.x(f, m).setZero();
       markers.state[markers.index(f, m)] = data::SampleState::measured;
     }
-  }
+  const data::NameIndex index(names);
+  for (Eigen::Index i = 0; i < w.marker.cols(); ++i)
+    if (const auto m = index.find(model.description().markers[at(i)].name); m >= 0)
+      for (std::int64_t f = 0; f < 2; ++f) markers.x(f, m) = w.marker.col(i);
   return markers;
 }
 

@@ -70,12 +70,12 @@ TEST(ErrorBars, FindTheNoiseOfEachMarker) {
   for (std::int64_t f = 0; f < 2000; ++f)
     markers.x(f, loud) += 0.006 * Eigen::Vector3d{random.gaussian(), random.gaussian(), random.gaussian()};
   const auto result = solve_ik(model, markers).value();
-  for (const auto& marker : result.markers) {
+  for (const auto& marker : result.fit.markers) {
     if (marker.name == "S2") {
       EXPECT_NEAR(marker.noise_sd_m / std::hypot(0.001, 0.006), 1.0, 0.1);
     } else {
       // Beside a loud marker the small variances are uncertain, but they stay small.
-      EXPECT_LT(std::hypot(marker.noise_sd_m, marker.common_sd_m), 0.003) << marker.name;
+      EXPECT_LT(marker.total_sd_m(), 0.003) << marker.name;
     }
   }
 }
@@ -91,7 +91,7 @@ TEST(ErrorBars, SeeMotionThatASegmentsMarkersShare) {
     for (const char* name : {"S1", "S2", "S3"}) markers.x(f, markers.find(name)) += common;
   }
   const auto result = solve_ik(model, markers).value();
-  for (const auto& marker : result.markers)
+  for (const auto& marker : result.fit.markers)
     if (marker.body == "shank") {
       EXPECT_NEAR(marker.common_sd_m, 0.005, 0.0015);
     }

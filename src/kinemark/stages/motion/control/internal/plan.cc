@@ -93,7 +93,7 @@ Status place_levels(const std::map<std::string, std::size_t>& level_of, const st
   }
   for (const auto& [name, level] : level_of)
     if (name != "*" && model.description().find_marker(name) < 0)
-      plan.problem.warnings.push_back(fmt::format(
+      plan.problem.fit.warnings.push_back(fmt::format(
           "marker '{}' of level {} is not in the recording, never seen, or weighs 0", name, level + 1));
   return {};
 }
@@ -211,7 +211,10 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   auto problem = make_problem(model, markers, ik);
   if (!problem) return std::unexpected(problem.error());
   plan.problem = std::move(*problem);
-  plan.problem.warnings.insert(plan.problem.warnings.end(), warnings.begin(), warnings.end());
+  auto& fit = plan.problem.fit;
+  fit.warnings.insert(fit.warnings.end(), warnings.begin(), warnings.end());
+  for (auto& marker : fit.excluded)
+    if (marker.why == data::kNoWeight) marker.why = fmt::format("in no level, or {}", data::kNoWeight);
   plan.rate_hz = markers.time.rate_hz;
   plan.damping = {.damping = options.damping, .truncation = options.truncation};
   plan.feed_forward = options.feed_forward;

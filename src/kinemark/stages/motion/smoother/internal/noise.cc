@@ -11,6 +11,7 @@
 #include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
+#include "kinemark/stages/motion/internal/marker_account.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -97,12 +98,7 @@ void leave_out_outliers(const Problem& problem, const data::Trajectories& marker
     for (std::int64_t m = 0; m < calm.markers(); ++m) calm.set_missing(problem.first_frame + f, m);
     std::fill_n(motion.marker_error.begin() + f * M * 3, M * 3, std::numeric_limits<double>::quiet_NaN());
   }
-  const auto variances = estimate_variances(problem, calm, states, threads);
-  for (Index m = 0; m < M; ++m) {
-    const int body = problem.model.markers()[at(m)].body;
-    start.markers[at(m)].noise_sd_m = std::sqrt(variances.own[m]);
-    if (body >= 0) start.markers[at(m)].common_sd_m = std::sqrt(variances.common[body]);
-  }
+  add_marker_noise(problem.model, estimate_variances(problem, calm, states, threads), start.fit);
 }
 
 NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double bend_sd) {
@@ -112,11 +108,11 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   VectorXd own(M), common = VectorXd::Zero(M), share = VectorXd::Zero(M), count = VectorXd::Zero(bodies);
   split.common_slow.setZero(bodies);
   for (Index m = 0; m < M; ++m) {
-    const auto& summary = start.markers[at(m)];
-    own[m] = given_sd_m > 0.0 ? given_sd_m * given_sd_m : summary.noise_sd_m * summary.noise_sd_m;
+    const auto& marker = start.fit.markers[at(m)];
+    own[m] = given_sd_m > 0.0 ? given_sd_m * given_sd_m : marker.noise_sd_m * marker.noise_sd_m;
     if (!std::isfinite(own[m])) own[m] = 0.0;
     if (given_sd_m > 0.0) continue;
-    if (std::isfinite(summary.common_sd_m)) common[m] = summary.common_sd_m * summary.common_sd_m;
+    if (std::isfinite(marker.common_sd_m)) common[m] = marker.common_sd_m * marker.common_sd_m;
     share[m] = slow_share(start.motion, m);
   }
   const double usual = std::max(kSmallestVariance, usual_of(own));

@@ -23,9 +23,8 @@ struct NoiseSplit {
 
 /// Least squares has no robust loss: one outlier raises the estimated noise of its own marker and lowers that
 /// of the others on its segment, in all frames. Frames with a residual beyond `bend_sd` of what most frames
-/// of that marker
-/// show lose their residuals in start.motion, and the noise in start.markers is estimated anew without them;
-/// more than a tenth of all frames are not treated as outliers, and nothing changes.
+/// of that marker show lose their residuals in start.motion, and the noise in start.fit is estimated anew
+/// without them; more than a tenth of all frames are not treated as outliers, and nothing changes.
 void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
                         int threads, IkResult& start);
 
