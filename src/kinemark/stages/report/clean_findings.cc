@@ -34,12 +34,12 @@ std::string in_words(std::int64_t n, std::string_view one, std::string_view many
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-void add(std::vector<Finding>& out, Verdict level, std::string about, std::string subject, std::string text,
+void add(std::vector<Notice>& out, Verdict level, std::string about, std::string subject, std::string text,
          double time_s = kNaN) {
   out.push_back({level, std::move(about), std::move(subject), std::move(text), time_s});
 }
 
-void add_gates(const CleanReport& r, std::vector<Finding>& out) {
+void add_gates(const CleanReport& r, std::vector<Notice>& out) {
   for (const Gate& gate : r.run.gates)
     if (!gate.passed) add(out, Verdict::attention, "gate", gate.name, gate.sentence);
   if (r.run.exit_status != 0 && out.empty())
@@ -55,7 +55,7 @@ struct DefectGroup {
   std::vector<std::string> markers;
 };
 
-void add_defects(const CleanReport& r, std::vector<Finding>& out) {
+void add_defects(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<DefectGroup> groups;
   for (const CleanDefect& d : r.defects) {
     const bool sure = !(d.confidence < kSure);  // unknown: whoever found it did not doubt it
@@ -81,7 +81,7 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
   }
 }
 
-void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
+void add_upsampling(const CleanReport& r, std::vector<Notice>& out) {
   const CleanUpsampling& up = r.upsampling;
   const std::string end = up.done.empty() ? "" : fmt::format(" What was done: {}.", up.done);
   const Verdict level = up.handled ? Verdict::good : Verdict::attention;
@@ -101,7 +101,7 @@ void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
 }
 
 /// One line for each marker that has fills nobody should rely on.
-void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
+void add_uncertain_fills(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<std::pair<const CleanGap*, std::int64_t>> worst;  // of a marker, and how many there are
   for (const CleanGap& g : r.gaps) {
     if (!g.filled || !(g.max_sd_m > kLargeSdM)) continue;
@@ -119,7 +119,7 @@ void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
         r.time.time_s(gap->first_frame));
 }
 
-void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
+void add_open_gaps(const CleanReport& r, std::vector<Notice>& out) {
   const CleanGap* longest = nullptr;
   std::int64_t number = 0;
   double sum_s = 0.0;
@@ -141,7 +141,7 @@ void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
 }
 
 /// One line for all markers of which something holds.
-void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
+void add_of_markers(const CleanReport& r, std::vector<Notice>& out,
                     const std::function<bool(const CleanMarker&)>& holds, std::string_view text) {
   std::vector<std::string> names;
   for (const CleanMarker& m : r.markers)
@@ -152,7 +152,7 @@ void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
                   in_words(std::ssize(r.markers), "marker", "markers"), text));
 }
 
-void add_filters(const CleanReport& r, std::vector<Finding>& out) {
+void add_filters(const CleanReport& r, std::vector<Notice>& out) {
   const double seconds = static_cast<double>(r.time.frames) / r.time.rate_hz;
   const auto chosen = [](const CleanMarker& m) { return !m.criterion_name.empty(); };
   add_of_markers(
@@ -177,8 +177,8 @@ void add_filters(const CleanReport& r, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> clean_findings(const CleanReport& report) {
-  std::vector<Finding> out;
+std::vector<Notice> clean_findings(const CleanReport& report) {
+  std::vector<Notice> out;
   add_gates(report, out);
   add_defects(report, out);
   add_upsampling(report, out);
@@ -193,9 +193,9 @@ std::vector<Finding> clean_findings(const CleanReport& report) {
   add_filters(report, out);
   for (const std::string& warning : report.run.warnings) add(out, Verdict::good, "warning", "", warning);
   // Stable order, serious findings first.
-  std::vector<Finding> sorted;
+  std::vector<Notice> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
-    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Notice& f) { return f.level == level; });
   return sorted;
 }
 

@@ -36,7 +36,7 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
 }
 
 /// One line for each reason, with all markers that have it, in the order in which they come.
-void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
+void add_left_out(const IkSummary& s, std::vector<Notice>& out) {
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
   for (const MarkerRow& m : s.markers) {
     if (m.why_excluded.empty()) continue;
@@ -56,8 +56,8 @@ void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& motion) {
-  std::vector<Finding> out;
+std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& motion) {
+  std::vector<Notice> out;
   for (const Gate& gate : s.run.gates)
     if (!gate.passed) out.push_back({Verdict::attention, "gate", gate.name, gate.sentence, kNaN});
   if (s.run.exit_status != 0 && out.empty())
@@ -101,9 +101,9 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
     out.push_back({Verdict::good, "warning", "", warning, kNaN});
 
   // Stable order, serious findings first.
-  std::vector<Finding> sorted;
+  std::vector<Notice> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
-    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Notice& f) { return f.level == level; });
   return sorted;
 }
 

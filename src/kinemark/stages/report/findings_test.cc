@@ -27,10 +27,10 @@ data::JointMotion good_motion() {
   return m;
 }
 
-std::vector<Finding> findings_of(const data::JointMotion& motion, IkRun run = {}) {
+std::vector<Notice> findings_of(const data::JointMotion& motion, IkRun run = {}) {
   const auto summary = summarize(std::move(run), motion, nullptr);
   EXPECT_TRUE(summary);
-  return summary->findings;
+  return summary->notices;
 }
 
 TEST(Findings, AGoodTrialHasNone) { EXPECT_THAT(findings_of(good_motion()), IsEmpty()); }
@@ -91,7 +91,7 @@ TEST(Findings, MarkersAndWarningsAreNotes) {
   EXPECT_EQ(found[0].text, "Marker L.Bicep was left out: it is at the origin in every frame.");
   EXPECT_EQ(found[1].text, "Marker A is never seen.");
   EXPECT_EQ(found[2].text, "the header lies.");
-  for (const Finding& f : found) EXPECT_EQ(f.level, Verdict::good);
+  for (const Notice& f : found) EXPECT_EQ(f.level, Verdict::good);
 }
 
 TEST(Findings, MarkersLeftOutForOneReasonShareALine) {

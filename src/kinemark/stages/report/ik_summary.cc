@@ -192,8 +192,8 @@ Result<IkSummary> summarize(IkRun run, const JointMotion& motion, const Trajecto
   const Errors errors(motion);
   summarize_markers(s, motion, markers, errors);
   find_worst_frames(s, motion, errors.of_frame, options);
-  s.findings = internal::find_findings(s, motion);
-  s.verdict = std::ranges::any_of(s.findings, [](const Finding& f) { return f.level == Verdict::attention; })
+  s.notices = internal::find_notices(s, motion);
+  s.verdict = std::ranges::any_of(s.notices, [](const Notice& f) { return f.level == Verdict::attention; })
                   ? Verdict::attention
                   : Verdict::good;
   return s;

@@ -76,7 +76,7 @@ struct WorstFrame {
 struct IkSummary {
   IkRun run;
   TimeBase time;
-  Verdict verdict = Verdict::good;              ///< attention: at least one finding of that level
+  Verdict verdict = Verdict::good;              ///< attention: at least one notice of that level
   std::array<std::int64_t, 4> status_frames{};  ///< by FrameStatus
   double determined_fraction = kNaN;            ///< over frames and coordinates that are not locked
   double rms_error_m = kNaN;                    ///< over all frames and seen markers
@@ -84,7 +84,7 @@ struct IkSummary {
   std::vector<CoordinateSummary> coordinates;
   std::vector<MarkerRow> markers;  ///< used ones in the motion's order, then the excluded ones
   std::vector<WorstFrame> worst_frames;
-  std::vector<Finding> findings;  ///< the serious ones first
+  std::vector<Notice> notices;  ///< the serious ones first
 };
 
 struct SummaryOptions {
@@ -94,7 +94,7 @@ struct SummaryOptions {
   [[nodiscard]] Status check() const;
 };
 
-/// Counts, errors, worst frames and findings of a solved trial.
+/// Counts, errors, worst frames and notices of a solved trial.
 ///
 /// @param run      facts that are not in the arrays
 /// @param motion   F frames; must be valid

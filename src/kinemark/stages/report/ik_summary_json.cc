@@ -141,7 +141,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"max_error_mm", millimetres(s.max_error_m)},
           {"determined_fraction", number(s.determined_fraction, 6)},
           {"status_frames", status_json(s)},
-          {"findings", findings_json(s.findings)},
+          {"findings", findings_json(s.notices)},
           {"gates", gates_json(run.gates)},
           {"coordinates", coordinates_json(s)},
           {"markers", markers_json(s)},
