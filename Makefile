@@ -30,6 +30,9 @@ test:  ## everything that CI runs
 accept: release  ## everything that CI runs within its budget, the acceptance table with its slow rows, clang-tidy on all
 	python3 tools/run_tests.py --jobs $(JOBS) --check-budget
 	python3 tests/acceptance/run.py
+	cmake --install build/release --prefix build/release/prefix
+	cmake -S tests/consumer/headers -B build/release/headers -G Ninja -DEACH=ON -DCMAKE_PREFIX_PATH=$(CURDIR)/build/release/prefix
+	cmake --build build/release/headers --parallel $(JOBS)
 	cmake --preset tidy
 	tools/check_tidy --all --jobs $(JOBS)
 
@@ -48,9 +51,15 @@ lint:  ## clang-tidy on what changed, layers, licences, READMEs, layout
 	cmake --preset tidy
 	tools/check_format
 	tools/check_layers.py
+	tools/check_public_headers.py
 	tools/check_spdx.py
 	tools/check_readmes.py
 	tools/check_tidy --jobs $(JOBS)
+
+docs:  ## API documentation of the public headers: build/release/docs/html/index.html
+	tools/setup
+	cmake --preset release -DKINEMARK_DEVELOPER=ON
+	cmake --build --preset release --target docs
 
 format:  ## lay out all C++ files
 	tools/check_format --fix
@@ -58,4 +67,4 @@ format:  ## lay out all C++ files
 clean:  ## remove what was built
 	rm -rf build demo
 
-.PHONY: help demo program release test accept bench fuzz lint format clean
+.PHONY: help demo program release test accept bench fuzz lint docs format clean

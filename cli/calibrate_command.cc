@@ -17,7 +17,7 @@ void say_alignment(const Globals& globals, const nlohmann::ordered_json& alignme
     const auto shift = c.at("right_down_forward_mm").get<std::vector<double>>();
     const auto turn = c.at("tilt_pan_roll_deg").get<std::vector<double>>();
     say(globals, fmt::format("camera {}: {:.1f} mm right, {:.1f} mm down, {:.1f} mm forward of the nominal "
-                             "place; to be tilted {:.2f}, "
+                             "position; to be tilted {:.2f}, "
                              "panned {:.2f}, rolled {:.2f} deg",
                              c.at("camera").get<std::string>(), shift[0], shift[1], shift[2], turn[0],
                              turn[1], turn[2]));
@@ -30,7 +30,7 @@ int run_calibrate(const Globals& globals, pipeline::CalibrateJob& job) {
   const auto done = pipeline::calibrate_rig_file(job, show_progress(globals, "steps"));
   if (!done) {
     const int status = report_error(done.error());
-    // A model that the counts contradict is a quality gate that was missed, not a bad file.
+    // A model that does not fit the counts is a missed quality gate, not a bad file.
     return done.error().message.starts_with("calibration refused") ? 1 : status;
   }
   for (const auto& warning : done->at("warnings")) say(globals, warning.get<std::string>());
@@ -50,9 +50,10 @@ int run_calibrate(const Globals& globals, pipeline::CalibrateJob& job) {
 void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("calibrate", "A rig from recordings of a tree or a grid of known size");
   command->footer(
-      "Each recording says what it shows (see 'kinemark simulate rig --grid --tree-poses'). Exit status 1 "
+      "Each recording describes the object that it shows (see 'kinemark simulate rig --grid --tree-poses'). "
+      "Exit status 1 "
       "when the\n"
-      "model of the cameras does not fit what they counted.");
+      "model of the cameras does not fit the counts.");
   const auto job = std::make_shared<pipeline::CalibrateJob>();
   const std::map<std::string, pipeline::CalibrateJob::Method> methods{
       {"bundle", pipeline::CalibrateJob::Method::bundle},
@@ -64,9 +65,9 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
       ->required();
   command->add_option("--nominal", job->nominal, "Rig as it was set up by hand, rig.toml")->required();
   auto* output = command->add_option("-o,--output", job->output, "Rig to write, rig.toml");
-  auto* align =
-      command->add_flag("--align", job->align_only,
-                        "Only tell how far the cameras stand from the nominal rig, and what to turn");
+  auto* align = command->add_flag(
+      "--align", job->align_only,
+      "Only report how far the cameras are from their nominal poses, and the next adjustment");
   output->excludes(align);
   command
       ->add_option("--method", job->method,
@@ -79,7 +80,7 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
                    "Sides of the tree between LEDs 1-2, 1-3 and 2-3, m; as recorded when absent")
       ->expected(3);
   command->add_option("--frames-per-pose", job->frames_per_pose,
-                      "Frames that the tree stood still; as recorded when absent");
+                      "Frames of each pose of the tree; as recorded when absent");
   command->add_option("--warp-degree", job->bundle.warp_degree, "Degree of the detector's warp to begin with")
       ->capture_default_str();
   command->add_flag("--no-crosstalk{false},--crosstalk", job->bundle.crosstalk,

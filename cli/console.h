@@ -15,10 +15,11 @@
 
 namespace kinemark::cli {
 
-/// One line for people, on stderr; nothing with --quiet.
+/// Print one line on stderr, except with --quiet.
 void say(const Globals& globals, std::string_view line);
 
-/// What was written, after notes on it: lines for people, or {"written": [...], "warnings": [...]} on stdout.
+/// List the files written, after the notes: text on stderr, or {"written": [...], "warnings": [...]} on
+/// stdout.
 void print_written(const Globals& globals, const std::vector<std::filesystem::path>& paths,
                    const std::vector<std::string>& warnings = {});
 

@@ -20,7 +20,8 @@ void add_convert(CLI::App& app, const Globals& globals, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("IN", arguments->in, "File to read")->required();
   command->add_option("OUT", arguments->out, "File to write; its ending names the format")->required();
-  command->add_option("--rate", arguments->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
+  command->add_option("--rate", arguments->rate_hz,
+                      "Frame rate of a marker file that stores none (.v3d), Hz");
   command->callback([&globals, arguments, &run] {
     run = [&globals, arguments] {
       const auto warnings =

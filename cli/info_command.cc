@@ -17,7 +17,8 @@ void add_info(CLI::App& app, const Globals& globals, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("FILE", arguments->path, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
       ->required();
-  command->add_option("--rate", arguments->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
+  command->add_option("--rate", arguments->rate_hz,
+                      "Frame rate of a marker file that stores none (.v3d), Hz");
   command->callback([&globals, arguments, &run] {
     run = [&globals, arguments] {
       const auto facts = pipeline::describe_file(arguments->path, arguments->rate_hz);

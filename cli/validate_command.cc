@@ -10,7 +10,7 @@
 namespace kinemark::cli {
 namespace {
 
-/// Exit status of one file: 0 nothing to say, 1 readable with warnings, 3 or 4 not readable. Its entry for
+/// Exit status of one file: 0 no remarks, 1 readable with warnings, 3 or 4 not readable. Its entry for
 /// --json goes to `answer`.
 int validate(const Globals& globals, const std::string& path, nlohmann::ordered_json& answer) {
   const auto facts = pipeline::describe_file(path);

@@ -241,6 +241,36 @@ def unit_tests(preset, *chosen):
     return stage
 
 
+def consumer(log):
+    """A stranger's project and the examples, built with both compilers against what `cmake --install` gives."""
+    build, installed = ROOT / "build" / "ci", ROOT / "build" / "ci" / "prefix"
+    shutil.rmtree(installed, ignore_errors=True)
+    log.must("cmake", "--install", build, "--prefix", installed)
+    log.must(sys.executable, ROOT / "tools" / "check_public_headers.py", "--installed", installed / "include")
+    counts = Counts(passed=2)
+    projects = {"consumer": "tests/consumer", "headers": "tests/consumer/headers", "examples": "examples"}
+    for compiler in ("g++", "clang++-19"):
+        for name, source in projects.items():
+            folder = build / "consumer" / compiler / name
+            shutil.rmtree(folder, ignore_errors=True)
+            log.must(
+                *("cmake", "-S", ROOT / source, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}"),
+                *("-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={installed}"),
+            )
+            log.must("cmake", "--build", folder, "--parallel", log.jobs)
+            counts.passed += 1
+        log.must(build / "consumer" / compiler / "consumer" / "consumer")
+        log.must("ctest", "--test-dir", build / "consumer" / compiler / "examples", "--no-tests=error")
+        counts.passed += 2
+    return counts
+
+
+def docs(log):
+    """The API documentation; a public name without a description fails it."""
+    log.must("cmake", "--build", "--preset", "ci", "--target", "docs")
+    return Counts(passed=1)
+
+
 def count_acceptance(text):
     """Counts of acceptance/run.py; a known shortfall is no test that passed."""
     found = re.findall(r"^acceptance: (\d+) passed, (\d+) failed, (\d+) skipped, \d+ known$", text, re.MULTILINE)
@@ -335,10 +365,13 @@ STAGES = {
     "layers": (script(sys.executable, "tools/check_layers.py"), 0.1),
     "licences": (script(sys.executable, "tools/check_spdx.py"), 0.1),
     "readmes": (script(sys.executable, "tools/check_readmes.py"), 0.1),
+    "public-headers": (script(sys.executable, "tools/check_public_headers.py"), 0.1),
     "tools": (tools, 0.5),
     "build": (build("ci"), 18.5),
     "tests": (unit_tests("ci"), 5),
     "cli": (cli("ci"), 2.5),
+    "consumer": (consumer, 2),
+    "docs": (docs, 0.5),
     "acceptance": (acceptance, 8),
     "viewer-page": (viewer_page, 0.5),
     "viewer-tests": (viewer_tests, 0.5),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Do the error bars keep their word? Simulated subjects with known truth, pooled over coordinates and frames.
+// Coverage of the error bars: simulated subjects with known truth, pooled over coordinates and frames.
 #include <fmt/core.h>
 
 #include <algorithm>

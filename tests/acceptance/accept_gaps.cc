@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Artificial gaps of known truth in real trials: how far each way of filling is off, and whether `automatic`
-// knows it. Usage: accept_gaps GAPS_PER_CELL [SEED] [table]
+// Artificial gaps of known truth in real trials: errors of each method, and whether the error bars of
+// `automatic` are right. Usage: accept_gaps GAPS_PER_CELL [SEED] [table]
 #include <fmt/core.h>
 
 #include <Eigen/Core>

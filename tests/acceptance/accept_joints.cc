@@ -44,7 +44,7 @@ bool near_bound(const Tally& t, const Run& run) {
   return run.quick ? t.worst_seed() <= 1.15 : t.ratio() <= 1.1 && t.worst_seed() <= 1.15;
 }
 
-/// The same, and no frame called determined whose bound says that it is not: none goes unjudged.
+/// The same, and no frame is called determined whose bound shows that it is not.
 bool at_bound(const Tally& t, const Run& run) {
   return near_bound(t, run) && t.determined_without_bound == 0;
 }
@@ -60,8 +60,8 @@ void print_coverage(const std::string& what, const Tally& t) {
 }
 
 void print_flags(const std::string& what, bool mirrors, const Tally& t) {
-  // A full run of solids has thousands of mirror pairs and half of the guesses are wrong: none means a test
-  // gone blind. Lines have no mirrors.
+  // A full run of solids has thousands of mirror pairs and half of the guesses are wrong: none means that the
+  // test is ineffective. Lines have no mirror images.
   if (t.wrong == 0 && mirrors) {
     print_row(false, what + ": errors beyond 5 SD", ">= 99 % lie in frames flagged",
               "nothing to test: no frame errs so far");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // A pair of cameras films a body; one of them goes dark for a second. What the other one sees of every marker
-// must carry the smoother through, and its bars must say how well.
+// must suffice for the smoother, and its error bars must be right.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>

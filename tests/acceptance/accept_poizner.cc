@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
@@ -25,11 +26,6 @@ namespace {
 using namespace kinemark;
 using testing_support::print_note;
 using testing_support::print_row;
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
-}
 
 /// One number of the 1986 method as the reference found it, and how to get it from a seed.
 struct Anchor {
@@ -113,7 +109,7 @@ void study(int last) {
   for (const auto& anchor : anchors()) {
     std::vector<double> values;
     for (const auto& seed : done.seeds) values.push_back(anchor.get(seed));
-    const double found = median(values);
+    const double found = math::median(values);
     print_row(std::abs(found / anchor.value - 1.0) <= 0.15, std::string("1986 method: ") + anchor.what,
               fmt::format("{:.3g} +- 15 %", anchor.value), fmt::format("{:.3g}", found));
   }

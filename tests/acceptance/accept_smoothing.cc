@@ -87,7 +87,7 @@ Errors oracle(const data::Trajectories& in, const Movement& movement, double sig
 
 constexpr const char* kMovementNames[] = {"wheel", "hand", "elbow", "reach", "tremor"};
 
-/// The smoother against the best of its family: nothing is told to it, not even the noise.
+/// The smoother against the best of its family: it is given nothing, not even the noise.
 void against_the_oracle(const std::vector<Movement>& movements, int markers, std::uint64_t seed,
                         testing_support::Axes axes, const std::string& which) {
   for (const double sigma_mm : {0.5, 0.1}) {

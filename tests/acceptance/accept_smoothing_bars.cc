@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Do the smoother's error bars keep their word? Five movements, two noise levels, with and without gaps.
+// Coverage of the smoother's error bars: five movements, two noise levels, with and without gaps.
 #include <fmt/core.h>
 
 #include <array>

@@ -118,8 +118,8 @@ void sets(const Scene& scene) {
   }
 }
 
-/// Runs of five seconds over gains, damping, posture and the place in the recording to start from; the pose
-/// to return to lies up to 0.3 rad from the posture there.
+/// Runs of five seconds over gains, damping, posture and the time in the recording at the start; the rest
+/// pose differs by up to 0.3 rad from the posture there.
 void stability(const Scene& scene, const LandmarkSet& set, const std::string& name, int runs, bool limits) {
   constexpr double kOff_rad = 0.3;
   constexpr std::int64_t kLength = 300, kApart = 7;  // frames

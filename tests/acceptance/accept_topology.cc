@@ -225,7 +225,7 @@ double distance_sd(const data::Trajectories& markers, int a, int b) {
 /// Neighbouring body parts whose markers' distances vary less do not move against each other in a recording.
 constexpr double kStill_m = 0.010;
 
-/// `moves`: the recording shows enough to ask for segments; else silence is what is asked for.
+/// `moves`: the recording shows enough motion to require segments; otherwise none may be found.
 void person(const fs::path& file, bool moves) {
   auto trial = io::read_markers(file).value();
   // Only the markers of the body: the file may hold computed points as well.

@@ -8,7 +8,7 @@
 
 namespace kinemark::testing_support {
 
-/// Print "PASS | check | asked | measured" (or FAIL) and remember a failure.
+/// Print "PASS | check | required | measured" (or FAIL) and record a failure.
 void print_row(bool passed, const std::string& check, const std::string& asked, const std::string& measured);
 
 /// Print "NOTE | check | - | measured": a number of which nothing is asked, shown in the table and not

@@ -123,7 +123,7 @@ TEST(RecordingReader, ReadsTheSameFromAFileOnTheDisk) {
   EXPECT_EQ(reader->size(), small.bytes.size());
 }
 
-// Groups whose checksum is right and whose content is not: not of our making, but never believed.
+// Groups with a valid checksum and invalid content: never written by kinemark, and never accepted.
 TEST(RecordingReader, StopsAtRecordsThatMakeNoSense) {
   const Bytes good = make_small_recording(2, false).bytes;
   const auto what = [&](const std::function<void(Bytes&)>& put) {

@@ -4,10 +4,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
@@ -25,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> kRecorderMade = {"keep", "mark", "missing", "decimate"};
+constexpr EnumNames<RecorderMade::decimate> kRecorderMade{"keep", "mark", "missing", "decimate"};
 
 /// Analog samples and residuals belong to the old frames.
 void change_frames(data::Trial& trial, data::Trajectories markers, std::vector<std::string>& notes) {
@@ -118,16 +117,10 @@ Result<data::Trial> read_input(const CleanJob& job, report::CleanRun& run) {
 
 }  // namespace
 
-std::string_view to_string(RecorderMade made) { return kRecorderMade[static_cast<std::size_t>(made)]; }
+std::string_view to_string(RecorderMade made) { return kRecorderMade[made]; }
 
 Result<RecorderMade> parse_recorder_made(std::string_view name) {
-  const auto at = std::ranges::find(kRecorderMade, name);
-  if (at == kRecorderMade.end())
-    return fail(Code::usage,
-                fmt::format("'{}' is not a choice for samples that the recorder made; use keep, mark, "
-                            "missing or decimate",
-                            name));
-  return static_cast<RecorderMade>(at - kRecorderMade.begin());
+  return kRecorderMade.parse(name, "choice for samples that the recorder made");
 }
 
 Result<CleanOutcome> run_clean(const CleanJob& job, const Progress& progress) {

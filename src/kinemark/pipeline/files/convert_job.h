@@ -11,8 +11,8 @@
 namespace kinemark::pipeline {
 
 /// Read one file and write it in the format that `out` ends in; both must be of one kind (markers, tables or
-/// models). Returns what was odd about the input and what the new format cannot hold, one sentence each.
-/// rate_hz: of marker files that tell none (.v3d), else 0.
+/// models). Returns irregularities of the input and what the new format cannot store, one sentence each.
+/// rate_hz: for marker files that store none (.v3d), else 0.
 [[nodiscard]] Result<std::vector<std::string>> convert_file(const std::filesystem::path& in,
                                                             const std::filesystem::path& out, bool force,
                                                             double rate_hz = 0.0);

@@ -18,11 +18,11 @@ namespace kinemark::pipeline {
 /// joints, coordinates, markers, couplings, point_constraints, mass_kg, labels (of coordinates), body_names,
 /// warnings. Recordings (.mcap): end, bytes, messages, channels, metadata, warnings, and of counts also
 /// frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (sightings), cameras, labels.
-/// Every answer has "file" and "kind". rate_hz: of marker files that tell none; 0: then theirs is null.
+/// Every answer has "file" and "kind". rate_hz: for marker files that store none; with 0 their rate is null.
 [[nodiscard]] Result<nlohmann::ordered_json> describe_file(const std::filesystem::path& path,
                                                            double rate_hz = 0.0);
 
-/// The same for people, one fact a line.
+/// The same as text, one fact a line.
 [[nodiscard]] std::string facts_text(const nlohmann::ordered_json& facts);
 
 }  // namespace kinemark::pipeline

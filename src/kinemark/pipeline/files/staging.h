@@ -10,8 +10,8 @@
 
 namespace kinemark::pipeline {
 
-/// Several files that appear together or not at all: they are written into a hidden folder beside each target
-/// (one per folder) and moved into place by commit(). Without commit() nothing stays.
+/// Writes several files that appear together or not at all: they are written into a hidden folder beside each
+/// target (one per folder) and moved into place by commit(). Without commit() nothing stays.
 class Staging {
  public:
   /// Fails when a target exists (unless `force`), is given twice, or its folder cannot be written.
@@ -23,7 +23,7 @@ class Staging {
   /// Where to write what will become targets[i].
   [[nodiscard]] std::filesystem::path path(std::size_t i) const;
   [[nodiscard]] const std::vector<std::filesystem::path>& targets() const { return targets_; }
-  /// A failure of writing path(i), told of targets[i].
+  /// A failure of writing path(i), reported for targets[i].
   [[nodiscard]] std::unexpected<Error> failure(Error error) const;
   /// Move every file that was written into place.
   [[nodiscard]] Status commit();

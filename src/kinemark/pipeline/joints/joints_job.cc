@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kSureDefect = 0.8;
-/// Screening looks for breaks of paths. Where so large a share of samples breaks them there are no paths: the
-/// frames are poses of their own.
+/// Screening searches for discontinuities of paths. With so large a share of them the recording has no
+/// continuous paths: its frames are independent poses.
 constexpr double kMostDefects = 0.05;
 constexpr std::size_t kDefectsTold = 5;
 
@@ -39,7 +39,7 @@ Status check_method(const std::string& method) {
   return {};
 }
 
-/// Leave out what screening is sure of, and say so.
+/// Reject the samples of certain findings, with a note.
 Status reject_defects(data::Trajectories& markers, JointsOutcome& outcome) {
   const auto findings = trajectory::screen(markers);
   if (!findings) return std::unexpected(findings.error());
@@ -68,7 +68,7 @@ Status reject_defects(data::Trajectories& markers, JointsOutcome& outcome) {
   return {};
 }
 
-/// Only what was really seen, unless the job says otherwise.
+/// Only measured samples, unless the job asks for all.
 Status keep_real(data::Trajectories& markers, JointsOutcome& outcome) {
   const auto upsampling = trajectory::detect_upsampling(markers);
   if (!upsampling) return std::unexpected(upsampling.error());
@@ -98,14 +98,15 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
   if (topology->layout.segments.size() < 2)
     return fail(Code::bad_input,
                 fmt::format("all {} markers keep their distances: they are on one segment, or "
-                            "nothing moved, so no joint can be seen",
+                            "nothing moved, so no joint can be found",
                             markers.markers()));
   outcome.notes.insert(outcome.notes.end(), topology->warnings.begin(), topology->warnings.end());
   outcome.topology = std::move(*topology);
   return outcome.topology->layout;
 }
 
-/// What the likelihood of a chain can be asked about: the largest tree of segments with two markers or more.
+/// The part of the layout that the articulated fit can estimate: the largest tree of segments with two
+/// markers or more.
 Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout, std::vector<std::string>& notes) {
   const auto S = layout.segments.size();
   const auto usable = [&](int s) { return layout.segments[static_cast<std::size_t>(s)].markers.size() >= 2; };
@@ -156,9 +157,7 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.noise_sd_m = job.noise_sd_m;
     options.continuity = job.continuity;
     options.soft_tissue = job.soft_tissue;
-    options.joint = job.kind == skeleton::KindChoice::hinge  ? skeleton::JointChoice::hinge
-                    : job.kind == skeleton::KindChoice::ball ? skeleton::JointChoice::ball
-                                                             : skeleton::JointChoice::automatic;
+    options.joint = job.kind;
     options.threads = job.threads;
     auto fit = skeleton::fit_articulated(markers, layout, options, progress);
     if (!fit) return std::unexpected(fit.error());
@@ -228,7 +227,7 @@ std::vector<fs::path> list_targets(const fs::path& output) {
   return {output / "centres.csv", output / "skeleton.json", output / "centres.c3d", output / "segments.toml"};
 }
 
-/// A folder made for results, and taken away again unless they came.
+/// A folder created for the results and removed again if none are written.
 class NewFolder {
  public:
   Status make(const fs::path& path) {
@@ -309,7 +308,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress)
   auto slips = skeleton::find_slips(markers, *layout);
   if (!slips) return fail_at(name, slips.error());
   outcome.slips = std::move(*slips);
-  // The articulated fit tells itself which markers moved on their segment.
+  // The articulated fit itself reports markers that moved on their segment.
   for (const auto& slip : outcome.slips)
     if (job.method != "articulated" || slip.marker < 0)
       outcome.notes.push_back(slip.sentence + (slip.sentence.ends_with('?') ? "" : "."));

@@ -14,6 +14,7 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/stages/skeleton/functional/functional.h"
@@ -25,14 +26,14 @@ namespace kinemark::pipeline {
 /// What `kinemark joints` is asked to do. Paths that are empty are not used.
 struct JointsJob {
   std::filesystem::path input;     ///< .c3d, .trc, .csv, .nwb or .v3d
-  double rate_hz = 0.0;            ///< of a marker file that tells none (.v3d); 0: not given
+  double rate_hz = 0.0;            ///< for a marker file that stores none (.v3d); 0: not given
   std::filesystem::path segments;  ///< TOML, see read_segments(); empty: found in the data
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
   /// file: the centres in its format, and NAME_skeleton.json beside it.
   std::filesystem::path output;
   std::string method = "articulated";  ///< that, or a name of parse_functional_method()
   skeleton::Sides sides = skeleton::Sides::both;
-  skeleton::KindChoice kind = skeleton::KindChoice::automatic;
+  data::JointChoice kind = data::JointChoice::automatic;
   double noise_sd_m = 0.0;      ///< per axis; 0: found
   bool continuity = true;       ///< articulated: smooth in time and bridge
   bool soft_tissue = false;     ///< articulated alone: every marker has a noise of its own
@@ -41,7 +42,7 @@ struct JointsJob {
   int threads = 1;              ///< 0: all cores. Any number gives the same bits.
   std::uint64_t seed = 1;
   bool force = false;
-  std::string command_line;  ///< for the record
+  std::string command_line;  ///< for the provenance record
 };
 
 struct JointsOutcome {
@@ -49,8 +50,8 @@ struct JointsOutcome {
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
   std::vector<skeleton::Slip> slips;
   std::vector<double> marker_noise_sd_m;  ///< M, with soft_tissue; NaN where unknown; empty otherwise
-  std::vector<std::string> notes;  ///< what was done before and after, and what is odd; one sentence each
-  nlohmann::ordered_json json;     ///< as skeleton.json
+  std::vector<std::string> notes;         ///< processing steps and irregularities, one sentence each
+  nlohmann::ordered_json json;            ///< as skeleton.json
   std::vector<std::filesystem::path> written;
   int exit_status = 0;  ///< 0, or 1 when a joint was placed in no frame
 };

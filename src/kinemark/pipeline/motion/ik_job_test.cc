@@ -121,7 +121,7 @@ TEST_F(RunIk, AMissedGateStillWritesAndEndsWithOne) {
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_TRUE(fs::exists(at("strict.mot")));
   std::string told;
-  for (const auto& finding : outcome.summary.findings) told += finding.text;
+  for (const auto& notice : outcome.summary.notices) told += notice.text;
   EXPECT_THAT(told, HasSubstr("at most 0.0 mm is accepted"));
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/core/check.h"
@@ -103,6 +104,13 @@ Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
   run.inputs.push_back(
       {.role = role, .path = path.string(), .bytes = hash->bytes, .hash = hash->hex, .hash_kind = "XXH3-64"});
   return {};
+}
+
+void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time) {
+  run.fit = std::move(fit);
+  std::ranges::move(run.fit.warnings, std::back_inserter(run.warnings));
+  run.fit.warnings.clear();
+  for (const auto& finding : run.fit.findings) run.warnings.push_back(data::describe(finding, time));
 }
 
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,

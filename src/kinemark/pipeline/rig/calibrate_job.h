@@ -12,11 +12,11 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark calibrate` is asked to do.
+/// Inputs and options of `kinemark calibrate`.
 struct CalibrateJob {
   enum class Method : std::uint8_t { bundle, grid_lut, scan };
 
-  /// Recordings of known things. Each says in its metadata "calibration" what it shows: kind "tree"
+  /// Recordings of known things. The metadata entry "calibration" of each gives its kind: "tree"
   /// (frames_per_pose, sides_m), "grid" (nodes, spacing_m, distance_m; one camera each) or "scan"
   /// (frames_per_place, places_m).
   std::vector<std::filesystem::path> inputs;
@@ -24,9 +24,9 @@ struct CalibrateJob {
   std::filesystem::path output;   ///< rig.toml to write
   Method method = Method::bundle;
   calibration::BundleOptions bundle;
-  std::vector<double> sides_m;  ///< of the tree; empty: as the recording says
-  int frames_per_pose = 0;      ///< 0: as the recording says
-  bool align_only = false;      ///< tell how far the cameras stand from the nominal rig; write nothing
+  std::vector<double> sides_m;  ///< of the tree; empty: as stored in the recording
+  int frames_per_pose = 0;      ///< 0: as stored in the recording
+  bool align_only = false;      ///< report the deviation of the cameras from the nominal rig; write nothing
   bool force = false;
 };
 

@@ -26,7 +26,7 @@ struct ReconstructJob {
 };
 
 /// Points of a recording of counts as markers. Returns method, frames, written, warnings and for each LED
-/// what became of its frames, and by the smoother how it was smoothed.
+/// counts of its frames by outcome, and the parameters of the smoother where it was used.
 [[nodiscard]] Result<nlohmann::ordered_json> reconstruct_file(const ReconstructJob& job);
 
 }  // namespace kinemark::pipeline

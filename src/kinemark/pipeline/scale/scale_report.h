@@ -8,7 +8,7 @@
 
 namespace kinemark::pipeline {
 
-/// JSON of a scaling: format "kinemark-scale", version 1; docs/stages/scale.md says what stands where.
+/// JSON of a scaling: format "kinemark-scale", version 1; docs/stages/scale.md describes the fields.
 [[nodiscard]] std::string scale_report(const ScaleJob& job, const ScaleOutcome& outcome);
 
 }  // namespace kinemark::pipeline

@@ -10,8 +10,8 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/files/motion_tables.h"
-#include "kinemark/pipeline/files/new_folder.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 
 namespace kinemark::pipeline {

@@ -8,8 +8,8 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/new_folder.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 
 namespace kinemark::pipeline {
 namespace {

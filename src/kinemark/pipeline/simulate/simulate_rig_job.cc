@@ -5,17 +5,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <functional>
 
+#include "kinemark/core/enum_names.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/new_folder.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 #include "kinemark/stages/simulation/rig_calibration.h"
 
 namespace kinemark::pipeline {
@@ -23,13 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<std::string_view, RigSceneKind>, 4> kScenes{
-    {{"tree", RigSceneKind::tree},
-     {"wheel", RigSceneKind::wheel},
-     {"sign", RigSceneKind::sign},
-     {"markers", RigSceneKind::markers}}};
+constexpr EnumNames<RigSceneKind::markers> kScenes{"tree", "wheel", "sign", "markers"};
 
-/// A scene, how long it lasts unless told, and the stream of its noise.
+/// A scene, its default duration, and the stream of its noise.
 struct Staged {
   simulation::RigScene scene;
   double duration_s = 0.0;
@@ -75,9 +72,7 @@ Result<int> find_name(const std::vector<std::string>& names, std::string_view wa
   if (wanted == "all") return -1;
   const auto at = std::ranges::find(names, wanted);
   if (at != names.end()) return static_cast<int>(at - names.begin());
-  std::string known;
-  for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-  return fail(Code::usage, fmt::format("there is no {} '{}'; there are {}", what, wanted, known));
+  return fail(Code::usage, fmt::format("there is no {} '{}'; there are {}", what, wanted, join(names)));
 }
 
 bool parse_frame(std::string_view text, std::int64_t& out) {
@@ -184,7 +179,7 @@ std::vector<std::string> notes_on(const simulation::RigRecording& recorded) {
   return out;
 }
 
-/// A file to write: its name, and how.
+/// A file to write: its name and its writer.
 struct Output {
   std::string name;
   std::function<Status(const fs::path&)> write;
@@ -201,7 +196,7 @@ Output counts_file(std::string name, data::Counts counts, std::vector<io::Record
           }};
 }
 
-/// Recordings of known things: what a calibration has to know of them travels in the recording.
+/// Recordings of known objects, with their description for the calibration in the metadata.
 Status add_calibration(const RigJob& job, const simulation::PhysicalRig& rig, std::vector<Output>& out) {
   const auto known = [](std::map<std::string, std::string> values) {
     return io::RecordingMetadata{"calibration", std::move(values)};
@@ -265,12 +260,7 @@ Result<std::vector<fs::path>> write_all(const RigJob& job, const std::vector<Out
 
 }  // namespace
 
-Result<RigSceneKind> parse_rig_scene(std::string_view name) {
-  for (const auto& [known, kind] : kScenes)
-    if (known == name) return kind;
-  return fail(Code::usage,
-              fmt::format("there is no scene '{}'; there are tree, wheel, sign and markers", name));
-}
+Result<RigSceneKind> parse_rig_scene(std::string_view name) { return kScenes.parse(name, "scene"); }
 
 Result<RigJobOutcome> simulate_rig(const RigJob& job, const Progress& progress) {
   const auto rig = simulation::draw_rig(job.rig);
@@ -284,9 +274,7 @@ Result<RigJobOutcome> simulate_rig(const RigJob& job, const Progress& progress) 
   const auto recorded = simulation::record(*rig, staged->scene, *options);
   if (!recorded) return std::unexpected(recorded.error());
 
-  std::string scene;
-  for (const auto& [name, kind] : kScenes)
-    if (kind == job.scene) scene = name;
+  const std::string scene(kScenes[job.scene]);
   data::Trial truth;
   truth.source = "simulated";
   truth.markers = recorded->truth;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/text.h"
 #include "kinemark/stages/report/clean_report.h"
 #include "kinemark/stages/report/internal/clean_words.h"
 
@@ -19,9 +20,10 @@ namespace {
 using data::SampleState;
 using internal::length_s;
 
-constexpr double kLargeSdM = 0.010;     ///< a fill beyond this is of no use for joint angles
-constexpr double kSure = 0.8;           ///< confidence from which a defect counts as there
-constexpr double kHighCutoff = 0.4;     ///< of the rate: above this a filter takes next to nothing away
+constexpr double kLargeSdM = 0.010;  ///< a fill beyond this is of no use for joint angles
+constexpr double kSure = 0.8;        ///< confidence from which a defect counts as there
+constexpr double kHighCutoff = 0.4;  ///< of the rate: above this a filter takes next to nothing away
+constexpr std::size_t kNamesTold = 6;
 constexpr double kCyclesAtLeast = 2.0;  ///< a cut-off with fewer cycles in the recording leaves only drift
 
 std::int64_t count(const CleanMarker& m, SampleState state) {
@@ -32,24 +34,12 @@ std::string in_words(std::int64_t n, std::string_view one, std::string_view many
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-/// "A", "A and B", "A, B, C and 4 more".
-std::string list_names(const std::vector<std::string>& names, std::size_t most = 6) {
-  if (names.empty()) return "";
-  if (names.size() == 1) return names.front();
-  if (names.size() > most) {
-    const std::vector<std::string> some(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
-    return fmt::format("{} and {} more", fmt::join(some, ", "), names.size() - most);
-  }
-  const std::vector<std::string> but_last(names.begin(), names.end() - 1);
-  return fmt::format("{} and {}", fmt::join(but_last, ", "), names.back());
-}
-
-void add(std::vector<Finding>& out, Verdict level, std::string about, std::string subject, std::string text,
+void add(std::vector<Notice>& out, Verdict level, std::string about, std::string subject, std::string text,
          double time_s = kNaN) {
   out.push_back({level, std::move(about), std::move(subject), std::move(text), time_s});
 }
 
-void add_gates(const CleanReport& r, std::vector<Finding>& out) {
+void add_gates(const CleanReport& r, std::vector<Notice>& out) {
   for (const Gate& gate : r.run.gates)
     if (!gate.passed) add(out, Verdict::attention, "gate", gate.name, gate.sentence);
   if (r.run.exit_status != 0 && out.empty())
@@ -65,7 +55,7 @@ struct DefectGroup {
   std::vector<std::string> markers;
 };
 
-void add_defects(const CleanReport& r, std::vector<Finding>& out) {
+void add_defects(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<DefectGroup> groups;
   for (const CleanDefect& d : r.defects) {
     const bool sure = !(d.confidence < kSure);  // unknown: whoever found it did not doubt it
@@ -83,15 +73,15 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
     const Verdict level = g.sure && !d.handled ? Verdict::attention : Verdict::good;
     const std::string end = d.done.empty() ? "" : fmt::format(" What was done: {}.", d.done);
     const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
-    const std::string text = g.number == 1
-                                 ? d.sentence
-                                 : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
-                                               d.kind, g.number, list_names(g.markers), d.sentence);
+    const std::string text =
+        g.number == 1 ? d.sentence
+                      : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}", d.kind,
+                                    g.number, join_in_words(g.markers, kNamesTold), d.sentence);
     add(out, level, "marker", d.marker, text + unsure + end, r.time.time_s(d.first_frame));
   }
 }
 
-void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
+void add_upsampling(const CleanReport& r, std::vector<Notice>& out) {
   const CleanUpsampling& up = r.upsampling;
   const std::string end = up.done.empty() ? "" : fmt::format(" What was done: {}.", up.done);
   const Verdict level = up.handled ? Verdict::good : Verdict::attention;
@@ -107,11 +97,11 @@ void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
   if (names.empty()) return;
   add(out, level, "upsampling", names.front(),
       fmt::format("The recorder interpolated {} ({}).{}", in_words(std::ssize(names), "marker", "markers"),
-                  list_names(names), end));
+                  join_in_words(names, kNamesTold), end));
 }
 
 /// One line for each marker that has fills nobody should rely on.
-void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
+void add_uncertain_fills(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<std::pair<const CleanGap*, std::int64_t>> worst;  // of a marker, and how many there are
   for (const CleanGap& g : r.gaps) {
     if (!g.filled || !(g.max_sd_m > kLargeSdM)) continue;
@@ -129,7 +119,7 @@ void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
         r.time.time_s(gap->first_frame));
 }
 
-void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
+void add_open_gaps(const CleanReport& r, std::vector<Notice>& out) {
   const CleanGap* longest = nullptr;
   std::int64_t number = 0;
   double sum_s = 0.0;
@@ -145,24 +135,24 @@ void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
   const std::string why = longest->why_open.empty() ? "" : fmt::format(" {}", longest->why_open);
   add(out, Verdict::good, "gap", longest->marker,
       fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
-                  in_words(number, "gap was", "gaps were"), sum_s, list_names(names),
+                  in_words(number, "gap was", "gaps were"), sum_s, join_in_words(names, kNamesTold),
                   length_s(*longest, r.time), longest->marker, why),
       r.time.time_s(longest->first_frame));
 }
 
 /// One line for all markers of which something holds.
-void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
+void add_of_markers(const CleanReport& r, std::vector<Notice>& out,
                     const std::function<bool(const CleanMarker&)>& holds, std::string_view text) {
   std::vector<std::string> names;
   for (const CleanMarker& m : r.markers)
     if (holds(m)) names.push_back(m.name);
   if (names.empty()) return;
   add(out, Verdict::good, "marker", names.front(),
-      fmt::format("{} ({} of {}): {}", list_names(names), names.size(),
+      fmt::format("{} ({} of {}): {}", join_in_words(names, kNamesTold), names.size(),
                   in_words(std::ssize(r.markers), "marker", "markers"), text));
 }
 
-void add_filters(const CleanReport& r, std::vector<Finding>& out) {
+void add_filters(const CleanReport& r, std::vector<Notice>& out) {
   const double seconds = static_cast<double>(r.time.frames) / r.time.rate_hz;
   const auto chosen = [](const CleanMarker& m) { return !m.criterion_name.empty(); };
   add_of_markers(
@@ -187,8 +177,8 @@ void add_filters(const CleanReport& r, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> clean_findings(const CleanReport& report) {
-  std::vector<Finding> out;
+std::vector<Notice> clean_findings(const CleanReport& report) {
+  std::vector<Notice> out;
   add_gates(report, out);
   add_defects(report, out);
   add_upsampling(report, out);
@@ -203,9 +193,9 @@ std::vector<Finding> clean_findings(const CleanReport& report) {
   add_filters(report, out);
   for (const std::string& warning : report.run.warnings) add(out, Verdict::good, "warning", "", warning);
   // In order, but what is serious before what is not.
-  std::vector<Finding> sorted;
+  std::vector<Notice> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
-    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Notice& f) { return f.level == level; });
   return sorted;
 }
 

@@ -165,7 +165,7 @@ void add_marker(CleanReport& report, CleanMarker facts, const MarkerArrays& arra
 /// What needs attention, the serious ones first: defects that were found but not handled, samples that the
 /// recorder made, fills with a large standard deviation, failed gates; and in notes: gaps left open,
 /// residuals that are not white, filters at the end of their range, warnings.
-[[nodiscard]] std::vector<Finding> clean_findings(const CleanReport& report);
+[[nodiscard]] std::vector<Notice> clean_findings(const CleanReport& report);
 
 /// `kinemark.clean_report`, version 1: the whole account without the arrays. Lengths in mm, times in s,
 /// unknown numbers null.

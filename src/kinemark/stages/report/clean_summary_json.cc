@@ -169,9 +169,9 @@ Json defect_json(const CleanDefect& d, const TimeBase& time) {
 nlohmann::ordered_json clean_summary_json(const CleanReport& report) {
   const CleanRun& run = report.run;
   const CleanUpsampling& up = report.upsampling;
-  const std::vector<Finding> findings = clean_findings(report);
+  const std::vector<Notice> findings = clean_findings(report);
   const bool serious =
-      std::ranges::any_of(findings, [](const Finding& f) { return f.level == Verdict::attention; });
+      std::ranges::any_of(findings, [](const Notice& f) { return f.level == Verdict::attention; });
   Json gaps = Json::array(), defects = Json::array();
   for (const CleanGap& g : report.gaps) gaps.push_back(gap_json(g, report.time));
   for (const CleanDefect& d : report.defects) defects.push_back(defect_json(d, report.time));

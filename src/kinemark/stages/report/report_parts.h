@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What all reports have: inputs with their hashes, quality gates, findings, and the bound on a page's size.
+// What all reports have: inputs with their hashes, quality gates, notices, and the bound on a page's size.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +36,9 @@ enum class Verdict : std::uint8_t { good, attention };
 
 [[nodiscard]] std::string_view to_string(Verdict verdict);
 
-/// A line of the list "what needs your attention".
-struct Finding {
-  Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
+/// One entry of the list "what needs your attention".
+struct Notice {
+  Verdict level = Verdict::good;  ///< attention: the result should be checked by a person before use
   std::string about;              ///< "gate", "frames", "coordinate", "marker", "gap", ... or "warning"
   std::string subject;            ///< name of the gate, coordinate or marker; may be empty
   std::string text;               ///< one sentence

@@ -15,7 +15,7 @@ namespace kinemark::calibration {
 
 inline std::vector<Eigen::Vector3d> test_tree() { return tree_from_sides({0.533, 0.310, 0.310}).value(); }
 
-/// The tree in `poses` places, ten frames averaged.
+/// The tree in `poses` poses, ten frames averaged.
 inline StillPoses tree_sightings(const data::Rig& truth, int poses, std::uint64_t seed,
                                  std::vector<Eigen::Matrix3Xd>* where = nullptr) {
   StillPoses out{.tree = test_tree(), .cameras = truth.camera_count(), .sightings = {}};

@@ -106,7 +106,7 @@ TEST(Controller, LimitsHoldAndNothingIsFasterThanTheySay) {
   const auto model = body(0.4);
   const Plan plan = make(model, {.step_s = 1e-3});
   Controller controller(plan);
-  // Goals of a body without these limits: elbow and knee ask for much more.
+  // Goals of a body without these limits: elbow and knee exceed them by far.
   Eigen::VectorXd q = Eigen::VectorXd::Zero(13);
   q[9] = 1.2;
   q[11] = -1.2;

@@ -93,7 +93,7 @@ void Walker::restart() {
   if (!x.allFinite()) x = last_good_;
   controller_.start(x, goal_, time_s());
   if (controller_.evaluate(goal_, time_s())) return;
-  // Goals that move faster than any body can: stand still until they are sane.
+  // Goals that move faster than any body can: hold the pose until they are plausible again.
   GoalValues nothing(static_cast<int>(goal_.weight.size()));
   controller_.start(last_good_, nothing, time_s());
   controller_.evaluate(nothing, time_s());

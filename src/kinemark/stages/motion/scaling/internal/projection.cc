@@ -14,7 +14,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr std::int64_t kGrain = 32;
-constexpr double kClearlyBetter = 0.98;  // cost that makes another posture worth having
+constexpr double kClearlyBetter = 0.98;  // largest cost ratio at which another posture is accepted
 
 /// The same parameters for a description that holds some of the markers only.
 std::vector<GeometryParameter> rename_markers(const data::ModelDescription& full,
