@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   // Angles are in radians, positions in metres, one row a frame; here the last frame is shown in degrees.
   const data::JointMotion& motion = result->motion;
   std::printf("%lld frames, markers fit within %.1f mm RMS\n", static_cast<long long>(motion.frames()),
-              1e3 * result->rms_marker_error_m);
+              1e3 * result->fit.rms_error_m);
   for (std::int64_t c = 0; c < motion.size(); ++c) {
     const auto i = motion.index(motion.frames() - 1, c);
     const auto name = motion.coordinates[static_cast<std::size_t>(c)].c_str();

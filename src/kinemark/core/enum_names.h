@@ -25,9 +25,10 @@ namespace kinemark {
 template <auto kLast>
 class EnumNames {
  public:
-  using Enum = decltype(kLast);
-  static constexpr std::size_t kCount = static_cast<std::size_t>(kLast) + 1;
+  using Enum = decltype(kLast);                                               ///< the enumeration
+  static constexpr std::size_t kCount = static_cast<std::size_t>(kLast) + 1;  ///< number of enumerators
 
+  /// Names as they are written, one for each enumerator.
   template <class... Names>
     requires(sizeof...(Names) == kCount)
   consteval explicit EnumNames(Names... names) : names_{names...} {}

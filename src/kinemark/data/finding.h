@@ -37,10 +37,11 @@ enum class FindingKind : std::uint8_t {
 /// "marker slip", "joint slip", "loose marker", "unexplained", "at limit", "not settled", "flagged".
 [[nodiscard]] std::string_view to_string(FindingKind kind);
 
+/// What screening, gaps, joints or motion noticed: who, when, how large, how sure.
 struct Finding {
-  FindingKind kind = FindingKind::zero;
-  std::string subject;  ///< marker, joint, coordinate or method; empty: all markers
-  std::string partner;  ///< the other marker of a swap, the segment of a slip; empty: none
+  FindingKind kind = FindingKind::zero;  ///< what was noticed
+  std::string subject;                   ///< marker, joint, coordinate or method; empty: all markers
+  std::string partner;                   ///< the other marker of a swap, the segment of a slip; empty: none
   std::int64_t first_frame = -1, last_frame = -1;  ///< both ends belong to it; -1: not tied to frames
   double size = kNaN;                              ///< as its kind says, in m, frames, ...; NaN: not known
   double size_sd = kNaN;     ///< one standard deviation of the size, same unit; NaN: not known

@@ -18,10 +18,10 @@ namespace kinemark::data {
 
 /// What one used marker contributed.
 struct FittedMarker {
-  std::string name;          ///< in the model
-  std::string name_in_data;  ///< in the recording (may carry a subject prefix)
-  std::string body;          ///< that carries it, "ground" for none
-  double weight = 1.0;
+  std::string name;           ///< in the model
+  std::string name_in_data;   ///< in the recording (may carry a subject prefix)
+  std::string body;           ///< that carries it, "ground" for none
+  double weight = 1.0;        ///< as given, >= 0
   double seen = 0.0;          ///< share of the solved frames, 0 to 1
   double rms_m = kNaN;        ///< distance measured to model; NaN when never seen
   double max_m = 0.0;         ///< largest distance; 0 when never seen
@@ -38,12 +38,16 @@ struct ExcludedMarker {
   std::string why;   ///< not empty; usually one of those below
 };
 
-inline constexpr std::string_view kNoWeight = "given the weight 0";
-inline constexpr std::string_view kNeverSeen = "never seen";
+inline constexpr std::string_view kNoWeight = "given the weight 0";  ///< ExcludedMarker::why
+inline constexpr std::string_view kNeverSeen = "never seen";         ///< ExcludedMarker::why
+/// ExcludedMarker::why
 inline constexpr std::string_view kNotInRecording = "in the model, not in the recording";
+/// ExcludedMarker::why
 inline constexpr std::string_view kAmbiguous = "in the model, and of several subjects in the recording";
-inline constexpr std::string_view kNotInModel = "in the recording, not in the model";
+inline constexpr std::string_view kNotInModel =
+    "in the recording, not in the model";  ///< ExcludedMarker::why
 
+/// How markers and model go together: which marker is which, and how well each fits.
 struct MarkerFit {
   std::int64_t first_frame = 0;       ///< index in the recording of the motion's frame 0
   std::vector<FittedMarker> markers;  ///< in the order of the motion's markers

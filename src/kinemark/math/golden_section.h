@@ -16,10 +16,12 @@ struct GoldenSectionStop {
   int sections = std::numeric_limits<int>::max();  ///< at least one of the two must be given
 };
 
+/// What golden_section() is left with.
 struct GoldenSection {
   double low = 0.0, high = 0.0;  ///< what is left of the interval
   double at = 0.0, value = 0.0;  ///< the smallest value seen, the first of equal ones
 
+  /// Of the interval that is left.
   [[nodiscard]] double middle() const { return 0.5 * (low + high); }
 };
 

@@ -9,6 +9,7 @@
 
 namespace kinemark::math {
 
+/// The rotation that takes one set of points to another, and how well they tell it.
 struct RotationFit {
   Matrix3d rotation = Matrix3d::Identity();  ///< target_from_source; proper also where `mirrored`
   /// How well the points tell the rotation: (s2 + s3) / s1 of the sum's singular values, s3 negative where
@@ -17,6 +18,7 @@ struct RotationFit {
   double margin = 0.0;
   bool mirrored = false;  ///< a reflection would fit better: sides confused, or noise on points of a plane
 
+  /// Whether the points tell the rotation.
   [[nodiscard]] bool determined() const { return margin > 1e-9; }
 };
 
@@ -26,9 +28,10 @@ struct RotationFit {
 /// @return  one of the best rotations where they are many: ask determined(). O(1), allocates nothing.
 [[nodiscard]] RotationFit fit_rotation(const Matrix3d& target_source);
 
+/// The rigid motion that takes one set of points to another.
 struct RigidFit {
-  SE3 target_from_source;
-  RotationFit rotation;  ///< of the same motion, with what is known about it
+  SE3 target_from_source;  ///< in the unit of the points
+  RotationFit rotation;    ///< of the same motion, with what is known about it
 };
 
 /// Rigid motion that minimises sum |target - (R source + t)|^2.

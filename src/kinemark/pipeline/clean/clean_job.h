@@ -33,26 +33,27 @@ enum class RecorderMade : std::uint8_t {
 
 /// What `kinemark clean` is asked to do. Paths that are empty are not used.
 struct CleanJob {
-  std::filesystem::path input;   ///< .c3d, .trc, .csv or .nwb
-  std::filesystem::path output;  ///< likewise; OUT_report.json goes beside it
-  std::filesystem::path report;  ///< page to write as well
-  RecorderMade recorder_made = RecorderMade::mark;
+  std::filesystem::path input;                      ///< .c3d, .trc, .csv or .nwb
+  std::filesystem::path output;                     ///< likewise; OUT_report.json goes beside it
+  std::filesystem::path report;                     ///< page to write as well
+  RecorderMade recorder_made = RecorderMade::mark;  ///< what is done with samples that the recorder made
   bool reject_defects = false;  ///< spikes, swaps, stuck and false samples become `rejected`, then gaps
-  trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};
-  trajectory::SmoothOptions filter;
+  trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};  ///< how gaps are filled
+  trajectory::SmoothOptions filter;                                    ///< how positions are smoothed
   bool derivatives = false;  ///< velocity, acceleration and jerk with their SDs: into an .nwb, else
                              ///< OUT_derivatives.sto
   int threads = 1;           ///< 0: all cores. Any number gives the same bits.
-  std::uint64_t seed = 1;
-  bool force = false;
+  std::uint64_t seed = 1;    ///< of artificial gaps
+  bool force = false;        ///< replace files that exist
   std::string command_line;  ///< for the record
 };
 
+/// What `kinemark clean` did.
 struct CleanOutcome {
-  data::Trial trial;  ///< as written, without what is only in an .nwb (covariance, derivatives)
-  report::CleanReport report;
+  data::Trial trial;               ///< as written, without what is only in an .nwb (covariance, derivatives)
+  report::CleanReport report;      ///< what the page shows
   std::vector<std::string> notes;  ///< what the output format cannot hold, one sentence each
-  std::vector<std::filesystem::path> written;
+  std::vector<std::filesystem::path> written;  ///< all files, in order
 };
 
 /// Read, screen, mark what the recorder made, fill, smooth, write. Either all files appear or, on a failure,

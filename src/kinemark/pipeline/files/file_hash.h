@@ -10,9 +10,10 @@
 
 namespace kinemark::pipeline {
 
+/// Size and checksum of a file.
 struct FileHash {
-  std::int64_t bytes = 0;
-  std::string hex;  ///< XXH3, 64 bits, 16 lower-case digits
+  std::int64_t bytes = 0;  ///< size
+  std::string hex;         ///< XXH3, 64 bits, 16 lower-case digits
 };
 
 /// Size and checksum of a file, read once in blocks.

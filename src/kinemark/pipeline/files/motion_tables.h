@@ -21,6 +21,7 @@ namespace kinemark::pipeline {
 /// Generalised forces, one column per coordinate ("knee_moment" in N m, "pelvis_tx_force" in N), and one
 /// standard deviation of each.
 [[nodiscard]] data::Table torques_table(const data::JointMotion& motion);
+/// The standard deviations in a table of the same shape; NaN where not known.
 [[nodiscard]] data::Table torque_deviations_table(const data::JointMotion& motion);
 
 /// Distance between measured and model marker in metres: columns rms, max, then one per marker; NaN where not

@@ -16,12 +16,13 @@ class Staging {
  public:
   /// Fails when a target exists (unless `force`), is given twice, or its folder cannot be written.
   static Result<Staging> create(std::vector<std::filesystem::path> targets, bool force);
-  Staging(Staging&& other) noexcept;
+  Staging(Staging&& other) noexcept;  ///< takes the targets over
   Staging& operator=(Staging&&) = delete;
   ~Staging();
 
   /// Where to write what will become targets[i].
   [[nodiscard]] std::filesystem::path path(std::size_t i) const;
+  /// As given.
   [[nodiscard]] const std::vector<std::filesystem::path>& targets() const { return targets_; }
   /// A failure of writing path(i), reported for targets[i].
   [[nodiscard]] std::unexpected<Error> failure(Error error) const;

@@ -32,28 +32,30 @@ struct JointsJob {
   /// file: the centres in its format, and NAME_skeleton.json beside it.
   std::filesystem::path output;
   std::string method = "articulated";  ///< that, or a name of parse_functional_method()
+  /// for functional methods: in which segments the centre is held still
   skeleton::Sides sides = skeleton::Sides::both;
-  data::JointChoice kind = data::JointChoice::automatic;
-  double noise_sd_m = 0.0;      ///< per axis; 0: found
-  bool continuity = true;       ///< articulated: smooth in time and bridge
+  data::JointChoice kind = data::JointChoice::automatic;  ///< of all joints
+  double noise_sd_m = 0.0;                                ///< per axis; 0: found
+  bool continuity = true;                                 ///< articulated: smooth in time and bridge
   bool soft_tissue = false;     ///< articulated alone: every marker has a noise of its own
   bool keep_upsampled = false;  ///< use the samples that the recorder made as well
   bool keep_defects = false;    ///< use what screening calls swapped, stuck, false
   int threads = 1;              ///< 0: all cores. Any number gives the same bits.
-  std::uint64_t seed = 1;
-  bool force = false;
-  std::string command_line;  ///< for the provenance record
+  std::uint64_t seed = 1;       ///< of random draws
+  bool force = false;           ///< replace files that exist
+  std::string command_line;     ///< for the provenance record
 };
 
+/// What `kinemark joints` found.
 struct JointsOutcome {
-  data::Skeleton skeleton;
+  data::Skeleton skeleton;                     ///< segments, joints, centres
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
-  std::vector<skeleton::Slip> slips;
-  std::vector<double> marker_noise_sd_m;  ///< M, with soft_tissue; NaN where unknown; empty otherwise
-  std::vector<std::string> notes;         ///< processing steps and irregularities, one sentence each
-  nlohmann::ordered_json json;            ///< as skeleton.json
-  std::vector<std::filesystem::path> written;
-  int exit_status = 0;  ///< 0, or 1 when a joint was placed in no frame
+  std::vector<skeleton::Slip> slips;           ///< markers that moved on their segment
+  std::vector<double> marker_noise_sd_m;       ///< M, with soft_tissue; NaN where unknown; empty otherwise
+  std::vector<std::string> notes;              ///< processing steps and irregularities, one sentence each
+  nlohmann::ordered_json json;                 ///< as skeleton.json
+  std::vector<std::filesystem::path> written;  ///< all files, in order
+  int exit_status = 0;                         ///< 0, or 1 when a joint was placed in no frame
 };
 
 /// Read, find, write. Either all files appear or, on a failure, none.

@@ -12,10 +12,11 @@
 
 namespace kinemark::pipeline {
 
+/// Forces that act on the body besides gravity, and the files they come from.
 struct ExternalForces {
-  data::Wrenches wrenches;
+  data::Wrenches wrenches;                   ///< on the recording's clock
   std::vector<std::filesystem::path> files;  ///< all that were read, the named one first
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;         ///< one sentence each
 };
 
 /// Forces on the body at the frames of `time`: the plates of a .c3d file, or an OpenSim ExternalLoads .xml

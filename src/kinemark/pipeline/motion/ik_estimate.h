@@ -13,8 +13,9 @@
 
 namespace kinemark::pipeline {
 
+/// Joint angles by either estimator, with torques where asked for.
 struct MotionEstimate {
-  motion::IkResult ik;
+  motion::IkResult ik;    ///< motion and fit
   TorqueAccount torques;  ///< empty unless they were asked for
 };
 

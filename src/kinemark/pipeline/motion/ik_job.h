@@ -19,15 +19,16 @@ enum class Estimator : std::uint8_t { least_squares, smoother };
 struct IkJob : MotionJob {
   std::filesystem::path
       setup;  ///< OpenSim InverseKinematicsTool file; fills what the other fields leave open
-  std::filesystem::path tasks;   ///< OpenSim IKTaskSet file
-  std::filesystem::path report;  ///< page to write as well
-  motion::IkOptions options;
-  Estimator estimator = Estimator::least_squares;
+  std::filesystem::path tasks;                     ///< OpenSim IKTaskSet file
+  std::filesystem::path report;                    ///< page to write as well
+  motion::IkOptions options;                       ///< of the least squares
+  Estimator estimator = Estimator::least_squares;  ///< which estimator
   bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
 };
 
+/// What `kinemark ik` did.
 struct IkOutcome : MotionOutcome {
-  motion::IkResult result;
+  motion::IkResult result;  ///< motion and fit
 };
 
 /// Read, solve, check and write. Either all files appear or, on a failure, none.

@@ -20,7 +20,7 @@ struct TorqueAccount {
   std::vector<std::pair<std::string, std::string>>
       facts;  ///< which plate acted on which body and when; how long forces are unknown; the residual of the
               ///< root
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< one sentence each
 };
 
 /// Fill tau (and tau_sd) of a motion by inverse dynamics, with the forces of a file unless `forces` is empty.

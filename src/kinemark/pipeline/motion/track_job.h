@@ -11,11 +11,12 @@ namespace kinemark::pipeline {
 /// What `kinemark track` is asked to do. Writes Q.mot, Q_sd.sto, Q_bound.sto, Q_tau.sto, Q_tau_sd.sto,
 /// Q_rank.sto, Q_marker_errors.sto and Q_report.json.
 struct TrackJob : MotionJob {
-  motion::TrackOptions options;
+  motion::TrackOptions options;  ///< of the tracking
 };
 
+/// What `kinemark track` did.
 struct TrackOutcome : MotionOutcome {
-  motion::TrackResult result;
+  motion::TrackResult result;  ///< motion and fit
 };
 
 /// Read, track, check and write. Either all files appear or, on a failure, none.

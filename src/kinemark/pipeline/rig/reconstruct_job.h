@@ -14,15 +14,16 @@ namespace kinemark::pipeline {
 
 /// What `kinemark reconstruct` is asked to do.
 struct ReconstructJob {
+  /// How points come from counts.
   enum class Method : std::uint8_t { smoother, frames, classic };
 
-  std::filesystem::path recording;  ///< of counts
-  std::filesystem::path rig;        ///< rig.toml
-  std::filesystem::path output;     ///< markers: .c3d, .trc or .csv
-  Method method = Method::smoother;
-  reconstruction::ReconstructOptions frames;
-  trajectory::SmoothCountsOptions smoother;
-  bool force = false;
+  std::filesystem::path recording;            ///< of counts
+  std::filesystem::path rig;                  ///< rig.toml
+  std::filesystem::path output;               ///< markers: .c3d, .trc or .csv
+  Method method = Method::smoother;           ///< how points come from counts
+  reconstruction::ReconstructOptions frames;  ///< for Method::frames
+  trajectory::SmoothCountsOptions smoother;   ///< for Method::smoother
+  bool force = false;                         ///< replace a file that exists
 };
 
 /// Points of a recording of counts as markers. Returns method, frames, written, warnings and for each LED

@@ -13,10 +13,10 @@ namespace kinemark::pipeline {
 
 /// What `kinemark simulate subject` is asked to do.
 struct SubjectJob {
-  std::filesystem::path folder;  ///< made when absent
-  std::filesystem::path model;   ///< empty: kinemark's own human
-  simulation::SubjectOptions options;
-  bool force = false;
+  std::filesystem::path folder;        ///< made when absent
+  std::filesystem::path model;         ///< empty: kinemark's own human
+  simulation::SubjectOptions options;  ///< of the subject and its motion
+  bool force = false;                  ///< replace files that exist
 };
 
 /// Write markers.c3d, markers.trc (what a laboratory records), model.osim, truth.mot (degrees, metres) and

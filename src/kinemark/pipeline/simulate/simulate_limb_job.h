@@ -14,21 +14,23 @@
 
 namespace kinemark::pipeline {
 
+/// Which limb is simulated.
 enum class LimbScene : std::uint8_t { arm, macaque };
 
 /// What `kinemark simulate arm` and `kinemark simulate macaque` are asked to do.
 struct LimbJob {
-  std::filesystem::path folder;  ///< made when absent
-  LimbScene scene = LimbScene::arm;
+  std::filesystem::path folder;                       ///< made when absent
+  LimbScene scene = LimbScene::arm;                   ///< which limb
   simulation::ChainOptions arm;                       ///< for LimbScene::arm
   simulation::SleeveOptions macaque;                  ///< for LimbScene::macaque
   simulation::UpsampleOptions upsample{.factor = 1};  ///< what the recorder makes of it
-  bool force = false;
+  bool force = false;                                 ///< replace files that exist
 };
 
+/// What `kinemark simulate arm` and `macaque` wrote.
 struct LimbJobOutcome {
-  std::vector<std::filesystem::path> written;
-  std::vector<std::string> notes;  ///< frames, markers, and how much of them is seen
+  std::vector<std::filesystem::path> written;  ///< all files, in order
+  std::vector<std::string> notes;              ///< frames, markers, and how much of them is seen
 };
 
 /// Write markers.c3d and markers.trc (what the recorder hands on), truth.csv (joint centres and then all

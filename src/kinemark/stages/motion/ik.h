@@ -16,12 +16,13 @@
 
 namespace kinemark::motion {
 
+/// What solve_ik() found: the motion, and how well it fits the markers.
 struct IkResult {
-  data::JointMotion motion;  ///< solved frames only
-  data::MarkerFit fit;
-  double cost = 0.0;  ///< sum over frames of the cost in IkOptions (square loss), m^2
-  std::int64_t iterations = 0;
-  double solve_seconds = 0.0;  ///< wall time of the frame loop alone, without error bars
+  data::JointMotion motion;     ///< solved frames only
+  data::MarkerFit fit;          ///< markers used and left out, and how well they fit
+  double cost = 0.0;            ///< sum over frames of the cost in IkOptions (square loss), m^2
+  std::int64_t iterations = 0;  ///< of all frames together
+  double solve_seconds = 0.0;   ///< wall time of the frame loop alone, without error bars
 };
 
 /// Solve every frame of the time range.
@@ -39,9 +40,10 @@ struct IkResult {
 /// The shift (m) that must be added to all measured markers so that the model fits them best, found on up to
 /// 10 frames; and the RMS marker error that would remain. Tells a recording in another place from a bad fit.
 struct CommonOffset {
-  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
-  double rms_before_m = 0.0, rms_after_m = 0.0;
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  ///< in the world
+  double rms_before_m = 0.0, rms_after_m = 0.0;       ///< RMS marker error as it is, and with the shift
 };
+/// Fails as solve_ik() does.
 [[nodiscard]] Result<CommonOffset> find_common_offset(const model::Model& model,
                                                       const data::Trajectories& markers,
                                                       const IkOptions& options = {});

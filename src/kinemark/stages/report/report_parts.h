@@ -15,11 +15,11 @@ namespace kinemark::report {
 
 /// A file that the result depends on.
 struct InputFile {
-  std::string role;  ///< "model", "markers", "tasks", ...
-  std::string path;  ///< as the user gave it
-  std::int64_t bytes = 0;
-  std::string hash;       ///< hexadecimal digits, lower case
-  std::string hash_kind;  ///< "XXH3-64"
+  std::string role;        ///< "model", "markers", "tasks", ...
+  std::string path;        ///< as the user gave it
+  std::int64_t bytes = 0;  ///< size
+  std::string hash;        ///< hexadecimal digits, lower case
+  std::string hash_kind;   ///< "XXH3-64"
 };
 
 /// A quality bound that the run had to meet.
@@ -32,9 +32,10 @@ struct Gate {
   std::string sentence;  ///< for people: what was compared and what to do when it failed
 };
 
+/// What a report says in a word.
 enum class Verdict : std::uint8_t { good, attention };
 
-[[nodiscard]] std::string_view to_string(Verdict verdict);
+[[nodiscard]] std::string_view to_string(Verdict verdict);  ///< "good", "attention"
 
 /// One entry of the list "what needs your attention".
 struct Notice {
@@ -50,7 +51,7 @@ struct ReportOptions {
   std::int64_t max_points = 20'000;            ///< per plotted series, at least 2
   std::int64_t max_series_bytes = 24'000'000;  ///< of all plotted series as they stand in the page
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold.
 };
 
 }  // namespace kinemark::report

@@ -17,14 +17,14 @@ namespace kinemark::motion {
 
 /// One frame of a live stream; numbers as in data::JointMotion, n coordinates each.
 struct LivePose {
-  std::int64_t frame = 0;
-  double time_s = 0.0;
-  Eigen::VectorXd q, v, a, tau;
-  Eigen::VectorXd q_sd, q_bound;         ///< NaN where not determined; empty without error bars
-  std::vector<std::uint8_t> determined;  ///< empty without error bars
-  int rank = 0;
-  double smallest_singular = 0.0;
-  data::FrameStatus status = data::FrameStatus::no_markers;
+  std::int64_t frame = 0;         ///< number of the frame, from 0
+  double time_s = 0.0;            ///< of the frame
+  Eigen::VectorXd q, v, a, tau;   ///< coordinates (rad, m), their rates and accelerations, forces (N m, N)
+  Eigen::VectorXd q_sd, q_bound;  ///< NaN where not determined; empty without error bars
+  std::vector<std::uint8_t> determined;                      ///< empty without error bars
+  int rank = 0;                                              ///< directions of motion that the markers hold
+  double smallest_singular = 0.0;                            ///< as TrackResult, kg^-1/2
+  data::FrameStatus status = data::FrameStatus::no_markers;  ///< how well the frame was followed
 };
 
 /// track_markers() on a stream: poses are returned `delay_frames()` after their frames, with the same numbers
@@ -40,13 +40,13 @@ class OnlineTracker {
   /// @param rate_hz  of the stream, in (0, 10000]
   static Result<OnlineTracker> create(const model::Model& model, const std::vector<std::string>& markers,
                                       double rate_hz, const TrackOptions& options = {});
-  OnlineTracker(OnlineTracker&&) noexcept;
-  OnlineTracker& operator=(OnlineTracker&&) noexcept;
+  OnlineTracker(OnlineTracker&&) noexcept;             ///< takes a running tracker over
+  OnlineTracker& operator=(OnlineTracker&&) noexcept;  ///< replaces this one by another
   OnlineTracker(const OnlineTracker&) = delete;
   OnlineTracker& operator=(const OnlineTracker&) = delete;
   ~OnlineTracker();
 
-  [[nodiscard]] std::int64_t delay_frames() const;
+  [[nodiscard]] std::int64_t delay_frames() const;  ///< frames that must have come before a pose comes out
 
   /// One frame: x (3 x markers, m, NaN where not seen) at a time in s. The frame's index is its time since
   /// the first one, rounded to the nearest frame, or the next index where that one is taken; skipped frames
@@ -61,11 +61,12 @@ class OnlineTracker {
   /// model cannot be controlled in the first pose (a coordinate moves no mass).
   [[nodiscard]] Result<const LivePose*> next();
 
+  /// Names of those held at the rest pose; known once the first pose is out.
   [[nodiscard]] std::vector<std::string> locked_coordinates() const;
   /// Frames by which the poses' times run ahead of the stamp last pushed: 0 or 1 for a stream that keeps its
   /// rate, more where frames come faster than that, or in a burst after a pause.
   [[nodiscard]] std::int64_t frames_ahead() const;
-  [[nodiscard]] std::int64_t restarts() const;
+  [[nodiscard]] std::int64_t restarts() const;  ///< times that the body was set anew to its markers
 
  private:
   struct Impl;

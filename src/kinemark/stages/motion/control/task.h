@@ -37,11 +37,11 @@ class Task {
   Task& operator=(const Task&) = delete;
   virtual ~Task() = default;
 
-  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string name() const = 0;  ///< what messages call it
   /// Called once, before the first step. The model has the bodies, coordinates and speeds (and their order)
   /// of the one given to the tracker, but of its markers only those that are tracked.
   [[nodiscard]] virtual Status bind(const model::Model& model) = 0;
-  [[nodiscard]] virtual int rows() const = 0;
+  [[nodiscard]] virtual int rows() const = 0;  ///< number of rows, > 0 once bound
   /// Fill `out`, which has rows() rows and is as resize() left it. `w` holds kinematics() and velocities().
   /// Must not allocate.
   virtual void evaluate(const model::Model& model, const model::Workspace& w, double time_s,

@@ -25,11 +25,14 @@ namespace kinemark::motion {
 [[nodiscard]] std::shared_ptr<Task> coordinate_task(std::string coordinate, const std::vector<double>& values,
                                                     const TimeBase& time, double lever_m = 0.1);
 
-/// Keep two points of the body at a distance (m, > 0): 1 row.
+/// A point that rides on a body.
 struct BodyPoint {
-  std::string body;  ///< "" or "ground": fixed in the world
-  Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();
+  std::string body;                                     ///< "" or "ground": fixed in the world
+  Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();  ///< m
 };
+/// Keep two points at a distance: 1 row, m.
+/// @param distances_m  > 0, at the instants of `time`, or one that stays
+/// @param weight  1 counts like a marker's metre
 [[nodiscard]] std::shared_ptr<Task> distance_task(BodyPoint a, BodyPoint b,
                                                   const std::vector<double>& distances_m,
                                                   const TimeBase& time, double weight = 1.0);

@@ -18,6 +18,7 @@
 
 namespace kinemark::motion {
 
+/// What track_markers() found: the motion, and how well it follows the markers.
 struct TrackResult {
   /// q, v, a, tau, marker_error (measured minus model), status; with error bars also q_sd, determined and
   /// q_bound. Status not_converged: the frame was flagged (explosion, restart, goals out of reach).
@@ -34,10 +35,10 @@ struct TrackResult {
   std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
   std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames
   double rms_goal_error_m = 0.0, max_goal_error_m = 0.0;  ///< goal (filtered) to model, gaps left out
-  std::int64_t flagged_frames = 0;
-  std::int64_t restarts = 0;
-  double step_s = 0.0;  ///< as used
-  std::int64_t steps = 0;
+  std::int64_t flagged_frames = 0;                        ///< frames beyond max_error_m, or not followed
+  std::int64_t restarts = 0;                              ///< times that the body was set anew to its markers
+  double step_s = 0.0;                                    ///< as used
+  std::int64_t steps = 0;                                 ///< of the controller
   double solve_seconds = 0.0;  ///< wall time of the steps alone, without start and error bars
 };
 

@@ -49,11 +49,11 @@ struct TrackOptions {
   double posture_kp = 100.0, posture_kd = 20.0;  ///< of the null space of all levels, root included; >= 0
   std::vector<CoordinateTask> rest_pose;  ///< name and value; others: the model's default, roots: the start
   bool limits = true;                     ///< clamped coordinates stay in their range
-  LockMode lock = LockMode::automatic;
-  std::vector<std::string> locked;  ///< coordinates held at the rest pose besides those the model locks
+  LockMode lock = LockMode::automatic;    ///< which coordinates are held besides
+  std::vector<std::string> locked;        ///< coordinates held at the rest pose besides those the model locks
 
-  double first_time_s = -1e300;  ///< track only frames in [first_time_s, last_time_s]
-  double last_time_s = 1e300;
+  double first_time_s = -1e300;    ///< track only frames in [first_time_s, last_time_s]
+  double last_time_s = 1e300;      ///< both ends included
   double max_error_m = 0.3;        ///< a frame with a larger RMS distance to its goals is flagged
   double max_speed = 1e3;          ///< rad/s, norm of all speeds: beyond, flagged and started anew
   bool error_bars = true;          ///< compute q_sd, determined and q_bound

@@ -15,6 +15,7 @@
 
 namespace kinemark::motion {
 
+/// Options of inverse dynamics.
 struct DynamicsOptions {
   bool error_bars = true;         ///< compute tau_sd
   double contact_force_n = 20.0;  ///< a plate with less force on it is empty, and its data are left out
@@ -22,29 +23,30 @@ struct DynamicsOptions {
                                   ///< or "foot", or else all
   int threads = 1;                ///< for the error bars; 0: all cores. Any number gives the same bits.
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
 /// Residual force and moment at a free root: the ground reaction where there are no force plates, else the
 /// disagreement of model, motion and plates.
 struct RootResidual {
-  std::string body;
-  double force_rms_n = 0.0, force_max_n = 0.0;
+  std::string body;                                 ///< the body at the root
+  double force_rms_n = 0.0, force_max_n = 0.0;      ///< what no plate explains, over the frames
   double moment_rms_nm = 0.0, moment_max_nm = 0.0;  ///< about the origin of the root joint
 };
 
 /// One contact of a plate with a body.
 struct Contact {
-  std::string wrench, body;
-  std::int64_t first_frame = 0, last_frame = 0;
+  std::string wrench, body;                      ///< name of the plate, and of the body it acts on
+  std::int64_t first_frame = 0, last_frame = 0;  ///< both ends included
 };
 
+/// What inverse dynamics says besides the torques.
 struct DynamicsSummary {
-  std::vector<RootResidual> roots;
-  std::vector<Contact> contacts;
-  double body_weight_n = 0.0;
-  bool rates_estimated = false;  ///< v and a were absent and were filled by estimate_rates()
-  std::vector<std::string> warnings;
+  std::vector<RootResidual> roots;    ///< one a free root
+  std::vector<Contact> contacts;      ///< by wrench and time
+  double body_weight_n = 0.0;         ///< mass of the model times gravity
+  bool rates_estimated = false;       ///< v and a were absent and were filled by estimate_rates()
+  std::vector<std::string> warnings;  ///< one sentence each
 };
 
 /// Fill tau (and tau_sd) of a motion: tau = M q'' + b + g - sum J'f in the speeds of the tree, converted to

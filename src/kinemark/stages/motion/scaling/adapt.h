@@ -32,38 +32,42 @@ struct AdaptOptions {
   int max_iterations = 30;        ///< outer steps, >= 1
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
+/// One number that the motion has told.
 struct AdaptedParameter {
-  std::string name;
-  ParameterKind kind = ParameterKind::body_scale;
-  double initial = 0.0, value = 0.0;
-  double prior_sd = 0.0;
-  double sd = 0.0;       ///< from data and priors together
-  double data_sd = 0.0;  ///< without the prior of the marker positions: from the motion alone
-  bool determined = false;
+  std::string name;                                ///< as given
+  ParameterKind kind = ParameterKind::body_scale;  ///< what it scales or moves
+  double initial = 0.0, value = 0.0;               ///< before and after, in units of the parameter
+  double prior_sd = 0.0;                           ///< as given
+  double sd = 0.0;                                 ///< from data and priors together
+  double data_sd = 0.0;     ///< without the prior of the marker positions: from the motion alone
+  bool determined = false;  ///< data, not priors, fix it
   /// Half width of the interval to report: sd where determined, else the larger of sd and data_sd.
   [[nodiscard]] double interval() const { return determined || data_sd < sd ? sd : data_sd; }
 };
 
+/// Distance between two joints of one segment, before and after.
 struct AdaptedLength {
   std::string name;  ///< as SegmentLength
+  /// before, after, and the standard deviation of what came out
   double initial_m = 0.0, length_m = 0.0, sd_m = 0.0;
-  bool determined = false;
+  bool determined = false;  ///< data, not priors, fix it
 };
 
+/// A model whose geometry was fitted to a motion.
 struct AdaptResult {
-  data::ModelDescription model;
+  data::ModelDescription model;              ///< with the new geometry
   std::vector<AdaptedParameter> parameters;  ///< in the order given
   Eigen::MatrixXd covariance;                ///< of all parameters, in their units
-  std::vector<AdaptedLength> lengths;
+  std::vector<AdaptedLength> lengths;        ///< of the segments that have two joints or more
   std::vector<std::string>
       not_determined;  ///< names of the parameters and lengths that these data do not determine
-  std::vector<std::string> recommendations;  ///< one sentence each
-  std::int64_t frames = 0;                   ///< that took part
-  int iterations = 0;
-  bool converged = false;
+  std::vector<std::string> recommendations;      ///< one sentence each
+  std::int64_t frames = 0;                       ///< that took part
+  int iterations = 0;                            ///< of Gauss-Newton
+  bool converged = false;                        ///< false: the iteration limit was reached
   double rms_before_m = 0.0, rms_after_m = 0.0;  ///< distance of measured and model markers on these frames
   double noise_sd_m = 0.0;  ///< per axis, marker of mean weight: from residuals, or as given
   double tissue_sd_m =

@@ -20,15 +20,17 @@ struct PlaceOptions {
   double max_marker_movement_m = -1;  ///< refuse a trial whose markers move more within the range; < 0: any
 };
 
+/// A marker of the model before and after it was placed.
 struct PlacedMarker {
-  std::string name, body;
+  std::string name, body;  ///< in the model
   Eigen::Vector3d before_in_body = Eigen::Vector3d::Zero(), after_in_body = Eigen::Vector3d::Zero();  ///< m
   double error_m = 0.0;  ///< distance of the measured to the model's marker in the pose that was found
-  bool fixed = false;
+  bool fixed = false;    ///< it was not to be moved
 };
 
+/// A model whose markers sit where the static trial shows them.
 struct PlaceResult {
-  data::ModelDescription model;
+  data::ModelDescription model;       ///< with the new marker places
   std::vector<PlacedMarker> markers;  ///< those that model and trial share
   Eigen::VectorXd pose;               ///< coordinates of the static pose, in the model's order
   double rms_m = 0.0;                 ///< of the markers that took part in finding the pose

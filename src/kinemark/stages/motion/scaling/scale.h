@@ -17,56 +17,64 @@
 
 namespace kinemark::motion {
 
+/// Two markers whose distance is compared.
 struct MarkerPair {
-  std::string first, second;
+  std::string first, second;  ///< names in the model
 };
 
 /// One factor for several bodies: the mean over its pairs of measured over model distance.
 struct Measurement {
-  std::string name;
-  std::vector<MarkerPair> pairs;
-  std::vector<ScaleGroup::Part> bodies;
+  std::string name;                      ///< in reports
+  std::vector<MarkerPair> pairs;         ///< averaged
+  std::vector<ScaleGroup::Part> bodies;  ///< bodies and axes that the factor applies to
 };
 
+/// Scale factors of a body that are given, not measured.
 struct ManualScale {
-  std::string body;
+  std::string body;                                   ///< name in the model
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();  ///< > 0, along the axes of the body
 };
 
+/// Where scale factors come from.
 enum class ScaleStep : std::uint8_t { measurements, manual };
 
 /// Options of scale_model(). Later steps replace the factors of earlier ones.
 struct ScaleOptions {
-  std::vector<Measurement> measurements;
-  std::vector<ManualScale> manual;
+  std::vector<Measurement> measurements;  ///< factors from distances between markers
+  std::vector<ManualScale> manual;        ///< factors as given
+  /// factors from distances between markers
   std::vector<ScaleStep> order{ScaleStep::measurements, ScaleStep::manual};
   double mass_kg = 0.0;                     ///< of the subject; 0: as the factors make it
   bool preserve_mass_distribution = false;  ///< masses keep their ratios; else they grow with the volume
   double first_time_s = -1e300, last_time_s = 1e300;  ///< distances are averaged over this range
 };
 
+/// Scale factors of one body as applied.
 struct BodyFactors {
-  std::string body;
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
+  std::string body;                                   ///< name in the model
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();  ///< along x, y, z of the body; 1: as it was
 };
 
+/// One distance, measured and in the model.
 struct MeasuredPair {
-  std::string first, second;
+  std::string first, second;   ///< names in the model
   double measured_m = 0.0;     ///< mean over the frames that show both
   double measured_sd_m = 0.0;  ///< over these frames
   double model_m = 0.0;        ///< in the model's default pose
 };
 
+/// One measurement, carried out.
 struct MeasurementResult {
-  std::string name;
-  double factor = 1.0;
-  std::vector<MeasuredPair> pairs;
+  std::string name;                 ///< as given
+  double factor = 1.0;              ///< measured over model, mean over the pairs
+  std::vector<MeasuredPair> pairs;  ///< one by one
 };
 
+/// A scaled model and where its factors come from.
 struct ScaleResult {
-  data::ModelDescription model;
-  std::vector<BodyFactors> factors;  ///< one per body, in the model's order
-  std::vector<MeasurementResult> measurements;
+  data::ModelDescription model;                 ///< with the new sizes and masses
+  std::vector<BodyFactors> factors;             ///< one per body, in the model's order
+  std::vector<MeasurementResult> measurements;  ///< as carried out
 };
 
 /// Scale a model. `recording` may be null when no step measures.

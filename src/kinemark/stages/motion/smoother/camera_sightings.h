@@ -15,6 +15,8 @@ namespace kinemark::motion {
 /// beyond bend_sd count linearly (0: never).
 class CameraSightings final : public Sightings {
  public:
+  /// @param column  for each model marker its index in `tracks`
+  /// @param first_frame  of `tracks`, where the motion begins
   CameraSightings(const data::ImageTracks& tracks, std::vector<int> column, std::int64_t first_frame,
                   double bend_sd);
   void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;

@@ -25,6 +25,7 @@ struct MarkerInformation {
   void clear(Eigen::Index markers, bool with_full);
 };
 
+/// What cameras or markers saw of the body, frame by frame, as the smoother asks for it.
 class Sightings {
  public:
   Sightings() = default;
@@ -51,6 +52,9 @@ struct MarkerTrust {
 /// `first_frame` of it. Both must outlive this.
 class MarkerSightings final : public Sightings {
  public:
+  /// @param column  for each model marker its index in `markers`
+  /// @param first_frame  of `markers`, where the motion begins
+  /// @param trust  one a used marker
   MarkerSightings(const data::Trajectories& markers, std::vector<int> column, std::int64_t first_frame,
                   std::vector<MarkerTrust> trust);
   void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;

@@ -25,18 +25,19 @@ namespace kinemark::motion {
 struct SmootherTuning {
   Eigen::VectorXd step_variance;     ///< nv, of the third difference of each speed's own coordinate
   std::vector<MarkerTrust> markers;  ///< one per used marker, in the order of motion.markers
-  double rate_hz = 0.0;
+  double rate_hz = 0.0;              ///< of the recording that it was found on
 };
 
+/// What the smoother found: the motion, and how well it fits the markers.
 struct SmootherResult {
   /// q, v, a, q_sd, determined, marker_error (measured minus model), status. A frame without any marker is
   /// bridged like any other gap. Determined: the SD is at most 0.5 rad or 0.5 m.
   data::JointMotion motion;
-  RateErrors errors;  ///< covariance of q, v, a by coordinate; empty without error bars
-  data::MarkerFit fit;
-  SmootherTuning tuning;
-  int iterations = 0;  ///< steps over the whole recording
-  bool converged = false;
+  RateErrors errors;       ///< covariance of q, v, a by coordinate; empty without error bars
+  data::MarkerFit fit;     ///< markers used and left out, and how well they fit
+  SmootherTuning tuning;   ///< as used
+  int iterations = 0;      ///< steps over the whole recording
+  bool converged = false;  ///< false: the iteration limit was reached
   double start_seconds = 0.0, solve_seconds = 0.0;  ///< wall time: least squares; smoother with error bars
 };
 

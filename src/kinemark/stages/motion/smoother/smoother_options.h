@@ -18,7 +18,7 @@ struct SmootherOptions {
   bool error_bars =
       true;  ///< q_sd and the covariance of q, v and a; without them nothing is marked undetermined
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
 }  // namespace kinemark::motion

@@ -21,7 +21,7 @@ namespace kinemark::skeleton {
 struct ArticulatedOptions {
   double noise_sd_m = 0.0;               ///< of a marker, per axis, >= 0; 0: estimated from the residuals
   std::vector<data::SegmentKind> kinds;  ///< one a segment; empty: the data choose line, plane or solid
-  data::JointChoice joint = data::JointChoice::automatic;
+  data::JointChoice joint = data::JointChoice::automatic;  ///< of all joints: ball, hinge, or found
   bool continuity = true;  ///< smooth the centres in time and bridge what one frame leaves open
   bool robust = true;      ///< single markers far off lose their weight
   /// Soft tissue: every marker has a noise of its own, found from its residuals and shrunk towards the common
@@ -31,7 +31,7 @@ struct ArticulatedOptions {
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
 /// What became of one joint over the recording.
@@ -42,6 +42,7 @@ struct JointSummary {
   double white_jerk = 0.0;   ///< m^2/s^5, of the smoothing; 0: none was done
 };
 
+/// Joint centres of a layout, and what became of each joint.
 struct ArticulatedFit {
   data::Skeleton skeleton;           ///< one centre a frame and joint; covariances include the common part
   std::vector<JointSummary> joints;  ///< as skeleton.joints

@@ -28,6 +28,7 @@ struct Bandwidth {
 /// `information` (m^-2 per axis) `interval_s` apart: q = omega0^(2 order) interval / information.
 [[nodiscard]] Bandwidth bandwidth_at(int order, double half_gain_hz, double information, double interval_s);
 
+/// Options of the choice of a bandwidth.
 struct BandwidthOptions {
   int order = 0;                  ///< 3, 4 or 5; 0: the best of them
   double half_gain_hz = 0.0;      ///< 0: the best

@@ -9,8 +9,9 @@
 
 namespace kinemark::trajectory {
 
+/// Options of the chain of 1986.
 struct ClassicChainOptions {
-  double cutoff_hz = 12.0;
+  double cutoff_hz = 12.0;  ///< -3 dB, below half the rate
   /// The cut-off is that of both passes together; false: of each pass, so that 0.80 of it comes out.
   bool cutoff_of_both_passes = true;
 };

@@ -24,13 +24,13 @@ struct CandidateFill {
 
 /// All candidates for one gap, and their combination: what `automatic` fills in.
 struct GapCandidates {
-  std::vector<CandidateFill> candidates;
-  Eigen::MatrixXd x_in_world;  ///< L x 3, m
-  Eigen::VectorXd sd_m;        ///< L, per axis, with the noise of a sample; NaN without windows
-  int windows = 0;
-  std::int64_t window_frames = 0;
-  std::vector<std::int64_t> predictors;  ///< markers, most rigid first
-  std::vector<std::int64_t> dropped;     ///< markers at wrong positions
+  std::vector<CandidateFill> candidates;  ///< all that were tried
+  Eigen::MatrixXd x_in_world;             ///< L x 3, m
+  Eigen::VectorXd sd_m;                   ///< L, per axis, with the noise of a sample; NaN without windows
+  int windows = 0;                        ///< artificial gaps that weights come from
+  std::int64_t window_frames = 0;         ///< their length
+  std::vector<std::int64_t> predictors;   ///< markers, most rigid first
+  std::vector<std::int64_t> dropped;      ///< markers at wrong positions
 };
 
 /// Compare all candidates for one stretch of missing samples, as a whole (not in pieces) and whatever the

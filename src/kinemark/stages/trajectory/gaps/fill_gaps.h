@@ -25,13 +25,13 @@ struct CandidateWeight {
 
 /// One gap of one marker, filled or not. A gap whose predictors change on the way is one account per piece.
 struct GapAccount {
-  std::int64_t marker = 0;
+  std::int64_t marker = 0;       ///< index in the recording
   std::int64_t first_frame = 0;  ///< both ends belong to the gap
-  std::int64_t last_frame = 0;
-  bool at_edge = false;  ///< touches the start or the end of the recording
-  bool filled = false;
-  bool temporal = false;  ///< filled from the marker's own path alone
-  std::string method;     ///< as in Trajectories::methods, "auto" for a combination; "" when left open
+  std::int64_t last_frame = 0;   ///< both ends belong to the gap
+  bool at_edge = false;          ///< touches the start or the end of the recording
+  bool filled = false;           ///< false: `why_open` says why
+  bool temporal = false;         ///< filled from the marker's own path alone
+  std::string method;            ///< as in Trajectories::methods, "auto" for a combination; "" when left open
   std::vector<CandidateWeight> candidates;  ///< largest weight first
   double sd_m = 0.0;                        ///< predicted, per axis, RMS over the gap; NaN when unknown
   double max_sd_m = 0.0;                    ///< the largest along the gap and over the axes; NaN when unknown
@@ -41,19 +41,21 @@ struct GapAccount {
   std::vector<std::string> dropped;         ///< markers left out: not where they usually are in the gap
   std::string why_open;                     ///< a sentence when the gap was left open, else ""
 
+  /// Length of the gap.
   [[nodiscard]] std::int64_t frames() const { return last_frame - first_frame + 1; }
 };
 
 /// Two markers of a rigid group whose labels are exchanged in a stretch of frames.
 struct SwapFinding {
-  std::int64_t first_marker = 0;
-  std::int64_t second_marker = 0;
-  std::int64_t first_frame = 0;  ///< both ends belong to it
-  std::int64_t last_frame = 0;
-  double distance_m = 0.0;  ///< median error of position
-  std::string sentence;
+  std::int64_t first_marker = 0;   ///< index in the recording
+  std::int64_t second_marker = 0;  ///< index in the recording
+  std::int64_t first_frame = 0;    ///< both ends belong to it
+  std::int64_t last_frame = 0;     ///< both ends belong to it
+  double distance_m = 0.0;         ///< median error of position
+  std::string sentence;            ///< the same in words
 };
 
+/// A recording with its gaps filled, and the account of each.
 struct GapResult {
   data::Trajectories trajectories;  ///< as the input; samples present there are untouched
   std::vector<GapAccount> gaps;     ///< by marker and frame; every gap has its account

@@ -30,8 +30,8 @@ enum class GapMethod : std::uint8_t {
 
 /// Options of fill_gaps().
 struct GapOptions {
-  GapMethod method = GapMethod::automatic;
-  double max_gap_s = 2.0;   ///< longer gaps stay missing; > 0
+  GapMethod method = GapMethod::automatic;  ///< how all gaps are filled
+  double max_gap_s = 2.0;                   ///< longer gaps stay missing; > 0
   double max_sd_m = 0.020;  ///< a gap stays missing when its standard deviation, RMS over the gap and
                             ///< the axes, is larger or unknown; > 0, infinity: fill whatever it is
   double max_extrapolation_s = 0.1;  ///< gaps at the start or end of the recording, where only the marker's

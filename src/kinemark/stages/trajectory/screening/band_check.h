@@ -10,6 +10,7 @@
 
 namespace kinemark::trajectory {
 
+/// What the top of a spectrum says.
 enum class BandVerdict : std::uint8_t {
   unknown,     ///< no complete stretch of 64 frames
   open,        ///< noise up to half the rate, as cameras give it
@@ -22,10 +23,10 @@ enum class BandVerdict : std::uint8_t {
 
 /// Levels are those of white noise that would have the same density: RMS over the whole band, per axis.
 struct BandCheck {
-  BandVerdict verdict = BandVerdict::unknown;
-  double top_m = 0.0;     ///< level at 0.8 to 1 of half the rate
-  double middle_m = 0.0;  ///< level at 0.3 to 0.6 of half the rate
-  double edge_hz = 0.0;   ///< above this the density stays within ten times that at the top
+  BandVerdict verdict = BandVerdict::unknown;  ///< what the levels say
+  double top_m = 0.0;                          ///< level at 0.8 to 1 of half the rate
+  double middle_m = 0.0;                       ///< level at 0.3 to 0.6 of half the rate
+  double edge_hz = 0.0;  ///< above this the density stays within ten times that at the top
 };
 
 /// Spectrum of the longest complete stretch of measured samples of one marker (Welch's method: Hann windows

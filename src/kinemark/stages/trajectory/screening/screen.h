@@ -15,6 +15,7 @@
 
 namespace kinemark::trajectory {
 
+/// What can be wrong with samples.
 enum class Defect : std::uint8_t {
   zero,              ///< exactly (0, 0, 0): written by exporters for "not seen"
   stuck,             ///< the last value held while marker and neighbours move
@@ -31,18 +32,19 @@ enum class Defect : std::uint8_t {
 
 /// One defect: where, how strong the evidence is, and a sentence that says it with numbers.
 struct Finding {
-  Defect defect = Defect::zero;
+  Defect defect = Defect::zero;    ///< what is wrong
   std::int64_t marker = -1;        ///< -1: all markers
   std::int64_t other_marker = -1;  ///< the partner of a swap, else -1
   std::int64_t first_frame = 0;    ///< both ends belong to it
-  std::int64_t last_frame = 0;
+  std::int64_t last_frame = 0;     ///< both ends belong to it
   double evidence = 0.0;    ///< the deciding ratio, larger is stronger; what it is depends on the defect
   double confidence = 0.0;  ///< 0 to 1; below 0.8 a person should check
-  std::string sentence;
+  std::string sentence;     ///< the same in words
 };
 
 /// Options of screen(): kinds of defects and thresholds.
 struct ScreenOptions {
+  /// which defects are looked for
   bool zeros = true, stuck = true, duplicated_frames = true, clock_jumps = true, unit_slips = true,
        spikes = true, swaps = true;
   double min_spike_m = 0.01;    ///< > 0, smaller ones are left to the filter
@@ -50,7 +52,7 @@ struct ScreenOptions {
   double min_stuck_s = 0.1;     ///< > 0; and never below 8 frames
   double min_confidence = 0.5;  ///< 0 to 1, findings below are not reported
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
 /// Search for defects. Nothing is altered.

@@ -23,8 +23,8 @@ enum class Kernel : std::uint8_t { none, hold, linear, spline, catmull_rom, lagr
 
 /// From this frame to the next run real samples are the frames n with n % factor == phase.
 struct PhaseRun {
-  std::int64_t first_frame = 0;
-  int phase = 0;
+  std::int64_t first_frame = 0;  ///< where the run begins
+  int phase = 0;                 ///< 0 to factor - 1
 };
 
 /// One stream, or all streams together. Factor 1: not found to be interpolated; the numbers then are those of
@@ -41,6 +41,7 @@ struct Upsampling {
   std::vector<PhaseRun> runs;    ///< in time order, the first at frame 0; more than one where the phase slips
   bool inherited = false;        ///< too few data of its own (at rest, short): copied from the recording
 
+  /// Whether samples were made.
   [[nodiscard]] bool found() const { return factor > 1; }
   /// Phase in force at a frame; 0 when nothing was found.
   [[nodiscard]] int phase_at(std::int64_t frame) const;
@@ -52,10 +53,10 @@ struct Upsampling {
 
 /// Options of detect_upsampling().
 struct UpsamplingOptions {
-  int max_factor = 6;                ///< 2 to 12
-  std::int64_t max_frames = 20'000;  ///< of each stream used for the verdict, in evenly spaced pieces;
-                                     ///< phases are then followed through all frames; >= 1000
-  [[nodiscard]] Status check() const;
+  int max_factor = 6;                  ///< 2 to 12
+  std::int64_t max_frames = 20'000;    ///< of each stream used for the verdict, in evenly spaced pieces;
+                                       ///< phases are then followed through all frames; >= 1000
+  [[nodiscard]] Status check() const;  ///< Ranges hold.
 };
 
 /// Result of the test, with its limits.

@@ -20,7 +20,7 @@ namespace kinemark::trajectory {
 
 /// One filter that was tried: the smaller its criterion, the better.
 struct Candidate {
-  int order = 0;
+  int order = 0;           ///< as SmoothOptions::order
   double cutoff_hz = 0.0;  ///< best of this order; savgol: -3 dB of the window
   double criterion = 0.0;  ///< see MarkerAccount::criterion_name
 };
@@ -35,7 +35,7 @@ struct Spectrum {
 
 /// What was done to one marker, and why.
 struct MarkerAccount {
-  std::string name;
+  std::string name;        ///< of the marker
   data::FilterUsed used;   ///< method, order, cut-off, noise level
   std::string words;       ///< one or two sentences for people
   std::string noise_from;  ///< "given", "covariance", "data", or "" when unknown
@@ -51,16 +51,17 @@ struct MarkerAccount {
   /// Standard deviations of position, velocity, acceleration and jerk against what the model alone says: at
   /// seen samples, and for what gaps and ends add. 1 means the model was right.
   double bar_scale[4] = {1.0, 1.0, 1.0, 1.0};
-  double gap_bar_scale[4] = {1.0, 1.0, 1.0, 1.0};
+  double gap_bar_scale[4] = {1.0, 1.0, 1.0, 1.0};            ///< likewise, for what gaps and ends add
   std::int64_t measured = 0, bridged = 0, left_missing = 0;  ///< frames
   std::int64_t bad_variances =
-      0;  ///< samples whose variance was not positive and finite: the median was taken
-  Spectrum spectrum;
+      0;              ///< samples whose variance was not positive and finite: the median was taken
+  Spectrum spectrum;  ///< of the marker's samples
 };
 
+/// Smoothed trajectories, their rates, and the account of each marker.
 struct SmoothResult {
-  data::Trajectories trajectories;  ///< as the input, smoothed, with covariance when the noise is known
-  data::Derivatives derivatives;
+  data::Trajectories trajectories;     ///< as the input, smoothed, with covariance when the noise is known
+  data::Derivatives derivatives;       ///< velocity, acceleration, jerk
   std::vector<MarkerAccount> markers;  ///< M
 };
 
@@ -79,12 +80,12 @@ struct SmoothResult {
 
 /// One marker's part of the result. F frames, in the order of data::Trajectories.
 struct MarkerResult {
-  std::int64_t marker = 0;
+  std::int64_t marker = 0;   ///< index in the recording
   Array<double> x;           ///< F x 3, m
   Array<double> covariance;  ///< F x 6, m^2; empty when the noise is unknown
   Array<double> velocity, velocity_sd, acceleration, acceleration_sd, jerk, jerk_sd;  ///< F x 3; SDs as above
   Array<data::SampleState> state;                                                     ///< F
-  MarkerAccount account;
+  MarkerAccount account;  ///< what was done and why
 };
 
 /// The same, marker by marker: `sink` is given each result, in the order of the markers, from the calling

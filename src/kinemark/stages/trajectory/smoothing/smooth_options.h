@@ -32,11 +32,12 @@ enum class CutoffRule : std::uint8_t {
 };
 
 [[nodiscard]] std::string_view to_string(CutoffRule rule);  ///< "winter", "challis"
+/// The rule of that name; the failure lists all names.
 [[nodiscard]] Result<CutoffRule> parse_cutoff_rule(std::string_view name);
 
 /// Options of smooth().
 struct SmoothOptions {
-  FilterMethod method = FilterMethod::kalman;
+  FilterMethod method = FilterMethod::kalman;  ///< how positions are smoothed
   /// kalman: times that noise is integrated, 2 to 5; gcv: half order of the spline, 2 to 5 (3 quintic, 4
   /// heptic, 5 nonic); butterworth: order of one pass, even, 2 to 10; savgol: degree, 1 to 7. 0: found from
   /// the data (kalman, gcv), else 2 (butterworth) and 4 (savgol). Classic has 2 and no choice.
