@@ -14,7 +14,7 @@ void say_alignment(const Globals& globals, const calibration::Alignment& alignme
   for (const auto& c : alignment.cameras) {
     const Eigen::Vector3d shift_mm = 1e3 * c.shift_m;
     say(globals, fmt::format("camera {}: {:.1f} mm right, {:.1f} mm down, {:.1f} mm forward of the nominal "
-                             "place; to be tilted {:.2f}, "
+                             "position; to be tilted {:.2f}, "
                              "panned {:.2f}, rolled {:.2f} deg",
                              c.camera, shift_mm.x(), shift_mm.y(), shift_mm.z(), c.turn_deg.x(),
                              c.turn_deg.y(), c.turn_deg.z()));
@@ -47,9 +47,10 @@ int run_command(const Globals& globals, pipeline::CalibrateJob& job) {
 void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("calibrate", "A rig from recordings of a tree or a grid of known size");
   command->footer(
-      "Each recording says what it shows (see 'kinemark simulate rig --grid --tree-poses'). Exit status 1 "
+      "Each recording describes the object that it shows (see 'kinemark simulate rig --grid --tree-poses'). "
+      "Exit status 1 "
       "when the\n"
-      "model of the cameras does not fit what they counted.");
+      "model of the cameras does not fit the counts.");
   const auto job = std::make_shared<pipeline::CalibrateJob>();
   const std::map<std::string, pipeline::CalibrateJob::Method> methods{
       {"bundle", pipeline::CalibrateJob::Method::bundle},
@@ -61,9 +62,9 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
       ->required();
   command->add_option("--nominal", job->nominal, "Rig as it was set up by hand, rig.toml")->required();
   auto* output = command->add_option("-o,--output", job->output, "Rig to write, rig.toml");
-  auto* align =
-      command->add_flag("--align", job->align_only,
-                        "Only tell how far the cameras stand from the nominal rig, and what to turn");
+  auto* align = command->add_flag(
+      "--align", job->align_only,
+      "Only report how far the cameras are from their nominal poses, and the next adjustment");
   output->excludes(align);
   command
       ->add_option("--method", job->method,
@@ -76,7 +77,7 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
                    "Sides of the tree between LEDs 1-2, 1-3 and 2-3, m; as recorded when absent")
       ->expected(3);
   command->add_option("--frames-per-pose", job->frames_per_pose,
-                      "Frames that the tree stood still; as recorded when absent");
+                      "Frames of each pose of the tree; as recorded when absent");
   command->add_option("--warp-degree", job->bundle.warp_degree, "Degree of the detector's warp to begin with")
       ->capture_default_str();
   command->add_flag("--no-crosstalk{false},--crosstalk", job->bundle.crosstalk,

@@ -9,7 +9,7 @@
 namespace kinemark::cli {
 namespace {
 
-/// More markers than this are told of in the report only.
+/// With more markers than this the details are in the report only.
 constexpr std::size_t kMarkersTold = 12;
 
 struct CleanArguments {
@@ -90,7 +90,8 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
       ->capture_default_str();
   command->add_option("--max-gap", job.gaps.max_gap_s, "Longer gaps stay open, s")->capture_default_str();
   command
-      ->add_option("--max-gap-sd", arguments->max_gap_sd_mm, "Gaps that would be less certain stay open, mm")
+      ->add_option("--max-gap-sd", arguments->max_gap_sd_mm,
+                   "Largest standard deviation of a fill, mm; other gaps stay open")
       ->capture_default_str();
   command
       ->add_option("--filter", arguments->filter,
@@ -106,7 +107,7 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("--cutoff-rule", arguments->cutoff_rule, "butterworth without --cutoff: winter, challis")
       ->capture_default_str();
   command->add_flag("--uncorrected-cutoff", arguments->uncorrected,
-                    "butterworth: cut-off of each pass, as filtfilt elsewhere has it");
+                    "butterworth: cut-off of each pass, as filtfilt of other programs");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0: found from the data")
       ->capture_default_str();
   command
@@ -114,7 +115,7 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
                    "Samples that the recorder interpolated: keep, mark, missing or decimate")
       ->capture_default_str();
   command->add_flag("--reject", job.reject_defects,
-                    "Reject spikes, swaps, stuck and false samples instead of only telling");
+                    "Reject spikes, swaps, stuck and false samples instead of only reporting them");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
   command->add_option("--report", job.report, "Page to write, .html");

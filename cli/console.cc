@@ -67,7 +67,7 @@ Progress show_progress(const Globals& globals, std::string what) {
     state->next = now + (terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(1000));
     const double elapsed = std::chrono::duration<double>(now - state->start).count();
     const double rate = static_cast<double>(done) / elapsed;
-    // Work in large pieces goes slower than one a second; before the first is done nothing is known.
+    // Large pieces may take more than a second each; there is no estimate before the first is done.
     const std::string pace =
         done == 0 ? std::string()
                   : fmt::format(", {:.{}f} per {}, {:.0f} s left", rate < 1.0 ? 60.0 * rate : rate,

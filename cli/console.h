@@ -14,7 +14,7 @@
 
 namespace kinemark::cli {
 
-/// One line for people, on stderr; nothing with --quiet.
+/// Print one line on stderr, except with --quiet.
 void say(const Globals& globals, std::string_view line);
 
 /// Into the job what every command takes. @param counts  what its progress counts: "frames"

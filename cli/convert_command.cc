@@ -16,7 +16,7 @@ void add_convert(CLI::App& app, const Globals& globals, Run& run) {
   const auto job = std::make_shared<pipeline::ConvertJob>();
   command->add_option("IN", job->in, "File to read")->required();
   command->add_option("OUT", job->out, "File to write; its ending names the format")->required();
-  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
+  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
   command->callback([&globals, job, &run] {
     run = [&globals, job] {
       settle(globals, "files", *job);

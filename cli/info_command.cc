@@ -13,7 +13,7 @@ void add_info(CLI::App& app, const Globals& globals, Run& run) {
   const auto job = std::make_shared<pipeline::InfoJob>();
   command->add_option("FILE", job->file, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
       ->required();
-  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
+  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
   command->callback([&globals, job, &run] {
     run = [&globals, job] {
       settle(globals, "files", *job);

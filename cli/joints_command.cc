@@ -21,15 +21,9 @@ Status read_names(JointsArguments& arguments) {
   const auto sides = skeleton::parse_sides(arguments.sides);
   if (!sides) return std::unexpected(sides.error());
   job.sides = *sides;
-  if (arguments.kind == "auto")
-    job.kind = skeleton::KindChoice::automatic;
-  else if (arguments.kind == "ball")
-    job.kind = skeleton::KindChoice::ball;
-  else if (arguments.kind == "hinge")
-    job.kind = skeleton::KindChoice::hinge;
-  else
-    return fail(Code::usage,
-                fmt::format("'{}' is not a kind of joint; use auto, ball or hinge", arguments.kind));
+  const auto kind = data::parse_joint_choice(arguments.kind);
+  if (!kind) return std::unexpected(kind.error());
+  job.kind = *kind;
   return {};
 }
 
@@ -83,7 +77,7 @@ void add_joints(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("--sides", arguments->sides, "Segments that hold the centre still: both, parent or child")
       ->capture_default_str()
       ->group("Estimate");
-  command->add_option("--kind", arguments->kind, "Joints are: auto (the data say), ball or hinge")
+  command->add_option("--kind", arguments->kind, "Kind of the joints: auto (from the data), ball or hinge")
       ->capture_default_str()
       ->group("Estimate");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 finds it from the data")
@@ -97,7 +91,7 @@ void add_joints(CLI::App& app, const Globals& globals, Run& run) {
       ->add_flag("--soft-tissue", job.soft_tissue,
                  "articulated: every marker has a noise of its own, found from the data")
       ->group("Estimate");
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz")
       ->group("Input");
   command->add_flag("--keep-upsampled", job.keep_upsampled, "Use samples that the recorder interpolated, too")
       ->group("Input");

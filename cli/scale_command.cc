@@ -4,23 +4,18 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/core/text.h"
 #include "kinemark/pipeline/scale/scale_json.h"
 
 namespace kinemark::cli {
 namespace {
-
-std::string join(const std::vector<std::string>& names) {
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
 
 void print_adapted(const Globals& globals, const motion::AdaptResult& result, const char* what) {
   say(globals,
       fmt::format("{}: {} frames, {} steps; marker error {:.2f} mm RMS, {:.2f} mm before.", what,
                   result.frames, result.iterations, 1e3 * result.rms_after_m, 1e3 * result.rms_before_m));
   if (!result.converged)
-    say(globals, "attention: the adaptation did not converge; its numbers are a step on the way");
+    say(globals, "attention: the adaptation did not converge; its numbers are intermediate");
   if (result.tissue_sd_m > 0.0)
     say(globals,
         fmt::format("Markers slide on the body with the posture, {:.1f} mm per axis; deviations include it.",
@@ -77,7 +72,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
   auto* command =
       app.add_subcommand("scale", "A model made to fit a subject, with the uncertainty of every size");
   command->footer(
-      "Writes M.osim and beside it M_report.json: factors, lengths and marker places with standard "
+      "Writes M.osim and beside it M_report.json: factors, lengths and marker positions with standard "
       "deviations, and "
       "what\n"
       "the data do not determine. Exit status 1: the files are there, but the markers fit worse than "
@@ -85,15 +80,17 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
   const auto arguments = std::make_shared<ScaleArguments>();
   auto& job = arguments->job;
   command->add_option("-m,--model", job.model, "General body model, .osim")->group("Input");
-  command->add_option("--static", job.static_trial, "Marker file of a static trial; wins over the setup's")
+  command
+      ->add_option("--static", job.static_trial,
+                   "Marker file of a static trial; takes precedence over the setup's")
       ->group("Input");
-  command->add_option("--setup", job.setup, "OpenSim ScaleTool setup; other options win over it")
+  command->add_option("--setup", job.setup, "OpenSim ScaleTool setup; other options take precedence")
       ->group("Input");
   command
       ->add_option("-t,--markers", job.markers,
-                   "Marker file of a motion that sizes and places are adapted to")
+                   "Marker file of a motion to which sizes and positions are adapted")
       ->group("Input");
-  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that tell none (.v3d), Hz")
+  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that store none (.v3d), Hz")
       ->group("Input");
   command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
       ->group("Input");
@@ -112,7 +109,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Estimate");
   command
       ->add_option("--place-prior", arguments->place_prior_mm,
-                   "How far a marker may be from its place in the model so far, mm per axis (1 SD)")
+                   "How far a marker may be from its position in the model so far, mm per axis (1 SD)")
       ->capture_default_str()
       ->group("Estimate");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 estimates it")
@@ -120,7 +117,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Estimate");
   command
       ->add_flag("--no-soft-tissue", arguments->no_soft_tissue,
-                 "Do not look for markers that slide on the body")
+                 "Do not test for markers that slide on the body")
       ->group("Estimate");
   command->add_option("--frames", job.adapt.max_frames, "Frames of the motion to use at most")
       ->capture_default_str()

@@ -11,8 +11,8 @@ includes no other study but `common`, and the library includes none. Besides:
 
 - a header in `internal/` is included only from the folder that owns it, or from below it;
 - tests of layer 3 may also read their models and recordings through io/;
-- test helpers (tests/support, headers in `testing/`, `test_*.h`, `*_for_test.h`) are included only by tests, benchmarks
-  and fuzzers;
+- test helpers (tests/support, headers in `testing/`) are included only by tests, benchmarks and fuzzers, and stand
+  nowhere else;
 - a file of the project is included by its full path ("kinemark/core/result.h", "cli/console.h"), and it exists;
 - headers do not include each other in a circle.
 
@@ -63,11 +63,7 @@ def folder_of(path):
 def is_test(path):
     """Tests, benchmarks and fuzzers, and the helpers that only they use."""
     path = PurePosixPath(path)
-    return (
-        path.stem.endswith(("_test", "_benchmark", "_fuzz"))
-        or path.stem.startswith("test_")
-        or "testing" in path.parts
-    )
+    return path.stem.endswith(("_test", "_benchmark", "_fuzz")) or "testing" in path.parts
 
 
 def may_include(source, target, from_test=False):
@@ -121,6 +117,8 @@ def check_file(root, path):
         return [f"{path}: lies in no layer; move it into a folder of src/kinemark"], edges
     if source.split("/")[0] not in ALLOWED:
         return [f"{path}: folder '{source}' has no layer; give it one in tools/check_layers.py"], edges
+    if PurePosixPath(path).suffix == ".h" and re.search(r"^test_|_test$", PurePosixPath(path).stem) and "testing" not in path:
+        problems.append(f"{path}: a helper of tests belongs into a folder testing/, under a name that says what it is")
     for line, quoted, included in includes_of((root / path).read_text(encoding="utf-8")):
         where = f"{path}:{line}"
         if included.startswith(("support/", "tests/")):

@@ -23,9 +23,9 @@ CentreErrors refused(const LimbRecording& limb) {
 CentreErrors by_the_field(const LimbRecording& limb, skeleton::FunctionalMethod method) {
   skeleton::FunctionalOptions options;
   options.method = method;
-  options.kind = skeleton::KindChoice::ball;
+  options.kind = data::JointChoice::ball;
   const auto found = skeleton::find_joints(limb.markers, limb.layout, options);
-  // Where SCoRE cannot be used another method stands in, which is not asked here.
+  // Where SCoRE cannot be used another method replaces it, which does not count here.
   const bool stood_in =
       found && method == skeleton::FunctionalMethod::score && found->joints.front().method != "SCoRE";
   return found && !stood_in ? judge_centres(*found, limb, nullptr) : refused(limb);
@@ -33,7 +33,7 @@ CentreErrors by_the_field(const LimbRecording& limb, skeleton::FunctionalMethod 
 
 CentreErrors by_us(const LimbRecording& limb, bool continuity, const skeleton::CentreBound* bound) {
   skeleton::ArticulatedOptions options;
-  options.joint = skeleton::JointChoice::ball;
+  options.joint = data::JointChoice::ball;
   options.continuity = continuity;
   const auto found = skeleton::fit_articulated(limb.markers, limb.layout, options);
   return found ? judge_centres(found->skeleton, limb, bound) : refused(limb);

@@ -72,7 +72,7 @@ Ball make_ball(double range_rad, std::uint64_t seed) {
     Eigen::Vector3d at;
     for (double& c : at) c = motion.uniform(-0.1, 0.1);
     const double azimuth = motion.uniform(0.0, 2.0 * std::numbers::pi);
-    // Even over the cap of half the range; turns about the long axis over half the range as well.
+    // Even over the cap of half the range; rotations about the long axis over half the range as well.
     const double height = motion.uniform(std::cos(0.5 * range_rad), 1.0);
     const double roll = motion.uniform(-0.25, 0.25) * range_rad;
     const Eigen::Vector3d axis(std::cos(azimuth), std::sin(azimuth), 0.0);
@@ -97,7 +97,7 @@ Ball make_ball(double range_rad, std::uint64_t seed) {
 struct Pool {
   std::string name;
   double frame = 0.0;                ///< of every frame by itself
-  double parent = 0.0, child = 0.0;  ///< of the mean place in each segment's true axes
+  double parent = 0.0, child = 0.0;  ///< of the mean position in each segment's true axes
   void add(const data::Skeleton& skeleton, const Ball& ball) {
     Eigen::Vector3d in_parent = Eigen::Vector3d::Zero(), in_child = Eigen::Vector3d::Zero();
     double squares = 0.0;
@@ -123,13 +123,13 @@ void ehrig(int seeds) {
       const auto layout = two_segments(ball.markers, {"P0", "P1", "P2", "P3"}, {"C0", "C1", "C2", "C3"});
       const auto find = [&](skeleton::FunctionalMethod method) {
         return skeleton::find_joints(ball.markers, layout,
-                                     {.method = method, .kind = skeleton::KindChoice::ball})
+                                     {.method = method, .kind = data::JointChoice::ball})
             .value();
       };
       score.add(find(skeleton::FunctionalMethod::score), ball);
       gamage.add(find(skeleton::FunctionalMethod::gamage), ball);
       plain.add(find(skeleton::FunctionalMethod::gamage_plain), ball);
-      const skeleton::ArticulatedOptions options{.joint = skeleton::JointChoice::ball, .continuity = false};
+      const skeleton::ArticulatedOptions options{.joint = data::JointChoice::ball, .continuity = false};
       ours.add(skeleton::fit_articulated(ball.markers, layout, options).value().skeleton, ball);
     }
     const auto rms = [&](double squares) { return kMm * std::sqrt(squares / seeds); };
@@ -152,7 +152,7 @@ void ehrig(int seeds) {
 
 // The functional hip
 
-/// How a carried centre lies to the laboratory's own in the walk.
+/// Position of a carried centre relative to the laboratory's own in the walk.
 struct Comparison {
   double mean_distance_m = 0.0, within = 0.0;
   double sd_m = 0.0;        ///< root of the trace of the mean covariance
@@ -204,8 +204,7 @@ void hip(const fs::path& data) {
             fmt::format("{:.2f} mm over {} frames, {:.0f} deg of motion", kMm * fit.residual_rms_m,
                         fit.frames, motion.range_rad * kDegPerRad));
 
-  const auto score =
-      skeleton::find_joints(trial.markers, layout, {.kind = skeleton::KindChoice::ball}).value();
+  const auto score = skeleton::find_joints(trial.markers, layout, {.kind = data::JointChoice::ball}).value();
   const auto carried = skeleton::carry_joints(score, walk.markers).value();
   const auto walk_layout = two_segments(walk.markers, pelvis, thigh);
   const auto walk_pelvis =
@@ -215,7 +214,7 @@ void hip(const fs::path& data) {
             "within 6.5 mm of LeftHipCenterScore",
             fmt::format("{:.2f} mm on average", kMm * theirs.mean_distance_m));
 
-  const skeleton::ArticulatedOptions options{.joint = skeleton::JointChoice::ball, .continuity = false};
+  const skeleton::ArticulatedOptions options{.joint = data::JointChoice::ball, .continuity = false};
   const auto ours = skeleton::fit_articulated(trial.markers, layout, options);
   if (!ours) {
     print_row(false, "functional left hip carried to the walk, articulated", "an interval that covers it",
@@ -300,9 +299,7 @@ void knee(const fs::path& data) {
             fmt::format("{}; {}", data::to_string(automatic.joints[0].kind), automatic.joints[0].words));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   const auto asked = [&](const char* name) { return what == name || what == "all"; };
   if (asked("ehrig")) ehrig(argc > 2 ? std::atoi(argv[2]) : 10);
@@ -313,3 +310,7 @@ int main(int argc, char** argv) {
   if (asked("knee")) knee(*data);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joint_methods", run_check);
+
+}  // namespace

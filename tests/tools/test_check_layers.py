@@ -139,7 +139,7 @@ class CheckLayers(unittest.TestCase):
             "only tests may include",
             self.only_problem("src/kinemark/core/a.cc", '#include "support/scratch.h"\n'),
         )
-        for helper in ("testing/tree.h", "test_trees.h", "trees_for_test.h"):
+        for helper in ("testing/tree.h", "testing/body/tree.h"):
             with self.subTest(helper=helper):
                 line = f'#include "kinemark/model/{helper}"\n'
                 helper = {f"src/kinemark/model/{helper}": '#include "support/scratch.h"\n'}
@@ -147,6 +147,14 @@ class CheckLayers(unittest.TestCase):
                 found = self.problems(**helper, **{"src/kinemark/model/a.cc": line})
                 self.assertEqual(len(found), 1, found)
                 self.assertIn("is for tests only", found[0])
+
+    def test_helpers_of_tests_stand_in_a_folder_of_their_own(self):
+        for name in ("test_trees.h", "trees_for_test.h"):
+            with self.subTest(name=name):
+                problems = self.problems(**{f"src/kinemark/model/{name}": ""})
+                self.assertEqual(len(problems), 1, problems)
+                self.assertIn(f"model/{name}: a helper of tests belongs into a folder testing/", problems[0])
+        self.assertEqual(self.problems(**{"src/kinemark/model/testing/test_trees.h": ""}), [])
 
     def test_catches_missing_files_and_short_paths(self):
         self.assertIn(

@@ -17,58 +17,63 @@ namespace kinemark::io {
 
 /// Bodies that a measurement scales, and along which axes.
 struct ScaledBody {
-  std::string body;
+  std::string body;                                ///< name in the model
   Eigen::Vector3d axes = Eigen::Vector3d::Ones();  ///< 1 where the body is scaled, else 0
 };
 
+/// Scale factor of bodies from distances between markers: mean over the pairs, recording over model.
 struct ScaleMeasurement {
+  /// Two markers whose distance is compared.
   struct Pair {
+    /// Names in the model.
     std::string first, second;
   };
-  std::string name;
-  bool apply = true;
-  std::vector<Pair> pairs;
-  std::vector<ScaledBody> bodies;
+  std::string name;                ///< of the measurement
+  bool apply = true;               ///< false: switched off
+  std::vector<Pair> pairs;         ///< averaged
+  std::vector<ScaledBody> bodies;  ///< bodies that the factor applies to
 };
 
+/// Scale factors of a body that were given, not measured.
 struct ScaleByHand {
-  std::string body;
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  bool apply = true;
+  std::string body;                                   ///< name in the model
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();  ///< along x, y, z of the body
+  bool apply = true;                                  ///< false: switched off
 };
 
 /// OpenSim's setup of scaling. Paths are resolved against the folder of the setup file; one that the file
 /// leaves out (or calls "Unassigned") is empty. Nothing but sets named by `file=` is opened.
 struct ScaleSetup {
+  /// Where scale factors come from.
   enum class Step : std::uint8_t { measurements, manual_scale };
 
-  std::string name;
-  double mass_kg = 0.0;    ///< 0: not said (OpenSim writes -1)
-  double height_mm = 0.0;  ///< 0: not said; for information only
+  std::string name;        ///< of the subject; may be empty
+  double mass_kg = 0.0;    ///< 0: not given (OpenSim writes -1)
+  double height_mm = 0.0;  ///< 0: not given; for information only
 
   std::filesystem::path model_file, marker_set_file;  ///< GenericModelMaker
 
-  bool scale = true;  ///< ModelScaler
-  std::vector<Step> order;
-  std::vector<ScaleMeasurement> measurements;
-  std::vector<ScaleByHand> manual;
-  std::filesystem::path scale_marker_file;
-  double scale_begin_s = -std::numeric_limits<double>::infinity();
-  double scale_end_s = std::numeric_limits<double>::infinity();
-  bool preserve_mass_distribution = false;
-  std::filesystem::path scaled_model_file, scale_set_file;
+  bool scale = true;                                                ///< ModelScaler
+  std::vector<Step> order;                                          ///< later steps win
+  std::vector<ScaleMeasurement> measurements;                       ///< in the order of the file
+  std::vector<ScaleByHand> manual;                                  ///< in the order of the file
+  std::filesystem::path scale_marker_file;                          ///< recording to measure on; empty: none
+  double scale_begin_s = -std::numeric_limits<double>::infinity();  ///< infinite: from the first frame
+  double scale_end_s = std::numeric_limits<double>::infinity();     ///< infinite: to the last frame
+  bool preserve_mass_distribution = false;                          ///< false: masses go by volume
+  std::filesystem::path scaled_model_file, scale_set_file;          ///< where results go; empty: not said
 
   bool place = true;  ///< MarkerPlacer
-  IkTasks tasks;
-  std::filesystem::path place_marker_file, coordinate_file;
-  double place_begin_s = -std::numeric_limits<double>::infinity();
-  double place_end_s = std::numeric_limits<double>::infinity();
-  double max_marker_movement_mm = -1.0;  ///< below 0: any
-  std::filesystem::path output_model_file, output_motion_file;
+  IkTasks tasks;      ///< weights of markers and coordinates when placing
+  std::filesystem::path place_marker_file, coordinate_file;         ///< recording to place on; empty: none
+  double place_begin_s = -std::numeric_limits<double>::infinity();  ///< infinite: from the first frame
+  double place_end_s = std::numeric_limits<double>::infinity();     ///< infinite: to the last frame
+  double max_marker_movement_mm = -1.0;                             ///< below 0: any
+  std::filesystem::path output_model_file, output_motion_file;      ///< where results go; empty: not said
 };
 
 /// Read a ScaleTool file. A part that is missing is not applied. Both spellings of old and new files
-/// (<segment> or the scale's name, <MarkerPlacer> with or without a name) are read. Errors are one sentence
+/// (`segment` or the scale's name, `MarkerPlacer` with or without a name) are read. Errors are one sentence
 /// with file, element and what was found.
 [[nodiscard]] Result<ScaleSetup> read_scale_setup(const std::filesystem::path& path);
 
@@ -77,12 +82,12 @@ struct ScaleSetup {
 
 /// A marker of a MarkerSet file.
 struct MarkerOfSet {
-  std::string name, body;
+  std::string name, body;                               ///< name in the model, "ground" among them
   Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();  ///< m
-  bool fixed = false;
+  bool fixed = false;  ///< the file's own switch: not to be moved when placing
 };
 
-/// Read a MarkerSet file, with <body> or with <socket_parent_frame>.
+/// Read a MarkerSet file, with `body` or with `socket_parent_frame`.
 [[nodiscard]] Result<std::vector<MarkerOfSet>> read_marker_set(const std::filesystem::path& path);
 
 /// Put the markers of a set into a model: one of the same name is replaced, others are added. Fails for a

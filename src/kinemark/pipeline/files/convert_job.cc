@@ -30,12 +30,12 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
   if (ending == ".c3d") return notes;
   if (!trial.analog.names.empty())
     notes.push_back(
-        fmt::format("{} analog channels have no place in a {} file", trial.analog.names.size(), ending));
+        fmt::format("{} analog channels cannot be stored in a {} file", trial.analog.names.size(), ending));
   if (!trial.force_plates.empty())
     notes.push_back(
-        fmt::format("{} force plates have no place in a {} file", trial.force_plates.size(), ending));
+        fmt::format("{} force plates cannot be stored in a {} file", trial.force_plates.size(), ending));
   if (!trial.events.empty())
-    notes.push_back(fmt::format("{} events have no place in a {} file", trial.events.size(), ending));
+    notes.push_back(fmt::format("{} events cannot be stored in a {} file", trial.events.size(), ending));
   return notes;
 }
 

@@ -65,10 +65,10 @@ TEST_F(ConvertFile, WhatTheNewFormatCannotHoldIsSaid) {
   trial.analog.values.assign(static_cast<std::size_t>(trial.analog.samples), 0.25);
   ASSERT_TRUE(io::write_markers(at("rich.c3d"), trial, false));
   const auto notes = convert(at("rich.c3d"), at("poor.trc"), false).value().warnings;
-  EXPECT_THAT(notes, Contains("1 analog channels have no place in a .trc file"));
-  EXPECT_THAT(notes, Contains("1 events have no place in a .trc file"));
+  EXPECT_THAT(notes, Contains("1 analog channels cannot be stored in a .trc file"));
+  EXPECT_THAT(notes, Contains("1 events cannot be stored in a .trc file"));
   const auto kept = convert(at("rich.c3d"), at("rich2.c3d"), false).value().warnings;
-  EXPECT_THAT(kept, Not(Contains(HasSubstr("no place"))));
+  EXPECT_THAT(kept, Not(Contains(HasSubstr("cannot be stored"))));
   EXPECT_EQ(io::read_markers(at("rich2.c3d")).value().events.size(), 1U);
 }
 

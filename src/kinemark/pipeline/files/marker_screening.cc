@@ -8,12 +8,13 @@
 #include <array>
 #include <utility>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/stages/trajectory/screening/real_samples.h"
 
 namespace kinemark::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 4> kRecorderMade = {"keep", "mark", "missing", "decimate"};
+constexpr EnumNames<RecorderMade::decimate> kRecorderMade{"keep", "mark", "missing", "decimate"};
 
 Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
   if (!rules.find_defects) return {};
@@ -86,16 +87,10 @@ Status treat_made(data::Trial& trial, const ScreeningRules& rules, Screening& ou
 
 }  // namespace
 
-std::string_view to_string(RecorderMade made) { return kRecorderMade[static_cast<std::size_t>(made)]; }
+std::string_view to_string(RecorderMade made) { return kRecorderMade[made]; }
 
 Result<RecorderMade> parse_recorder_made(std::string_view name) {
-  const auto found = std::ranges::find(kRecorderMade, name);
-  if (found == kRecorderMade.end())
-    return fail(Code::usage,
-                fmt::format("'{}' is not a choice for samples that the recorder made; use keep, mark, "
-                            "missing or decimate",
-                            name));
-  return static_cast<RecorderMade>(found - kRecorderMade.begin());
+  return kRecorderMade.parse(name, "choice for samples that the recorder made");
 }
 
 Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules) {

@@ -148,7 +148,7 @@ TEST(RecorderMadeNames, ComeBack) {
   for (const auto made :
        {RecorderMade::keep, RecorderMade::mark, RecorderMade::missing, RecorderMade::decimate})
     EXPECT_EQ(parse_recorder_made(to_string(made)).value(), made);
-  EXPECT_THAT(parse_recorder_made("drop").error().message, HasSubstr("keep, mark, missing or decimate"));
+  EXPECT_THAT(parse_recorder_made("drop").error().message, HasSubstr("keep, mark, missing and decimate"));
 }
 
 }  // namespace

@@ -28,9 +28,10 @@ namespace kinemark::pipeline {
 [[nodiscard]] data::Table marker_errors_table(const data::JointMotion& motion);
 
 /// A motion from a table of coordinates and, when given, of deviations and marker errors. `rotations` holds
-/// the names of the coordinates that turn; radians and metres come out. The marker error gets its length in x
-/// and 0 in y and z; with both tables each frame has a status (frames that did not converge cannot be told
-/// from the tables).
+/// the names of the rotational coordinates; the result is in radians and metres. The marker error gets its
+/// length in x
+/// and 0 in y and z; with both tables each frame has a status (the tables do not show which frames did not
+/// converge).
 [[nodiscard]] Result<data::JointMotion> motion_from_tables(const data::Table& coordinates,
                                                            const data::Table* deviations,
                                                            const data::Table* marker_errors,

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
-#include "kinemark/pipeline/files/new_folder.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 
 namespace kinemark::pipeline {
 

@@ -88,7 +88,7 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
   if (topology->layout.segments.size() < 2)
     return fail(Code::bad_input,
                 fmt::format("all {} markers keep their distances: they are on one segment, or "
-                            "nothing moved, so no joint can be seen",
+                            "nothing moved, so no joint can be found",
                             markers.markers()));
   outcome.warnings.insert(outcome.warnings.end(), topology->warnings.begin(), topology->warnings.end());
   outcome.topology = std::move(*topology);
@@ -146,9 +146,7 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.noise_sd_m = job.noise_sd_m;
     options.continuity = job.continuity;
     options.soft_tissue = job.soft_tissue;
-    options.joint = job.kind == skeleton::KindChoice::hinge  ? skeleton::JointChoice::hinge
-                    : job.kind == skeleton::KindChoice::ball ? skeleton::JointChoice::ball
-                                                             : skeleton::JointChoice::automatic;
+    options.joint = job.kind;
     options.threads = job.threads;
     auto fit = skeleton::fit_articulated(markers, outcome.layout, options, job.progress);
     if (!fit) return std::unexpected(fit.error());
@@ -204,7 +202,7 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
   auto slips = skeleton::find_slips(markers, outcome.layout);
   if (!slips) return std::unexpected(slips.error());
   outcome.slips = std::move(*slips);
-  // The articulated fit tells itself which markers moved on their segment.
+  // The articulated fit itself reports markers that moved on their segment.
   for (const auto& slip : outcome.slips)
     if (job.method != "articulated" || slip.marker < 0)
       outcome.warnings.push_back(slip.sentence + (slip.sentence.ends_with('?') ? "" : "."));

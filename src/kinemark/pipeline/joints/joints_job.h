@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -22,14 +23,14 @@ namespace kinemark::pipeline {
 /// What `kinemark joints` is asked to do. Paths that are empty are not used.
 struct JointsJob : JobSettings {
   std::filesystem::path input;     ///< .c3d, .trc, .csv, .nwb or .v3d
-  double rate_hz = 0.0;            ///< of a marker file that tells none (.v3d); 0: not given
+  double rate_hz = 0.0;            ///< for a marker file that stores none (.v3d); 0: not given
   std::filesystem::path segments;  ///< TOML, see read_segments(); empty: found in the data
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
   /// file: the centres in its format, and NAME_skeleton.json beside it.
   std::filesystem::path output;
   std::string method = "articulated";  ///< that, or a name of parse_functional_method()
   skeleton::Sides sides = skeleton::Sides::both;
-  skeleton::KindChoice kind = skeleton::KindChoice::automatic;
+  data::JointChoice kind = data::JointChoice::automatic;
   double noise_sd_m = 0.0;      ///< per axis; 0: found
   bool continuity = true;       ///< articulated: smooth in time and bridge
   bool soft_tissue = false;     ///< articulated alone: every marker has a noise of its own

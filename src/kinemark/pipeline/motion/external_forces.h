@@ -19,7 +19,7 @@ struct ExternalForces {
 };
 
 /// Forces on the body at the frames of `time`: the plates of a .c3d file, or an OpenSim ExternalLoads .xml
-/// with its table. NaN where the file knows nothing. Another kind of file: Code::usage.
+/// with its table. NaN where the file has no data. Another kind of file: Code::usage.
 [[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
                                                           const TimeBase& time, double contact_force_n);
 

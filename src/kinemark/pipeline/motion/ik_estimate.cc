@@ -13,16 +13,7 @@ namespace {
 motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
   motion::IkResult result;
   result.motion = std::move(smooth.motion);
-  result.first_frame = smooth.first_frame;
-  result.markers = std::move(smooth.markers);
-  result.model_markers_without_data = std::move(smooth.model_markers_without_data);
-  result.data_markers_without_model = std::move(smooth.data_markers_without_model);
-  result.excluded_markers = std::move(smooth.excluded_markers);
-  result.warnings = std::move(smooth.warnings);
-  result.rms_marker_error_m = smooth.rms_marker_error_m;
-  result.max_marker_error_m = smooth.max_marker_error_m;
-  result.mean_marker_error_m = smooth.mean_marker_error_m;
-  result.max_loop_gap_m = smooth.max_loop_gap_m;
+  result.fit = std::move(smooth.fit);
   result.iterations = smooth.iterations;
   result.solve_seconds = smooth.start_seconds + smooth.solve_seconds;
   return result;

@@ -17,10 +17,9 @@ struct MotionEstimate {
   TorqueAccount torques;  ///< empty unless they were asked for
 };
 
-/// Least squares or the whole-trajectory smoother, told in the terms of the former; with torques (and, for
-/// least squares, estimated rates) in the motion when the job asks for them. Failures name the file. With
-/// images the smoother takes its evidence from them and its start from the markers; least squares cannot use
-/// them.
+/// Least squares or the whole-trajectory smoother, both with the result type of the former; with torques
+/// (and, for least squares, estimated rates) in the motion when the job asks for them. Failures name the
+/// file. With images the smoother fits these, started from the markers; least squares cannot use images.
 [[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
                                                      const data::Trajectories& markers,
                                                      const data::ImageTracks* images = nullptr);

@@ -19,10 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How the recording lies to the model when they do not meet, in one sentence.
+/// One sentence on the offset between recording and model when they do not coincide.
 std::string offset_sentence(const motion::IkResult& result, const IkJob& job, const model::Model& model,
                             const data::Trajectories& markers) {
-  const auto& mean = result.mean_marker_error_m;
+  const auto& mean = result.fit.mean_error_m;
+  if (!mean.allFinite()) return "No marker is seen in the time range.";
   if (mean.norm() <= job.max_offset_m)
     return fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
   const auto offset = motion::find_common_offset(model, markers, job.options);
@@ -32,23 +33,23 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
       "would fit with "
       "{:.1f} mm RMS instead of {:.1f} mm. Check that recording and model share origin, axes and unit.",
       shift.norm(), shift.x(), shift.y(), shift.z(), 1e3 * (offset ? offset->rms_after_m : 0.0),
-      1e3 * result.rms_marker_error_m);
+      1e3 * result.fit.rms_error_m);
 }
 
 void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInputs& inputs,
                const motion::IkResult& result) {
-  internal::add_marker_gates(run, job, result.mean_marker_error_m.norm(),
+  internal::add_marker_gates(run, job, result.fit.mean_error_m.norm(),
                              offset_sentence(result, job, inputs.model, inputs.trial.markers),
-                             result.rms_marker_error_m);
+                             result.fit.rms_error_m);
   std::int64_t failed = 0;
   for (const auto status : result.motion.status) failed += status == data::FrameStatus::not_converged;
   internal::add_gate(run, "not_converged", static_cast<double>(failed), 0.0, "frames",
                      fmt::format("{} of {} frames did not converge.", failed, result.motion.frames()));
-  if (!std::isnan(result.max_loop_gap_m) && result.max_loop_gap_m > 0.0)
+  if (!std::isnan(result.fit.max_loop_gap_m) && result.fit.max_loop_gap_m > 0.0)
     internal::add_gate(
-        run, "loop_gap", 1e3 * result.max_loop_gap_m, 1e-3, "mm",
+        run, "loop_gap", 1e3 * result.fit.max_loop_gap_m, 1e-3, "mm",
         fmt::format("The widest gap of a closed loop is {:.2g} mm; at most 0.001 mm is accepted.",
-                    1e3 * result.max_loop_gap_m));
+                    1e3 * result.fit.max_loop_gap_m));
 }
 
 Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInputs& inputs,
@@ -68,7 +69,8 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
       {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
       {"starts of the first frame", std::to_string(o.starts)}};
   if (job.images.any()) run.options.emplace_back("images in place of markers", images_in_words(job.images));
-  internal::add_estimate(run, result, "given the weight 0");
+  run.solve_s = result.solve_seconds;
+  internal::add_fit(run, result.fit, result.motion.time);
   add_gates(run, job, inputs, result);
   if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
   return run;
@@ -78,11 +80,11 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
 data::Trajectories solved_markers(const data::Trajectories& recorded, const motion::IkResult& result) {
   std::vector<std::string> names;
   std::vector<std::int64_t> from;
-  for (const auto& marker : result.markers) {
+  for (const auto& marker : result.fit.markers) {
     names.push_back(marker.name);
     from.push_back(recorded.find(marker.name_in_data));
   }
-  return select_markers(recorded, from, std::move(names), result.first_frame, result.motion.time);
+  return select_markers(recorded, from, std::move(names), result.fit.first_frame, result.motion.time);
 }
 
 /// Fill in what a setup names and what options follow from others, and check that it is enough.

@@ -27,7 +27,7 @@ struct ImageFiles {
   [[nodiscard]] Status check() const;
 };
 
-/// "2 cameras, 1 px", for the record.
+/// "2 cameras, 1 px", for the provenance record.
 [[nodiscard]] std::string images_in_words(const ImageFiles& files);
 
 /// The images as tracks: points of all files, in the order in which they are named first, at the frames of

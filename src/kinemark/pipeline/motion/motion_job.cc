@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/core/version.h"
@@ -95,6 +97,13 @@ Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
   if (!file) return std::unexpected(file.error());
   run.inputs.push_back(std::move(*file));
   return {};
+}
+
+void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time) {
+  run.fit = std::move(fit);
+  std::ranges::move(run.fit.warnings, std::back_inserter(run.warnings));
+  run.fit.warnings.clear();
+  for (const auto& finding : run.fit.findings) run.warnings.push_back(data::describe(finding, time));
 }
 
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What all commands share that turn markers into a motion of the model: `ik` and `track`.
+// Inputs and outcome common to the commands that estimate a motion of the model from markers: `ik` and
+// `track`.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +15,9 @@ namespace kinemark::pipeline {
 struct MotionJob : JobSettings {
   std::filesystem::path model, markers;
   std::filesystem::path output;  ///< Q.mot; all other results go beside it
-  std::filesystem::path forces;  ///< what pushed the body, for torques: .c3d, or ExternalLoads .xml
+  std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   ImageFiles images;             ///< seen besides the markers; none: nothing
-  double rate_hz = 0.0;          ///< of a marker file that tells none (.v3d); 0: not given
+  double rate_hz = 0.0;          ///< for a marker file that stores none (.v3d); 0: not given
   double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;    ///< quality gate: length of the mean distance vector
 };

@@ -10,7 +10,6 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/simulate/human_model.h"
-#include "kinemark/stages/motion/ik.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -57,23 +56,17 @@ TEST(MotionRun, AGateFailsAboveItsBoundAndOnWhatIsNotANumber) {
   EXPECT_EQ(run.exit_status, 1) << "a gate that passes later does not take back a failure";
 }
 
-TEST(MotionRun, EveryMarkerThatTookNoPartSaysWhy) {
-  motion::IkResult result;
-  result.markers = {{.name = "A", .weight = 2.0, .noise_sd_m = 0.003, .common_sd_m = 0.004}};
-  result.excluded_markers = {{.name = "B", .seen = true}, {.name = "C", .seen = false}};
-  result.model_markers_without_data = {"D"};
-  result.data_markers_without_model = {"E"};
+TEST(MotionRun, WarningsOfTheFitJoinThoseOfTheRunOnce) {
   report::IkRun run;
   run.warnings = {"first"};
-  result.warnings = {"second"};
-  internal::add_estimate(run, result, "light");
-  std::vector<std::string> why;
-  for (const auto& marker : run.markers) why.push_back(marker.name + ": " + marker.why_excluded);
-  EXPECT_THAT(why, ElementsAre("A: ", "B: light", "C: never seen", "D: in the model, not in the recording",
-                               "E: in the recording, not in the model"));
-  EXPECT_DOUBLE_EQ(run.markers[0].noise_sd_m, 0.005);
-  EXPECT_EQ(run.markers[1].weight, 0.0);
-  EXPECT_THAT(run.warnings, ElementsAre("first", "second"));
+  internal::add_fit(run,
+                    {.markers = {{.name = "A"}},
+                     .warnings = {"second"},
+                     .findings = {{.kind = data::FindingKind::flagged, .size = 3}}},
+                    {.rate_hz = 100.0, .frames = 8});
+  EXPECT_THAT(run.warnings, ElementsAre("first", "second", "3 of 8 frames are flagged"));
+  EXPECT_THAT(run.fit.warnings, IsEmpty());
+  EXPECT_EQ(run.fit.markers.at(0).name, "A");
 }
 
 TEST(MotionRun, WhatExistsIsRefusedEvenIfItMightNotBeWritten) {

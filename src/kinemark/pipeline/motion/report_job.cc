@@ -29,7 +29,7 @@ Result<Json> read_json(const fs::path& path) {
   return json;
 }
 
-/// Names of the coordinates that turn, as summary_json() tells them.
+/// Names of the rotational coordinates, as written by summary_json().
 std::vector<std::string> rotations(const Json& json) {
   std::vector<std::string> names;
   if (!json.contains("coordinates") || !json["coordinates"].is_array()) return names;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/core/text.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
@@ -14,11 +15,7 @@
 namespace kinemark::pipeline {
 namespace {
 
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
+std::string list(const std::vector<std::string>& names) { return names.empty() ? "none" : join(names); }
 
 std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob& job,
                                                                   const motion::TrackResult& result) {
@@ -46,13 +43,14 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   auto run = internal::begin_run(job, inputs);
   run.method = "direct marker control";
   run.options = describe_options(job, result);
-  internal::add_estimate(run, result, "in no level, or given the weight 0");
+  run.solve_s = result.solve_seconds;
+  internal::add_fit(run, result.fit, result.motion.time);
   run.locked_coordinates.insert(run.locked_coordinates.end(), result.locked_coordinates.begin(),
                                 result.locked_coordinates.end());
-  const double offset_m = result.mean_marker_error_m.norm();
+  const double offset_m = result.fit.mean_error_m.norm();
   internal::add_marker_gates(run, job, offset_m,
                              fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
-                             result.rms_marker_error_m);
+                             result.fit.rms_error_m);
   internal::add_gate(
       run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
       fmt::format("{} of {} frames are flagged: goals out of reach, or a body that ran away ({} "
@@ -62,7 +60,7 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   return run;
 }
 
-/// What the levels fix together, frame by frame.
+/// Rank of all levels, frame by frame.
 data::Table rank_table(const motion::TrackResult& result) {
   data::Table table;
   table.name = "Rank of the tasks";
@@ -76,15 +74,16 @@ data::Table rank_table(const motion::TrackResult& result) {
   return table;
 }
 
-/// Standard deviations of the torques: those of the inverse dynamics of the motion as it came out. Where that
-/// cannot be done (closed loops, a few frames) they stay away, and a warning says why.
+/// Standard deviations of the torques, from inverse dynamics of the resulting motion. Where that is not
+/// possible (closed loops, few frames) they are absent, with a warning.
 void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
   auto motion = result.motion;
   const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
   if (dynamics)
     result.motion.tau_sd = std::move(motion.tau_sd);
   else
-    result.warnings.push_back("standard deviations of torques are not known: " + dynamics.error().message);
+    result.fit.warnings.push_back("standard deviations of torques are not known: " +
+                                  dynamics.error().message);
 }
 
 /// The images join the lowest level.

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A recording with what it says of the thing it shows.
+/// A recording with its description of the known object.
 struct Known {
   fs::path path;
   io::CountsRecording recording;
@@ -38,7 +38,7 @@ struct Known {
     const auto at = values.find(key);
     std::vector<double> out;
     if (at == values.end())
-      return fail(Code::bad_input, fmt::format("{}: does not say '{}' of what it shows", path.string(), key));
+      return fail(Code::bad_input, fmt::format("{}: its description lacks '{}'", path.string(), key));
     for (std::size_t from = 0; from < at->second.size();) {
       const auto to = std::min(at->second.find_first_of(" \n", from), at->second.size());
       if (to > from) {
@@ -106,7 +106,7 @@ Result<calibration::StillPoses> scan_of(const Known& known, const data::Rig& rig
     if (!*numbers) return std::unexpected(numbers->error());
   if (places->size() % 3 != 0)
     return fail(Code::bad_input,
-                fmt::format("{}: 'places_m' has {} numbers; three for each place were expected",
+                fmt::format("{}: 'places_m' has {} numbers; three for each position were expected",
                             known.path.string(), places->size()));
   calibration::ScanPlaces scan;
   scan.frames_per_place = static_cast<int>(std::clamp(frames->front(), 0.0, 1e6));

@@ -19,7 +19,7 @@ namespace kinemark::pipeline {
 struct CalibrateJob : JobSettings {
   enum class Method : std::uint8_t { bundle, grid_lut, scan };
 
-  /// Recordings of known things. Each says in its metadata "calibration" what it shows: kind "tree"
+  /// Recordings of known things. The metadata entry "calibration" of each gives its kind: "tree"
   /// (frames_per_pose, sides_m), "grid" (nodes, spacing_m, distance_m; one camera each) or "scan"
   /// (frames_per_place, places_m).
   std::vector<std::filesystem::path> inputs;

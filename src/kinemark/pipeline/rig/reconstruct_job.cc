@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/rig/reconstruct_job.h"
 
-#include <array>
 #include <utility>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
@@ -12,8 +12,8 @@
 namespace kinemark::pipeline {
 
 std::string_view to_string(ReconstructJob::Method method) {
-  constexpr std::array<std::string_view, 3> kNames{"smoother", "frames", "classic"};
-  return kNames[static_cast<std::size_t>(method)];
+  constexpr EnumNames<ReconstructJob::Method::classic> kNames{"smoother", "frames", "classic"};
+  return kNames[method];
 }
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {

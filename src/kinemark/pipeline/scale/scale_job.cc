@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -111,7 +112,7 @@ class ScaleRun {
     return place(trial, *options_of_placer);
   }
 
-  /// Sizes as well as one pose tells them, then the markers where they are.
+  /// Sizes as far as one pose determines them, then the marker positions.
   Status scale_by_static_trial() {
     if (job_.static_trial.empty() || setup_) return {};
     data::Trajectories trial;
@@ -177,7 +178,7 @@ class ScaleRun {
     return std::move(out_);
   }
 
-  /// Targets can be written: said before anything long is done.
+  /// Checks that the targets can be written before any long computation.
   Status check_targets() const {
     const auto staging = Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force);
     if (!staging) return std::unexpected(staging.error());
@@ -185,7 +186,7 @@ class ScaleRun {
   }
 
  private:
-  /// --static wins over the file that the setup names itself.
+  /// --static takes precedence over the file named by the setup.
   Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
                     bool by_setup = false) const {
     const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;
@@ -209,11 +210,11 @@ class ScaleRun {
   Status take_overall_size(const data::Trajectories& trial) {
     double measured = 0.0, modelled = 0.0;
     const auto& markers = out_.model.markers;
+    const data::NameIndex index(trial.names);
     for (std::size_t i = 0; i < markers.size(); ++i)
       for (std::size_t j = i + 1; j < markers.size(); ++j) {
         if (markers[i].body_idx != markers[j].body_idx) continue;
-        const auto a = motion::find_recorded(trial, markers[i].name),
-                   b = motion::find_recorded(trial, markers[j].name);
+        const auto a = index.find(markers[i].name), b = index.find(markers[j].name);
         if (a < 0 || b < 0) continue;
         double sum = 0.0, count = 0.0;
         for (std::int64_t f = 0; f < trial.frames(); f += 1 + trial.frames() / 500) {

@@ -20,15 +20,15 @@ struct ScaleJob : JobSettings {
   std::filesystem::path model;
   std::filesystem::path setup;         ///< OpenSim ScaleTool file; fills what the other fields leave open
   std::filesystem::path static_trial;  ///< marker file of a static trial
-  std::filesystem::path markers;       ///< marker file of a motion: sizes and places are adapted to it
+  std::filesystem::path markers;       ///< marker file of a motion: sizes and positions are adapted to it
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
-  double rate_hz = 0.0;                ///< of marker files that tell none (.v3d); 0: not given
+  double rate_hz = 0.0;                ///< for marker files that store none (.v3d); 0: not given
   double mass_kg = 0.0;                ///< 0: the setup's, or as the factors make it
   bool dempster = false;               ///< distribute the mass by Dempster's fractions
   bool clavicles = false;              ///< set shoulders free first
   bool symmetric = false;              ///< one size for both sides
   double size_prior_sd = 0.1;          ///< of a segment's size against the model so far, share
-  double place_prior_sd_m = 0.01;      ///< per axis; of a marker's place against the model so far
+  double place_prior_sd_m = 0.01;      ///< per axis; of a marker's position against the model so far
   motion::AdaptOptions adapt;
   double max_rms_m = 0.05;  ///< quality gate: RMS distance of measured and model markers
 };
@@ -39,7 +39,7 @@ struct ScaleOutcome : JobOutcome {
   std::optional<motion::ScaleResult> scaled;       ///< measured or set by hand, with a setup
   std::optional<motion::PlaceResult> placed;       ///< markers put where the static trial shows them
   std::optional<motion::AdaptResult> from_static;  ///< sizes from a static trial without a setup
-  std::optional<motion::AdaptResult> from_motion;  ///< sizes and places from the motion
+  std::optional<motion::AdaptResult> from_motion;  ///< sizes and positions from the motion
   std::vector<motion::BodyFactors> factors;        ///< of every body, all steps together
   std::vector<std::string> clavicles;              ///< set free
 };

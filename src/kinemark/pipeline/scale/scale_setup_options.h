@@ -10,12 +10,12 @@
 
 namespace kinemark::pipeline {
 
-/// What a ScaleTool file asks of scale_model(); parts that do not apply are left out.
+/// The options of scale_model() that a ScaleTool file sets; parts that do not apply are left out.
 [[nodiscard]] motion::ScaleOptions scale_options(const io::ScaleSetup& setup);
 
-/// What it asks of place_markers(). `fixed`: markers of its set that stay. Tasks of markers that the model
-/// lacks are passed over, as OpenSim does; tasks of unknown coordinates, and values that the coordinate file
-/// does not hold, are errors.
+/// The options of place_markers() that it sets. `fixed`: markers of its set that stay. Tasks of markers that
+/// the model lacks are passed over, as OpenSim does; tasks of unknown coordinates, and values that the
+/// coordinate file does not hold, are errors.
 [[nodiscard]] Result<motion::PlaceOptions> place_options(const io::ScaleSetup& setup,
                                                          const std::vector<io::MarkerOfSet>& set,
                                                          const data::ModelDescription& model);

@@ -5,11 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/enum_names.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -21,13 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<std::string_view, RigSceneKind>, 4> kScenes{
-    {{"tree", RigSceneKind::tree},
-     {"wheel", RigSceneKind::wheel},
-     {"sign", RigSceneKind::sign},
-     {"markers", RigSceneKind::markers}}};
+constexpr EnumNames<RigSceneKind::markers> kScenes{"tree", "wheel", "sign", "markers"};
 
-/// A scene, how long it lasts unless told, and the stream of its noise.
+/// A scene, its default duration, and the stream of its noise.
 struct Staged {
   simulation::RigScene scene;
   double duration_s = 0.0;
@@ -74,9 +71,7 @@ Result<int> find_name(const std::vector<std::string>& names, std::string_view wa
   if (wanted == "all") return -1;
   const auto at = std::ranges::find(names, wanted);
   if (at != names.end()) return static_cast<int>(at - names.begin());
-  std::string known;
-  for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-  return fail(Code::usage, fmt::format("there is no {} '{}'; there are {}", what, wanted, known));
+  return fail(Code::usage, fmt::format("there is no {} '{}'; there are {}", what, wanted, join(names)));
 }
 
 bool parse_frame(std::string_view text, std::int64_t& out) {
@@ -240,12 +235,7 @@ Status add_calibration(const SimulateRigJob& job, const simulation::PhysicalRig&
 
 }  // namespace
 
-Result<RigSceneKind> parse_rig_scene(std::string_view name) {
-  for (const auto& [known, kind] : kScenes)
-    if (known == name) return kind;
-  return fail(Code::usage,
-              fmt::format("there is no scene '{}'; there are tree, wheel, sign and markers", name));
-}
+Result<RigSceneKind> parse_rig_scene(std::string_view name) { return kScenes.parse(name, "scene"); }
 
 Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   job.rig.seed = job.recording.seed = job.seed;
@@ -261,9 +251,7 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   const auto recorded = simulation::record(*rig, staged->scene, *options);
   if (!recorded) return std::unexpected(recorded.error());
 
-  std::string scene;
-  for (const auto& [name, kind] : kScenes)
-    if (kind == job.scene) scene = name;
+  const std::string scene(kScenes[job.scene]);
   data::Trial truth;
   truth.source = "simulated";
   truth.markers = recorded->truth;

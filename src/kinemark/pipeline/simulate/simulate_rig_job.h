@@ -31,7 +31,7 @@ struct SimulateRigJob : JobSettings {
   simulation::MarkerSceneOptions marker_options;
   simulation::RigDrawOptions rig;
   simulation::RigRecordingOptions recording;  ///< frames, stream and intensity are set here
-  bool highest_rate = false;                  ///< the most frames per second that the slots leave room for
+  bool highest_rate = false;                  ///< the highest frame rate that the time slots allow
   double duration_s = 0.0;  ///< 0: tree 1 s, wheel 2.2 s, sign 4 s, markers as long as they are
   /// Intensity of an LED by name; an empty name means all of them.
   std::vector<std::pair<std::string, double>> intensity;

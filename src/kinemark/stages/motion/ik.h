@@ -5,49 +5,21 @@
 // markers fix it. Theory: docs/theory/inverse-kinematics.md and docs/theory/error-bars.md
 #pragma once
 
-#include <string>
-#include <vector>
+#include <cstdint>
 
 #include "kinemark/core/progress.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik_options.h"
 
 namespace kinemark::motion {
 
-/// What one used marker contributed.
-struct MarkerSummary {
-  std::string name;          ///< in the model
-  std::string name_in_data;  ///< in the recording (may carry a subject prefix)
-  std::string body;
-  double weight = 1.0;
-  double seen = 0.0;   ///< share of the solved frames, 0 to 1
-  double rms_m = 0.0;  ///< distance measured to model, NaN when never seen
-  double max_m = 0.0;
-  double noise_sd_m = 0.0;  ///< per axis: part of its own, as used for the error bars; NaN when not estimated
-  double common_sd_m = 0.0;  ///< per axis: part shared by the markers of its segment
-};
-
-/// A marker that model and recording share and that took no part.
-struct ExcludedMarker {
-  std::string name;  ///< in the model
-  bool seen = true;  ///< false: never seen in the recording; true: its weight is 0
-};
-
 struct IkResult {
-  data::JointMotion motion;      ///< solved frames only
-  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
-  std::vector<MarkerSummary> markers;
-  std::vector<std::string> model_markers_without_data, data_markers_without_model;
-  std::vector<ExcludedMarker> excluded_markers;
-  std::vector<std::string> warnings;
-  double cost = 0.0;                ///< sum over frames of the cost in IkOptions (square loss), m^2
-  double rms_marker_error_m = 0.0;  ///< over all marker frames used, unweighted
-  double max_marker_error_m = 0.0;
-  Eigen::Vector3d mean_marker_error_m =
-      Eigen::Vector3d::Zero();  ///< measured minus model: large when frames disagree
-  double max_loop_gap_m = 0.0;  ///< largest point-constraint gap
+  data::JointMotion motion;  ///< solved frames only
+  data::MarkerFit fit;
+  double cost = 0.0;  ///< sum over frames of the cost in IkOptions (square loss), m^2
   std::int64_t iterations = 0;
   double solve_seconds = 0.0;  ///< wall time of the frame loop alone, without error bars
 };

@@ -10,7 +10,7 @@
 
 namespace kinemark::motion {
 
-/// A pull of one coordinate towards a value.
+/// A target value with a weight for one coordinate.
 struct CoordinateTask {
   std::string coordinate;
   double weight = 1.0;         ///< >= 0; see IkOptions for what it weighs against
@@ -23,7 +23,7 @@ struct MarkerWeight {
   double weight = 1.0;  ///< >= 0; 0 leaves the marker out
 };
 
-/// How large residuals are weighed. huber: linear beyond the scale; cauchy: logarithmic.
+/// Weighting of large residuals. huber: linear beyond the scale; cauchy: logarithmic.
 enum class Loss : std::uint8_t { square, huber, cauchy };
 
 /// Share of a frame by which a time range may be missed: times are written with few digits.
@@ -40,7 +40,7 @@ struct IkOptions {
   double default_marker_weight = 1.0;
   std::vector<CoordinateTask> coordinate_tasks;
   Loss loss = Loss::square;
-  double loss_scale_m = 0.02;      ///< > 0; where huber and cauchy begin to bend
+  double loss_scale_m = 0.02;      ///< > 0; threshold of huber, scale of cauchy
   bool limits = true;              ///< clamped coordinates stay in their range (free roots excepted)
   double marker_noise_sd_m = 0.0;  ///< per axis; 0: estimated from the residuals as variance components
   bool error_bars = true;          ///< compute q_sd and determined

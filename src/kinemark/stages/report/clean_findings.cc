@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/text.h"
 #include "kinemark/stages/report/clean_report.h"
 #include "kinemark/stages/report/internal/clean_words.h"
 
@@ -19,9 +20,10 @@ namespace {
 using data::SampleState;
 using internal::length_s;
 
-constexpr double kLargeSdM = 0.010;     ///< a fill beyond this is of no use for joint angles
-constexpr double kSure = 0.8;           ///< confidence from which a defect counts as there
-constexpr double kHighCutoff = 0.4;     ///< of the rate: above this a filter takes next to nothing away
+constexpr double kLargeSdM = 0.010;  ///< a fill beyond this is of no use for joint angles
+constexpr double kSure = 0.8;        ///< confidence from which a defect counts as there
+constexpr double kHighCutoff = 0.4;  ///< of the rate: above this a filter takes next to nothing away
+constexpr std::size_t kNamesTold = 6;
 constexpr double kCyclesAtLeast = 2.0;  ///< a cut-off with fewer cycles in the recording leaves only drift
 
 std::int64_t count(const CleanMarker& m, SampleState state) {
@@ -30,18 +32,6 @@ std::int64_t count(const CleanMarker& m, SampleState state) {
 
 std::string in_words(std::int64_t n, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
-/// "A", "A and B", "A, B, C and 4 more".
-std::string list_names(const std::vector<std::string>& names, std::size_t most = 6) {
-  if (names.empty()) return "";
-  if (names.size() == 1) return names.front();
-  if (names.size() > most) {
-    const std::vector<std::string> some(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
-    return fmt::format("{} and {} more", fmt::join(some, ", "), names.size() - most);
-  }
-  const std::vector<std::string> but_last(names.begin(), names.end() - 1);
-  return fmt::format("{} and {}", fmt::join(but_last, ", "), names.back());
 }
 
 void add(std::vector<Finding>& out, Verdict level, std::string about, std::string subject, std::string text,
@@ -83,10 +73,10 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
     const Verdict level = g.sure && !d.handled ? Verdict::attention : Verdict::good;
     const std::string end = d.done.empty() ? "" : fmt::format(" What was done: {}.", d.done);
     const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
-    const std::string text = g.number == 1
-                                 ? d.sentence
-                                 : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
-                                               d.kind, g.number, list_names(g.markers), d.sentence);
+    const std::string text =
+        g.number == 1 ? d.sentence
+                      : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}", d.kind,
+                                    g.number, join_in_words(g.markers, kNamesTold), d.sentence);
     add(out, level, "marker", d.marker, text + unsure + end, r.time.time_s(d.first_frame));
   }
 }
@@ -107,7 +97,7 @@ void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
   if (names.empty()) return;
   add(out, level, "upsampling", names.front(),
       fmt::format("The recorder interpolated {} ({}).{}", in_words(std::ssize(names), "marker", "markers"),
-                  list_names(names), end));
+                  join_in_words(names, kNamesTold), end));
 }
 
 /// One line for each marker that has fills nobody should rely on.
@@ -145,7 +135,7 @@ void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
   const std::string why = longest->why_open.empty() ? "" : fmt::format(" {}", longest->why_open);
   add(out, Verdict::good, "gap", longest->marker,
       fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
-                  in_words(number, "gap was", "gaps were"), sum_s, list_names(names),
+                  in_words(number, "gap was", "gaps were"), sum_s, join_in_words(names, kNamesTold),
                   length_s(*longest, r.time), longest->marker, why),
       r.time.time_s(longest->first_frame));
 }
@@ -158,7 +148,7 @@ void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
     if (holds(m)) names.push_back(m.name);
   if (names.empty()) return;
   add(out, Verdict::good, "marker", names.front(),
-      fmt::format("{} ({} of {}): {}", list_names(names), names.size(),
+      fmt::format("{} ({} of {}): {}", join_in_words(names, kNamesTold), names.size(),
                   in_words(std::ssize(r.markers), "marker", "markers"), text));
 }
 

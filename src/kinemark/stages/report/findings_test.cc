@@ -85,7 +85,7 @@ TEST(Findings, MarkersAndWarningsAreNotes) {
   data::JointMotion m = good_motion();
   m.marker_error.assign(30, kNaN);
   const auto found =
-      findings_of(m, {.markers = {{"L.Bicep", 0.0, kNaN, "it is at the origin in every frame."}},
+      findings_of(m, {.fit = {.excluded = {{"L.Bicep", "it is at the origin in every frame."}}},
                       .warnings = {"the header lies."}});
   ASSERT_THAT(found, SizeIs(3));
   EXPECT_EQ(found[0].text, "Marker L.Bicep was left out: it is at the origin in every frame.");
@@ -95,9 +95,9 @@ TEST(Findings, MarkersAndWarningsAreNotes) {
 }
 
 TEST(Findings, MarkersLeftOutForOneReasonShareALine) {
-  const auto found = findings_of(good_motion(), {.markers = {{"B", 0.0, kNaN, "never seen"},
-                                                             {"C", 0.0, kNaN, "given the weight 0"},
-                                                             {"D", 0.0, kNaN, "never seen"}}});
+  const auto found = findings_of(
+      good_motion(),
+      {.fit = {.excluded = {{"B", "never seen"}, {"C", "given the weight 0"}, {"D", "never seen"}}}});
   ASSERT_THAT(found, SizeIs(2));
   EXPECT_EQ(found[0].text, "2 markers were left out: never seen: B, D");
   EXPECT_EQ(found[0].subject, "");

@@ -13,18 +13,11 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/report/report_parts.h"
 
 namespace kinemark::report {
-
-/// What the solver knew of one marker of the file or the model.
-struct MarkerFacts {
-  std::string name;
-  double weight = 1.0;       ///< 0: not used
-  double noise_sd_m = kNaN;  ///< given or estimated standard deviation along one axis
-  std::string why_excluded;  ///< empty: used
-};
 
 /// Everything about a run that is not in its arrays. The caller fills this in.
 struct IkRun {
@@ -40,7 +33,9 @@ struct IkRun {
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<InputFile> inputs;
   std::vector<Gate> gates;
-  std::vector<MarkerFacts> markers;             ///< in any order; markers not listed have weight 1
+  /// Of names, weights, noise and what was left out; errors are computed from the motion, and its warnings
+  /// stand in `warnings`. Markers that are not listed have the weight 1.
+  data::MarkerFit fit;
   std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
   std::vector<std::string> warnings;            ///< one sentence each
 };
@@ -55,7 +50,8 @@ struct CoordinateSummary {
   double median_sd = kNaN;  ///< rad or m, over determined frames
 };
 
-struct MarkerSummary {
+/// A row of the page's table of markers, used or not.
+struct MarkerRow {
   std::string name;
   bool used = true;
   std::string why_excluded;
@@ -64,7 +60,7 @@ struct MarkerSummary {
   double rms_error_m = kNaN;     ///< of the distance between measured and model marker
   double max_error_m = kNaN;
   std::int64_t max_error_frame = -1;
-  double noise_sd_m = kNaN;
+  double noise_sd_m = kNaN;  ///< standard deviation along one axis, given or estimated
 };
 
 struct WorstFrame {
@@ -86,7 +82,7 @@ struct IkSummary {
   double rms_error_m = kNaN;                    ///< over all frames and seen markers
   double max_error_m = kNaN;
   std::vector<CoordinateSummary> coordinates;
-  std::vector<MarkerSummary> markers;  ///< used ones in the motion's order, then the excluded ones
+  std::vector<MarkerRow> markers;  ///< used ones in the motion's order, then the excluded ones
   std::vector<WorstFrame> worst_frames;
   std::vector<Finding> findings;  ///< the serious ones first
 };

@@ -20,9 +20,9 @@ enum class Verdict : std::uint8_t { good, attention };
 
 [[nodiscard]] std::string_view to_string(Verdict verdict);
 
-/// A line of the list "what needs your attention".
+/// One entry of the list "what needs your attention".
 struct Finding {
-  Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
+  Verdict level = Verdict::good;  ///< attention: the result should be checked by a person before use
   std::string about;              ///< "gate", "frames", "coordinate", "marker", "gap", ... or "warning"
   std::string subject;            ///< name of the gate, coordinate or marker; may be empty
   std::string text;               ///< one sentence

@@ -3,7 +3,6 @@
 // The steps of a MotionJob that do not depend on how the motion is found: read, name the files, judge, write.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "kinemark/data/image_tracks.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
@@ -36,34 +36,17 @@ struct MotionInputs {
 [[nodiscard]] report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs);
 /// Files of forces, and what there is to tell of the torques.
 [[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);
-/// Nothing when the path is empty.
+/// No value when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
 
-/// What the estimate (IkResult, TrackResult) says of itself and of each marker, and why a marker that was
-/// seen may have the weight 0.
-template <class Estimate>
-void add_estimate(report::IkRun& run, const Estimate& result, std::string_view why_weightless) {
-  run.solve_s = result.solve_seconds;
-  run.warnings.insert(run.warnings.end(), result.warnings.begin(), result.warnings.end());
-  for (const auto& marker : result.markers)
-    run.markers.push_back({.name = marker.name,
-                           .weight = marker.weight,
-                           .noise_sd_m = std::hypot(marker.noise_sd_m, marker.common_sd_m)});
-  const auto exclude = [&](const std::string& name, std::string_view why) {
-    run.markers.push_back({.name = name, .weight = 0.0, .why_excluded = std::string(why)});
-  };
-  for (const auto& marker : result.excluded_markers)
-    exclude(marker.name, marker.seen ? why_weightless : "never seen");
-  for (const auto& name : result.model_markers_without_data)
-    exclude(name, "in the model, not in the recording");
-  for (const auto& name : result.data_markers_without_model)
-    exclude(name, "in the recording, not in the model");
-}
+/// The fit of the estimate; its warnings and what it found, in words, behind the warnings that are there.
+/// @param time  of the estimated motion
+void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time);
 
 /// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
               std::string sentence);
-/// The gates that all have: length of the mean marker error, told in `offset_sentence`, and marker RMS.
+/// The gates that all have: length of the mean marker error, described by `offset_sentence`, and marker RMS.
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m);
 

@@ -12,7 +12,7 @@
 
 namespace kinemark::motion {
 
-/// What one task asks of the body in one step, row by row. The controller answers with the acceleration
+/// The rows of one task in one step. The controller demands the acceleration
 ///   J q'' = goal_acceleration + kd (goal_velocity - velocity) + kp error - bias.
 struct TaskRows {
   Eigen::VectorXd error;              ///< goal minus present value
@@ -29,7 +29,7 @@ struct TaskRows {
   void resize(int rows, int speeds);
 };
 
-/// A goal for a number of rows that stays the same.
+/// A goal with a constant number of rows.
 class Task {
  public:
   Task() = default;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a model as a list of numbers: sizes of segments, places of joints, places of markers. Each
-// number moves parts of the description linearly, so that derivatives are exact and cheap.
+// The geometry parameters of a model: sizes of segments, positions of joints and of markers. The description
+// is linear in each parameter, so that derivatives are exact and cheap.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ namespace kinemark::motion {
 
 enum class ParameterKind : std::uint8_t {
   body_scale,    ///< size of one or more segments, 1 as the model has it
-  joint_offset,  ///< one coordinate of a joint's place in its parent, m
-  marker_place,  ///< one coordinate of a marker's place in its body, m
+  joint_offset,  ///< one coordinate of a joint's position in its parent, m
+  marker_place,  ///< one coordinate of a marker's position in its body, m
 };
 
 /// What a parameter moves, per unit.
@@ -36,16 +36,16 @@ struct GeometryTerm {
   double rate = 0.0;                                    ///< translation: share per unit
 };
 
-/// One unknown number: its place in the list, what it moves and how well it is known beforehand.
+/// One geometry parameter: its value in the model, its effect and its prior.
 struct GeometryParameter {
   std::string name;
   ParameterKind kind = ParameterKind::marker_place;
-  double initial = 0.0;   ///< value in the description: 1 for sizes, m for places
+  double initial = 0.0;   ///< value in the description: 1 for sizes, m for positions
   double prior_sd = 0.0;  ///< > 0; of value - initial, in the units of the value
   std::vector<GeometryTerm> terms;
 };
 
-/// Segments that grow together, each along the axes that count.
+/// Segments with a common size, each along the axes that are scaled.
 struct ScaleGroup {
   struct Part {
     std::string body;

@@ -35,9 +35,9 @@ struct PlaceResult {
   std::vector<std::string> unseen;    ///< markers of the model that the trial does not show; they stay
 };
 
-/// Put the markers of a scaled model where the static trial shows them (OpenSim's MarkerPlacer): the trial is
-/// averaged, its pose found by inverse kinematics, and every marker that is not fixed moved onto its measured
-/// place. Fails for what solve_ik() refuses, and when a marker moves more than allowed.
+/// Move the markers of a scaled model to their positions in the static trial (OpenSim's MarkerPlacer): the
+/// trial is averaged, its pose found by inverse kinematics, and every marker that is not fixed moved to its
+/// measured position. Fails for what solve_ik() refuses, and when a marker moves more than allowed.
 [[nodiscard]] Result<PlaceResult> place_markers(const data::ModelDescription& model,
                                                 const data::Trajectories& static_trial,
                                                 const PlaceOptions& options);

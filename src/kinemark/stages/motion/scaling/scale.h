@@ -87,7 +87,4 @@ void apply_factors(data::ModelDescription& model, std::span<const Eigen::Vector3
 /// Multiply all masses and inertias so that the model weighs mass_kg. Fails for a massless model.
 [[nodiscard]] Status set_total_mass(data::ModelDescription& model, double mass_kg);
 
-/// Index of a marker in a recording: by name, or the only one behind a subject prefix; -1 otherwise.
-[[nodiscard]] std::int64_t find_recorded(const data::Trajectories& recording, const std::string& name);
-
 }  // namespace kinemark::motion

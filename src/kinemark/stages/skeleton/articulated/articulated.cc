@@ -11,13 +11,13 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
-#include "kinemark/stages/skeleton/articulated/internal/continuity.h"
-#include "kinemark/stages/skeleton/articulated/internal/findings.h"
-#include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
-#include "kinemark/stages/skeleton/articulated/internal/recording_pass.h"
-#include "kinemark/stages/skeleton/articulated/internal/widening.h"
+#include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
+#include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
+#include "kinemark/stages/skeleton/articulated/geometry/fit_rounds.h"
+#include "kinemark/stages/skeleton/articulated/recording/continuity.h"
+#include "kinemark/stages/skeleton/articulated/recording/findings.h"
+#include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
+#include "kinemark/stages/skeleton/articulated/recording/widening.h"
 
 namespace kinemark::skeleton {
 namespace {
@@ -112,8 +112,8 @@ bool shows_axis(const internal::JointMotionSeen& seen) {
 }
 
 bool is_hinge(const Work& w, const internal::JointMotionSeen& seen) {
-  return shows_axis(seen) && (w.options.joint == JointChoice::hinge ||
-                              (w.options.joint == JointChoice::automatic && seen.one_axis));
+  return shows_axis(seen) && (w.options.joint == data::JointChoice::hinge ||
+                              (w.options.joint == data::JointChoice::automatic && seen.one_axis));
 }
 
 Status pass_over(Work& w, const Progress& progress) {
@@ -328,7 +328,7 @@ ArticulatedFit assemble(const Work& w) {
           w.fit.noise_sd_m / std::sqrt(w.fit.marker_weight[at(m)]);
   write_lengths(w, skeleton);
   write_warnings(w, skeleton);
-  for (int j = 0; j < J && w.options.joint == JointChoice::hinge; ++j)
+  for (int j = 0; j < J && w.options.joint == data::JointChoice::hinge; ++j)
     if (!shows_axis(seen[at(j)]))
       skeleton.warnings.push_back(fmt::format(
           "joint '{}': a hinge was asked for, but no axis can be seen; it is given as a ball joint",

@@ -11,19 +11,17 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
 
 namespace kinemark::skeleton {
 
-/// What a joint may do: given, or found in the recording.
-enum class JointChoice : std::uint8_t { automatic, ball, hinge };
-
 /// Options of fit_articulated().
 struct ArticulatedOptions {
   double noise_sd_m = 0.0;               ///< of a marker, per axis, >= 0; 0: estimated from the residuals
   std::vector<data::SegmentKind> kinds;  ///< one a segment; empty: the data choose line, plane or solid
-  JointChoice joint = JointChoice::automatic;
+  data::JointChoice joint = data::JointChoice::automatic;
   bool continuity = true;  ///< smooth the centres in time and bridge what one frame leaves open
   bool robust = true;      ///< single markers far off lose their weight
   /// Soft tissue: every marker has a noise of its own, found from its residuals and shrunk towards the common

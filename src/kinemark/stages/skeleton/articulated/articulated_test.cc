@@ -217,7 +217,7 @@ TEST(FitArticulated, StopsWhenAskedBeforeTheFirstFrameIsSolved) {
 TEST(FitArticulated, LinesHaveNoHingeEvenWhenAsked) {
   const Limb limb = make_limb({.frames = 200, .seed = 2});
   auto options = alone(SegmentKind::line);
-  options.joint = JointChoice::hinge;
+  options.joint = data::JointChoice::hinge;
   const auto fit = fit_articulated(limb.markers, limb.layout, options).value();
   EXPECT_EQ(fit.skeleton.joints[0].kind, data::JointKind::ball);
   EXPECT_THAT(fit.skeleton.warnings, Contains(AllOf(HasSubstr("'j0'"), HasSubstr("no axis can be seen"))));
@@ -227,7 +227,7 @@ TEST(FitArticulated, LinesHaveNoHingeEvenWhenAsked) {
 TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   const Limb limb = make_limb({.frames = 200, .markers_per_segment = 4, .stagger_m = 0.03, .seed = 7});
   auto options = alone(SegmentKind::solid);
-  options.joint = JointChoice::hinge;
+  options.joint = data::JointChoice::hinge;
   const auto fit = fit_articulated(limb.markers, limb.layout, options).value();
   const data::SkeletonJoint& joint = fit.skeleton.joints[0];
   EXPECT_EQ(joint.kind, data::JointKind::hinge);

@@ -10,7 +10,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
-#include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
+#include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
 
 namespace kinemark::skeleton {
 namespace {

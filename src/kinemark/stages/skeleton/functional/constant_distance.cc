@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/data/joint_choice.h"
 #include "kinemark/stages/skeleton/functional/internal/lbfgs.h"
 #include "kinemark/stages/skeleton/functional/joint_fit.h"
 
@@ -19,7 +20,8 @@ namespace {
 /// The report's numbers are in millimetres; tolerances of the search are absolute, so it is done in them too.
 constexpr double kPerMetre = 1e3;
 constexpr int kRegressionSteps = 200;
-/// Above this condition the visible markers lie in a plane with the joint's place: a mirror twin fits alike.
+/// Above this condition number the visible markers lie in a plane with the joint centre: its mirror image
+/// fits equally well (mirror ambiguity).
 constexpr double kFlat = 1e3;
 
 std::vector<std::int64_t> complete_frames(const Samples& samples, const std::vector<int>& markers, int most) {
@@ -171,8 +173,8 @@ Result<ConstantDistanceFit> fit_constant_distance(const Samples& samples, const 
     const bool unique = seen.size() > 3 && eigen.eigenvalues()(2) < kFlat * eigen.eigenvalues()(0);
     fit.state[f] = unique ? data::CentreState::determined : data::CentreState::ambiguous;
     const double variance = fit.distance_sd_m * fit.distance_sd_m;
-    const Eigen::Vector3d values =
-        eigen.eigenvalues().cwiseMax(0.0).array() + variance / (kPriorSd_m * kPriorSd_m) + 1e-15;
+    const Eigen::Vector3d values = eigen.eigenvalues().cwiseMax(0.0).array() +
+                                   variance / (data::kJointPriorSd_m * data::kJointPriorSd_m) + 1e-15;
     fit.covariance[f] = variance * eigen.eigenvectors() * values.cwiseInverse().asDiagonal() *
                         eigen.eigenvectors().transpose();
   }

@@ -77,7 +77,7 @@ TEST(Functional, TheDataChooseTheHinge) {
     EXPECT_NE(joint.words.find("position along it not"), std::string::npos) << joint.words;
     EXPECT_NEAR(joint.range_of_motion_rad, 1.0, 0.05);
   }
-  const auto forced = find_joints(chain.markers, chain.layout, {.kind = KindChoice::ball});
+  const auto forced = find_joints(chain.markers, chain.layout, {.kind = data::JointChoice::ball});
   EXPECT_EQ(forced->joints[0].kind, data::JointKind::ball);
 }
 
@@ -173,7 +173,7 @@ TEST(Functional, SwappedLabelsAreToldAndLeftOut) {
   EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 0.003);
 }
 
-/// The chain seen from elsewhere: every sample turned, shifted and scaled.
+/// The chain in another frame: every sample rotated, shifted and scaled.
 data::Trajectories moved(const data::Trajectories& from, const Eigen::Matrix3d& R, const Eigen::Vector3d& t,
                          double scale) {
   data::Trajectories to = from;
@@ -193,7 +193,7 @@ TEST(Functional, CentresTurnShiftAndScaleWithTheRoom) {
   const Eigen::Vector3d t(3.0, -1.0, 2.0);
   for (const auto method :
        {FunctionalMethod::score, FunctionalMethod::gamage, FunctionalMethod::gamage_plain}) {
-    const FunctionalOptions options{.method = method, .kind = KindChoice::ball};
+    const FunctionalOptions options{.method = method, .kind = data::JointChoice::ball};
     const auto plain = find_joints(chain.markers, chain.layout, options).value();
     for (const double scale : {1.0, 10.0}) {
       const auto other = find_joints(moved(chain.markers, R, t, scale), chain.layout, options).value();

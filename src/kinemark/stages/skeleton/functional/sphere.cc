@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/data/joint_choice.h"
+
 namespace kinemark::skeleton {
 namespace {
 
@@ -54,7 +56,8 @@ struct Moments {
 
 struct Centre {
   Eigen::Vector3d place = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
-  Eigen::Vector3d open = Eigen::Vector3d::Zero();  ///< SD along each direction of what the data leave open, m
+  Eigen::Vector3d open =
+      Eigen::Vector3d::Zero();  ///< SD along each direction due to undetermined directions, m
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
   double noise_variance = 0.0;
 };
@@ -96,20 +99,22 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
     c.place.setZero();
     // A distance's variance s^2 counts in these equations as 4 r^2 s^2; the prior is weighed against that.
     const double r2 = std::max(1e-12, (eigen.eigenvalues().sum() + (means - before).squaredNorm()));
-    const double prior = 2.0 * c.noise_variance * r2 / (total * kPriorSd_m * kPriorSd_m) +
-                         1e-9 * eigen.eigenvalues()(2) + 1e-300;
+    const double prior =
+        2.0 * c.noise_variance * r2 / (total * data::kJointPriorSd_m * data::kJointPriorSd_m) +
+        1e-9 * eigen.eigenvalues()(2) + 1e-300;
     for (int k = options.about_axis ? 1 : 0; k < 3; ++k) {
       const Eigen::Vector3d e = c.directions.col(k);
       const double value = std::max(0.0, eigen.eigenvalues()(k));
-      // The prior holds the centre to the points' mean.
+      // The prior ties the centre to the points' mean.
       c.place += e * ((e.dot(corrected) + prior * e.dot(means)) / (value + prior));
       const double from_prior = prior / (value + prior);
       const double from_noise = std::min(1.0, 2.0 * c.noise_variance / (value + prior));
       const double drawn = options.correct_bias ? 0.0 : from_noise * std::abs(e.dot(c.place - means));
-      c.open(k) = std::min(kPriorSd_m, kPriorSd_m * (from_prior + from_noise * from_noise) + drawn);
+      c.open(k) = std::min(data::kJointPriorSd_m,
+                           data::kJointPriorSd_m * (from_prior + from_noise * from_noise) + drawn);
     }
     if (options.about_axis) {
-      c.open(0) = kPriorSd_m;
+      c.open(0) = data::kJointPriorSd_m;
       c.place += c.axis * c.axis.dot(means);
     }
     double variance = 0.0;

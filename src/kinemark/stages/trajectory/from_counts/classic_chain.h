@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The 1986 chain behind the look-up table: bridge occlusions, Butterworth there and back, two-point
-// differences.
+// The processing of 1986 after the look-up table: bridge occlusions, Butterworth filter forwards and
+// backwards, two-point differences.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts to paths in one step: every conversion is used at its own time.
+// Paths directly from counts: every conversion is used at its own time.
 #pragma once
 
 #include <string>
@@ -38,7 +38,7 @@ struct SmoothCountsOptions {
   [[nodiscard]] Status check() const;
 };
 
-/// How one LED's path was found.
+/// Parameters and statistics of one LED's path.
 struct LedFit {
   std::string name;
   Bandwidth bandwidth;
@@ -50,8 +50,8 @@ struct LedFit {
 };
 
 struct SmoothedCounts {
-  /// One marker per LED, at the times of the frames. Frames with a sighting are measured, others model_filled
-  /// (their covariance says how well), outside of the sightings missing.
+  /// One marker per LED, at the times of the frames. Frames with a sighting are measured, frames between
+  /// sightings model_filled (with their covariance), frames before the first and after the last one missing.
   data::Trajectories points;
   data::Derivatives derivatives;  ///< velocity and acceleration
   std::vector<LedFit> leds;

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/enum_names.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
 namespace kinemark::trajectory {
@@ -63,28 +65,16 @@ void add_power(const std::vector<double>& y, const std::vector<double>& cosine, 
   }
 }
 
-double median_of(const std::vector<double>& values, std::size_t first, std::size_t last) {
-  std::vector<double> part(values.begin() + static_cast<std::ptrdiff_t>(first),
-                           values.begin() + static_cast<std::ptrdiff_t>(last));
-  const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-  std::ranges::nth_element(part, middle);
-  return part.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(part.begin(), middle));
+double median_of(std::span<const double> values, std::size_t first, std::size_t last) {
+  return math::median(values.subspan(first, last - first));
 }
 
 }  // namespace
 
 std::string_view to_string(BandVerdict verdict) {
-  switch (verdict) {
-    case BandVerdict::unknown:
-      return "unknown";
-    case BandVerdict::open:
-      return "open";
-    case BandVerdict::low_passed:
-      return "low-passed or model-generated";
-    case BandVerdict::undecided:
-      return "undecided";
-  }
-  return "unknown";
+  static constexpr EnumNames<BandVerdict::undecided> kNames{"unknown", "open",
+                                                            "low-passed or model-generated", "undecided"};
+  return kNames[verdict];
 }
 
 BandCheck check_band(const data::Trajectories& t, std::int64_t marker) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "kinemark/core/enum_names.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
@@ -24,10 +26,7 @@ double confidence_of(double ratio, double half) {
 
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double v) { return std::isnan(v); });  // of numbers too large to subtract
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return values.empty() ? 0.0 : math::upper_median(values);
 }
 
 double rounding_of(const data::Trajectories& t, std::int64_t marker) {
@@ -44,25 +43,9 @@ double rounding_of(const data::Trajectories& t, std::int64_t marker) {
 }  // namespace internal
 
 std::string_view to_string(Defect defect) {
-  switch (defect) {
-    case Defect::zero:
-      return "zero";
-    case Defect::stuck:
-      return "stuck";
-    case Defect::duplicated_frame:
-      return "duplicated frame";
-    case Defect::clock_jump:
-      return "clock jump";
-    case Defect::unit_slip:
-      return "unit slip";
-    case Defect::spike:
-      return "spike";
-    case Defect::swap_within:
-      return "swap within";
-    case Defect::label_swap:
-      return "label swap";
-  }
-  return "unknown";
+  static constexpr EnumNames<Defect::label_swap> kNames{
+      "zero", "stuck", "duplicated frame", "clock jump", "unit slip", "spike", "swap within", "label swap"};
+  return kNames[defect];
 }
 
 Status ScreenOptions::check() const {

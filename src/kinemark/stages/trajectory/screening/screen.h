@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Defects that recorders and exporters leave in marker streams: find them, say why, and reject on request.
+// Defects that recorders and exporters leave in marker streams: detection, evidence and, on request,
+// rejection.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace kinemark::trajectory {
 
 enum class Defect : std::uint8_t {
-  zero,              ///< exactly (0, 0, 0): an exporter's way to write "not seen"
+  zero,              ///< exactly (0, 0, 0): written by exporters for "not seen"
   stuck,             ///< the last value held while marker and neighbours move
   duplicated_frame,  ///< all markers repeat the frame before
   clock_jump,        ///< frames missing or repeated in time
@@ -36,23 +37,23 @@ struct Finding {
   std::int64_t first_frame = 0;    ///< both ends belong to it
   std::int64_t last_frame = 0;
   double evidence = 0.0;    ///< the deciding ratio, larger is stronger; what it is depends on the defect
-  double confidence = 0.0;  ///< 0 to 1; below 0.8 a person should look
+  double confidence = 0.0;  ///< 0 to 1; below 0.8 a person should check
   std::string sentence;
 };
 
-/// Options of screen(): which kinds to look for, and how far is far.
+/// Options of screen(): kinds of defects and thresholds.
 struct ScreenOptions {
   bool zeros = true, stuck = true, duplicated_frames = true, clock_jumps = true, unit_slips = true,
        spikes = true, swaps = true;
   double min_spike_m = 0.01;    ///< > 0, smaller ones are left to the filter
-  double min_jump_m = 0.03;     ///< > 0, swaps across less cannot be told from motion
+  double min_jump_m = 0.03;     ///< > 0, swaps across less cannot be distinguished from motion
   double min_stuck_s = 0.1;     ///< > 0; and never below 8 frames
   double min_confidence = 0.5;  ///< 0 to 1, findings below are not reported
 
   [[nodiscard]] Status check() const;
 };
 
-/// Look for defects. Nothing is altered.
+/// Search for defects. Nothing is altered.
 ///
 /// @param frame_time_s  Recorded time of each frame, s (F), or empty. Not a number, going back or standing
 /// still: a

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/enum_names.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
 namespace kinemark::trajectory {
@@ -167,9 +169,9 @@ BandCheck middle_of(std::vector<BandCheck> bands) {
   std::erase_if(bands, [](const BandCheck& b) { return b.verdict == BandVerdict::unknown; });
   if (bands.empty()) return {};
   const auto middle = [&](auto member) {
-    const auto at = bands.begin() + static_cast<std::ptrdiff_t>(bands.size() / 2);
-    std::ranges::nth_element(bands, at, {}, member);
-    return *at.*member;
+    std::vector<double> values;
+    for (const BandCheck& b : bands) values.push_back(b.*member);
+    return math::upper_median(values);
   };
   BandCheck b;
   b.top_m = middle(&BandCheck::top_m);
@@ -201,32 +203,16 @@ void write_sentences(const data::Trajectories& t, UpsamplingReport& report) {
   report.sentences.emplace_back(
       "Not visible to this test: interpolation followed by a low-pass filter, band-limited resampling, "
       "factors that are "
-      "no integer, and streams without noise above their rounding. For the first two only the spectrum "
-      "tells.");
+      "no integer, and streams without noise above their rounding. Only the spectrum shows the first "
+      "two.");
 }
 
 }  // namespace
 
 std::string_view to_string(Kernel kernel) {
-  switch (kernel) {
-    case Kernel::none:
-      return "none";
-    case Kernel::hold:
-      return "hold";
-    case Kernel::linear:
-      return "linear";
-    case Kernel::spline:
-      return "cubic spline";
-    case Kernel::catmull_rom:
-      return "Catmull-Rom";
-    case Kernel::lagrange:
-      return "Lagrange";
-    case Kernel::pchip:
-      return "PCHIP";
-    case Kernel::akima:
-      return "Akima";
-  }
-  return "unknown";
+  static constexpr EnumNames<Kernel::akima> kNames{"none",        "hold",     "linear", "cubic spline",
+                                                   "Catmull-Rom", "Lagrange", "PCHIP",  "Akima"};
+  return kNames[kernel];
 }
 
 int Upsampling::phase_at(std::int64_t frame) const {
@@ -239,7 +225,7 @@ Status UpsamplingOptions::check() const {
     return fail(Code::usage, fmt::format("the largest upsampling factor is {}; need 2 to 12", max_factor));
   if (max_frames < 1000)
     return fail(Code::usage,
-                fmt::format("the upsampling detector may look at {} frames; need 1000 or more", max_frames));
+                fmt::format("the upsampling detector may use {} frames; need 1000 or more", max_frames));
   return {};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Was this recording made from a slower one? Factor, phase and kernel of streams that the recorder
-// interpolated. Derivation, rates of error and limits: docs/theory/upsampling.md
+// Detects recordings that were interpolated from a lower rate: factor, phase and kernel of each stream.
+// Derivation, rates of error and limits: docs/theory/upsampling.md
 #pragma once
 
 #include <cstdint>
@@ -39,12 +39,12 @@ struct Upsampling {
   double residual_m = 0.0;       ///< what the kernel leaves unexplained, median RMS
   double rounding_m = 0.0;       ///< the same if there is nothing but rounding
   std::vector<PhaseRun> runs;    ///< in time order, the first at frame 0; more than one where the phase slips
-  bool inherited = false;  ///< too little of its own to see (still, short): taken over from the recording
+  bool inherited = false;        ///< too few data of its own (at rest, short): copied from the recording
 
   [[nodiscard]] bool found() const { return factor > 1; }
   /// Phase in force at a frame; 0 when nothing was found.
   [[nodiscard]] int phase_at(std::int64_t frame) const;
-  /// True when the sample was really taken there, or nothing was found.
+  /// True when the sample was measured, or nothing was found.
   [[nodiscard]] bool real(std::int64_t frame) const {
     return factor == 1 || frame % factor == phase_at(frame);
   }
@@ -53,18 +53,18 @@ struct Upsampling {
 /// Options of detect_upsampling().
 struct UpsamplingOptions {
   int max_factor = 6;                ///< 2 to 12
-  std::int64_t max_frames = 20'000;  ///< of each stream looked at for the verdict, in evenly spaced pieces;
+  std::int64_t max_frames = 20'000;  ///< of each stream used for the verdict, in evenly spaced pieces;
                                      ///< phases are then followed through all frames; >= 1000
   [[nodiscard]] Status check() const;
 };
 
-/// What was found, what not, and what cannot be seen.
+/// Result of the test, with its limits.
 struct UpsamplingReport {
   Upsampling recording;                 ///< all markers pooled
   std::vector<Upsampling> markers;      ///< M
   BandCheck band;                       ///< median over the markers
   std::vector<BandCheck> marker_bands;  ///< M
-  std::vector<std::string> sentences;   ///< for people; the last one says what the test is blind to
+  std::vector<std::string> sentences;   ///< for people; the last one names what the test cannot detect
 };
 
 /// Test each marker and the whole recording for interpolation from a lower rate.
@@ -76,8 +76,8 @@ struct UpsamplingReport {
 /// about 0.3 frames, a phase that slips now and then (a clock that drifts, a dropped frame), noise added
 /// later below a tenth of that of the samples.
 ///
-/// Blind to interpolation followed by a low-pass filter, to band-limited resampling, to factors that are no
-/// integer, and to streams without noise above their rounding; `band` tells the first two from open data.
+/// Cannot detect interpolation followed by a low-pass filter, to band-limited resampling, to factors that are
+/// no integer, and to streams without noise above their rounding; `band` tells the first two from open data.
 /// Fails when the trajectories are invalid or the options do not hold. O(frames markers max_factor^2).
 [[nodiscard]] Result<UpsamplingReport> detect_upsampling(const data::Trajectories& trajectories,
                                                          const UpsamplingOptions& options = {});

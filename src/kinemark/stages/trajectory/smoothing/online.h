@@ -19,7 +19,7 @@ struct OnlineOptions {
   int order = 4;               ///< 2 to 5
   double cutoff_hz = 6.0;      ///< below half the rate
   double noise_sd_m = 0.0005;  ///< per axis, > 0
-  int lag_frames = 12;         ///< 0 to 1,000,000; about rate / (2 cutoff_hz) is as good as waiting for ever
+  int lag_frames = 12;         ///< 0 to 1,000,000; about rate / (2 cutoff_hz) is as good as any longer one
   bool bridge = false;         ///< also give frames inside gaps that have ended within the lag
 
   [[nodiscard]] Status check(double rate_hz) const;

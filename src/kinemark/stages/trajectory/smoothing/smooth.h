@@ -25,7 +25,7 @@ struct Candidate {
   double criterion = 0.0;  ///< see MarkerAccount::criterion_name
 };
 
-/// Power spectral density at a few frequencies, summed over the axes.
+/// Power spectral density at some frequencies, summed over the axes.
 struct Spectrum {
   std::vector<double>
       frequency_hz;  ///< rising, log-spaced; empty when no stretch without gaps is long enough

@@ -27,7 +27,7 @@ enum class FilterMethod : std::uint8_t {
 
 /// How a Butterworth filter finds its cut-off when none is given.
 enum class CutoffRule : std::uint8_t {
-  winter,   ///< residual analysis (Winter 2009): where the residual is what noise alone would leave
+  winter,   ///< residual analysis (Winter 2009): where the residual equals that of noise alone
   challis,  ///< the residual is as white as it gets (Challis 1999)
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain.h"
+#include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
 namespace kinemark::skeleton::testing_limbs {
 

@@ -13,10 +13,10 @@ namespace kinemark::trajectory::internal {
 inline constexpr std::array kKernels{Kernel::hold,     Kernel::linear, Kernel::spline, Kernel::catmull_rom,
                                      Kernel::lagrange, Kernel::pchip,  Kernel::akima};
 
-/// Knots without use at both ends of a stretch: the end condition of a spline is unknown and fades by 0.27
-/// per knot; the others lean on two neighbours.
+/// Knots not used at both ends of a stretch: the end condition of a spline is unknown and its effect decays
+/// by 0.27 per knot; the others depend on two neighbours.
 [[nodiscard]] constexpr int edge_knots(Kernel kernel) { return kernel == Kernel::spline ? 8 : 2; }
-/// Frames that a stretch needs to be worth a look.
+/// Fewest frames of a stretch that is tested.
 [[nodiscard]] constexpr int min_stretch(int factor, Kernel kernel) {
   return factor * (kernel == Kernel::spline ? 24 : 12);
 }
