@@ -18,9 +18,9 @@ namespace kinemark::pipeline {
 
 /// What `kinemark clean` is asked to do. Paths that are empty are not used.
 struct CleanJob : JobSettings {
-  std::filesystem::path input;   ///< .c3d, .trc, .csv or .nwb
-  std::filesystem::path output;  ///< likewise; OUT_report.json goes beside it
-  std::filesystem::path report;  ///< page to write as well
+  std::filesystem::path input;                      ///< .c3d, .trc, .csv or .nwb
+  std::filesystem::path output;                     ///< likewise; OUT_report.json goes beside it
+  std::filesystem::path report;                     ///< page to write as well
   RecorderMade recorder_made = RecorderMade::mark;  ///< what is done with samples that the recorder made
   bool reject_defects = false;  ///< spikes, swaps, stuck and false samples become `rejected`, then gaps
   trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};  ///< how gaps are filled
@@ -31,7 +31,7 @@ struct CleanJob : JobSettings {
 
 /// Warnings: what the output format cannot hold.
 struct CleanOutcome : JobOutcome {
-  data::Trial trial;  ///< as written, without what is only in an .nwb (covariance, derivatives)
+  data::Trial trial;           ///< as written, without what is only in an .nwb (covariance, derivatives)
   report::CleanReport report;  ///< what the page shows
 };
 

@@ -41,13 +41,13 @@ struct JointsJob : JobSettings {
 
 /// Warnings: what was done before and after, and what is odd. Gates: every joint was placed in some frame.
 struct JointsOutcome : JobOutcome {
-  data::InputFile input;             ///< the recording
-  data::SegmentLayout layout;        ///< as used; the skeleton's markers are its numbers
-  std::vector<std::string> markers;  ///< names of the recording's markers
-  data::Skeleton skeleton;  ///< segments, joints, centres
+  data::InputFile input;                       ///< the recording
+  data::SegmentLayout layout;                  ///< as used; the skeleton's markers are its numbers
+  std::vector<std::string> markers;            ///< names of the recording's markers
+  data::Skeleton skeleton;                     ///< segments, joints, centres
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
-  std::vector<skeleton::Slip> slips;  ///< markers that moved on their segment
-  std::vector<double> marker_noise_sd_m;  ///< M, with soft_tissue; NaN where unknown; empty otherwise
+  std::vector<skeleton::Slip> slips;           ///< markers that moved on their segment
+  std::vector<double> marker_noise_sd_m;       ///< M, with soft_tissue; NaN where unknown; empty otherwise
 };
 
 /// Read, find, write. Either all files appear or, on a failure, none. Progress counts frames.

@@ -15,7 +15,7 @@ namespace kinemark::pipeline {
 /// What `kinemark ik` and `track` are asked alike.
 struct MotionJob : JobSettings {
   std::filesystem::path model, markers;  ///< .osim; and any marker file
-  std::filesystem::path output;  ///< Q.mot; all other results go beside it
+  std::filesystem::path output;          ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   ImageFiles images;             ///< seen besides the markers; none: nothing
   double rate_hz = 0.0;          ///< for a marker file that stores none (.v3d); 0: not given

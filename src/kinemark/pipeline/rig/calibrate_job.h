@@ -23,13 +23,13 @@ struct CalibrateJob : JobSettings {
   /// (frames_per_pose, sides_m), "grid" (nodes, spacing_m, distance_m; one camera each) or "scan"
   /// (frames_per_place, places_m).
   std::vector<std::filesystem::path> inputs;
-  std::filesystem::path nominal;  ///< rig as set up by hand, rig.toml
-  std::filesystem::path output;   ///< rig.toml to write
-  Method method = Method::bundle;  ///< how the rig is calibrated
+  std::filesystem::path nominal;      ///< rig as set up by hand, rig.toml
+  std::filesystem::path output;       ///< rig.toml to write
+  Method method = Method::bundle;     ///< how the rig is calibrated
   calibration::BundleOptions bundle;  ///< for Method::bundle
-  std::vector<double> sides_m;  ///< of the tree; empty: as the recording says
-  int frames_per_pose = 0;      ///< 0: as the recording says
-  bool align_only = false;      ///< tell how far the cameras stand from the nominal rig; write nothing
+  std::vector<double> sides_m;        ///< of the tree; empty: as the recording says
+  int frames_per_pose = 0;            ///< 0: as the recording says
+  bool align_only = false;            ///< tell how far the cameras stand from the nominal rig; write nothing
 };
 
 [[nodiscard]] std::string_view to_string(CalibrateJob::Method method);  ///< "bundle", "grid-lut", "scan"

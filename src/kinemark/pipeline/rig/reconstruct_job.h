@@ -19,12 +19,12 @@ struct ReconstructJob : JobSettings {
   /// How points come from counts.
   enum class Method : std::uint8_t { smoother, frames, classic };
 
-  std::filesystem::path recording;  ///< of counts
-  std::filesystem::path rig;        ///< rig.toml
-  std::filesystem::path output;     ///< markers: .c3d, .trc or .csv
-  Method method = Method::smoother;  ///< how points come from counts
+  std::filesystem::path recording;            ///< of counts
+  std::filesystem::path rig;                  ///< rig.toml
+  std::filesystem::path output;               ///< markers: .c3d, .trc or .csv
+  Method method = Method::smoother;           ///< how points come from counts
   reconstruction::ReconstructOptions frames;  ///< for Method::frames
-  trajectory::SmoothCountsOptions smoother;  ///< for Method::smoother
+  trajectory::SmoothCountsOptions smoother;   ///< for Method::smoother
 };
 
 [[nodiscard]] std::string_view to_string(ReconstructJob::Method method);  ///< "smoother", "frames", "classic"

@@ -17,7 +17,7 @@ namespace kinemark::pipeline {
 
 /// What `kinemark scale` is asked to do. Paths that are empty are not used.
 struct ScaleJob : JobSettings {
-  std::filesystem::path model;  ///< .osim to scale
+  std::filesystem::path model;         ///< .osim to scale
   std::filesystem::path setup;         ///< OpenSim ScaleTool file; fills what the other fields leave open
   std::filesystem::path static_trial;  ///< marker file of a static trial
   std::filesystem::path markers;       ///< marker file of a motion: sizes and positions are adapted to it
@@ -29,20 +29,19 @@ struct ScaleJob : JobSettings {
   bool symmetric = false;              ///< one size for both sides
   double size_prior_sd = 0.1;          ///< of a segment's size against the model so far, share
   double place_prior_sd_m = 0.01;      ///< per axis; of a marker's position against the model so far
-  motion::AdaptOptions adapt;  ///< of the fit of sizes to a motion
-  double max_rms_m = 0.05;  ///< quality gate: RMS distance of measured and model markers
+  motion::AdaptOptions adapt;          ///< of the fit of sizes to a motion
+  double max_rms_m = 0.05;             ///< quality gate: RMS distance of measured and model markers
 };
 
 /// Gate: marker_rms.
 struct ScaleOutcome : JobOutcome {
-  data::ModelDescription model;  ///< scaled, markers placed
+  data::ModelDescription model;                    ///< scaled, markers placed
   std::optional<motion::ScaleResult> scaled;       ///< measured or set by hand, with a setup
   std::optional<motion::PlaceResult> placed;       ///< markers put where the static trial shows them
   std::optional<motion::AdaptResult> from_static;  ///< sizes from a static trial without a setup
   std::optional<motion::AdaptResult> from_motion;  ///< sizes and positions from the motion
   std::vector<motion::BodyFactors> factors;        ///< of every body, all steps together
   std::vector<std::string> clavicles;              ///< set free
-
 };
 
 /// Scale, place, adapt, weigh and write, in this order; each step only where its input is given. Without a

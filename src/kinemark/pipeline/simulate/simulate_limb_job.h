@@ -20,8 +20,8 @@ enum class LimbScene : std::uint8_t { arm, macaque };
 
 /// What `kinemark simulate arm` and `kinemark simulate macaque` are asked to do.
 struct SimulateLimbJob : JobSettings {
-  std::filesystem::path folder;  ///< made when absent
-  LimbScene scene = LimbScene::arm;  ///< which limb
+  std::filesystem::path folder;                       ///< made when absent
+  LimbScene scene = LimbScene::arm;                   ///< which limb
   simulation::ChainOptions arm;                       ///< for LimbScene::arm
   simulation::SleeveOptions macaque;                  ///< for LimbScene::macaque
   simulation::UpsampleOptions upsample{.factor = 1};  ///< what the recorder makes of it

@@ -24,15 +24,15 @@ enum class RigSceneKind : std::uint8_t { tree, wheel, sign, markers };
 
 /// What `kinemark simulate rig` is asked to do.
 struct SimulateRigJob : JobSettings {
-  std::filesystem::path folder;  ///< made when absent
-  RigSceneKind scene = RigSceneKind::sign;  ///< what moves
-  int tree_pose = 0;  ///< 0 to 9
-  simulation::WheelOptions wheel;  ///< for RigSceneKind::wheel
-  std::filesystem::path markers;  ///< for RigSceneKind::markers
+  std::filesystem::path folder;                   ///< made when absent
+  RigSceneKind scene = RigSceneKind::sign;        ///< what moves
+  int tree_pose = 0;                              ///< 0 to 9
+  simulation::WheelOptions wheel;                 ///< for RigSceneKind::wheel
+  std::filesystem::path markers;                  ///< for RigSceneKind::markers
   simulation::MarkerSceneOptions marker_options;  ///< for RigSceneKind::markers
-  simulation::RigDrawOptions rig;  ///< how it was drawn
-  simulation::RigRecordingOptions recording;  ///< frames, stream and intensity are set here
-  bool highest_rate = false;                  ///< the highest frame rate that the time slots allow
+  simulation::RigDrawOptions rig;                 ///< how it was drawn
+  simulation::RigRecordingOptions recording;      ///< frames, stream and intensity are set here
+  bool highest_rate = false;                      ///< the highest frame rate that the time slots allow
   double duration_s = 0.0;  ///< 0: tree 1 s, wheel 2.2 s, sign 4 s, markers as long as they are
   /// Intensity of an LED by name; an empty name means all of them.
   std::vector<std::pair<std::string, double>> intensity;

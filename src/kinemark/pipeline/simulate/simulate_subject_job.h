@@ -12,8 +12,8 @@ namespace kinemark::pipeline {
 
 /// What `kinemark simulate subject` is asked to do.
 struct SimulateSubjectJob : JobSettings {
-  std::filesystem::path folder;  ///< made when absent
-  std::filesystem::path model;   ///< empty: kinemark's own human
+  std::filesystem::path folder;        ///< made when absent
+  std::filesystem::path model;         ///< empty: kinemark's own human
   simulation::SubjectOptions options;  ///< of the subject and its motion
 };
 
