@@ -37,8 +37,8 @@ void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome
   for (const auto& finding : report::clean_findings(report))
     say(globals,
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
-  for (const auto& note : outcome.notes) say(globals, fmt::format("note: {}", note));
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  for (const auto& note : outcome.warnings) say(globals, fmt::format("note: {}", note));
+  say_written(globals, outcome);
   if (globals.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
 }
 
@@ -65,14 +65,11 @@ int run_command(const Globals& globals, CleanArguments& arguments) {
   job.gaps.max_sd_m = 1e-3 * arguments.max_gap_sd_mm;
   job.gaps.noise_sd_m = job.filter.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.filter.correct_cutoff = !arguments.uncorrected;
-  job.threads = globals.threads;
-  job.seed = globals.seed;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  const auto outcome = pipeline::run_clean(job, show_progress(globals, "markers"));
+  settle(globals, "markers", job);
+  const auto outcome = pipeline::run_clean(job);
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
-  return 0;
+  return outcome->exit_status();
 }
 
 }  // namespace

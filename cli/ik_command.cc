@@ -48,17 +48,18 @@ struct IkArguments {
 
 int run_command(const Globals& globals, IkArguments& arguments) {
   auto& job = arguments.job;
-  if (auto status = apply(globals, arguments.motion, job); !status) return report_error(status.error());
+  if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   for (const auto& text : arguments.coordinate_weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return report_error(weight.error());
     job.options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
   }
   job.options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
-  const auto outcome = pipeline::run_ik(job, show_progress(globals, "frames"));
+  settle(globals, "frames", job);
+  const auto outcome = pipeline::run_ik(job);
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
-  return outcome->exit_status;
+  return outcome->exit_status();
 }
 
 }  // namespace

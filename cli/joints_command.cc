@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/joints/joints_job.h"
+#include "kinemark/pipeline/joints/joints_json.h"
 
 namespace kinemark::cli {
 namespace {
@@ -32,11 +32,8 @@ int run_command(const Globals& globals, JointsArguments& arguments) {
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.continuity = !arguments.no_continuity;
-  job.threads = globals.threads;
-  job.seed = globals.seed;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  const auto outcome = pipeline::run_joints(job, show_progress(globals, "frames"));
+  settle(globals, "frames", job);
+  const auto outcome = pipeline::run_joints(job);
   if (!outcome) return report_error(outcome.error());
   const auto& skeleton = outcome->skeleton;
   say(globals, fmt::format("{} frames at {:g} Hz, {} segments, {} joints; marker noise {:.2f} mm per axis.",
@@ -44,10 +41,10 @@ int run_command(const Globals& globals, JointsArguments& arguments) {
                            skeleton.joints.size(), 1e3 * skeleton.noise_sd_m));
   for (const auto& line : pipeline::skeleton_words(skeleton)) say(globals, line);
   for (const auto& warning : skeleton.warnings) say(globals, "attention: " + warning);
-  for (const auto& note : outcome->notes) say(globals, "note: " + note);
-  for (const auto& path : outcome->written) say(globals, fmt::format("wrote {}", path.string()));
-  if (globals.json) fmt::print("{}\n", outcome->json.dump(2));
-  return outcome->exit_status;
+  for (const auto& note : outcome->warnings) say(globals, "note: " + note);
+  say_written(globals, *outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::joints_json(job, *outcome).dump(2));
+  return outcome->exit_status();
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ void print_motion(const Globals& globals, const pipeline::MotionOutcome& outcome
     if (note && notice.about == "coordinate") continue;
     say(globals, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  say_written(globals, outcome);
   if (globals.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
 }
 

@@ -71,7 +71,7 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
 
 /// Copy the command line's arguments to the job.
 template <class Job>
-[[nodiscard]] Status apply(const Globals& globals, const MotionArguments& a, Job& job) {
+[[nodiscard]] Status apply(const MotionArguments& a, Job& job) {
   for (const auto& text : a.weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return std::unexpected(weight.error());
@@ -86,12 +86,8 @@ template <class Job>
   job.options.marker_noise_sd_m = 1e-3 * a.noise_mm;
   job.options.limits = !a.no_limits;
   job.options.error_bars = !a.no_error_bars;
-  job.options.threads = globals.threads;
-  job.options.seed = globals.seed;
   job.max_rms_m = 1e-3 * a.max_rms_mm;
   job.max_offset_m = 1e-3 * a.max_offset_mm;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
   return {};
 }
 

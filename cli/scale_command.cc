@@ -5,7 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/core/text.h"
-#include "kinemark/pipeline/scale/scale_job.h"
+#include "kinemark/pipeline/scale/scale_json.h"
 
 namespace kinemark::cli {
 namespace {
@@ -30,7 +30,8 @@ void print_adapted(const Globals& globals, const motion::AdaptResult& result, co
   for (const auto& sentence : result.recommendations) say(globals, fmt::format("attention: {}", sentence));
 }
 
-void print_outcome(const Globals& globals, const pipeline::ScaleOutcome& outcome) {
+void print_outcome(const Globals& globals, const pipeline::ScaleJob& job,
+                   const pipeline::ScaleOutcome& outcome) {
   if (!outcome.clavicles.empty()) say(globals, fmt::format("Set free: {}.", join(outcome.clavicles)));
   if (outcome.scaled)
     for (const auto& m : outcome.scaled->measurements)
@@ -40,9 +41,9 @@ void print_outcome(const Globals& globals, const pipeline::ScaleOutcome& outcome
     say(globals, fmt::format("{} markers placed; the pose fitted the model's markers to {:.1f} mm RMS.",
                              outcome.placed->markers.size(), 1e3 * outcome.placed->rms_m));
   if (outcome.from_motion) print_adapted(globals, *outcome.from_motion, "Motion");
-  for (const auto& note : outcome.notes) say(globals, fmt::format("attention: {}", note));
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
-  if (globals.json) fmt::print("{}\n", outcome.report);
+  for (const auto& note : outcome.warnings) say(globals, fmt::format("attention: {}", note));
+  say_written(globals, outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::scale_json(job, outcome).dump(2));
 }
 
 struct ScaleArguments {
@@ -55,17 +56,14 @@ int run_command(const Globals& globals, ScaleArguments& arguments) {
   auto& job = arguments.job;
   job.adapt.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
   job.adapt.soft_tissue = !arguments.no_soft_tissue;
-  job.adapt.threads = globals.threads;
-  job.adapt.ik.seed = globals.seed;
   job.place_prior_sd_m = 1e-3 * arguments.place_prior_mm;
   job.size_prior_sd = 1e-2 * arguments.size_prior_percent;
   job.max_rms_m = 1e-3 * arguments.max_rms_mm;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  const auto outcome = pipeline::run_scale(job, show_progress(globals, "steps"));
+  settle(globals, "steps", job);
+  const auto outcome = pipeline::run_scale(job);
   if (!outcome) return report_error(outcome.error());
-  print_outcome(globals, *outcome);
-  return outcome->exit_status;
+  print_outcome(globals, job, *outcome);
+  return outcome->exit_status();
 }
 
 }  // namespace

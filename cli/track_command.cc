@@ -88,12 +88,13 @@ void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome
 
 int run_command(const Globals& globals, const TrackArguments& arguments) {
   pipeline::TrackJob job = arguments.job;
-  if (auto status = apply(globals, arguments.motion, job); !status) return report_error(status.error());
+  if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   if (auto status = apply(arguments, job); !status) return report_error(status.error());
-  const auto outcome = pipeline::run_track(job, show_progress(globals, "frames"));
+  settle(globals, "frames", job);
+  const auto outcome = pipeline::run_track(job);
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
-  return outcome->exit_status;
+  return outcome->exit_status();
 }
 
 }  // namespace

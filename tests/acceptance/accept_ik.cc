@@ -241,9 +241,9 @@ void arm(const fs::path& data) {
   std::string sentence;
   for (const auto& gate : twin.summary.run.gates)
     if (!gate.passed && gate.name == "mean_marker_offset") sentence = gate.sentence;
-  print_row(twin.exit_status == 1 && sentence.find("0.800 m") != std::string::npos,
+  print_row(twin.exit_status() == 1 && sentence.find("0.800 m") != std::string::npos,
             "opensim-arm26, the twin 800 mm too low", "exit status 1 and a sentence naming 0.8 m",
-            fmt::format("status {}: {}", twin.exit_status, sentence));
+            fmt::format("status {}: {}", twin.exit_status(), sentence));
 }
 
 /// accept_motion ik [CASE...]: all cases, or those named.

@@ -34,7 +34,7 @@ int run_check(int argc, char** argv) {
     if (row.limit) measured += fmt::format(", bound {:.4g}", *row.limit);
     if (row.classic) measured += fmt::format(", classic {:.4g}", *row.classic);
     if (row.paper) measured += fmt::format(", paper {:.4g}", *row.paper);
-    if (asked.empty())  // shares of a single seed: nothing is asked of them, so nothing passes
+    if (asked.empty())  // shares of a single seed have no bound, so none passes
       testing_support::print_note(row.quantity, measured + " " + row.unit);
     else
       testing_support::print_row(row.pass(), row.quantity, asked + row.unit, measured);

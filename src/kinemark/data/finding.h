@@ -16,7 +16,7 @@ namespace kinemark::data {
 
 /// What was noticed. In brackets: what `size` is of it.
 enum class FindingKind : std::uint8_t {
-  zero,              ///< a marker exactly at (0, 0, 0): an exporter's way to write "not seen" [none]
+  zero,              ///< a marker exactly at (0, 0, 0): written by exporters for "not seen" [none]
   stuck,             ///< a marker holds its last value while others move [none]
   duplicated_frame,  ///< all markers repeat the frame before [none]
   clock_jump,        ///< frames are missing or repeated in time [frames]

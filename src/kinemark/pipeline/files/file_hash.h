@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
 
 namespace kinemark::pipeline {
 
@@ -18,5 +19,10 @@ struct FileHash {
 
 /// Size and checksum of a file, read once in blocks.
 [[nodiscard]] Result<FileHash> hash_file(const std::filesystem::path& path);
+
+/// The same as a run's record has it.
+/// @param role  "markers", "model", "setup", ...
+[[nodiscard]] Result<data::InputFile> record_input(const std::string& role,
+                                                   const std::filesystem::path& path);
 
 }  // namespace kinemark::pipeline

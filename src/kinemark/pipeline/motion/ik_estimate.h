@@ -3,7 +3,6 @@
 // What `kinemark ik` computes: coordinates by the estimator that the job names, torques when asked.
 #pragma once
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
 #include "kinemark/data/image_tracks.h"
 #include "kinemark/data/trajectories.h"
@@ -24,7 +23,6 @@ struct MotionEstimate {
 /// file. With images the smoother fits these, started from the markers; least squares cannot use images.
 [[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
                                                      const data::Trajectories& markers,
-                                                     const Progress& progress,
                                                      const data::ImageTracks* images = nullptr);
 
 }  // namespace kinemark::pipeline

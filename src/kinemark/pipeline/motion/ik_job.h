@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/motion/ik.h"
 
@@ -31,7 +30,8 @@ struct IkOutcome : MotionOutcome {
   motion::IkResult result;  ///< motion and fit
 };
 
-/// Read, solve, check and write. Either all files appear or, on a failure, none.
-[[nodiscard]] Result<IkOutcome> run_ik(IkJob job, const Progress& progress = {});
+/// Read, solve, judge and write. Either all files appear or, on a failure, none. Threads and seed of the
+/// options are the job's. Progress counts frames.
+[[nodiscard]] Result<IkOutcome> run_ik(IkJob job);
 
 }  // namespace kinemark::pipeline

@@ -5,16 +5,15 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/motion/image_files.h"
 #include "kinemark/stages/report/ik_summary.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark ik` and `track` are asked alike.
-struct MotionJob {
+struct MotionJob : JobSettings {
   std::filesystem::path model, markers;  ///< .osim; and any marker file
   std::filesystem::path output;          ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
@@ -22,18 +21,11 @@ struct MotionJob {
   double rate_hz = 0.0;          ///< for a marker file that stores none (.v3d); 0: not given
   double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;    ///< quality gate: length of the mean distance vector
-  bool force = false;            ///< replace files that exist
-  std::string command_line;      ///< for the provenance record
 };
 
 /// What `kinemark ik` and `track` answer alike.
-struct MotionOutcome {
-  report::IkSummary summary;                   ///< gates and findings included
-  std::vector<std::filesystem::path> written;  ///< all files, in order
-  int exit_status = 0;                         ///< 0, or 1 when a gate failed
+struct MotionOutcome : JobOutcome {
+  report::IkSummary summary;  ///< findings included
 };
-
-/// Files that go beside Q.mot: "Q_sd.sto" and so on.
-[[nodiscard]] std::filesystem::path beside(const std::filesystem::path& output, const std::string& suffix);
 
 }  // namespace kinemark::pipeline

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kinemark/core/progress.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/motion/control/track.h"
 
@@ -19,7 +18,8 @@ struct TrackOutcome : MotionOutcome {
   motion::TrackResult result;  ///< motion and fit
 };
 
-/// Read, track, check and write. Either all files appear or, on a failure, none.
-[[nodiscard]] Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress = {});
+/// Read, track, judge and write. Either all files appear or, on a failure, none. Threads and seed of the
+/// options are the job's. Progress counts frames.
+[[nodiscard]] Result<TrackOutcome> run_track(TrackJob job);
 
 }  // namespace kinemark::pipeline

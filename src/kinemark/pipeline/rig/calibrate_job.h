@@ -2,19 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/stages/calibration/alignment.h"
 #include "kinemark/stages/calibration/bundle.h"
 
 namespace kinemark::pipeline {
 
-/// Inputs and options of `kinemark calibrate`.
-struct CalibrateJob {
-  /// How the rig is calibrated.
+/// What `kinemark calibrate` is asked to do.
+struct CalibrateJob : JobSettings {
   enum class Method : std::uint8_t { bundle, grid_lut, scan };
 
   /// Recordings of known things. The metadata entry "calibration" of each gives its kind: "tree"
@@ -25,15 +27,24 @@ struct CalibrateJob {
   std::filesystem::path output;       ///< rig.toml to write
   Method method = Method::bundle;     ///< how the rig is calibrated
   calibration::BundleOptions bundle;  ///< for Method::bundle
-  std::vector<double> sides_m;        ///< of the tree; empty: as stored in the recording
-  int frames_per_pose = 0;            ///< 0: as stored in the recording
-  bool align_only = false;  ///< report the deviation of the cameras from the nominal rig; write nothing
-  bool force = false;       ///< replace a file that exists
+  std::vector<double> sides_m;        ///< of the tree; empty: as the recording says
+  int frames_per_pose = 0;            ///< 0: as the recording says
+  bool align_only = false;            ///< tell how far the cameras stand from the nominal rig; write nothing
 };
 
-/// Calibrate and write the rig. Returns what was found: method, written, warnings, and by bundle and scan
-/// chi2_per_dof, warp_degree, crosstalk, iterations, poses, sightings, outliers, side_rms_mm, alignment.
-[[nodiscard]] Result<nlohmann::ordered_json> calibrate_rig_file(const CalibrateJob& job,
-                                                                const Progress& progress = {});
+[[nodiscard]] std::string_view to_string(CalibrateJob::Method method);  ///< "bundle", "grid-lut", "scan"
+
+struct CalibrateOutcome : JobOutcome {
+  CalibrateJob::Method method = CalibrateJob::Method::bundle;
+  std::optional<calibration::BundleReport>
+      bundle;  ///< by bundle and scan, unless only the alignment is asked
+  std::optional<calibration::Alignment> alignment;  ///< against the nominal rig, by bundle and scan
+};
+
+/// Calibrate and write the rig. A model of the cameras that the recordings contradict misses the gate
+/// "chi2_per_dof", whose sentence says why: then nothing is written. Fails as the readers and the stages of
+/// calibration/, and with Code::usage when a recording that the method needs is not among the inputs.
+/// Progress counts steps.
+[[nodiscard]] Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job);
 
 }  // namespace kinemark::pipeline

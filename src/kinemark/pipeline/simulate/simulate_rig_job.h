@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/simulation/rig_markers.h"
 #include "kinemark/stages/simulation/rig_physics.h"
 #include "kinemark/stages/simulation/rig_recording.h"
@@ -23,7 +23,7 @@ enum class RigSceneKind : std::uint8_t { tree, wheel, sign, markers };
 [[nodiscard]] Result<RigSceneKind> parse_rig_scene(std::string_view name);  ///< "tree", "wheel", ...
 
 /// What `kinemark simulate rig` is asked to do.
-struct RigJob {
+struct SimulateRigJob : JobSettings {
   std::filesystem::path folder;                   ///< made when absent
   RigSceneKind scene = RigSceneKind::sign;        ///< what moves
   int tree_pose = 0;                              ///< 0 to 9
@@ -39,19 +39,15 @@ struct RigJob {
   /// More occlusions: "LED:CAMERA:FIRST-LAST", frames from 0; LED or camera may be "all".
   std::vector<std::string> occlusions;
   bool grid = false, tree_poses = false, scan = false;  ///< also record these for calibration
-  bool force = false;                                   ///< replace files that exist
 };
 
-/// What `kinemark simulate rig` wrote.
-struct RigJobOutcome {
-  std::vector<std::filesystem::path> written;  ///< all files, in order
-  std::vector<std::string> notes;              ///< rate and time in use; LEDs beside the sheet or too bright
-};
+/// Warnings: rate and time in use; LEDs beside the sheet or too bright.
+struct SimulateRigOutcome : JobOutcome {};
 
 /// Write recording.mcap (counts), truth.trc (LEDs at the time of each frame, world of the rig),
 /// truth_derivatives.sto (m/s, m/s^2), rig_true.toml, rig_nominal.toml and, where asked for, grid_A.mcap,
-/// grid_B.mcap, tree_poses.mcap and scan.mcap. Either all files appear or none, nor the folder.
-/// `progress` counts files.
-[[nodiscard]] Result<RigJobOutcome> simulate_rig(const RigJob& job, const Progress& progress = {});
+/// grid_B.mcap, tree_poses.mcap and scan.mcap. Either all files appear or none, nor the folder. The seed
+/// draws the rig and its noise. Progress counts files.
+[[nodiscard]] Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job);
 
 }  // namespace kinemark::pipeline

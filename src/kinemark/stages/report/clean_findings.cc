@@ -192,7 +192,7 @@ std::vector<Notice> clean_findings(const CleanReport& report) {
   add_open_gaps(report, out);
   add_filters(report, out);
   for (const std::string& warning : report.run.warnings) add(out, Verdict::good, "warning", "", warning);
-  // In order, but what is serious before what is not.
+  // Stable order, serious findings first.
   std::vector<Notice> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
     std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Notice& f) { return f.level == level; });

@@ -7,30 +7,14 @@
 #include <string>
 #include <string_view>
 
-#include "kinemark/core/result.h"
-
 #include "kinemark/core/missing.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
 
 namespace kinemark::report {
 
-/// A file that the result depends on.
-struct InputFile {
-  std::string role;        ///< "model", "markers", "tasks", ...
-  std::string path;        ///< as the user gave it
-  std::int64_t bytes = 0;  ///< size
-  std::string hash;        ///< hexadecimal digits, lower case
-  std::string hash_kind;   ///< "XXH3-64"
-};
-
-/// A quality bound that the run had to meet.
-struct Gate {
-  std::string name;      ///< "marker_rms"
-  bool passed = true;    ///< false: the run ends with exit status 1
-  double value = 0.0;    ///< what was reached, in `unit`
-  double bound = 0.0;    ///< what was asked, in `unit`
-  std::string unit;      ///< "mm", "%", ...
-  std::string sentence;  ///< for people: what was compared and what to do when it failed
-};
+using data::Gate;
+using data::InputFile;
 
 /// What a report says in a word.
 enum class Verdict : std::uint8_t { good, attention };

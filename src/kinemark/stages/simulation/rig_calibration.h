@@ -85,7 +85,7 @@ struct ScanOptions {
 struct ScanRecording {
   data::Counts counts;          ///< places x frames_per_place frames, one LED
   int frames_per_place = 0;     ///< at each place
-  Eigen::Matrix3Xd x_in_stage;  ///< where the stage says it was, m
+  Eigen::Matrix3Xd x_in_stage;  ///< position reported by the stage, m
   Eigen::Matrix3Xd x_in_world;  ///< truth, m
   math::SE3 world_from_stage;   ///< truth
 };

@@ -40,7 +40,7 @@ struct RoomLight {
 /// A rig with all effects on its counts.
 struct PhysicalRig {
   data::Rig rig;                ///< the truth; offsets without stray light
-  data::Rig nominal;            ///< what the operator believes: drawings, and poses set by hand
+  data::Rig nominal;            ///< the operator's nominal values: drawings, and poses set by hand
   RigLight light;               ///< LED, lens and distance
   std::vector<RoomLight> room;  ///< per camera
   std::uint64_t seed = 1;       ///< of everything that was drawn

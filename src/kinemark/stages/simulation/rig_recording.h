@@ -20,10 +20,10 @@ inline constexpr int kMostLeds = 8;  ///< that the rig can drive
 
 /// Options of record().
 struct RigRecordingOptions {
-  double rate_hz = 100.0;         ///< frames per second; at most what the slots of all LEDs leave room for
-  std::int64_t frames = 400;      ///< at least 1; frames times LEDs at most 10 million
-  double t0_s = 0.0;              ///< time of frame 0
-  std::vector<double> intensity;  ///< per LED, >= 0; empty: 1. Half the light: 0.5
+  double rate_hz = 100.0;              ///< frames per second; limited by the time slots of all LEDs
+  std::int64_t frames = 400;           ///< at least 1; frames times LEDs at most 10 million
+  double t0_s = 0.0;                   ///< time of frame 0
+  std::vector<double> intensity;       ///< per LED, >= 0; empty: 1. Half the light: 0.5
   std::uint64_t seed = 1, stream = 0;  ///< of the noise
   bool noise = true;  ///< of amplifier and converter; flicker, stray light and rounding are always there
   int threads = 1;    ///< 0: all cores. Any number gives the same bits

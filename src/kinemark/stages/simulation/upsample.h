@@ -16,7 +16,8 @@ enum class Upsampling : std::uint8_t { linear, cubic };
 struct UpsampleOptions {
   int factor = 4;                       ///< 1 to 100; 4 makes 240 Hz of 60
   Upsampling how = Upsampling::linear;  ///< straight lines or cubics between samples
-  /// Samples that were made are called `upsampled`; without it `measured`, as a stream that tells nothing.
+  /// Interpolated samples get the state `upsampled`; without it `measured`, as in a stream without
+  /// provenance.
   bool tell = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a MotionJob that do not depend on the estimator: read, name the files, report, write.
+// The steps of a MotionJob that do not depend on how the motion is found: read, name the files, judge, write.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/data/image_tracks.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/marker_fit.h"
-#include "kinemark/data/table.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/pipeline/motion/torques.h"
 
@@ -26,6 +24,7 @@ struct MotionInputs {
   model::Model model;
   data::Trial trial;
   std::optional<data::ImageTracks> images;  ///< at the frames of the trial
+  std::vector<data::InputFile> files;       ///< all that were read, for the record
 };
 
 /// Model, markers and output are named, images as they must be. `or_else` ends the advice: " or a --setup
@@ -33,9 +32,9 @@ struct MotionInputs {
 [[nodiscard]] Status check_named(const MotionJob& job, std::string_view or_else = "");
 [[nodiscard]] Result<MotionInputs> read_inputs(const MotionJob& job);
 
-/// The record of a run before anything is solved, with the hashes of model and markers.
-[[nodiscard]] Result<report::IkRun> begin_run(const MotionJob& job, const MotionInputs& inputs);
-/// Files of forces, and the report on the torques.
+/// What is known of a run before anything is solved.
+[[nodiscard]] report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs);
+/// Files of forces, and what there is to tell of the torques.
 [[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);
 /// No value when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
@@ -54,18 +53,15 @@ void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m,
 /// The job's output, files beside it by their suffixes, and further ones: refused where they exist.
 [[nodiscard]] Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,
                                     const std::vector<std::filesystem::path>& further = {});
-/// Write the file that commit() moves to `target`, one of the staging's targets.
-[[nodiscard]] Status put(const Staging& staging, const std::filesystem::path& target,
-                         const data::Table& table);
-[[nodiscard]] Status put(const Staging& staging, const std::filesystem::path& target,
-                         const std::string& text);
-/// Summarise the run and write all tables of the motion and Q_report.json to their staged paths. @param
-/// markers  as for report::summarize()
-[[nodiscard]] Status write_motion(const MotionJob& job, const Staging& staging, report::IkRun run,
-                                  const data::JointMotion& motion, const data::Trajectories* markers,
-                                  MotionOutcome& outcome);
-/// Commit the staged files, unless the caller cancels `what` at the last moment.
-[[nodiscard]] Status reveal(Staging& staging, const Progress& progress, std::string_view what,
-                            MotionOutcome& outcome);
+/// Summary, gates and warnings of the outcome. @param markers  as for report::summarize()
+[[nodiscard]] Status judge(report::IkRun run, const data::JointMotion& motion,
+                           const data::Trajectories* markers, MotionOutcome& outcome);
+/// A table for each thing that the motion holds, and Q_report.json. All three must live until they are
+/// written.
+[[nodiscard]] std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
+                                                   const report::IkSummary& summary);
+/// Write the files and let them appear, unless the caller stops `what` in the last moment.
+[[nodiscard]] Status write(const MotionJob& job, Staging& staging, const std::vector<ResultFile>& files,
+                           std::string_view what, MotionOutcome& outcome);
 
 }  // namespace kinemark::pipeline::internal

@@ -31,7 +31,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using internal::Problem;
 
-constexpr double kLargestStateSd = 0.5;  // rad or m; beyond it a linear error bar says nothing
+constexpr double kLargestStateSd = 0.5;  // rad or m; beyond it a linear error bar is not valid
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -14,7 +14,6 @@ namespace kinemark::skeleton::internal {
 namespace {
 
 using data::CentreState;
-using testing_limbs::hide;
 using testing_limbs::make_random_chain;
 using testing_limbs::random_rotation;
 using testing_limbs::RandomChain;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/file_facts.h"
+#include "kinemark/pipeline/files/info_json.h"
 
 #include <gmock/gmock.h>
 
@@ -14,11 +14,18 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(DescribeFile, MarkersTablesAndModels) {
+Result<nlohmann::ordered_json> facts_of(const std::filesystem::path& file, double rate_hz = 0.0) {
+  InfoJob job;
+  job.file = file;
+  job.rate_hz = rate_hz;
+  return run_info(job).transform(info_json);
+}
+
+TEST(RunInfo, MarkersTablesAndModels) {
   const testing_support::ScratchFolder scratch;
   testing::simulate_into(scratch / "in");
   const auto markers = io::read_markers(scratch / "in/markers.c3d").value().markers;
-  const auto facts = describe_file(scratch / "in/markers.c3d").value();
+  const auto facts = facts_of(scratch / "in/markers.c3d").value();
   EXPECT_EQ(facts["kind"], "markers");
   EXPECT_EQ(facts["points"], markers.markers());
   EXPECT_EQ(facts["frames"], markers.frames());
@@ -28,13 +35,13 @@ TEST(DescribeFile, MarkersTablesAndModels) {
   EXPECT_EQ(facts["labels"].size(), markers.names.size());
   EXPECT_EQ(facts["analog_channels"], 0);
 
-  const auto table = describe_file(scratch / "in/truth.mot").value();
+  const auto table = facts_of(scratch / "in/truth.mot").value();
   EXPECT_EQ(table["kind"], "table");
   EXPECT_EQ(table["rows"], markers.frames());
   EXPECT_EQ(table["in_degrees"], true);
   EXPECT_NEAR(table["last_time_s"].get<double>(), markers.time.time_s(markers.frames() - 1), 1e-9);
 
-  const auto model = describe_file(scratch / "in/model.osim").value();
+  const auto model = facts_of(scratch / "in/model.osim").value();
   EXPECT_EQ(model["kind"], "model");
   EXPECT_GE(model["joints"], 25);
   EXPECT_EQ(model["coordinates"], 40);
@@ -42,41 +49,42 @@ TEST(DescribeFile, MarkersTablesAndModels) {
   EXPECT_NEAR(model["mass_kg"].get<double>(), 75.0, 25.0);
 }
 
-TEST(DescribeFile, AnEmptyTableHasNoTimes) {
+TEST(RunInfo, AnEmptyTableHasNoTimes) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "none.sto",
                              "none\nversion=1\nnRows=0\nnColumns=2\ninDegrees=no\nendheader\ntime\ta\n",
                              false));
-  const auto facts = describe_file(scratch / "none.sto").value();
+  const auto facts = facts_of(scratch / "none.sto").value();
   EXPECT_EQ(facts["rows"], 0);
   EXPECT_TRUE(facts["first_time_s"].is_null());
   EXPECT_TRUE(facts["last_time_s"].is_null());
 }
 
-TEST(DescribeFile, SaysWhatIsWrongWithAFile) {
+TEST(RunInfo, SaysWhatIsWrongWithAFile) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "a.v3d",
                              "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
                              "ITEM\tX\tY\tZ\n1\t1\t2\t3\n",
                              false));
-  EXPECT_TRUE(describe_file(scratch / "a.v3d").value()["rate_hz"].is_null()) << "the file tells none";
-  EXPECT_EQ(describe_file(scratch / "a.v3d", 179.0).value()["rate_hz"], 179.0);
-  EXPECT_EQ(describe_file(scratch / "absent.c3d").error().code, Code::io);
+  EXPECT_TRUE(facts_of(scratch / "a.v3d").value()["rate_hz"].is_null()) << "the file tells none";
+  EXPECT_EQ(facts_of(scratch / "a.v3d", 179.0).value()["rate_hz"], 179.0);
+  EXPECT_EQ(facts_of(scratch / "absent.c3d").error().code, Code::io);
   ASSERT_TRUE(io::write_text(scratch / "broken.osim", "<OpenSimDocument", false));
-  EXPECT_EQ(describe_file(scratch / "broken.osim").error().code, Code::bad_input);
+  EXPECT_EQ(facts_of(scratch / "broken.osim").error().code, Code::bad_input);
   ASSERT_TRUE(io::write_text(scratch / "notes.docx", "hello", false));
-  EXPECT_EQ(describe_file(scratch / "notes.docx").error().code, Code::not_supported);
+  EXPECT_EQ(facts_of(scratch / "notes.docx").error().code, Code::not_supported);
 }
 
-TEST(FactsText, OneFactALineAndEveryWarning) {
-  const nlohmann::ordered_json facts = {{"kind", "markers"},
-                                        {"points", 3},
-                                        {"labels", {"A", "B"}},
-                                        {"warnings", {"first oddity", "second oddity"}}};
-  const auto text = facts_text(facts);
+TEST(InfoText, OneFactALineAndEveryWarning) {
+  InfoOutcome outcome;
+  outcome.file = "a.c3d";
+  outcome.facts = MarkerFileFacts{.points = 3, .labels = {"A", "B"}};
+  outcome.warnings = {"first oddity", "second oddity"};
+  const auto text = info_text(outcome);
   EXPECT_THAT(text, HasSubstr("kind              markers\n"));
   EXPECT_THAT(text, HasSubstr("points            3\n"));
   EXPECT_THAT(text, HasSubstr("labels            A B\n"));
+  EXPECT_THAT(text, HasSubstr("rate_hz           null\n")) << "not known";
   EXPECT_THAT(text, HasSubstr("warning           first oddity\nwarning           second oddity\n"));
 }
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/scale/scale_report.h"
-
-#include <nlohmann/json.hpp>
+#include "kinemark/pipeline/scale/scale_json.h"
 
 #include "kinemark/core/version.h"
 
@@ -63,7 +61,7 @@ ordered_json adapted(const motion::AdaptResult& result) {
 
 }  // namespace
 
-std::string scale_report(const ScaleJob& job, const ScaleOutcome& outcome) {
+ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
   ordered_json factors = ordered_json::object();
   double mass = 0.0;
   for (const auto& body : outcome.factors) factors[body.body] = numbers(body.factors);
@@ -74,8 +72,8 @@ std::string scale_report(const ScaleJob& job, const ScaleOutcome& outcome) {
                       {"command", job.command_line},
                       {"model", outcome.model.name},
                       {"mass_kg", mass},
-                      {"exit_status", outcome.exit_status},
-                      {"notes", outcome.notes},
+                      {"exit_status", outcome.exit_status()},
+                      {"notes", outcome.warnings},
                       {"clavicles", outcome.clavicles},
                       {"factors", std::move(factors)}};
   if (outcome.scaled) report["measurements"] = measurements(*outcome.scaled);
@@ -93,7 +91,7 @@ std::string scale_report(const ScaleJob& job, const ScaleOutcome& outcome) {
   }
   if (outcome.from_static) report["static"] = adapted(*outcome.from_static);
   if (outcome.from_motion) report["motion"] = adapted(*outcome.from_motion);
-  return report.dump(2);
+  return report;
 }
 
 }  // namespace kinemark::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/simulate/simulate_job.h"
+#include "kinemark/pipeline/simulate/simulate_subject_job.h"
 
 #include <gmock/gmock.h>
 
@@ -58,22 +58,23 @@ TEST(SimulateSubject, RefusesToReplaceAndLeavesNoNewFolderBehind) {
   const testing_support::ScratchFolder scratch;
   fs::create_directories(scratch / "full");
   ASSERT_TRUE(io::write_text(scratch / "full/truth.mot", "mine", false));
-  SubjectJob job;
+  SimulateSubjectJob job;
   job.folder = scratch / "full";
-  EXPECT_THAT(simulate_subject(job).error().message, HasSubstr("exists already"));
+  EXPECT_THAT(run_simulate_subject(job).error().message, HasSubstr("exists already"));
   EXPECT_EQ(io::read_text(scratch / "full/truth.mot").value(), "mine");
   job.folder = scratch / "new" / "deeper";
   job.options.duration_s = -1.0;
-  EXPECT_FALSE(simulate_subject(job));
+  EXPECT_FALSE(run_simulate_subject(job));
   EXPECT_FALSE(fs::exists(scratch / "new"));
 }
 
 TEST(SimulateSubject, StopsWhenAskedAndKeepsNothing) {
   const testing_support::ScratchFolder scratch;
-  SubjectJob job;
+  SimulateSubjectJob job;
   job.folder = scratch / "half";
   job.options.duration_s = 0.2;
-  const auto stopped = simulate_subject(job, [](std::int64_t done, std::int64_t) { return done < 2; });
+  job.progress = [](std::int64_t done, std::int64_t) { return done < 2; };
+  const auto stopped = run_simulate_subject(job);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Code::cancelled);
   EXPECT_FALSE(fs::exists(scratch / "half"));
@@ -81,10 +82,10 @@ TEST(SimulateSubject, StopsWhenAskedAndKeepsNothing) {
 
 TEST(SimulateSubject, NamesTheModelThatCannotBeUsed) {
   const testing_support::ScratchFolder scratch;
-  SubjectJob job;
+  SimulateSubjectJob job;
   job.folder = scratch / "out";
   job.model = scratch / "none.osim";
-  EXPECT_THAT(simulate_subject(job).error().message, HasSubstr("none.osim"));
+  EXPECT_THAT(run_simulate_subject(job).error().message, HasSubstr("none.osim"));
 }
 
 TEST(HumanModel, IsWholeAndHasAPlausibleBody) {
