@@ -10,11 +10,11 @@ namespace kinemark::data {
 
 /// A file that a result depends on.
 struct InputFile {
-  std::string role;  ///< "model", "markers", "tasks", ...
-  std::string path;  ///< as the user gave it
-  std::int64_t bytes = 0;
-  std::string hash;       ///< hexadecimal digits, lower case
-  std::string hash_kind;  ///< "XXH3-64"
+  std::string role;        ///< "model", "markers", "tasks", ...
+  std::string path;        ///< as the user gave it
+  std::int64_t bytes = 0;  ///< size
+  std::string hash;        ///< hexadecimal digits, lower case
+  std::string hash_kind;   ///< "XXH3-64"
 };
 
 /// A quality bound that a run had to meet.

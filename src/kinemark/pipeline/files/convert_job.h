@@ -11,7 +11,7 @@ namespace kinemark::pipeline {
 
 /// What `kinemark convert` is asked to do.
 struct ConvertJob : JobSettings {
-  std::filesystem::path in;
+  std::filesystem::path in;   ///< file to convert
   std::filesystem::path out;  ///< its ending names the format
   double rate_hz = 0.0;       ///< of marker files that tell none (.v3d); 0: not given
 };

@@ -27,16 +27,16 @@ enum class RateRule : std::uint8_t {
 
 /// A marker file to read (.c3d, .trc, .nwb, .csv or .v3d), and what is asked of it.
 struct MarkerSource {
-  std::filesystem::path path;
-  double rate_hz = 0.0;  ///< of a file that tells none (.v3d); 0: not given
-  RateRule rate = RateRule::given;
-  bool needs_samples = false;  ///< refuse a file without markers or without frames
-  bool record = false;         ///< size and checksum, which reads the file once more
+  std::filesystem::path path;       ///< file to read
+  double rate_hz = 0.0;             ///< of a file that tells none (.v3d); 0: not given
+  RateRule rate = RateRule::given;  ///< what becomes of rate_hz
+  bool needs_samples = false;       ///< refuse a file without markers or without frames
+  bool record = false;              ///< size and checksum, which reads the file once more
 };
 
 /// Markers as read, in metres.
 struct MarkerInput {
-  data::Trial trial;
+  data::Trial trial;       ///< as read, m
   data::InputFile file;    ///< role "markers"; bytes and hash only when asked for
   bool rate_known = true;  ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
 };

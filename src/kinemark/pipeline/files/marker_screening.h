@@ -30,12 +30,13 @@ enum class RecorderMade : std::uint8_t {
 /// The choice of that name; the failure lists all names.
 [[nodiscard]] Result<RecorderMade> parse_recorder_made(std::string_view name);
 
+/// What to look for in a recording, and what to do about it.
 struct ScreeningRules {
-  bool find_upsampling = true;
-  RecorderMade recorder_made = RecorderMade::keep;
-  bool find_defects = true;
-  bool reject_defects = false;  ///< those that are sure become `rejected`
-  double sure = 0.8;            ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
+  bool find_upsampling = true;                      ///< look for samples that the recorder made
+  RecorderMade recorder_made = RecorderMade::keep;  ///< what becomes of them
+  bool find_defects = true;                         ///< look for defects
+  bool reject_defects = false;                      ///< those that are sure become `rejected`
+  double sure = 0.8;  ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
   /// Share of all samples. Where sure defects take more, nothing is rejected: a recording that breaks its
   /// paths everywhere has no paths, its frames are poses of their own.
   double most_rejected = std::numeric_limits<double>::infinity();
@@ -43,6 +44,7 @@ struct ScreeningRules {
       false;  ///< look for defects in what is left once the recorder's own samples are dealt with
 };
 
+/// What was noticed in a recording and what was done about it.
 struct Screening {
   std::vector<trajectory::Finding> findings;               ///< all defects
   std::vector<trajectory::Finding> sure;                   ///< those that reject_defects is about

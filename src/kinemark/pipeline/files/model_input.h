@@ -12,7 +12,7 @@ namespace kinemark::pipeline {
 
 /// A body model, ready to be moved.
 struct ModelInput {
-  model::Model model;
+  model::Model model;    ///< compiled
   data::InputFile file;  ///< role "model"
 };
 

@@ -18,12 +18,13 @@ struct RecoverJob : JobSettings {
   std::filesystem::path out;  ///< recording to write
 };
 
+/// What `kinemark recover` kept and what not.
 struct RecoverOutcome : JobOutcome {
-  std::filesystem::path original;
+  std::filesystem::path original;                   ///< as asked
   std::int64_t messages = 0;                        ///< kept
   io::RecordingEnd end = io::RecordingEnd::closed;  ///< of the original
   std::uint64_t bytes_left_out = 0;                 ///< the gate "bytes_left_out": 0
-  std::vector<io::RecordingDamage> damage;
+  std::vector<io::RecordingDamage> damage;          ///< pieces that were left out
 };
 
 /// Write what can be read of a recording as a new closed one; the original is only read. Fails as

@@ -20,15 +20,18 @@ namespace kinemark::pipeline {
 
 /// A file of a result: what it will be called, and how it is written to another path before that.
 struct ResultFile {
-  std::filesystem::path target;
-  std::function<Status(const std::filesystem::path& staged)> write;
+  std::filesystem::path target;  ///< what it will be called
+  std::function<Status(const std::filesystem::path& staged)>
+      write;  ///< called once with the path to write to
 };
 
 /// Text or a table that is made when its turn comes.
 [[nodiscard]] ResultFile text_file(std::filesystem::path target, std::function<std::string()> make);
+/// A table, made when its turn comes.
 [[nodiscard]] ResultFile table_file(std::filesystem::path target, std::function<data::Table()> make);
 /// Markers in the format of the ending, or an .osim. The object must live until the file is written.
 [[nodiscard]] ResultFile marker_file(std::filesystem::path target, const data::Trial& trial);
+/// An .osim. The object must live until the file is written.
 [[nodiscard]] ResultFile model_file(std::filesystem::path target, const data::ModelDescription& model);
 
 /// Write the files and let them appear together. On a failure, which names the target, none appears.

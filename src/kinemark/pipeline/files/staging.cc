@@ -52,7 +52,7 @@ Result<Staging> Staging::create(std::vector<fs::path> targets, bool force) {
 
 Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names,
                                    bool force) {
-  auto made = std::make_unique<internal::NewFolder>(folder);
+  auto made = std::make_unique<NewFolder>(folder);
   if (made->error())
     return fail(Code::io, fmt::format("{}: cannot be made ({})", folder.string(), made->error().message()));
   std::vector<fs::path> targets;

@@ -11,9 +11,7 @@
 
 namespace kinemark::pipeline {
 
-namespace internal {
 class NewFolder;
-}
 
 /// Several files that appear together or not at all: they are written into a hidden folder beside each target
 /// (one per folder) and moved into place by commit(). Without commit() nothing stays.
@@ -33,6 +31,7 @@ class Staging {
   [[nodiscard]] std::filesystem::path path(std::size_t i) const;
   /// Where to write what will become `target`, which must be one of the targets.
   [[nodiscard]] std::filesystem::path path_of(const std::filesystem::path& target) const;
+  /// As given.
   [[nodiscard]] const std::vector<std::filesystem::path>& targets() const { return targets_; }
   /// The targets whose files have been written, in their order; to be asked before commit().
   [[nodiscard]] std::vector<std::filesystem::path> written() const;
@@ -43,7 +42,7 @@ class Staging {
 
  private:
   Staging();
-  std::unique_ptr<internal::NewFolder> made_;                       ///< goes last
+  std::unique_ptr<NewFolder> made_;                                 ///< goes last
   std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< hidden one in each parent folder
   std::vector<std::filesystem::path> targets_;
 };

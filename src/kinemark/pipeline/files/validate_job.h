@@ -14,12 +14,12 @@ namespace kinemark::pipeline {
 
 /// What `kinemark validate` is asked to do.
 struct ValidateJob : JobSettings {
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files;  ///< to look at
 };
 
 /// One file that was looked at.
 struct CheckedFile {
-  std::filesystem::path file;
+  std::filesystem::path file;         ///< as asked
   std::vector<std::string> warnings;  ///< what is odd about it
   std::optional<Error> error;         ///< why it cannot be read
 
@@ -27,6 +27,7 @@ struct CheckedFile {
   [[nodiscard]] int exit_status() const;
 };
 
+/// What `kinemark validate` found.
 struct ValidateOutcome : JobOutcome {
   std::vector<CheckedFile> files;  ///< in the order asked
 

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-namespace kinemark::pipeline::internal {
+namespace kinemark::pipeline {
 
 /// Creates a folder and its parents; those that were created are removed again if they stay empty.
 class NewFolder {
@@ -32,4 +32,4 @@ class NewFolder {
   std::error_code error_;
 };
 
-}  // namespace kinemark::pipeline::internal
+}  // namespace kinemark::pipeline

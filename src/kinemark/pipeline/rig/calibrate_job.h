@@ -17,6 +17,7 @@ namespace kinemark::pipeline {
 
 /// What `kinemark calibrate` is asked to do.
 struct CalibrateJob : JobSettings {
+  /// How points come from counts.
   enum class Method : std::uint8_t { bundle, grid_lut, scan };
 
   /// Recordings of known things. The metadata entry "calibration" of each gives its kind: "tree"
@@ -34,8 +35,9 @@ struct CalibrateJob : JobSettings {
 
 [[nodiscard]] std::string_view to_string(CalibrateJob::Method method);  ///< "bundle", "grid-lut", "scan"
 
+/// What `kinemark calibrate` found.
 struct CalibrateOutcome : JobOutcome {
-  CalibrateJob::Method method = CalibrateJob::Method::bundle;
+  CalibrateJob::Method method = CalibrateJob::Method::bundle;  ///< as asked
   std::optional<calibration::BundleReport>
       bundle;  ///< by bundle and scan, unless only the alignment is asked
   std::optional<calibration::Alignment> alignment;  ///< against the nominal rig, by bundle and scan

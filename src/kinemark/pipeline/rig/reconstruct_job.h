@@ -29,11 +29,12 @@ struct ReconstructJob : JobSettings {
 
 [[nodiscard]] std::string_view to_string(ReconstructJob::Method method);  ///< "smoother", "frames", "classic"
 
+/// What `kinemark reconstruct` made.
 struct ReconstructOutcome : JobOutcome {
-  ReconstructJob::Method method = ReconstructJob::Method::smoother;
-  std::int64_t frames = 0;
-  std::vector<reconstruction::LedSummary> leds;  ///< what became of each LED's frames
-  std::vector<trajectory::LedFit> fits;          ///< how each was smoothed; empty without the smoother
+  ReconstructJob::Method method = ReconstructJob::Method::smoother;  ///< as asked
+  std::int64_t frames = 0;                                           ///< F
+  std::vector<reconstruction::LedSummary> leds;                      ///< what became of each LED's frames
+  std::vector<trajectory::LedFit> fits;  ///< how each was smoothed; empty without the smoother
 };
 
 /// Points of a recording of counts as markers. Fails as the readers, reconstruct() and smooth_counts().
