@@ -77,18 +77,18 @@ TEST_F(ReadMarkerInput, TheRecordHoldsSizeAndChecksum) {
   EXPECT_EQ(input.file.hash_kind, "XXH3-64");
 }
 
-TEST_F(ReadMarkerInput, AnEmptyRecordingIsRefusedWhereSamplesAreNeeded) {
-  ASSERT_TRUE(io::write_text(v3d_,
-                             "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
-                             "ITEM\tX\tY\tZ\n",
-                             true));
-  const auto as_it_is = read_marker_input({.path = v3d_, .rate_hz = 100.0});
-  if (!as_it_is) GTEST_SKIP() << "the reader refuses it already: " << as_it_is.error().message;
-  const auto refused = read_marker_input({.path = v3d_, .rate_hz = 100.0, .needs_samples = true});
+TEST_F(ReadMarkerInput, ARecordingOfAnalogChannelsAloneIsRefusedWhereSamplesAreNeeded) {
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 3});
+  trial.analog = {.names = {"EMG"}, .units = {"V"}, .rate_hz = 100.0, .samples = 3};
+  trial.analog.values.assign(3, 0.5);
+  ASSERT_TRUE(io::write_markers(scratch_ / "emg.c3d", trial, false));
+  ASSERT_TRUE(read_marker_input({.path = scratch_ / "emg.c3d"})) << "info and convert can use it";
+  const auto refused = read_marker_input({.path = scratch_ / "emg.c3d", .needs_samples = true});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::bad_input);
   EXPECT_THAT(refused.error().message,
-              HasSubstr("a.v3d: holds 1 markers and 0 frames; need at least one of each"));
+              HasSubstr("emg.c3d: holds 0 markers and 3 frames; need at least one of each"));
 }
 
 TEST_F(ReadMarkerInput, WhatCannotBeReadIsTheReadersSentence) {
