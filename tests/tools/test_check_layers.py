@@ -118,6 +118,23 @@ class CheckLayers(unittest.TestCase):
             [],
         )
 
+    def test_steps_include_only_those_before_them(self):
+        folder = "src/kinemark/stages/skeleton/articulated"
+        header = "kinemark/stages/skeleton/articulated"
+        steps = {
+            f"{folder}/chain/chain.h": "",
+            f"{folder}/geometry/fit.h": f'#include "{header}/chain/chain.h"\n',
+            f"{folder}/articulated.cc": f'#include "{header}/geometry/fit.h"\n',
+        }
+        self.assertEqual(self.problems(**steps), [])
+        back = self.problems(**steps, **{f"{folder}/frame/solver.h": f'#include "{header}/geometry/fit.h"\n'})
+        self.assertEqual(len(back), 1, back)
+        self.assertIn("a later step", back[0])
+        outside = self.problems(
+            **steps, **{"src/kinemark/stages/skeleton/topology/tree.h": f'#include "{header}/chain/chain.h"\n'}
+        )
+        self.assertEqual(len(outside), 1, outside)
+
     def test_catches_a_circle_of_headers(self):
         found = self.problems(
             **{

@@ -37,7 +37,7 @@ struct ArticulatedOptions {
 /// What became of one joint over the recording.
 struct JointSummary {
   std::int64_t determined = 0, bridged = 0, ambiguous = 0, undetermined = 0;  ///< frames, together F
-  std::int64_t modes = 0;    ///< places that fit alike, summed over the frames not determined on their own
+  std::int64_t modes = 0;    ///< positions that fit alike, summed over the frames not determined on their own
   double common_sd_m = 0.0;  ///< root of the trace: error that all frames share through the geometry
   double white_jerk = 0.0;   ///< m^2/s^5, of the smoothing; 0: none was done
 };
@@ -62,8 +62,8 @@ struct ArticulatedFit {
 ///
 /// Fails with one sentence where the geometry cannot be known at all: no frame that shows two segments, fewer
 /// than two markers on a segment, a joint that never moves. What the recording shows about each joint is in
-/// skeleton.joints[].words; markers that move on their segment, swapped names and a geometry with a mirror
-/// twin are in skeleton.warnings. About 60 us a frame and thread for 16 markers.
+/// skeleton.joints[].words; markers that move on their segment, swapped names and a mirror ambiguity of the
+/// geometry are in skeleton.warnings. About 60 us a frame and thread for 16 markers.
 [[nodiscard]] Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers,
                                                      const data::SegmentLayout& layout,
                                                      const ArticulatedOptions& options = {},

@@ -11,7 +11,7 @@
 
 #include "kinemark/core/check.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
@@ -51,28 +51,28 @@ Chain::Chain(ChainLayout layout_in, std::vector<SegmentKind> kind_in)
   marker = Eigen::Matrix3Xd::Zero(3, layout.markers());
   joint = Eigen::Matrix3Xd::Zero(3, layout.joints());
   frame_parameters_ = 3;
-  way_.resize(layout.segments());
+  joints_to_.resize(layout.segments());
   for (int s = 0; s < layout.segments(); ++s) {
-    turn_offset_.push_back(frame_parameters_);
-    frame_parameters_ += turn_size(s);
+    rotation_offset_.push_back(frame_parameters_);
+    frame_parameters_ += rotation_size(s);
     if (s > 0) {
-      way_[s] = way_[layout.parent[s - 1]];
-      if (s > 1) way_[s].push_back(s - 1);
+      joints_to_[s] = joints_to_[layout.parent[s - 1]];
+      if (s > 1) joints_to_[s].push_back(s - 1);
     }
   }
   for (int k = 0; k < layout.markers(); ++k) {
     const int s = layout.segment_of_marker[k];
-    for (const int axis : free_axes(kind[s])) globals_.push_back({k, -1, axis, s});
+    for (const int axis : free_axes(kind[s])) geometry_parameters_.push_back({k, -1, axis, s});
   }
   for (int j = 1; j < layout.joints(); ++j) {
     const int s = layout.parent[j];
-    for (const int axis : free_axes(kind[s])) globals_.push_back({-1, j, axis, s});
+    for (const int axis : free_axes(kind[s])) geometry_parameters_.push_back({-1, j, axis, s});
   }
 }
 
-void Chain::add_globals(const Eigen::VectorXd& step) {
-  for (std::size_t g = 0; g < globals_.size(); ++g) {
-    const Global& what = globals_[g];
+void Chain::move_geometry(const Eigen::VectorXd& step) {
+  for (std::size_t g = 0; g < geometry_parameters_.size(); ++g) {
+    const GeometryParameter& what = geometry_parameters_[g];
     (what.marker >= 0 ? marker(what.axis, what.marker) : joint(what.axis, what.joint)) += step[g];
   }
 }
@@ -83,26 +83,26 @@ Eigen::MatrixXd Chain::gauge() const {
     if (kind[s] == SegmentKind::line) continue;
     for (int about = 0; about < 3; ++about) {
       if (kind[s] == SegmentKind::plane && about != 1) continue;
-      Eigen::VectorXd change = Eigen::VectorXd::Zero(globals_.size());
-      for (std::size_t g = 0; g < globals_.size(); ++g) {
-        const Global& what = globals_[g];
+      Eigen::VectorXd change = Eigen::VectorXd::Zero(geometry_parameters_.size());
+      for (std::size_t g = 0; g < geometry_parameters_.size(); ++g) {
+        const GeometryParameter& what = geometry_parameters_[g];
         if (what.segment != s) continue;
-        const Vector3d place = what.marker >= 0 ? marker.col(what.marker) : joint.col(what.joint);
-        change[g] = Vector3d::Unit(about).cross(place)[what.axis];
+        const Vector3d position = what.marker >= 0 ? marker.col(what.marker) : joint.col(what.joint);
+        change[g] = Vector3d::Unit(about).cross(position)[what.axis];
       }
       for (const Eigen::VectorXd& other : columns) change -= other.dot(change) * other;
-      // Points on a line through the origin have no third turn.
+      // Points on a line through the origin have no third rotation.
       if (change.norm() > 1e-6 * scale()) columns.emplace_back(change.normalized());
     }
   }
-  Eigen::MatrixXd basis(globals_.size(), columns.size());
+  Eigen::MatrixXd basis(geometry_parameters_.size(), columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) basis.col(c) = columns[c];
   return basis;
 }
 
 Vector3d Chain::origin(const ChainPose& pose, int segment) const {
   Vector3d o = pose.joint0;
-  for (const int j : way_[segment]) o += pose.rotation[layout.parent[j]] * joint.col(j);
+  for (const int j : joints_to_[segment]) o += pose.rotation[layout.parent[j]] * joint.col(j);
   return o;
 }
 
@@ -147,11 +147,24 @@ void make_canonical(Chain& chain) {
   }
 }
 
+void move_joint(Chain& chain, int joint, bool in_parent, const Vector3d& change) {
+  if (in_parent && joint > 0) {
+    chain.joint.col(joint) += change;
+    return;
+  }
+  // The origin moves: everything else moves the other way.
+  const int s = in_parent ? chain.layout.parent[joint] : joint + 1;
+  for (const int k : chain.layout.markers_of(s)) chain.marker.col(k) -= change;
+  for (int j = 1; j < chain.joints(); ++j) {
+    if (chain.layout.parent[j] == s) chain.joint.col(j) -= change;
+  }
+}
+
 void move_pose(const Chain& chain, const Eigen::VectorXd& step, ChainPose& pose) {
   pose.joint0 += step.head<3>();
   for (int s = 0; s < chain.segments(); ++s) {
-    const double* turn = step.data() + chain.turn_offset(s);
-    pose.rotation[s] *= exponential({turn[0], turn[1], chain.turn_size(s) == 3 ? turn[2] : 0.0});
+    const double* turn = step.data() + chain.rotation_offset(s);
+    pose.rotation[s] *= exponential({turn[0], turn[1], chain.rotation_size(s) == 3 ? turn[2] : 0.0});
   }
 }
 
@@ -192,4 +205,4 @@ Matrix3d nearest_rotation(const Matrix3d& A) {
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -12,7 +12,7 @@
 #include "kinemark/core/array.h"
 #include "kinemark/data/skeleton.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -31,8 +31,9 @@ struct ChainSamples {
   }
 };
 
-/// Who carries what: S segments, S - 1 joints, K markers. Joint j is the upper joint of segment j + 1 and
-/// joins it to segment parent[j] <= j; parent[0] = 0. A serial chain has parent[j] = j.
+/// Which segment carries which marker and which joints join them: S segments, S - 1 joints, K markers. Joint
+/// j is the upper joint of segment j + 1 and joins it to segment parent[j] <= j; parent[0] = 0. A serial
+/// chain has parent[j] = j.
 struct ChainLayout {
   std::vector<int> parent;             ///< S - 1, one joint at least
   std::vector<int> segment_of_marker;  ///< K
@@ -44,7 +45,7 @@ struct ChainLayout {
   [[nodiscard]] std::vector<int> markers_of(int segment) const;
 };
 
-/// Place of joint 0 and rotation of every segment: x = joint + rotation * x_in_segment.
+/// Position of joint 0 and rotation of every segment: x = joint + rotation * x_in_segment.
 struct ChainPose {
   Vector3d joint0 = Vector3d::Zero();  ///< m, in world
   std::vector<Matrix3d> rotation;      ///< S, world from segment
@@ -53,16 +54,16 @@ struct ChainPose {
 /// Geometry. A segment's axes start at its upper joint (segment 0: at joint 0). Marker k of segment s is at
 /// x_k = o_s + R_s m_k, joint j at o_p + R_p l_j, p = parent[j], l_0 = 0. The local coordinates in use are z
 /// (line), x and z (plane) or all three (solid): these of all markers, then those of joints 1 to S - 2, are
-/// the "globals". Turning a segment's axes changes nothing that can be seen: a solid has three such gauges, a
-/// plane one.
+/// the geometry parameters. Rotating a segment's axes changes no prediction: a solid has three such gauge
+/// freedoms, a plane one.
 struct Chain {
   ChainLayout layout;
   std::vector<data::SegmentKind> kind;  ///< S
   Eigen::Matrix3Xd marker;              ///< K columns: m_k, m
   Eigen::Matrix3Xd joint;               ///< S - 1 columns: l_j in the axes of its parent, m; column 0 is zero
 
-  /// One global: coordinate `axis` of marker `marker`, or of joint `joint` when marker is -1.
-  struct Global {
+  /// One parameter: coordinate `axis` of marker `marker`, or of joint `joint` when marker is -1.
+  struct GeometryParameter {
     int marker = -1, joint = -1, axis = 0;
     int segment = 0;  ///< in whose axes
   };
@@ -74,36 +75,47 @@ struct Chain {
   [[nodiscard]] int joints() const { return layout.joints(); }
   [[nodiscard]] int markers() const { return layout.markers(); }
 
-  /// Parameters of a frame: joint 0 (3), then each segment's turn (line 2, else 3) in its own axes, on the
-  /// right.
+  /// Parameters of a frame: joint 0 (3), then each segment's rotation vector (line 2, else 3) in its own
+  /// axes, multiplied from the right.
   [[nodiscard]] int frame_parameters() const { return frame_parameters_; }
-  [[nodiscard]] int turn_offset(int segment) const { return turn_offset_[segment]; }
-  [[nodiscard]] int turn_size(int segment) const { return kind[segment] == data::SegmentKind::line ? 2 : 3; }
-  [[nodiscard]] const std::vector<Global>& globals() const { return globals_; }
-  /// Joints from the root to the origin of a segment, without joint 0: the way of o_s = joint 0 + sum R l.
-  [[nodiscard]] const std::vector<int>& way(int segment) const { return way_[segment]; }
+  [[nodiscard]] int rotation_offset(int segment) const { return rotation_offset_[segment]; }
+  [[nodiscard]] int rotation_size(int segment) const {
+    return kind[segment] == data::SegmentKind::line ? 2 : 3;
+  }
+  [[nodiscard]] const std::vector<GeometryParameter>& geometry_parameters() const {
+    return geometry_parameters_;
+  }
+  /// Joints between joint 0, which is left out, and the origin of a segment: o_s = joint 0 + the sum of R l
+  /// over them.
+  [[nodiscard]] const std::vector<int>& joints_to(int segment) const { return joints_to_[segment]; }
 
-  void add_globals(const Eigen::VectorXd& step);
-  /// Orthonormal columns: changes of the globals that only turn a segment's axes.
+  /// Add a step to the geometry parameters, m.
+  void move_geometry(const Eigen::VectorXd& step);
+  /// Orthonormal columns: changes of the geometry parameters that only rotate a segment's axes.
   [[nodiscard]] Eigen::MatrixXd gauge() const;
 
-  /// Place of joint j (also the origin of segment j + 1) and of a segment's origin, m in world.
+  /// Position of joint j (also the origin of segment j + 1) and of a segment's origin, m in world.
   [[nodiscard]] Vector3d joint_centre(const ChainPose& pose, int j) const;
   [[nodiscard]] Vector3d origin(const ChainPose& pose, int segment) const;
   [[nodiscard]] Vector3d predict(const ChainPose& pose, int k) const;
-  /// Typical distance of a marker from its segment's origin, m: makes turns and places comparable.
+  /// Typical distance of a marker from its segment's origin, m: makes rotations and positions comparable.
   [[nodiscard]] double scale() const;
 
  private:
-  std::vector<Global> globals_;
-  std::vector<int> turn_offset_;
-  std::vector<std::vector<int>> way_;
+  std::vector<GeometryParameter> geometry_parameters_;
+  std::vector<int> rotation_offset_;
+  std::vector<std::vector<int>> joints_to_;
   int frame_parameters_ = 0;
 };
 
-/// Turn every line or plane segment into its own axes and drop what lies off them: z along the longest
+/// Rotate every line or plane segment into its own axes and drop what lies off them: z along the longest
 /// direction from the origin through markers and joints, x the second one.
 void make_canonical(Chain& chain);
+
+/// Move a joint by `change` (m) in the axes of its parent or of its child. Joint 0 in its parent and every
+/// joint in its child are the origin of these axes: there the segment's markers and other joints move the
+/// other way.
+void move_joint(Chain& chain, int joint, bool in_parent, const Vector3d& change);
 
 /// Move a pose by a step in the frame's parameters.
 void move_pose(const Chain& chain, const Eigen::VectorXd& step, ChainPose& pose);
@@ -114,4 +126,4 @@ void move_pose(const Chain& chain, const Eigen::VectorXd& step, ChainPose& pose)
 /// The rotation R that maximises trace(R^T A), A = sum of w y x^T for y near R x (Horn 1987, by quaternion).
 [[nodiscard]] Matrix3d nearest_rotation(const Matrix3d& A);
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -9,7 +9,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::SegmentKind;
@@ -54,9 +54,9 @@ TEST(Chain, WalksDownABranchedTree) {
   chain.joint.col(2) = Vector3d(0.1, 0.0, 0.0);
   chain.marker.col(3) = Vector3d(0.0, 0.0, 0.2);
   EXPECT_EQ(chain.frame_parameters(), 15);
-  EXPECT_EQ(chain.globals().size(), 18u);
-  EXPECT_TRUE(chain.way(1).empty());
-  EXPECT_EQ(chain.way(3), (std::vector<int>{1, 2}));
+  EXPECT_EQ(chain.geometry_parameters().size(), 18u);
+  EXPECT_TRUE(chain.joints_to(1).empty());
+  EXPECT_EQ(chain.joints_to(3), (std::vector<int>{1, 2}));
   ChainPose pose{.joint0 = {1.0, 0.0, 0.0}, .rotation = std::vector<Matrix3d>(4, Matrix3d::Identity())};
   pose.rotation[0] = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_LT((chain.joint_centre(pose, 1) - Vector3d(0.7, 0.0, 0.0)).norm(), 1e-12);
@@ -69,7 +69,7 @@ TEST(Chain, CountsParametersByKind) {
   const ChainLayout layout{.parent = {0, 1}, .segment_of_marker = {0, 0, 1, 1, 2}};
   const Chain chain(layout, {SegmentKind::line, SegmentKind::plane, SegmentKind::solid});
   EXPECT_EQ(chain.frame_parameters(), 3 + 2 + 3 + 3);
-  EXPECT_EQ(chain.globals().size(), 2u + 4u + 3u + 2u);  // joint 1 lies in the plane of segment 1
+  EXPECT_EQ(chain.geometry_parameters().size(), 2u + 4u + 3u + 2u);  // joint 1 lies in the plane of segment 1
 }
 
 TEST(Chain, RefusesAnOrderWhereChildrenComeFirst) {
@@ -88,7 +88,7 @@ TEST(Chain, GaugeOnlyTurnsAxes) {
               1e-12);
     for (Eigen::Index c = 0; c < gauge.cols(); ++c) {
       Chain turned = limb.chain;
-      turned.add_globals(1e-6 * gauge.col(c));
+      turned.move_geometry(1e-6 * gauge.col(c));
       for (int a = 0; a < turned.markers(); ++a) {
         EXPECT_NEAR(turned.marker.col(a).norm(), limb.chain.marker.col(a).norm(), 1e-10);
         for (int b = 0; b < a; ++b) {
@@ -125,5 +125,26 @@ TEST(Chain, ALineKeepsItsLengthsOnly) {
   EXPECT_NEAR(std::abs(limb.chain.marker(2, 0)), 0.1125, 1e-4);
 }
 
+// The same limb, described with its joint elsewhere: predictions stay when the joint's world position
+// follows.
+TEST(Chain, MovingAnOriginMovesEverythingElseTheOtherWay) {
+  const auto limb = make_random_chain({.segments = 3, .frames = 1, .noise_sd_m = 0.0});
+  const Vector3d change(0.01, -0.02, 0.03);
+  Chain moved = limb.chain;
+  move_joint(moved, 1, true, change);
+  EXPECT_LT((moved.joint.col(1) - limb.chain.joint.col(1) - change).norm(), 1e-15);
+  EXPECT_EQ(moved.marker, limb.chain.marker);
+  moved = limb.chain;
+  move_joint(moved, 0, true, change);  // joint 0 is the origin of segment 0
+  ChainPose pose = limb.pose[0];
+  pose.joint0 += pose.rotation[0] * change;
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LT((moved.predict(pose, k) - limb.chain.predict(limb.pose[0], k)).norm(), 1e-12) << k;
+  moved = limb.chain;
+  move_joint(moved, 0, false, change);  // the origin of segment 1, which carries joint 1
+  EXPECT_LT((moved.joint.col(1) - limb.chain.joint.col(1) + change).norm(), 1e-15);
+  EXPECT_EQ(moved.marker.leftCols(3), limb.chain.marker.leftCols(3));
+}
+
 }  // namespace
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 /// A joint that turns about one axis: unit vectors in the axes of its parent and of its child.
 struct HingeAxis {
@@ -12,4 +12,4 @@ struct HingeAxis {
   Eigen::Vector3d in_parent = Eigen::Vector3d::Zero(), in_child = Eigen::Vector3d::Zero();
 };
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 
 JointTree::JointTree(const data::SegmentLayout& layout)
     : holder(layout.joints.size(), -1), outer(layout.joints.size(), -1), origin(layout.segments.size(), -1) {
@@ -92,4 +92,4 @@ ChainInput arrange(const data::Trajectories& markers, const data::SegmentLayout&
   return input;
 }
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -10,7 +10,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 
 /// A layout seen from its first joint outwards: the root is that joint's parent segment, whatever way the
 /// other joints name parent and child.
@@ -40,4 +40,4 @@ struct ChainInput {
 [[nodiscard]] ChainInput arrange(const data::Trajectories& markers, const data::SegmentLayout& layout,
                                  const JointTree& tree);
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

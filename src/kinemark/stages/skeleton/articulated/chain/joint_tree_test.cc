@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using testing::ElementsAre;
@@ -75,4 +75,4 @@ TEST(JointTree, ArrangesMarkersAndTakesOnlyWhatWasMeasured) {
 }
 
 }  // namespace
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -9,7 +9,7 @@
 
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 /// Weights of a multivariate Student's t with `dof` degrees of freedom at a pose, times the markers' own
 /// weights: at most 1, (dof + 3) / (dof + |r|^2 / sigma^2). False when nothing changed by more than 1e-3.
@@ -28,4 +28,4 @@ inline bool robust_weights(const Chain& chain, const ChainPose& pose, const doub
   return changed;
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

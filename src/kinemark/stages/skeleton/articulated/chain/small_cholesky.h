@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 /// A = L L^T; reads and overwrites the lower triangle. False when a pivot is at most `least`.
 inline bool cholesky(Eigen::MatrixXd& A, double least = 0.0) {
@@ -59,4 +59,4 @@ void solve_cholesky(const Eigen::MatrixXd& L, Column&& x) {
   solve_upper(L, x);
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,30 +10,30 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
+#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
 #include "kinemark/stages/skeleton/articulated/frame/modes.h"
-#include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
 using data::CentreState;
 using data::SegmentKind;
 
-// A segment's markers fix its pose alone when their second extent stands out of the noise by this
+// A segment's markers determine its pose alone when their second extent exceeds the noise by this
 // (chi-square).
 constexpr double kWide = 50.0;
 // Minima nearer to the best than this many of its SD are part of it.
 constexpr double kNear = 0.5;
-// Several places are one when their scatter about their mean adds no more variance than the best has (so many
-// times), and none that counts lies farther from the mean than so many SD of all together.
+// Several positions count as one when their scatter about their mean is at most kCompact times the variance
+// of the best, and none with a weight that counts lies farther than kFarOff SD from the mean.
 constexpr double kCompact = 1.0;
 constexpr double kFarOff = 3.0;
 
 }  // namespace
 
 struct ChainSolver::Work {
-  explicit Work(const ChainFit& fit_in)
+  explicit Work(const FittedChain& fit_in)
       : fit(fit_in), solver(fit.chain), finder(fit.chain), weights(fit.marker_weight) {
     lines = fit.chain.segments() == 2 && fit.chain.kind[0] == SegmentKind::line &&
             fit.chain.kind[1] == SegmentKind::line;
@@ -39,14 +41,14 @@ struct ChainSolver::Work {
     if (weights.empty()) weights.assign(fit.chain.markers(), 1.0);
   }
 
-  ChainFit fit;
-  FrameSolver solver;
+  FittedChain fit;
+  PoseSolver solver;
   ModeFinder finder;
   FrameInformation information, observed;
   std::vector<double> weights, frame_weights;
   Eigen::MatrixXd H, H_observed, G;
   Eigen::VectorXd b;
-  Eigen::Matrix3Xd by_frame, by_globals, of_globals;
+  Eigen::Matrix3Xd by_frame, by_geometry, of_geometry;
   bool lines = false, any_line = false;
 
   void begin(const double* x, ChainFrame& out);
@@ -96,21 +98,22 @@ void ChainSolver::Work::describe(const double* x, ChainFrame& out) {
     observed.set(chain, H_observed);
     if (observed.rank() == information.rank()) own = &observed;
   }
-  solver.globals(pose, x, frame_weights, G, nullptr, nullptr);
+  solver.linearize_geometry(pose, x, frame_weights, G, nullptr, nullptr);
   for (int j = 0; j < chain.joints(); ++j) {
-    solver.joint_jacobian(pose, j, by_frame, by_globals);
+    solver.joint_jacobian(pose, j, by_frame, by_geometry);
     out.centre[j] = chain.joint_centre(pose, j);
-    const Eigen::Matrix3Xd way = by_frame * own->inverse();
-    out.own_covariance[j] = fit.covariance_scale * variance * way * by_frame.transpose();
-    of_globals = by_globals - way * G;
-    out.covariance[j] = out.own_covariance[j] + of_globals * fit.global_covariance * of_globals.transpose();
+    const Eigen::Matrix3Xd gain = by_frame * own->inverse();
+    out.own_covariance[j] = fit.covariance_scale * variance * gain * by_frame.transpose();
+    of_geometry = by_geometry - gain * G;
+    out.covariance[j] =
+        out.own_covariance[j] + of_geometry * fit.geometry_covariance * of_geometry.transpose();
     out.information[j] = own->joint_information(by_frame) / (fit.covariance_scale * variance);
     out.state[j] = information.holds(by_frame) ? CentreState::determined : CentreState::undetermined;
   }
 }
 
-// Places closer together than any of them is known: their mean, with the variance of all. False when they are
-// apart.
+// Positions that are closer together than the uncertainty of each: their mean, with the variance of all.
+// False when they are apart.
 bool ChainSolver::Work::gather(ChainFrame& out, int joint) const {
   Vector3d mean = Vector3d::Zero();
   for (int i = 0; i < out.mode_count; ++i) mean += out.modes[i].weight * out.modes[i].centre[joint];
@@ -163,7 +166,8 @@ void ChainSolver::Work::judge(ChainFrame& out) {
     for (int i = 1; i < out.mode_count; ++i) {
       if ((out.modes[i].centre[j] - out.modes[0].centre[j]).norm() > near) elsewhere += out.modes[i].weight;
     }
-    // Three markers in all are three spheres: mirror twins, or just grown into one.
+    // Three markers in all put the joint on three spheres, which meet in two mirrored points, or in one where
+    // these have just merged.
     const bool four = seen(parent) + seen(child) >= 4;
     const bool whole = std::max(seen(parent), seen(child)) >= 3;
     bool one_place = true;
@@ -176,7 +180,8 @@ void ChainSolver::Work::judge(ChainFrame& out) {
   }
 }
 
-// Student's t: markers far from their place count less; modes are refined with the weights of the best one.
+// Student's t: markers far from their position count less; modes are refined with the weights of the best
+// one.
 void ChainSolver::Work::reweigh(const double* x, ChainFrame& out) {
   for (int round = 0; round < 3; ++round) {
     if (!robust_weights(fit.chain, out.modes[0].pose, x, weights, fit.robust_dof, fit.noise_sd_m,
@@ -191,7 +196,7 @@ void ChainSolver::Work::reweigh(const double* x, ChainFrame& out) {
   }
 }
 
-ChainSolver::ChainSolver(const ChainFit& fit) : work_(std::make_unique<Work>(fit)) {}
+ChainSolver::ChainSolver(const FittedChain& fit) : work_(std::make_unique<Work>(fit)) {}
 ChainSolver::~ChainSolver() = default;
 ChainSolver::ChainSolver(ChainSolver&&) noexcept = default;
 ChainSolver& ChainSolver::operator=(ChainSolver&&) noexcept = default;
@@ -254,4 +259,4 @@ void ChainSolver::pose_from_centres(const double* x, std::span<const Vector3d> c
   w.finder.starts().from_centres(w.solver, centres, out);
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
-#include "kinemark/stages/skeleton/articulated/frame/frame_fit.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 void FrameInformation::set(const Chain& chain, const Eigen::MatrixXd& H, double tolerance) {
   const Eigen::Index n = H.rows();
@@ -47,8 +48,8 @@ bool FrameInformation::holds(const Eigen::Matrix3Xd& by_frame) const {
 Matrix3d FrameInformation::joint_information(const Eigen::Matrix3Xd& by_frame) const {
   Matrix3d covariance = by_frame * inverse_ * by_frame.transpose();
   if (open_.cols() > 0) {
-    // Directions left open get a variance beyond anything that is held; what it leaves of them is taken off
-    // below.
+    // Directions left open get a variance far above any that is determined; the information that remains of
+    // them is set to zero below.
     const Eigen::Matrix3Xd loose = by_frame * open_;
     covariance += 1e9 * loose * loose.transpose();
   }
@@ -72,4 +73,4 @@ double FrameInformation::log_det(const Chain& chain, const Eigen::MatrixXd& H, d
   return 2.0 * scratch.diagonal().array().log().sum();
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

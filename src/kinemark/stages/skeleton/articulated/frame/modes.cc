@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-namespace kinemark::skeleton {
+#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
+
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
@@ -32,7 +34,7 @@ double distance(const ChainMode& a, const ChainMode& b) {
 
 ModeFinder::ModeFinder(const Chain& chain) : starts_(chain) {}
 
-void ModeFinder::refine(FrameSolver& solver, const ChainPose& start, double same_m, int iterations,
+void ModeFinder::refine(PoseSolver& solver, const ChainPose& start, double same_m, int iterations,
                         std::vector<ChainMode>& modes) {
   const Chain& chain = solver.chain();
   if (count_ == static_cast<int>(modes.size())) modes.emplace_back();
@@ -52,7 +54,7 @@ void ModeFinder::refine(FrameSolver& solver, const ChainPose& start, double same
 
 // In longer chains a joint may be mirrored at the plane of what is seen and known around it while the others
 // stay: starts from every minimum found, the new ones included.
-void ModeFinder::reflect(FrameSolver& solver, const double* x, double sigma_m, double same_m, int iterations,
+void ModeFinder::reflect(PoseSolver& solver, const double* x, double sigma_m, double same_m, int iterations,
                          std::vector<ChainMode>& modes) {
   const Chain& c = solver.chain();
   double best = modes[0].cost;
@@ -89,7 +91,7 @@ void ModeFinder::reflect(FrameSolver& solver, const double* x, double sigma_m, d
   }
 }
 
-int ModeFinder::find(FrameSolver& solver, const double* x, double sigma_m, const ChainPose* extra,
+int ModeFinder::find(PoseSolver& solver, const double* x, double sigma_m, const ChainPose* extra,
                      int iterations, std::vector<ChainMode>& modes) {
   count_ = 0;
   const double same_m = 0.2 * sigma_m + kSame;
@@ -119,10 +121,10 @@ int ModeFinder::find(FrameSolver& solver, const double* x, double sigma_m, const
 
 namespace {
 
-// A joint held at places along the weakest direction of its covariance, all else refitted.
+// A joint held at positions along the weakest direction of its covariance, all else refitted.
 class Profile {
  public:
-  Profile(FrameSolver& solver, const ChainPose& best, double cost, int joint, const Matrix3d& covariance,
+  Profile(PoseSolver& solver, const ChainPose& best, double cost, int joint, const Matrix3d& covariance,
           double sigma_m)
       : solver_(solver), best_(best), cost_(cost), joint_(joint), sigma_m_(sigma_m) {
     const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
@@ -144,7 +146,7 @@ class Profile {
   }
 
  private:
-  FrameSolver& solver_;
+  PoseSolver& solver_;
   const ChainPose& best_;
   double cost_;
   int joint_;
@@ -155,7 +157,7 @@ class Profile {
 
 }  // namespace
 
-bool profile_is_gaussian(FrameSolver& solver, const ChainPose& best, double cost, int joint,
+bool profile_is_gaussian(PoseSolver& solver, const ChainPose& best, double cost, int joint,
                          const Matrix3d& covariance, double sigma_m) {
   Profile profile(solver, best, cost, joint, covariance, sigma_m);
   for (const double z : {4.0, 2.0}) {
@@ -167,7 +169,7 @@ bool profile_is_gaussian(FrameSolver& solver, const ChainPose& best, double cost
   return true;
 }
 
-std::optional<ProfileMoments> profile_moments(FrameSolver& solver, const ChainPose& best, double cost,
+std::optional<ProfileMoments> profile_moments(PoseSolver& solver, const ChainPose& best, double cost,
                                               int joint, const Matrix3d& covariance, double sigma_m) {
   Profile profile(solver, best, cost, joint, covariance, sigma_m);
   double sum = 0.0, first = 0.0, second = 0.0, ends = 0.0;
@@ -189,4 +191,4 @@ std::optional<ProfileMoments> profile_moments(FrameSolver& solver, const ChainPo
                         .variance_ratio = variance};
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
@@ -25,10 +25,10 @@ Matrix3d rotation_with_z(const Vector3d& d) {
 
 }  // namespace
 
-ChainStarts::ChainStarts(const Chain& chain)
+PoseStarts::PoseStarts(const Chain& chain)
     : chain_(&chain), done_(chain.segments()), origin_(chain.segments()) {}
 
-ChainPose& ChainStarts::next() {
+ChainPose& PoseStarts::next() {
   if (count_ == static_cast<int>(poses_.size())) poses_.emplace_back();
   ChainPose& pose = poses_[count_++];
   pose.rotation.resize(chain_->segments());
@@ -36,22 +36,22 @@ ChainPose& ChainStarts::next() {
   return pose;
 }
 
-Matrix3d ChainStarts::about(const FrameSolver& solver, int segment, const Vector3d& point,
-                            const Vector3d& place) const {
+Matrix3d PoseStarts::rotation_about(const PoseSolver& solver, int segment, const Vector3d& point,
+                                    const Vector3d& position) const {
   const FrameSums::Segment& s = solver.sums().segment[segment];
   if (s.seen == 0) return Matrix3d::Identity();
-  return nearest_rotation(s.xm - place * s.m.transpose() - s.x * point.transpose() +
-                          s.w * place * point.transpose());
+  return nearest_rotation(s.xm - position * s.m.transpose() - s.x * point.transpose() +
+                          s.w * position * point.transpose());
 }
 
-void ChainStarts::spread(const FrameSolver& solver, ChainPose& pose) {
+void PoseStarts::complete(const PoseSolver& solver, ChainPose& pose) {
   const Chain& c = *chain_;
   // Inwards first, from the segments that are placed to the root, then outwards.
   for (int s = c.segments() - 1; s > 0; --s) {
     const int p = c.layout.parent[s - 1];
     if (!done_[s] || done_[p]) continue;
     const Vector3d l = c.joint.col(s - 1);
-    pose.rotation[p] = about(solver, p, l, origin_[s]);
+    pose.rotation[p] = rotation_about(solver, p, l, origin_[s]);
     origin_[p] = origin_[s] - pose.rotation[p] * l;
     done_[p] = 1;
   }
@@ -59,13 +59,13 @@ void ChainStarts::spread(const FrameSolver& solver, ChainPose& pose) {
     if (done_[s]) continue;
     const int p = c.layout.parent[s - 1];
     origin_[s] = origin_[p] + pose.rotation[p] * c.joint.col(s - 1);
-    pose.rotation[s] = about(solver, s, Vector3d::Zero(), origin_[s]);
+    pose.rotation[s] = rotation_about(solver, s, Vector3d::Zero(), origin_[s]);
     done_[s] = 1;
   }
   pose.joint0 = origin_[0] + solver.sums().centre;
 }
 
-void ChainStarts::anchor(const FrameSolver& solver, int segment) {
+void PoseStarts::anchor(const PoseSolver& solver, int segment) {
   const FrameSums::Segment& s = solver.sums().segment[segment];
   if (s.seen < 2) return;
   const Vector3d mean_x = s.x / s.w;
@@ -73,8 +73,8 @@ void ChainStarts::anchor(const FrameSolver& solver, int segment) {
   const Matrix3d R = nearest_rotation(s.xm - mean_x * s.m.transpose());
   const Eigen::SelfAdjointEigenSolver<Matrix3d> spread_of_markers(s.mm - s.m * mean_m.transpose());
   const Vector3d axis = spread_of_markers.eigenvectors().col(2);
-  // Two markers leave the turn about their line open; in a chain, unlike between two segments, no sphere
-  // closes it.
+  // Two markers leave the rotation about their line open. Between two segments the distances to the joint
+  // determine it; in a longer chain they may not.
   const bool open = s.seen == 2 && chain_->joints() > 1;
   const int turns = open ? 4 : 2;
   for (int i = 0; i < turns; ++i) {
@@ -82,11 +82,11 @@ void ChainStarts::anchor(const FrameSolver& solver, int segment) {
     pose.rotation[segment] = R * exponential(2.0 * std::numbers::pi * i / turns * axis);
     origin_[segment] = mean_x - pose.rotation[segment] * mean_m;
     done_[segment] = 1;
-    spread(solver, pose);
+    complete(solver, pose);
   }
 }
 
-void ChainStarts::trilaterate(const FrameSolver& solver, const double* x, int joint) {
+void PoseStarts::trilaterate(const PoseSolver& solver, const double* x, int joint) {
   const Chain& c = *chain_;
   const int parent = c.layout.parent[joint];
   const int child = joint + 1;
@@ -136,16 +136,16 @@ void ChainStarts::trilaterate(const FrameSolver& solver, const double* x, int jo
   for (const double side : {1.0, -1.0}) {
     ChainPose& pose = next();
     const Vector3d J = mean + flat + side * height * eigen.eigenvectors().col(0);
-    pose.rotation[parent] = about(solver, parent, c.joint.col(joint), J);
+    pose.rotation[parent] = rotation_about(solver, parent, c.joint.col(joint), J);
     origin_[parent] = J - pose.rotation[parent] * c.joint.col(joint);
-    pose.rotation[child] = about(solver, child, Vector3d::Zero(), J);
+    pose.rotation[child] = rotation_about(solver, child, Vector3d::Zero(), J);
     origin_[child] = J;
     done_[parent] = done_[child] = 1;
-    spread(solver, pose);
+    complete(solver, pose);
   }
 }
 
-void ChainStarts::two_lines(const FrameSolver& solver) {
+void PoseStarts::two_lines(const PoseSolver& solver) {
   // With the joint eliminated the log likelihood is (alpha.u + beta.w + gamma u.w) / sigma^2: two von
   // Mises-Fisher factors, u ~ alpha + gamma w and w ~ beta + gamma u in turn.
   const FrameSums::Segment& a = solver.sums().segment[0];
@@ -170,7 +170,7 @@ void ChainStarts::two_lines(const FrameSolver& solver) {
   }
 }
 
-void ChainStarts::find(const FrameSolver& solver, const double* x) {
+void PoseStarts::find(const PoseSolver& solver, const double* x) {
   const Chain& c = *chain_;
   count_ = 0;
   if (solver.sums().seen == 0) return;
@@ -189,7 +189,7 @@ void ChainStarts::find(const FrameSolver& solver, const double* x) {
   pose.joint0 = solver.sums().centre;
 }
 
-void ChainStarts::from_centres(const FrameSolver& solver, std::span<const Vector3d> centres, ChainPose& out) {
+void PoseStarts::from_centres(const PoseSolver& solver, std::span<const Vector3d> centres, ChainPose& out) {
   const Chain& c = *chain_;
   out.rotation.resize(c.segments());
   const Vector3d middle = solver.sums().centre;
@@ -206,4 +206,4 @@ void ChainStarts::from_centres(const FrameSolver& solver, std::span<const Vector
   out.joint0 = centres[0];
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -8,20 +8,21 @@
 #include <limits>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/skeleton/articulated/geometry/fit_rounds.h"
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
+#include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
 constexpr double kWeak = 50.0;  // second extent over the noise, chi-square
 constexpr std::uint64_t kSeed = 20060;
 
-// Globals of b less those of a.
+// Geometry parameters of b less those of a.
 Eigen::VectorXd difference(const Chain& a, const Chain& b) {
-  Eigen::VectorXd out(a.globals().size());
-  for (std::size_t g = 0; g < a.globals().size(); ++g) {
-    const Chain::Global& what = a.globals()[g];
+  Eigen::VectorXd out(a.geometry_parameters().size());
+  for (std::size_t g = 0; g < a.geometry_parameters().size(); ++g) {
+    const Chain::GeometryParameter& what = a.geometry_parameters()[g];
     out[g] = what.marker >= 0 ? b.marker(what.axis, what.marker) - a.marker(what.axis, what.marker)
                               : b.joint(what.axis, what.joint) - a.joint(what.axis, what.joint);
   }
@@ -30,7 +31,7 @@ Eigen::VectorXd difference(const Chain& a, const Chain& b) {
 
 }  // namespace
 
-bool has_weak_turns(const Chain& chain, double sigma_m) {
+bool has_weak_rotation(const Chain& chain, double sigma_m) {
   for (int s = 0; s < chain.segments(); ++s) {
     if (chain.kind[s] == data::SegmentKind::line) continue;
     const std::vector<int> markers = chain.layout.markers_of(s);
@@ -46,12 +47,12 @@ bool has_weak_turns(const Chain& chain, double sigma_m) {
   return false;
 }
 
-Bootstrap bootstrap(const ChainSamples& samples, const GlobalFrames& frames, const ChainFit& fit,
+Bootstrap bootstrap(const ChainSamples& samples, const PosedFrames& frames, const FittedChain& fit,
                     int replicates) {
   const std::size_t n = std::min(frames.size(), kBootstrapFrames);
   const Chain& truth = fit.chain;
   Bootstrap out;
-  out.bias = Eigen::VectorXd::Zero(truth.globals().size());
+  out.bias = Eigen::VectorXd::Zero(truth.geometry_parameters().size());
   ChainSamples made;
   made.markers = samples.markers;
   made.frames = static_cast<std::int64_t>(n);
@@ -74,15 +75,15 @@ Bootstrap bootstrap(const ChainSamples& samples, const GlobalFrames& frames, con
           std::fill_n(x, 3, std::numeric_limits<double>::quiet_NaN());
           continue;
         }
-        const Vector3d place = truth.predict(frames.pose[from], k);
+        const Vector3d position = truth.predict(frames.pose[from], k);
         for (int axis = 0; axis < 3; ++axis) {
-          x[axis] = place[axis] + fit.noise_sd_m / std::sqrt(weight) * random.gaussian();
+          x[axis] = position[axis] + fit.noise_sd_m / std::sqrt(weight) * random.gaussian();
         }
       }
     }
     Chain chain = truth;
-    GlobalFrames poses = first_poses(made, chain, all, fit.marker_weight, fit.noise_sd_m, 15);
-    GlobalFit refit(chain, made, poses, fit.noise_sd_m);
+    PosedFrames poses = first_poses(made, chain, all, fit.marker_weight, fit.noise_sd_m, 15);
+    GeometryFit refit(chain, made, poses, fit.noise_sd_m);
     chi2 += refit.run(15) / (fit.noise_sd_m * fit.noise_sd_m);
     dof += refit.degrees_of_freedom();
     out.bias += difference(truth, chain) / replicates;
@@ -106,4 +107,4 @@ Bootstrap bootstrap(const ChainSamples& samples, const GlobalFrames& frames, con
   return out;
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What maximum likelihood gets wrong on average where the noise hides most of a turn: found by fitting data
-// that the fitted limb itself made.
+// The bias of maximum likelihood where noise hides most of a segment's rotation, found by fitting data that
+// the fitted limb itself made.
 #pragma once
 
 #include <cstddef>
 
-#include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
+#include "kinemark/stages/skeleton/articulated/chain/fitted_chain.h"
 #include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 /// A segment that is no line is weak when its markers' second extent is within some times the noise: each
-/// frame then turns it about its long axis to fit its own noise, which makes the shape too wide, the
+/// frame then rotates it about its long axis to fit its own noise, which makes the shape too wide, the
 /// residuals too small and the centres' errors larger than their covariance, however many frames there are.
-[[nodiscard]] bool has_weak_turns(const Chain& chain, double sigma_m);
+[[nodiscard]] bool has_weak_rotation(const Chain& chain, double sigma_m);
 
 struct Bootstrap {
-  Eigen::VectorXd bias;         ///< of the globals, m
+  Eigen::VectorXd bias;         ///< of the geometry parameters, m
   double chi2_ratio = 1.0;      ///< residuals' chi-square over its degrees of freedom
   double variance_ratio = 1.0;  ///< squared error of determined centres over their variance, geometry held
 };
@@ -27,7 +27,7 @@ inline constexpr std::size_t kBootstrapFrames = 400;
 
 /// Parametric bootstrap: `replicates` recordings of the fitted chain in its fitted poses, same markers seen,
 /// noise of the fitted size; each fitted anew from its own starts.
-[[nodiscard]] Bootstrap bootstrap(const ChainSamples& samples, const GlobalFrames& frames,
-                                  const ChainFit& fit, int replicates);
+[[nodiscard]] Bootstrap bootstrap(const ChainSamples& samples, const PosedFrames& frames,
+                                  const FittedChain& fit, int replicates);
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -2,32 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "kinemark/core/check.h"
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 #include "kinemark/stages/skeleton/articulated/geometry/bootstrap.h"
-#include "kinemark/stages/skeleton/articulated/geometry/fit_rounds.h"
+#include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
 #include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
+#include "kinemark/stages/skeleton/articulated/geometry/mirror_ambiguity.h"
 #include "kinemark/stages/skeleton/articulated/geometry/segment_kind.h"
 #include "kinemark/stages/skeleton/articulated/geometry/segment_shape.h"
+#include "kinemark/stages/skeleton/articulated/geometry/start_geometry.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
 using data::CentreState;
 using data::SegmentKind;
 
-constexpr double kFirstNoise = 1e-3;  // m, until the residuals tell
+constexpr double kFirstNoise = 1e-3;  // m, before the residuals are known
 constexpr double kLeastNoise = 1e-9;  // m: data without noise
 constexpr double kTooRough = 4.0;     // deviates of the residuals above the noise that was given
 constexpr int kReplicates = 3;
-constexpr double kTwinClear = 10.0;  // chi-square between a geometry and its mirror twin
+constexpr double kMirrorClear = 10.0;  // chi-square between a geometry and its mirror image
 
 Status check_options(const ChainSamples& samples, const ChainLayout& layout, const ChainFitOptions& options) {
   check(samples.markers == layout.markers(), "one segment a marker");
@@ -66,8 +67,8 @@ std::vector<int> drop_loose_markers(ChainSamples& samples, const ChainLayout& la
 }
 
 // Frames whose joints are all determined, with their poses.
-GlobalFrames determined_frames(const ChainSamples& samples, const ChainFit& fit) {
-  GlobalFrames out;
+PosedFrames determined_frames(const ChainSamples& samples, const FittedChain& fit) {
+  PosedFrames out;
   ChainSolver solver(fit);
   ChainFrame frame;
   ChainPose last;
@@ -87,91 +88,93 @@ GlobalFrames determined_frames(const ChainSamples& samples, const ChainFit& fit)
 
 class Rounds {
  public:
-  Rounds(const ChainSamples& samples, const ChainFitOptions& options, ChainFit& fit)
+  Rounds(const ChainSamples& samples, const ChainFitOptions& options, FittedChain& fit)
       : samples_(samples), options_(options), fit_(fit) {}
 
   // Geometry, noise and covariance from `frames`.
-  void fit(GlobalFrames& frames, bool last) {
-    GlobalFit globals(fit_.chain, samples_, frames, fit_.noise_sd_m);
-    double cost = globals.run(30);
-    measure_noise(globals, cost);
+  void fit(PosedFrames& frames, bool last) {
+    GeometryFit geometry(fit_.chain, samples_, frames, fit_.noise_sd_m);
+    double cost = geometry.run(30);
+    measure_noise(geometry, cost);
     if (options_.robust_dof > 0.0) {
       for (int round = 0; round < 2; ++round) {
-        globals.reweigh(fit_.marker_weight, options_.robust_dof, fit_.noise_sd_m);
-        cost = globals.run(10);
+        geometry.reweigh(fit_.marker_weight, options_.robust_dof, fit_.noise_sd_m);
+        cost = geometry.run(10);
       }
-      measure_noise(globals, cost);
+      measure_noise(geometry, cost);
     }
     if (options_.marker_noise) {
       for (int round = 0; round < 3; ++round) {
-        const std::vector<double> ratio = globals.marker_variance(fit_.noise_sd_m);
+        const std::vector<double> ratio = geometry.marker_variance(fit_.noise_sd_m);
         for (std::size_t k = 0; k < ratio.size(); ++k) {
           if (fit_.marker_weight[k] > 0.0)
             fit_.marker_weight[k] = std::clamp(fit_.marker_weight[k] / ratio[k], 0.01, 100.0);
         }
         for (auto& weight : frames.weight) weight = fit_.marker_weight;
-        cost = globals.run(10);
-        measure_noise(globals, cost);
+        cost = geometry.run(10);
+        measure_noise(geometry, cost);
       }
     }
     const bool lines = std::all_of(fit_.chain.kind.begin(), fit_.chain.kind.end(),
                                    [](SegmentKind kind) { return kind == SegmentKind::line; });
     if (last && lines) {
-      Eigen::VectorXd push = Eigen::VectorXd::Zero(fit_.chain.globals().size());
+      Eigen::VectorXd extra_gradient = Eigen::VectorXd::Zero(fit_.chain.geometry_parameters().size());
       for (int round = 0; round < 4; ++round) {
-        const Eigen::VectorXd before = push;
-        push = globals.integrated_gradient(fit_.noise_sd_m);
-        if ((push - before).cwiseAbs().maxCoeff() < 1e-3 * push.cwiseAbs().maxCoeff()) break;
-        cost = globals.run(15, push);
-        measure_noise(globals, cost);
+        const Eigen::VectorXd before = extra_gradient;
+        extra_gradient = geometry.integrated_gradient(fit_.noise_sd_m);
+        if ((extra_gradient - before).cwiseAbs().maxCoeff() < 1e-3 * extra_gradient.cwiseAbs().maxCoeff())
+          break;
+        cost = geometry.run(15, extra_gradient);
+        measure_noise(geometry, cost);
       }
     }
-    fit_.global_covariance = fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
+    fit_.geometry_covariance = fit_.noise_sd_m * fit_.noise_sd_m * geometry.covariance(fit_.noise_sd_m);
     double expected = 1.0;
     double wider = 1.0;
-    if (last && has_weak_turns(fit_.chain, fit_.noise_sd_m)) {
+    if (last && has_weak_rotation(fit_.chain, fit_.noise_sd_m)) {
       const Bootstrap found = bootstrap(samples_, frames, fit_, kReplicates);
       expected = std::clamp(found.chi2_ratio, 0.5, 1.0);
       fit_.covariance_scale = std::clamp(found.variance_ratio, 1.0, 2.0);
       // A bias that is larger than the segments themselves is a refit that ran away.
       if (found.bias.allFinite() && found.bias.cwiseAbs().maxCoeff() < fit_.chain.scale()) {
-        fit_.chain.add_globals(-found.bias);
-        cost = globals.cost();
+        fit_.chain.move_geometry(-found.bias);
+        cost = geometry.cost();
         // The bias has a scatter of its own: that of the replicates' geometries.
         const auto n = static_cast<double>(frames.size());
         wider += n / (std::min(n, static_cast<double>(kBootstrapFrames)) * kReplicates);
       }
       if (options_.noise_sd_m <= 0.0) fit_.noise_sd_m /= std::sqrt(expected);
     }
-    fit_.residual_dof = expected * globals.degrees_of_freedom();
+    fit_.residual_dof = expected * geometry.degrees_of_freedom();
     if (const double excess = cost / (fit_.noise_sd_m * fit_.noise_sd_m * fit_.residual_dof);
         last && options_.noise_sd_m > 0.0 &&
         excess > 1.0 + kTooRough * std::sqrt(2.0 / std::max(fit_.residual_dof, 1.0))) {
-      // Markers that slip on the skin, or a shape that is simpler than the truth: say how large the errors
-      // are.
+      // Markers that slip on the skin, or a shape that is simpler than the truth: the noise includes these
+      // errors.
       fit_.noise_sd_m *= std::sqrt(excess);
     }
     fit_.chi2 = cost / (fit_.noise_sd_m * fit_.noise_sd_m);
-    fit_.global_covariance_scale = wider;
-    fit_.global_covariance = wider * fit_.noise_sd_m * fit_.noise_sd_m * globals.covariance(fit_.noise_sd_m);
+    fit_.geometry_covariance_scale = wider;
+    fit_.geometry_covariance =
+        wider * fit_.noise_sd_m * fit_.noise_sd_m * geometry.covariance(fit_.noise_sd_m);
   }
 
  private:
-  void measure_noise(GlobalFit& globals, double cost) {
+  void measure_noise(GeometryFit& geometry, double cost) {
     if (options_.noise_sd_m > 0.0) return;
-    fit_.noise_sd_m = std::max(std::sqrt(cost / std::max(globals.degrees_of_freedom(), 1.0)), kLeastNoise);
-    globals.set_noise(fit_.noise_sd_m);
+    fit_.noise_sd_m = std::max(std::sqrt(cost / std::max(geometry.degrees_of_freedom(), 1.0)), kLeastNoise);
+    geometry.set_noise(fit_.noise_sd_m);
   }
 
   const ChainSamples& samples_;
   const ChainFitOptions& options_;
-  ChainFit& fit_;
+  FittedChain& fit_;
 };
 
 }  // namespace
 
-Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layout,
-                           const ChainFitOptions& options, const Progress& progress) {
+Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& layout,
+                              const ChainFitOptions& options, const Progress& progress) {
   const auto stopped = [&] { return progress && !progress(0, samples.frames); };
   const auto cancelled = [] { return fail(Code::cancelled, "stopped while finding the geometry"); };
   if (const Status status = check_options(samples, layout, options); !status)
@@ -190,7 +193,7 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
   }
   auto start = start_geometry(drawn, layout, kind, options.noise_sd_m);
   if (!start) return std::unexpected(start.error());
-  ChainFit fit;
+  FittedChain fit;
   fit.chain = std::move(*start);
   fit.noise_sd_m = options.noise_sd_m > 0.0 ? options.noise_sd_m : kFirstNoise;
   fit.marker_weight.assign(layout.markers(), 1.0);
@@ -208,7 +211,7 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
     return fail(Code::bad_input,
                 "fewer than five frames show enough markers of all segments to find their joints");
   Rounds rounds(drawn, options, fit);
-  GlobalFrames frames = first_poses(drawn, fit.chain, first, fit.marker_weight, fit.noise_sd_m, 25);
+  PosedFrames frames = first_poses(drawn, fit.chain, first, fit.marker_weight, fit.noise_sd_m, 25);
   const bool two_lines =
       fit.chain.segments() == 2 && kind[0] == SegmentKind::line && kind[1] == SegmentKind::line;
   const int count = two_lines ? 1 : std::max(options.rounds, 1);
@@ -216,13 +219,13 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
     if (stopped()) return cancelled();
     rounds.fit(frames, round + 1 == count);
     if (stopped()) return cancelled();
-    if (round == 0 && try_twins(drawn, frames, fit)) {
+    if (round == 0 && try_mirrored(drawn, frames, fit)) {
       frames = first_poses(drawn, fit.chain, frames.frame, fit.marker_weight, fit.noise_sd_m, 25);
       rounds.fit(frames, round + 1 == count);
     }
     if (round + 1 == count) break;
     if (stopped()) return cancelled();
-    GlobalFrames next = determined_frames(drawn, fit);
+    PosedFrames next = determined_frames(drawn, fit);
     if (next.size() < 20) {
       fit.warnings.emplace_back(
           "Fewer than 20 frames determine all joints by themselves; the geometry rests on the frames that "
@@ -233,75 +236,11 @@ Result<ChainFit> fit_chain(const ChainSamples& samples, const ChainLayout& layou
     frames = std::move(next);
   }
   for (const std::int64_t f : frames.frame) fit.frames.push_back(kept[f]);
-  if (fit.twin_margin < kTwinClear) {
+  if (fit.mirror_margin < kMirrorClear) {
     fit.warnings.emplace_back(
         "A mirrored geometry fits nearly as well; which side of its markers a joint lies on is not known.");
   }
   return fit;
 }
 
-Matrix3d ChainFit::joint_covariance(int j, bool in_parent) const {
-  const int s = in_parent ? chain.layout.parent[j] : j + 1;
-  const Vector3d p = in_parent ? Vector3d(chain.joint.col(j)) : Vector3d(Vector3d::Zero());
-  std::vector<int> markers = chain.layout.markers_of(s);
-  std::erase_if(markers, [&](int k) { return !(marker_weight[k] > 0.0); });  // their places are not known
-  const auto n = static_cast<double>(markers.size());
-  Vector3d mean = Vector3d::Zero();
-  for (const int k : markers) mean += chain.marker.col(k) / n;
-  Matrix3d inertia = Matrix3d::Zero();
-  for (const int k : markers) {
-    const Vector3d d = chain.marker.col(k) - mean;
-    inertia += d.squaredNorm() * Matrix3d::Identity() - d * d.transpose();
-  }
-  // About the line of collinear markers there is no turn to tell.
-  inertia.diagonal().array() += 1e-9 * inertia.trace() + 1e-300;
-  const Matrix3d mobility = inertia.inverse();
-  const auto& globals = chain.globals();
-  Eigen::Matrix3Xd L = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(globals.size()));
-  for (std::size_t g = 0; g < globals.size(); ++g) {
-    if (globals[g].segment != s) continue;
-    const Vector3d e = Vector3d::Unit(globals[g].axis);
-    if (globals[g].marker < 0) {
-      if (in_parent && globals[g].joint == j) L.col(g) = e;
-      continue;
-    }
-    if (!(marker_weight[globals[g].marker] > 0.0)) continue;
-    const Vector3d turn = mobility * (chain.marker.col(globals[g].marker) - mean).cross(e);
-    L.col(g) = -e / n - turn.cross(p - mean);
-  }
-  return L * global_covariance * L.transpose();
-}
-
-std::vector<ChainFit::Length> ChainFit::lengths() const {
-  std::vector<Length> out;
-  for (int s = 0; s < chain.segments(); ++s) {
-    std::vector<int> joints;
-    if (s > 0) joints.push_back(s - 1);
-    for (int j = 0; j < chain.joints(); ++j) {
-      if (chain.layout.parent[j] == s) joints.push_back(j);
-    }
-    for (std::size_t a = 0; a < joints.size(); ++a) {
-      for (std::size_t b = a + 1; b < joints.size(); ++b) {
-        // The segment's upper joint (segment 0: joint 0) is its origin.
-        const auto place = [&](int j) {
-          return j == s - 1 ? Vector3d(Vector3d::Zero()) : Vector3d(chain.joint.col(j));
-        };
-        const Vector3d way = place(joints[b]) - place(joints[a]);
-        const double length = way.norm();
-        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(chain.globals().size());
-        for (std::size_t g = 0; g < chain.globals().size(); ++g) {
-          const Chain::Global& what = chain.globals()[g];
-          if (what.joint < 0 || what.segment != s) continue;
-          const double sign = what.joint == joints[b] ? 1.0 : what.joint == joints[a] ? -1.0 : 0.0;
-          gradient[g] = sign * way[what.axis] / std::max(length, 1e-12);
-        }
-        const double variance = gradient.dot(global_covariance * gradient);
-        out.push_back({joints[a], joints[b], s, length, std::sqrt(std::max(variance, 0.0)),
-                       way / std::max(length, 1e-12)});
-      }
-    }
-  }
-  return out;
-}
-
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

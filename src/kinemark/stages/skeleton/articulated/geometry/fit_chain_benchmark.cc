@@ -5,10 +5,11 @@
 
 #include <cmath>
 
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 #include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 // Arguments: segments, markers a segment, share missing in per cent, kind, warm (frames follow each other
@@ -57,4 +58,4 @@ BENCHMARK(solve_frames)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

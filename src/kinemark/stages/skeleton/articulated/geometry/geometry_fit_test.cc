@@ -6,38 +6,30 @@
 
 #include <cmath>
 
-#include "kinemark/stages/skeleton/articulated/geometry/fit_rounds.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
+#include "kinemark/stages/skeleton/articulated/testing/true_poses.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::SegmentKind;
 using testing_limbs::hide;
 using testing_limbs::make_random_chain;
+using testing_limbs::move_as_hinge;
 using testing_limbs::RandomChain;
+using testing_limbs::true_poses;
 
-GlobalFrames true_poses(const RandomChain& limb) {
-  GlobalFrames frames;
-  for (std::size_t f = 0; f < limb.pose.size(); ++f) {
-    frames.frame.push_back(static_cast<std::int64_t>(f));
-    frames.pose.push_back(limb.pose[f]);
-    frames.weight.emplace_back(limb.chain.markers(), 1.0);
-  }
-  return frames;
-}
-
-TEST(GlobalFit, ReturnsToTheGeometryOfExactData) {
+TEST(GeometryFit, ReturnsToTheGeometryOfExactData) {
   for (const SegmentKind kind : {SegmentKind::line, SegmentKind::plane, SegmentKind::solid}) {
     const RandomChain limb =
         make_random_chain({.segments = 3, .frames = 40, .kind = kind, .noise_sd_m = 0.0, .missing = 0.1});
     Chain chain = limb.chain;
     Random random(3, 1);
-    Eigen::VectorXd step(static_cast<Eigen::Index>(chain.globals().size()));
+    Eigen::VectorXd step(static_cast<Eigen::Index>(chain.geometry_parameters().size()));
     for (double& s : step) s = 0.003 * random.gaussian();
-    chain.add_globals(step);
-    GlobalFrames frames = true_poses(limb);
-    GlobalFit fit(chain, limb.samples, frames);
+    chain.move_geometry(step);
+    PosedFrames frames = true_poses(limb);
+    GeometryFit fit(chain, limb.samples, frames);
     EXPECT_GT(fit.cost(), 1e-4);
     EXPECT_LT(fit.run(30), 1e-12);
     for (int k = 0; k < chain.markers(); ++k)
@@ -46,18 +38,18 @@ TEST(GlobalFit, ReturnsToTheGeometryOfExactData) {
   }
 }
 
-TEST(GlobalFit, DegreesOfFreedomAreCounted) {
+TEST(GeometryFit, DegreesOfFreedomAreCounted) {
   RandomChain limb = make_random_chain({.frames = 20});
-  GlobalFrames frames = true_poses(limb);
+  PosedFrames frames = true_poses(limb);
   // 18 coordinates and 9 parameters a frame; 18 places of markers less 6 turns of axes.
-  EXPECT_EQ(GlobalFit(limb.chain, limb.samples, frames).degrees_of_freedom(), 20 * 9 - 18 + 6);
+  EXPECT_EQ(GeometryFit(limb.chain, limb.samples, frames).degrees_of_freedom(), 20 * 9 - 18 + 6);
   // One marker on the first segment: 12 coordinates, and its turn about the line to the joint is open.
   for (const int k : {1, 2}) hide(limb.samples, 0, k);
-  EXPECT_EQ(GlobalFit(limb.chain, limb.samples, frames).degrees_of_freedom(), 19 * 9 + (12 - 8) - 18 + 6);
+  EXPECT_EQ(GeometryFit(limb.chain, limb.samples, frames).degrees_of_freedom(), 19 * 9 + (12 - 8) - 18 + 6);
 }
 
 // How far the first marker lies from the joint: its scatter over recordings against its variance in each.
-TEST(GlobalFit, CovarianceIsThatOfRepeatedRecordings) {
+TEST(GeometryFit, CovarianceIsThatOfRepeatedRecordings) {
   constexpr double kNoise_m = 0.001;
   constexpr int kRecordings = 60;
   double sum = 0.0, squares = 0.0, variance = 0.0, chi2 = 0.0;
@@ -65,13 +57,13 @@ TEST(GlobalFit, CovarianceIsThatOfRepeatedRecordings) {
     RandomChain limb = make_random_chain(
         {.frames = 25, .noise_sd_m = kNoise_m, .seed = static_cast<std::uint64_t>(round) + 1});
     const double truth = limb.chain.marker.col(0).norm();
-    GlobalFrames frames = true_poses(limb);
-    GlobalFit fit(limb.chain, limb.samples, frames);
+    PosedFrames frames = true_poses(limb);
+    GeometryFit fit(limb.chain, limb.samples, frames);
     chi2 += fit.run(10) / (kNoise_m * kNoise_m * fit.degrees_of_freedom()) / kRecordings;
     const Eigen::MatrixXd C = kNoise_m * kNoise_m * fit.covariance(kNoise_m);
-    const Vector3d way = limb.chain.marker.col(0).normalized();
+    const Vector3d direction = limb.chain.marker.col(0).normalized();
     Eigen::VectorXd slope = Eigen::VectorXd::Zero(C.rows());
-    slope.head<3>() = way;  // the first marker's globals come first
+    slope.head<3>() = direction;  // the first marker's coordinates come first
     variance += slope.dot(C * slope) / kRecordings;
     const double error = limb.chain.marker.col(0).norm() - truth;
     sum += error;
@@ -83,13 +75,13 @@ TEST(GlobalFit, CovarianceIsThatOfRepeatedRecordings) {
   EXPECT_NEAR(squares / variance, 1.0, 0.45);
 }
 
-TEST(GlobalFit, EachMarkersNoiseIsSeenInItsResiduals) {
+TEST(GeometryFit, EachMarkersNoiseIsSeenInItsResiduals) {
   RandomChain limb = make_random_chain({.markers_per_segment = 5, .frames = 150});
   Random skin(8, 1);
   for (std::size_t f = 0; f < 150; ++f)
     for (std::size_t i = 0; i < 3; ++i) limb.samples.x[30 * f + 3 * 6 + i] += 0.003 * skin.gaussian();
-  GlobalFrames frames = true_poses(limb);
-  GlobalFit fit(limb.chain, limb.samples, frames);
+  PosedFrames frames = true_poses(limb);
+  GeometryFit fit(limb.chain, limb.samples, frames);
   (void)fit.run(5);
   const auto ratio = fit.marker_variance(0.001);
   for (std::size_t k = 0; k < 10; ++k) {
@@ -111,40 +103,42 @@ TEST(GlobalFit, EachMarkersNoiseIsSeenInItsResiduals) {
   EXPECT_LT(loose, 0.8 * others);
 }
 
-TEST(ThinOut, DrawsEvenlyAndOnlyFramesThatShowTwoMarkers) {
-  RandomChain limb = make_random_chain({.frames = 100});
-  for (int f = 0; f < 50; ++f)
-    for (int k = 0; k < 5; ++k) hide(limb.samples, f, k);
-  std::vector<std::int64_t> kept;
-  const ChainSamples all = thin_out(limb.samples, 1000, kept);
-  EXPECT_EQ(all.frames, 50);
-  EXPECT_EQ(kept.front(), 50);
-  const ChainSamples some = thin_out(limb.samples, 10, kept);
-  ASSERT_EQ(kept.size(), 10U);
-  for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(kept[i], 50 + 5 * static_cast<std::int64_t>(i));
-    EXPECT_EQ(some.frame(static_cast<std::int64_t>(i))[0], limb.samples.frame(kept[i])[0]);
+// Half the cost's slope by differences, every pose refitted, against the step that the fit takes from there.
+TEST(GeometryFit, EndsWhereTheCostIsLeast) {
+  RandomChain limb = make_random_chain({.frames = 30, .noise_sd_m = 0.002});
+  PosedFrames frames = true_poses(limb);
+  GeometryFit fit(limb.chain, limb.samples, frames);
+  const double least = fit.run(30);
+  const auto n = static_cast<Eigen::Index>(limb.chain.geometry_parameters().size());
+  Random random(12, 1);
+  for (int round = 0; round < 5; ++round) {
+    Eigen::VectorXd step(n);
+    for (double& s : step) s = 1e-3 * random.gaussian();
+    limb.chain.move_geometry(step);
+    EXPECT_GE(fit.cost(), least * (1.0 - 1e-9));
+    limb.chain.move_geometry(-step);
   }
+  EXPECT_NEAR(fit.cost(), least, 1e-6 * least);
 }
 
-TEST(FirstFrames, PrefersWholeFramesAndMakesDoWithFewer) {
-  RandomChain limb = make_random_chain({.frames = 100});
-  for (int f = 0; f < 40; ++f) hide(limb.samples, f, 1);
-  EXPECT_EQ(first_frames(limb.samples, limb.chain).size(), 60U) << "whole frames, if forty or more";
-  for (int f = 40; f < 80; ++f) hide(limb.samples, f, 4);
-  EXPECT_EQ(first_frames(limb.samples, limb.chain).size(), 100U) << "three of one and two of the other";
-}
-
-// Poses that turn about all axes leave one geometry: no twin is looked for.
-TEST(TryTwins, NoTwinWhereTheJointTurnsFreely) {
-  const RandomChain limb = make_random_chain({.frames = 80});
-  ChainFit fit;
-  fit.chain = limb.chain;
-  fit.noise_sd_m = 0.001;
-  fit.marker_weight.assign(6, 1.0);
-  EXPECT_FALSE(try_twins(limb.samples, true_poses(limb), fit));
-  EXPECT_TRUE(std::isinf(fit.twin_margin));
+// A hinge leaves the position along its axis open: its variance is that of the prior, 0.3 m, or of a hold.
+TEST(GeometryFit, TheOpenDirectionOfAHingeIsWide) {
+  RandomChain limb = make_random_chain({.markers_per_segment = 4, .frames = 60});
+  move_as_hinge(limb, 0.0);  // noise would look like motion about other axes
+  PosedFrames frames = true_poses(limb);
+  GeometryFit fit(limb.chain, limb.samples, frames, 0.0005);
+  (void)fit.run(10);
+  Eigen::VectorXd along =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(limb.chain.geometry_parameters().size()));
+  for (std::size_t g = 0; g < limb.chain.geometry_parameters().size(); ++g)
+    if (limb.chain.geometry_parameters()[g].axis == 0) along[static_cast<Eigen::Index>(g)] = -1.0;
+  along.normalize();
+  const double open = 0.0005 * std::sqrt(along.dot(fit.covariance(0.0005) * along));
+  EXPECT_GT(open, 0.05);
+  fit.hold({{.joint = 0, .in_parent = Vector3d::UnitX(), .in_child = Vector3d::UnitX()}});
+  (void)fit.run(10);
+  EXPECT_LT(0.0005 * std::sqrt(along.dot(fit.covariance(0.0005) * along)), 0.1 * open);
 }
 
 }  // namespace
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -8,10 +8,10 @@
 #include <limits>
 #include <numbers>
 
-#include "kinemark/stages/skeleton/articulated/geometry/fit_rounds.h"
-#include "kinemark/stages/skeleton/articulated/geometry/segment_shape.h"
+#include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
+#include "kinemark/stages/skeleton/articulated/geometry/start_geometry.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
@@ -19,7 +19,7 @@ using data::SegmentKind;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();  // a trial that was not made
 constexpr double kPi = std::numbers::pi;
-constexpr double kFirm = 50.0;  // information beyond which a turn's integral is Gaussian
+constexpr double kFirm = 50.0;  // information beyond which a rotation's integral is Gaussian
 constexpr double kLineBonusOfFrame = 0.5;
 constexpr double kLineBonus = 15.0;  // nats that another kind must be better than a line
 constexpr double kPlaneBonus = 3.0;  // nats that a solid must be better than a plane
@@ -51,9 +51,9 @@ Candidate try_kinds(const ChainSamples& samples, const ChainLayout& layout,
   if (!start) return out;
   Chain chain = *start;
   const std::vector<double> weights(chain.markers(), 1.0);
-  GlobalFrames poses = first_poses(samples, chain, frames, weights, sigma_m > 0.0 ? sigma_m : 1e-3, 15);
+  PosedFrames poses = first_poses(samples, chain, frames, weights, sigma_m > 0.0 ? sigma_m : 1e-3, 15);
   if (poses.size() < 5) return out;
-  GlobalFit fit(chain, samples, poses);
+  GeometryFit fit(chain, samples, poses);
   const double cost = fit.run(20);
   out.noise_m = std::sqrt(cost / std::max(fit.degrees_of_freedom(), 1.0));
   if (sigma_m > 0.0) out.evidence = log_evidence(chain, samples, poses, sigma_m);
@@ -62,9 +62,9 @@ Candidate try_kinds(const ChainSamples& samples, const ChainLayout& layout,
 
 }  // namespace
 
-double log_evidence(const Chain& chain, const ChainSamples& samples, const GlobalFrames& frames,
+double log_evidence(const Chain& chain, const ChainSamples& samples, const PosedFrames& frames,
                     double sigma_m) {
-  FrameSolver solver(chain);
+  PoseSolver solver(chain);
   Eigen::MatrixXd H;
   Eigen::VectorXd b;
   const double variance = sigma_m * sigma_m;
@@ -85,7 +85,8 @@ double log_evidence(const Chain& chain, const ChainSamples& samples, const Globa
       evidence -= kind == SegmentKind::line ? std::log(4.0 * kPi) : std::log(8.0 * kPi * kPi);
     }
   }
-  const double free = static_cast<double>(chain.globals().size()) - static_cast<double>(chain.gauge().cols());
+  const double free =
+      static_cast<double>(chain.geometry_parameters().size()) - static_cast<double>(chain.gauge().cols());
   return evidence - 0.5 * free * std::log(std::max(3.0 * seen, 1.0));
 }
 
@@ -202,4 +203,4 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
   return best;
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
@@ -17,7 +17,7 @@ using data::SegmentKind;
 
 constexpr std::int64_t kFewFrames = 2;  // more than this must tie a marker to three others
 
-Eigen::Map<const Vector3d> place(const ChainSamples& samples, std::int64_t frame, int marker) {
+Eigen::Map<const Vector3d> position(const ChainSamples& samples, std::int64_t frame, int marker) {
   return Eigen::Map<const Vector3d>(samples.frame(frame) + 3 * marker);
 }
 
@@ -27,7 +27,7 @@ double distance2(const ChainSamples& samples, int a, int b, double sigma_m, std:
   count = 0;
   for (std::int64_t f = 0; f < samples.frames; ++f) {
     if (!samples.seen(f, a) || !samples.seen(f, b)) continue;
-    sum += (place(samples, f, a) - place(samples, f, b)).squaredNorm();
+    sum += (position(samples, f, a) - position(samples, f, b)).squaredNorm();
     ++count;
   }
   return count == 0 ? 0.0 : std::max(sum / static_cast<double>(count) - 6.0 * sigma_m * sigma_m, 0.0);
@@ -79,7 +79,7 @@ void make_principal(Eigen::Matrix3Xd& points, SegmentKind kind) {
   }
 }
 
-// Each known marker's mean place in the segment's axes, over frames that fix these axes.
+// Each known marker's mean position in the segment's axes, over frames that fix these axes.
 void average_places(const ChainSamples& samples, std::span<const int> markers, const std::vector<int>& known,
                     std::span<const int> targets, Eigen::Matrix3Xd& shape) {
   std::vector<int> known_markers;
@@ -97,7 +97,7 @@ void average_places(const ChainSamples& samples, std::span<const int> markers, c
     if (!rigid_pose(samples, f, known_markers, known_shape, SegmentKind::solid, R, o, spread)) continue;
     for (const int t : targets) {
       if (!samples.seen(f, markers[t])) continue;
-      sum.col(t) += spread * (R.transpose() * (place(samples, f, markers[t]) - o));
+      sum.col(t) += spread * (R.transpose() * (position(samples, f, markers[t]) - o));
       count[t] += spread;
     }
   }
@@ -123,8 +123,8 @@ Triangle best_triangle(const ChainSamples& samples, std::span<const int> markers
           if (!samples.seen(f, markers[a]) || !samples.seen(f, markers[b]) || !samples.seen(f, markers[c]))
             continue;
           if (count < 50) {
-            const Vector3d ab = place(samples, f, markers[b]) - place(samples, f, markers[a]);
-            const Vector3d ac = place(samples, f, markers[c]) - place(samples, f, markers[a]);
+            const Vector3d ab = position(samples, f, markers[b]) - position(samples, f, markers[a]);
+            const Vector3d ac = position(samples, f, markers[c]) - position(samples, f, markers[a]);
             area += ab.cross(ac).norm();
           }
           ++count;
@@ -149,7 +149,7 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
   int n = 0;
   for (std::size_t i = 0; i < markers.size(); ++i) {
     if (!samples.seen(frame, markers[i]) || !placed(shape, static_cast<Eigen::Index>(i))) continue;
-    mean_x += place(samples, frame, markers[i]);
+    mean_x += position(samples, frame, markers[i]);
     mean_m += shape.col(i);
     ++n;
   }
@@ -161,7 +161,7 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
   for (std::size_t i = 0; i < markers.size(); ++i) {
     if (!samples.seen(frame, markers[i]) || !placed(shape, static_cast<Eigen::Index>(i))) continue;
     const Vector3d m = shape.col(i) - mean_m;
-    A += (place(samples, frame, markers[i]) - mean_x) * m.transpose();
+    A += (position(samples, frame, markers[i]) - mean_x) * m.transpose();
     S += m * m.transpose();
   }
   if (kind == SegmentKind::line) {
@@ -171,7 +171,7 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
     spread = S(2, 2);
   } else {
     rotation = nearest_rotation(A);
-    // Markers on a line still have a pose, if one that says little of the turn about that line.
+    // Markers on a line still have a pose, but one that hardly determines the rotation about that line.
     const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(S, Eigen::EigenvaluesOnly);
     spread = axes.eigenvalues()[1] + 1e-6 * axes.eigenvalues()[2];
   }
@@ -245,4 +245,4 @@ Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples, std::span<co
   return shape;
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A first geometry without any pose: shapes from distances between markers, joints by SCoRE.
+// Shape of one segment's markers without any pose, and the pose of such a shape in a frame.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 /// Shape of one segment's markers about their mean, in its principal axes (z longest, x second): from mean
 /// squared distances less 6 sigma^2, which noise adds to them; where markers are never seen all together, the
@@ -26,10 +26,4 @@ bool rigid_pose(const ChainSamples& samples, std::int64_t frame, std::span<const
                 const Eigen::Matrix3Xd& shape, data::SegmentKind kind, Matrix3d& rotation, Vector3d& origin,
                 double& spread);
 
-/// Shapes put together at their joints: o_a + R_a p_a = o_b + R_b p_b over all frames that show both
-/// segments, by weighted least squares (SCoRE, Ehrig et al. 2006, J Biomech 39:2798; a line offers its
-/// direction only). A last segment of one or two markers takes the joint from a sphere about it.
-[[nodiscard]] Result<Chain> start_geometry(const ChainSamples& samples, const ChainLayout& layout,
-                                           const std::vector<data::SegmentKind>& kind, double sigma_m);
-
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

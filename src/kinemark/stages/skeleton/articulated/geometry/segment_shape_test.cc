@@ -2,54 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/geometry/segment_shape.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/stages/skeleton/articulated/testing/distance_error.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::SegmentKind;
-using testing::HasSubstr;
+using testing_limbs::distance_error;
 using testing_limbs::hide;
 using testing_limbs::make_random_chain;
+using testing_limbs::move_lab;
 using testing_limbs::RandomChain;
-
-/// Largest difference between the distances of two sets of points: no choice of axes changes it.
-double distance_error(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-  double worst = 0.0;
-  for (Eigen::Index i = 0; i < a.cols(); ++i)
-    for (Eigen::Index j = 0; j < i; ++j)
-      worst = std::max(worst, std::abs((a.col(i) - a.col(j)).norm() - (b.col(i) - b.col(j)).norm()));
-  return worst;
-}
-
-/// The same for each segment's markers and its upper joint, its origin.
-double geometry_error(const Chain& found, const Chain& truth) {
-  double worst = 0.0;
-  for (int s = 0; s < truth.segments(); ++s) {
-    const auto markers = truth.layout.markers_of(s);
-    Eigen::Matrix3Xd a = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()) + 1), b = a;
-    for (std::size_t i = 0; i < markers.size(); ++i) {
-      a.col(static_cast<Eigen::Index>(i)) = found.marker.col(markers[i]);
-      b.col(static_cast<Eigen::Index>(i)) = truth.marker.col(markers[i]);
-    }
-    worst = std::max(worst, distance_error(a, b));
-  }
-  return worst;
-}
-
-/// No frame shows all of both segments: in even frames a marker of the first is hidden, in odd ones of the
-/// second.
-RandomChain never_both_whole(double noise_sd_m) {
-  RandomChain limb = make_random_chain({.frames = 200, .noise_sd_m = noise_sd_m});
-  for (int f = 0; f < 200; ++f) hide(limb.samples, f, f % 2 == 0 ? (f / 2) % 3 : 3 + (f / 2) % 3);
-  return limb;
-}
 
 TEST(SegmentShape, IsExactAboutItsMeanInPrincipalAxes) {
   const RandomChain limb =
@@ -113,38 +82,30 @@ TEST(RigidPose, NeedsThreeMarkersOrTwoOfALine) {
   EXPECT_FALSE(rigid_pose(limb.samples, 0, markers, shape, SegmentKind::line, R, o, spread));
 }
 
-TEST(StartGeometry, IsExactOnExactData) {
-  for (const SegmentKind kind : {SegmentKind::line, SegmentKind::plane, SegmentKind::solid}) {
-    const RandomChain limb = make_random_chain(
-        {.segments = 3, .markers_per_segment = 4, .frames = 60, .kind = kind, .noise_sd_m = 0.0});
-    const auto start = start_geometry(limb.samples, limb.chain.layout, limb.chain.kind, 0.0);
-    ASSERT_TRUE(start.has_value()) << start.error().message;
-    EXPECT_LT(geometry_error(*start, limb.chain), 1e-4);
-    EXPECT_NEAR(start->joint.col(1).norm(), 0.150, 1e-4);
-  }
+TEST(SegmentShape, DoesNotChangeWithTheLab) {
+  RandomChain limb = make_random_chain({.markers_per_segment = 5, .frames = 80, .missing = 0.2});
+  const std::vector<int> markers{0, 1, 2, 3, 4};
+  const auto here = segment_shape(limb.samples, markers, SegmentKind::solid, 0.001).value();
+  move_lab(limb, exponential({-0.8, 0.5, 0.9}), {3.0, -1.0, 0.2});
+  const auto there = segment_shape(limb.samples, markers, SegmentKind::solid, 0.001).value();
+  EXPECT_LT(distance_error(here, there), 1e-9);
 }
 
-// SCoRE wants frames that show both segments; without them each segment sees the other's markers on spheres.
-TEST(StartGeometry, SpheresStandInWhereNoFrameShowsBothSegments) {
-  const RandomChain exact = never_both_whole(0.0), noisy = never_both_whole(0.001);
-  const auto start = start_geometry(exact.samples, exact.chain.layout, exact.chain.kind, 0.0);
-  ASSERT_TRUE(start.has_value()) << start.error().message;
-  EXPECT_LT(geometry_error(*start, exact.chain), 1e-4);
-  const auto rough = start_geometry(noisy.samples, noisy.chain.layout, noisy.chain.kind, 0.001);
-  ASSERT_TRUE(rough.has_value()) << rough.error().message;
-  EXPECT_LT(geometry_error(*rough, noisy.chain), 0.010);
+TEST(SegmentShape, APlaneHasNoThirdCoordinate) {
+  const RandomChain limb = make_random_chain({.markers_per_segment = 4, .frames = 60});
+  const std::vector<int> markers{0, 1, 2, 3};
+  const auto shape = segment_shape(limb.samples, markers, SegmentKind::plane, 0.001).value();
+  EXPECT_EQ(shape.row(1).norm(), 0.0);
+  EXPECT_GT(shape.row(0).norm(), 0.01);
 }
 
-TEST(StartGeometry, SaysWhatIsMissing) {
-  RandomChain limb = make_random_chain({.frames = 30, .kind = SegmentKind::line});
-  // Each frame shows one segment alone.
+TEST(SegmentShape, WantsThreeMarkersThatAreSeenTogether) {
+  RandomChain limb = make_random_chain({.markers_per_segment = 4, .frames = 30});
   for (int f = 0; f < 30; ++f)
-    for (int k = 0; k < 3; ++k) hide(limb.samples, f, f % 2 == 0 ? k : 3 + k);
-  EXPECT_THAT(start_geometry(limb.samples, limb.chain.layout, limb.chain.kind, 0.001).error().message,
-              HasSubstr("fewer than three frames show both segments"));
-  const std::vector<SegmentKind> solid(2, SegmentKind::solid);
-  EXPECT_FALSE(start_geometry(limb.samples, limb.chain.layout, solid, 0.001).has_value());
+    for (const int k : {f % 4, (f + 1) % 4}) hide(limb.samples, f, k);
+  const std::vector<int> markers{0, 1, 2, 3};
+  EXPECT_FALSE(segment_shape(limb.samples, markers, SegmentKind::solid, 0.001).has_value());
 }
 
 }  // namespace
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/geometry/start_geometry.h"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -7,13 +9,13 @@
 
 #include "kinemark/stages/skeleton/articulated/geometry/segment_shape.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
 using data::SegmentKind;
 
-// Pulls a joint that the motion does not show towards its segments' middle: 1 mm of residual over 0.3 m.
+// Draws a joint that the motion does not show towards its segments' middle: 1 mm of residual over 0.3 m.
 constexpr double kRidge = 1e-5;
 constexpr std::int64_t kEnoughForScore = 12;  // frames that show both poses; below, spheres see more
 
@@ -136,7 +138,7 @@ Result<Joint> start_joint(const ChainSamples& samples, const Body& a, const Body
   return score(samples, a, b, 3);
 }
 
-// One or two markers about a joint whose place is known in the other body: distances give a planar shape.
+// One or two markers about a joint whose position is known in the other body: distances give a planar shape.
 void shape_about_joint(const ChainSamples& samples, const Body& a, const Vector3d& p, Body& b) {
   std::vector<double> sum(b.markers.size(), 0.0);
   std::vector<double> count(b.markers.size(), 0.0);
@@ -222,4 +224,4 @@ Result<Chain> start_geometry(const ChainSamples& samples, const ChainLayout& lay
   return chain;
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

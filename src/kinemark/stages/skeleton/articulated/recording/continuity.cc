@@ -9,8 +9,9 @@
 #include <limits>
 
 #include "kinemark/core/parallel.h"
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::CentreState;
@@ -21,16 +22,17 @@ constexpr double kLooseEnds_m = 0.015;       // path known worse than this does 
 constexpr std::int64_t kGrain = 256;         // flagged frames a chunk
 constexpr double kWeakest = 1e-6;            // of a joint's information, relative
 
-/// The path at one frame as a frame that was not used for it sees it.
-struct Outlook {
+/// A joint's position in one frame as its path predicts it, the frame itself not having been used.
+struct PredictedJoint {
   bool known = false;
   Vector3d place = Vector3d::Zero();
   Matrix3d covariance = Matrix3d::Zero();  ///< of the path
   Matrix3d inverse = Matrix3d::Zero();     ///< of path and noise together, for distances
 };
 
-std::vector<Outlook> look(const Continuity& continuity, std::size_t frame, double noise_sd_m) {
-  std::vector<Outlook> out(continuity.path.size());
+std::vector<PredictedJoint> predict_joints(const Continuity& continuity, std::size_t frame,
+                                           double noise_sd_m) {
+  std::vector<PredictedJoint> out(continuity.path.size());
   for (std::size_t j = 0; j < out.size(); ++j) {
     const SmoothedPath& path = continuity.path[j];
     if (path.place.empty() || !path.known(frame)) continue;
@@ -43,15 +45,15 @@ std::vector<Outlook> look(const Continuity& continuity, std::size_t frame, doubl
   return out;
 }
 
-double squared_distance(const Vector3d& x, const Outlook& path) {
+double squared_distance(const Vector3d& x, const PredictedJoint& path) {
   const Vector3d d = x - path.place;
   return d.dot(path.inverse * d);
 }
 
 /// The mode that data and paths prefer together, or -1 when for some open joint another place comes close to
 /// it or the path lies elsewhere.
-int choose(const FlaggedFrame& flagged, const std::vector<Outlook>& paths, const std::vector<bool>& open,
-           double noise_sd_m) {
+int choose(const FlaggedFrame& flagged, const std::vector<PredictedJoint>& paths,
+           const std::vector<bool>& open, double noise_sd_m) {
   const std::size_t n = flagged.modes.size();
   if (n == 0) return -1;
   std::vector<double> score(n);
@@ -74,33 +76,34 @@ int choose(const FlaggedFrame& flagged, const std::vector<Outlook>& paths, const
   return static_cast<int>(best);
 }
 
-/// What a frame that was solved with `prior` about the joint adds to it: the place where its own markers
-/// pull.
+/// What a frame that was solved with `prior` about the joint adds to it: the position that its own markers
+/// prefer.
 PathPoint without_prior(const Vector3d& centre, const Matrix3d& information, const Matrix3d& prior,
                         const Vector3d& target) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(information);
   const double weakest = kWeakest * std::max(eigen.eigenvalues()[2], 0.0);
   PathPoint point{.place = centre};
-  const Vector3d pull = prior * (centre - target);
+  const Vector3d gradient = prior * (centre - target);
   for (int i = 0; i < 3; ++i) {
     const double w = eigen.eigenvalues()[i];
     if (w <= weakest) continue;
     const Vector3d v = eigen.eigenvectors().col(i);
     point.information += w * v * v.transpose();
-    point.place += v.dot(pull) / w * v;
+    point.place += v.dot(gradient) / w * v;
   }
   return point;
 }
 
 class Bridge {
  public:
-  Bridge(const ChainFit& fit, const ChainSamples& samples, const Continuity& continuity, RecordingPass& pass)
+  Bridge(const FittedChain& fit, const ChainSamples& samples, const Continuity& continuity,
+         RecordingPass& pass)
       : fit_(fit), samples_(samples), continuity_(continuity), pass_(pass), solver_(fit) {}
 
   void cross(const FlaggedFrame& flagged) {
     const auto k = static_cast<std::size_t>(flagged.frame);
     const std::size_t J = pass_.points.size();
-    const auto paths = look(continuity_, k, fit_.noise_sd_m);
+    const auto paths = predict_joints(continuity_, k, fit_.noise_sd_m);
     std::vector<bool> open(J);
     for (std::size_t j = 0; j < J; ++j) open[j] = pass_.state[j][k] != CentreState::determined;
     const double* x = samples_.frame(flagged.frame);
@@ -117,26 +120,26 @@ class Bridge {
   }
 
  private:
-  /// A joint that no mode holds: the frame leaves a curve or more.
+  /// A joint that no mode determines: it may lie anywhere on a curve or in space.
   [[nodiscard]] bool has_open_curve(std::size_t frame, const std::vector<bool>& open) const {
     for (std::size_t j = 0; j < open.size(); ++j)
       if (open[j] && pass_.state[j][frame] == CentreState::undetermined) return true;
     return false;
   }
 
-  [[nodiscard]] bool accept(double cost, std::size_t joint, const Outlook& path) const {
+  [[nodiscard]] bool accept(double cost, std::size_t joint, const PredictedJoint& path) const {
     return path.known && !is_misfit(fit_.chain, cost, fit_.noise_sd_m, frame_.seen) &&
            squared_distance(frame_.centre[joint], path) < kFarthest;
   }
 
-  /// Two markers at least: with one the path would only be told what it said.
+  /// Two markers at least: one would only return the path's own prediction.
   [[nodiscard]] bool shows_enough(std::int64_t frame) const {
     int seen = 0;
     for (int m = 0; m < samples_.markers; ++m) seen += samples_.seen(frame, m) ? 1 : 0;
     return seen >= 2;
   }
 
-  void fill_in(const double* x, std::size_t k, const std::vector<Outlook>& paths,
+  void fill_in(const double* x, std::size_t k, const std::vector<PredictedJoint>& paths,
                const std::vector<bool>& open) {
     const std::size_t J = paths.size();
     const double noise2 = fit_.noise_sd_m * fit_.noise_sd_m;
@@ -161,7 +164,7 @@ class Bridge {
     }
   }
 
-  const ChainFit& fit_;
+  const FittedChain& fit_;
   const ChainSamples& samples_;
   const Continuity& continuity_;
   RecordingPass& pass_;
@@ -174,7 +177,7 @@ class Bridge {
 
 }  // namespace
 
-Continuity follow_paths(const ChainFit& fit, const ChainSamples& samples, double rate_hz, int threads,
+Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, double rate_hz, int threads,
                         RecordingPass& pass) {
   const std::size_t J = pass.points.size();
   Continuity continuity{.prior = std::vector<PathPrior>(J), .path = std::vector<SmoothedPath>(J)};
@@ -195,4 +198,4 @@ Continuity follow_paths(const ChainFit& fit, const ChainSamples& samples, double
   return continuity;
 }
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

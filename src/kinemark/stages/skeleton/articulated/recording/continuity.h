@@ -6,7 +6,7 @@
 
 #include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 
 /// The joints' paths through time.
 struct Continuity {
@@ -14,14 +14,13 @@ struct Continuity {
   std::vector<SmoothedPath> path;  ///< J; empty where the frames do not follow each other
 };
 
-/// Smooth the determined frames alone; let that path choose among the places that fit a flagged frame, or
-/// fill in what the frame leaves open; smooth again. Chosen frames gain information in `pass.points`.
-///
-/// A place is chosen when it leads the others by a factor of 100 and lies within five standard deviations of
-/// the path. Else the frame is solved once more with the path as knowledge about its joints; what it then
-/// adds is used when its cost is explained by noise and the joint stays within five standard deviations.
-/// O(F).
-[[nodiscard]] Continuity follow_paths(const ChainFit& fit, const ChainSamples& samples, double rate_hz,
+/// Smooth the determined frames alone; let that path choose among the positions that fit a flagged
+/// frame, or fill in what the frame leaves open; smooth again. Chosen frames gain information in
+/// `pass.points`. A position is chosen when it is 100 times as likely as the others and lies within five
+/// standard deviations of the path. Otherwise the frame is solved once more with the path as prior of its
+/// joints; the result is used when noise explains its cost and the joint stays within five standard
+/// deviations of the path. O(F).
+[[nodiscard]] Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, double rate_hz,
                                       int threads, RecordingPass& pass);
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

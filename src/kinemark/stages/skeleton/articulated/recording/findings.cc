@@ -11,35 +11,36 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::SegmentKind;
 
-constexpr std::size_t kSwapFrames = 12;  // frames in which exchanged names are looked for
-constexpr double kSwapFar = 4.0;         // SDs from its place that make a marker suspect
+constexpr std::size_t kSwapFrames = 12;  // frames that are examined for exchanged names
+constexpr double kSwapFar = 4.0;         // SDs from its predicted position that make a marker suspect
 
 double angle_of(const Matrix3d& R) { return Eigen::AngleAxisd(R).angle(); }
 
-Vector3d turn_of(const Matrix3d& R) {
+Vector3d rotation_vector(const Matrix3d& R) {
   const Eigen::AngleAxisd a(R);
   return a.angle() * a.axis();
 }
 
 double angle_between_z(const Matrix3d& R) { return std::acos(std::clamp(R(2, 2), -1.0, 1.0)); }
 
-/// Turn of child against parent in the frames that know both.
-std::vector<Matrix3d> relative_turns(const ChainFit& fit, const RecordingPass& pass, int joint) {
-  std::vector<Matrix3d> turns;
+/// Rotation of child in parent in the frames that determine the joint.
+std::vector<Matrix3d> relative_rotations(const FittedChain& fit, const RecordingPass& pass, int joint) {
+  std::vector<Matrix3d> rotations;
   const int parent = fit.chain.layout.parent[at(joint)];
   for (const SampledPose& s : pass.sampled)
     if (s.known[at(joint)])
-      turns.push_back(s.pose.rotation[at(parent)].transpose() * s.pose.rotation[at(joint + 1)]);
-  return turns;
+      rotations.push_back(s.pose.rotation[at(parent)].transpose() * s.pose.rotation[at(joint + 1)]);
+  return rotations;
 }
 
-/// Largest angle between two of many turns: the farthest from the farthest.
+/// Largest angle between any two of many rotations, by going three times to the one farthest from the last.
 template <class Angle>
 double largest_angle(std::size_t count, const Angle& angle) {
   std::size_t from = 0;
@@ -54,7 +55,7 @@ double largest_angle(std::size_t count, const Angle& angle) {
 }
 
 /// Variance of a segment's tilt in one frame that shows all its markers, about the axis known worst, rad^2.
-double tilt_variance(const ChainFit& fit, int segment) {
+double tilt_variance(const FittedChain& fit, int segment) {
   auto markers = fit.chain.layout.markers_of(segment);
   std::erase_if(markers, [&](int m) { return !(fit.marker_weight[at(m)] > 0.0); });
   Vector3d mean = Vector3d::Zero();
@@ -67,14 +68,14 @@ double tilt_variance(const ChainFit& fit, int segment) {
 }
 
 /// Residual of a marker in its segment's axes.
-Vector3d residual(const ChainFit& fit, const ChainSamples& samples, const SampledPose& s, int marker) {
+Vector3d residual(const FittedChain& fit, const ChainSamples& samples, const SampledPose& s, int marker) {
   const double* x = samples.frame(s.frame) + std::ptrdiff_t{3} * marker;
   const Matrix3d& R = s.pose.rotation[at(fit.chain.layout.segment_of_marker[at(marker)])];
   return R.transpose() * (Vector3d{x[0], x[1], x[2]} - fit.chain.predict(s.pose, marker));
 }
 
 /// All its residuals in time: frame and value.
-std::vector<std::pair<std::int64_t, Vector3d>> residuals(const ChainFit& fit, const ChainSamples& samples,
+std::vector<std::pair<std::int64_t, Vector3d>> residuals(const FittedChain& fit, const ChainSamples& samples,
                                                          const RecordingPass& pass, int marker) {
   std::vector<std::pair<std::int64_t, Vector3d>> out;
   if (!(fit.marker_weight[at(marker)] > 0.0)) return out;  // its place is not known
@@ -83,8 +84,8 @@ std::vector<std::pair<std::int64_t, Vector3d>> residuals(const ChainFit& fit, co
   return out;
 }
 
-/// Markers that lie far from where the best pose of a frame has them.
-std::vector<bool> far_off(const ChainFit& fit, const ChainSamples& samples, std::int64_t f,
+/// Markers that lie far from their predicted positions in the best pose of a frame.
+std::vector<bool> far_off(const FittedChain& fit, const ChainSamples& samples, std::int64_t f,
                           const ChainFrame& frame) {
   std::vector<bool> far(at(samples.markers), false);
   for (int m = 0; m < samples.markers; ++m) {
@@ -126,33 +127,35 @@ Step largest_step(const std::vector<std::pair<std::int64_t, Vector3d>>& series) 
 
 }  // namespace
 
-JointMotionSeen look_at_joint(const ChainFit& fit, const RecordingPass& pass, int joint) {
-  JointMotionSeen seen;
-  const auto turns = relative_turns(fit, pass, joint);
-  seen.frames = static_cast<std::int64_t>(turns.size());
-  if (turns.empty()) return seen;
+ObservedMotion observe_motion(const FittedChain& fit, const RecordingPass& pass, int joint) {
+  ObservedMotion seen;
+  const auto rotations = relative_rotations(fit, pass, joint);
+  seen.frames = static_cast<std::int64_t>(rotations.size());
+  if (rotations.empty()) return seen;
   const int parent = fit.chain.layout.parent[at(joint)];
-  // The turn of a line about itself cannot be seen: what is left are directions.
+  // The rotation of a line about itself cannot be seen: only directions remain.
   const bool line_above = fit.chain.kind[at(parent)] == SegmentKind::line,
              line_below = fit.chain.kind[at(joint + 1)] == SegmentKind::line;
   if (line_above || line_below) {
-    seen.range_rad = largest_angle(turns.size(), [&](std::size_t i, std::size_t k) {
-      if (line_above && line_below) return std::abs(angle_between_z(turns[i]) - angle_between_z(turns[k]));
-      const double c =
-          line_below ? turns[i].col(2).dot(turns[k].col(2)) : turns[i].row(2).dot(turns[k].row(2));
+    seen.range_rad = largest_angle(rotations.size(), [&](std::size_t i, std::size_t k) {
+      if (line_above && line_below)
+        return std::abs(angle_between_z(rotations[i]) - angle_between_z(rotations[k]));
+      const double c = line_below ? rotations[i].col(2).dot(rotations[k].col(2))
+                                  : rotations[i].row(2).dot(rotations[k].row(2));
       return std::acos(std::clamp(c, -1.0, 1.0));
     });
     return seen;
   }
-  seen.range_rad = largest_angle(
-      turns.size(), [&](std::size_t i, std::size_t k) { return angle_of(turns[i] * turns[k].transpose()); });
+  seen.range_rad = largest_angle(rotations.size(), [&](std::size_t i, std::size_t k) {
+    return angle_of(rotations[i] * rotations[k].transpose());
+  });
   Matrix3d sum = Matrix3d::Zero();
-  for (const Matrix3d& R : turns) sum += R;
+  for (const Matrix3d& R : rotations) sum += R;
   const Matrix3d mean = nearest_rotation(sum);
   Matrix3d spread = Matrix3d::Zero();
-  for (const Matrix3d& R : turns) {
-    const Vector3d v = turn_of(R * mean.transpose());
-    spread += v * v.transpose() / static_cast<double>(turns.size());
+  for (const Matrix3d& R : rotations) {
+    const Vector3d v = rotation_vector(R * mean.transpose());
+    spread += v * v.transpose() / static_cast<double>(rotations.size());
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread);
   seen.second_rad = std::sqrt(std::max(eigen.eigenvalues()[1], 0.0));
@@ -165,14 +168,15 @@ JointMotionSeen look_at_joint(const ChainFit& fit, const RecordingPass& pass, in
                   fit.chain.kind[at(joint + 1)] == SegmentKind::solid &&
                   seen.second_rad < 2.0 * seen.second_noise_rad && first > 3.0 * seen.second_noise_rad;
   seen.axis_sd_rad = std::max(seen.second_rad, seen.second_noise_rad) /
-                     (std::max(first, 1e-12) * std::sqrt(static_cast<double>(turns.size())));
+                     (std::max(first, 1e-12) * std::sqrt(static_cast<double>(rotations.size())));
   return seen;
 }
 
-std::vector<Slip> find_slips(const ChainFit& fit, const ChainSamples& samples, const RecordingPass& pass) {
-  std::vector<Slip> slips;
+std::vector<SlippedMarker> find_slipped_markers(const FittedChain& fit, const ChainSamples& samples,
+                                                const RecordingPass& pass) {
+  std::vector<SlippedMarker> slips;
   for (int s = 0; s < fit.chain.segments(); ++s) {
-    Slip worst;
+    SlippedMarker worst;
     for (const int m : fit.chain.layout.markers_of(s)) {
       const auto series = residuals(fit, samples, pass, m);
       if (series.size() < 40) continue;
@@ -186,8 +190,9 @@ std::vector<Slip> find_slips(const ChainFit& fit, const ChainSamples& samples, c
   return slips;
 }
 
-std::vector<Swap> find_swaps(const ChainFit& fit, const ChainSamples& samples, const RecordingPass& pass) {
-  std::map<std::pair<int, int>, Swap> found;
+std::vector<SwappedMarkers> find_swapped_markers(const FittedChain& fit, const ChainSamples& samples,
+                                                 const RecordingPass& pass) {
+  std::map<std::pair<int, int>, SwappedMarkers> found;
   ChainSolver solver(fit);
   ChainFrame frame;
   const int K = samples.markers;
@@ -212,17 +217,17 @@ std::vector<Swap> find_swaps(const ChainFit& fit, const ChainSamples& samples, c
           least = cost, best = {a, b};
       }
     if (best.first < 0) continue;
-    Swap& swap = found[best];
+    SwappedMarkers& swap = found[best];
     if (swap.frames == 0) swap = {.marker_a = best.first, .marker_b = best.second, .first_frame = f};
     swap.frames += static_cast<std::int64_t>(stride);
   }
-  std::vector<Swap> out;
+  std::vector<SwappedMarkers> out;
   out.reserve(found.size());
   for (const auto& [pair, swap] : found) out.push_back(swap);
   return out;
 }
 
-std::vector<LooseMarker> find_loose_markers(const ChainFit& fit, const ChainSamples& samples,
+std::vector<LooseMarker> find_loose_markers(const FittedChain& fit, const ChainSamples& samples,
                                             const RecordingPass& pass) {
   std::vector<LooseMarker> loose;
   std::vector<double> rms(at(fit.chain.markers()), 0.0);
@@ -238,4 +243,4 @@ std::vector<LooseMarker> find_loose_markers(const ChainFit& fit, const ChainSamp
   return loose;
 }
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -8,12 +8,12 @@
 
 #include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 
 /// How a joint moved in the sampled frames that determine it.
-struct JointMotionSeen {
-  double range_rad = 0.0;         ///< largest turn between two frames
-  double second_rad = 0.0;        ///< spread (SD) of the turns about the second axis
+struct ObservedMotion {
+  double range_rad = 0.0;         ///< largest rotation between two frames
+  double second_rad = 0.0;        ///< spread (SD) of the rotations about the second axis
   double second_noise_rad = 0.0;  ///< what noise alone would show there
   bool one_axis = false;          ///< both segments solid, and no more than noise about other axes
   bool still = false;             ///< both segments more than lines, and no more than noise about any axis
@@ -23,36 +23,39 @@ struct JointMotionSeen {
   std::int64_t frames = 0;
 };
 
-[[nodiscard]] JointMotionSeen look_at_joint(const ChainFit& fit, const RecordingPass& pass, int joint);
+[[nodiscard]] ObservedMotion observe_motion(const FittedChain& fit, const RecordingPass& pass, int joint);
 
 /// A marker that sits elsewhere on its segment after some frame.
-struct Slip {
+struct SlippedMarker {
   int marker = 0;          ///< of the chain
   std::int64_t frame = 0;  ///< first frame after it
   double distance_m = 0.0;
 };
 
 /// Steps in the residuals, seen from the segment, of at least two noise SDs; one marker a segment at most.
-[[nodiscard]] std::vector<Slip> find_slips(const ChainFit& fit, const ChainSamples& samples,
-                                           const RecordingPass& pass);
+[[nodiscard]] std::vector<SlippedMarker> find_slipped_markers(const FittedChain& fit,
+                                                              const ChainSamples& samples,
+                                                              const RecordingPass& pass);
 
 /// Two markers whose names are exchanged in some frames.
-struct Swap {
+struct SwappedMarkers {
   int marker_a = 0, marker_b = 0;
-  std::int64_t frames = 0, first_frame = 0;  ///< how many: about, where not all were looked at
+  std::int64_t frames = 0, first_frame = 0;  ///< how many: estimated where not all were examined
 };
 
-/// Exchanges that turn frames that nothing explains into ordinary ones; a dozen frames are looked at, and the
-/// pairs of which one marker or both lie far from where the frame's pose would have them.
-[[nodiscard]] std::vector<Swap> find_swaps(const ChainFit& fit, const ChainSamples& samples,
-                                           const RecordingPass& pass);
+/// Pairs of names whose exchange makes the geometry explain frames that it does not explain as they are. Up
+/// to a dozen such frames are examined, and in each the pairs of which a marker lies far from its predicted
+/// position.
+[[nodiscard]] std::vector<SwappedMarkers> find_swapped_markers(const FittedChain& fit,
+                                                               const ChainSamples& samples,
+                                                               const RecordingPass& pass);
 
 /// Markers that move on their segment: their residuals exceed the noise by half or more.
 struct LooseMarker {
   int marker = 0;
   double rms_m = 0.0;  ///< of the residual per axis
 };
-[[nodiscard]] std::vector<LooseMarker> find_loose_markers(const ChainFit& fit, const ChainSamples& samples,
+[[nodiscard]] std::vector<LooseMarker> find_loose_markers(const FittedChain& fit, const ChainSamples& samples,
                                                           const RecordingPass& pass);
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -8,7 +8,7 @@
 
 #include "kinemark/core/missing.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using Eigen::Matrix3d;
@@ -262,4 +262,4 @@ PathPrior find_path_prior(std::span<const PathPoint> points, double rate_hz, std
   return {.white_jerk = std::pow(10.0, best), .follows = best_value > unrelated};
 }
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -9,7 +9,7 @@
 
 #include "kinemark/core/array.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 
 /// What one frame says of a point: its place, and with how much information (1/m^2, rank 0 to 3).
 struct PathPoint {
@@ -51,4 +51,4 @@ struct PathPrior {
 [[nodiscard]] PathPrior find_path_prior(std::span<const PathPoint> points, double rate_hz,
                                         std::int64_t max_frames = 2000);
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

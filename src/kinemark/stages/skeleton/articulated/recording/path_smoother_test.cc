@@ -9,7 +9,7 @@
 
 #include "kinemark/core/random.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using Eigen::Matrix3d;
@@ -205,4 +205,4 @@ TEST(PathSmoother, ATrihedralHoldsAPlaceAndAPlaneDoesNot) {
 }
 
 }  // namespace
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

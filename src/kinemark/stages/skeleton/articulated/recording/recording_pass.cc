@@ -10,8 +10,9 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 constexpr std::int64_t kChunk = 1024;    // frames that one thread follows from a cold start
@@ -51,7 +52,7 @@ bool is_misfit(const Chain& chain, double cost_m2, double noise_sd_m, int seen) 
   return cost_m2 > noise_sd_m * noise_sd_m * (free + 6.0 * std::sqrt(2.0 * free) + 6.0);
 }
 
-Result<RecordingPass> pass_over(const ChainFit& fit, const ChainSamples& samples, int threads,
+Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samples, int threads,
                                 const Progress& progress) {
   using data::CentreState;
   const auto F = static_cast<std::size_t>(samples.frames);
@@ -88,7 +89,7 @@ Result<RecordingPass> pass_over(const ChainFit& fit, const ChainSamples& samples
         store_symmetric(pass.common[j].data() + 6 * k, frame.covariance[j] - frame.own_covariance[j]);
       }
       if (!all) chunk.flagged.push_back(flag(f, frame));
-      // A pose with an open joint would lead the next frame astray.
+      // A pose with an undetermined joint is no start for the next frame.
       warm = all && frame.mode_count > 0;
       if (warm) before = frame.modes.front().pose;
       if (frame.mode_count == 0) continue;
@@ -115,4 +116,4 @@ Result<RecordingPass> pass_over(const ChainFit& fit, const ChainSamples& samples
   return pass;
 }
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -7,12 +7,12 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
-#include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
+#include "kinemark/stages/skeleton/articulated/chain/fitted_chain.h"
 #include "kinemark/stages/skeleton/articulated/recording/path_smoother.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 
-/// A place of all joints that fits a frame as well as others do.
+/// Positions of all joints that fit a frame, where others fit as well.
 struct FlaggedMode {
   std::vector<Vector3d> centre;  ///< J, m
   double log_weight = 0.0;       ///< of the frame's probability
@@ -24,7 +24,7 @@ struct FlaggedFrame {
   std::vector<FlaggedMode> modes;  ///< best first
 };
 
-/// A frame kept whole for what is said about the recording at large.
+/// A frame's pose, kept for findings about the whole recording.
 struct SampledPose {
   std::int64_t frame = 0;
   ChainPose pose;
@@ -32,7 +32,7 @@ struct SampledPose {
   std::vector<std::uint8_t> known;  ///< J: determined in this frame
 };
 
-/// What every frame says by itself; J joints of the chain, F frames.
+/// What every frame determines by itself; J joints of the chain, F frames.
 struct RecordingPass {
   std::vector<std::vector<PathPoint>> points;         ///< J of F; no information where not determined
   std::vector<std::vector<data::CentreState>> state;  ///< J of F
@@ -49,10 +49,10 @@ void store_symmetric(double* to, const Matrix3d& C);
 
 /// Solve all frames of a recording with a fitted geometry, in chunks that do not depend on `threads`. Every
 /// frame costs the same however long the recording is.
-[[nodiscard]] Result<RecordingPass> pass_over(const ChainFit& fit, const ChainSamples& samples, int threads,
-                                              const Progress& progress);
+[[nodiscard]] Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samples,
+                                              int threads, const Progress& progress);
 
 /// True where a frame's cost is beyond what noise explains: six standard deviations of its chi-square.
 [[nodiscard]] bool is_misfit(const Chain& chain, double cost_m2, double noise_sd_m, int seen);
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/recording/widening.h"
 
-namespace kinemark::skeleton::internal {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::CentreState;
@@ -42,4 +42,4 @@ void widen_all_around(int joint, double size_m, data::Skeleton& skeleton) {
   changed.covariance_in_child += more;
 }
 
-}  // namespace kinemark::skeleton::internal
+}  // namespace kinemark::skeleton::articulated

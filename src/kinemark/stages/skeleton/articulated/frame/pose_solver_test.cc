@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/articulated/frame/frame_fit.h"
+#include "kinemark/stages/skeleton/articulated/frame/pose_solver.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "kinemark/stages/skeleton/articulated/frame/modes.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 namespace {
 
 using data::SegmentKind;
@@ -28,9 +26,9 @@ struct MixedTree {
 
   MixedTree() {
     Random random(7, 1);
-    Eigen::VectorXd places(chain.globals().size());
+    Eigen::VectorXd places(chain.geometry_parameters().size());
     for (double& place : places) place = random.uniform(-0.15, 0.15);
-    chain.add_globals(places);
+    chain.move_geometry(places);
     for (int s = 0; s < 4; ++s) pose.rotation.push_back(random_rotation(random));
     pose.joint0 = Vector3d(0.4, -0.1, 0.9);
     samples = {.frames = 1, .markers = 10, .x = {}};
@@ -62,17 +60,17 @@ struct MixedTree {
   }
 };
 
-TEST(FrameSolver, CostIsTheSumOfSquaredDistances) {
+TEST(PoseSolver, CostIsTheSumOfSquaredDistances) {
   const MixedTree tree;
-  FrameSolver solver(tree.chain);
+  PoseSolver solver(tree.chain);
   solver.set(tree.samples.frame(0));
   EXPECT_EQ(solver.sums().seen, 8);
   EXPECT_NEAR(solver.cost(tree.pose), tree.brute_cost(tree.chain, tree.pose), 1e-14);
 }
 
-TEST(FrameSolver, WeightsMultiplyAndZeroMeansNotSeen) {
+TEST(PoseSolver, WeightsMultiplyAndZeroMeansNotSeen) {
   const MixedTree tree;
-  FrameSolver solver(tree.chain);
+  PoseSolver solver(tree.chain);
   std::vector<double> weights(10, 2.0);
   solver.set(tree.samples.frame(0), weights);
   EXPECT_NEAR(solver.cost(tree.pose), 2.0 * tree.brute_cost(tree.chain, tree.pose), 1e-14);
@@ -81,9 +79,9 @@ TEST(FrameSolver, WeightsMultiplyAndZeroMeansNotSeen) {
   EXPECT_EQ(solver.sums().seen, 7);
 }
 
-TEST(FrameSolver, GradientAgreesWithDifferences) {
+TEST(PoseSolver, GradientAgreesWithDifferences) {
   const MixedTree tree;
-  FrameSolver solver(tree.chain);
+  PoseSolver solver(tree.chain);
   solver.set(tree.samples.frame(0));
   Eigen::MatrixXd H;
   Eigen::VectorXd b;
@@ -98,9 +96,9 @@ TEST(FrameSolver, GradientAgreesWithDifferences) {
 }
 
 // The normal matrix is J^T J of the predicted places.
-TEST(FrameSolver, NormalMatrixIsTheSquaredJacobian) {
+TEST(PoseSolver, NormalMatrixIsTheSquaredJacobian) {
   const MixedTree tree;
-  FrameSolver solver(tree.chain);
+  PoseSolver solver(tree.chain);
   solver.set(tree.samples.frame(0));
   Eigen::MatrixXd H;
   Eigen::VectorXd b;
@@ -121,7 +119,7 @@ TEST(FrameSolver, NormalMatrixIsTheSquaredJacobian) {
 }
 
 // For lines the observed information is the full second derivative.
-TEST(FrameSolver, ObservedInformationOfLinesIsTheSecondDerivative) {
+TEST(PoseSolver, ObservedInformationOfLinesIsTheSecondDerivative) {
   MixedTree tree;
   for (SegmentKind& kind : tree.chain.kind) kind = SegmentKind::line;
   Chain lines(tree.chain.layout, tree.chain.kind);
@@ -129,7 +127,7 @@ TEST(FrameSolver, ObservedInformationOfLinesIsTheSecondDerivative) {
   lines.joint.row(2) = tree.chain.joint.row(2);
   lines.joint(2, 2) = 0.1;
   tree.chain = lines;
-  FrameSolver solver(tree.chain);
+  PoseSolver solver(tree.chain);
   solver.set(tree.samples.frame(0));
   Eigen::MatrixXd H;
   Eigen::VectorXd b;
@@ -151,15 +149,15 @@ TEST(FrameSolver, ObservedInformationOfLinesIsTheSecondDerivative) {
   }
 }
 
-TEST(FrameSolver, DerivativesByTheGlobalsAgreeWithDifferences) {
+TEST(PoseSolver, DerivativesByTheGeometryAgreeWithDifferences) {
   const MixedTree tree;
-  FrameSolver solver(tree.chain);
+  PoseSolver solver(tree.chain);
   solver.set(tree.samples.frame(0));
-  const auto n = static_cast<Eigen::Index>(tree.chain.globals().size());
+  const auto n = static_cast<Eigen::Index>(tree.chain.geometry_parameters().size());
   Eigen::MatrixXd G;
   Eigen::MatrixXd Hgg = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd bg = Eigen::VectorXd::Zero(n);
-  solver.globals(tree.pose, tree.samples.frame(0), {}, G, &Hgg, &bg);
+  solver.linearize_geometry(tree.pose, tree.samples.frame(0), {}, G, &Hgg, &bg);
   const double h = 1e-6;
   const int nf = tree.chain.frame_parameters();
   Eigen::MatrixXd expected_G = Eigen::MatrixXd::Zero(nf, n);
@@ -176,8 +174,8 @@ TEST(FrameSolver, DerivativesByTheGlobalsAgreeWithDifferences) {
     for (Eigen::Index g = 0; g < n; ++g) {
       Chain up = tree.chain;
       Chain down = tree.chain;
-      up.add_globals(h * Eigen::VectorXd::Unit(n, g));
-      down.add_globals(-h * Eigen::VectorXd::Unit(n, g));
+      up.move_geometry(h * Eigen::VectorXd::Unit(n, g));
+      down.move_geometry(-h * Eigen::VectorXd::Unit(n, g));
       B.col(g) = (up.predict(tree.pose, k) - down.predict(tree.pose, k)) / (2.0 * h);
     }
     expected_G += A.transpose() * B;
@@ -190,34 +188,34 @@ TEST(FrameSolver, DerivativesByTheGlobalsAgreeWithDifferences) {
   EXPECT_LT((bg - expected_b).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST(FrameSolver, JointJacobianAgreesWithDifferences) {
+TEST(PoseSolver, JointJacobianAgreesWithDifferences) {
   const MixedTree tree;
-  const FrameSolver solver(tree.chain);
+  const PoseSolver solver(tree.chain);
   const double h = 1e-6;
   Eigen::Matrix3Xd by_frame;
-  Eigen::Matrix3Xd by_globals;
+  Eigen::Matrix3Xd by_geometry;
   for (int j = 0; j < 3; ++j) {
-    solver.joint_jacobian(tree.pose, j, by_frame, by_globals);
+    solver.joint_jacobian(tree.pose, j, by_frame, by_geometry);
     for (int i = 0; i < tree.chain.frame_parameters(); ++i) {
       const Vector3d slope =
           (tree.chain.joint_centre(tree.moved(i, h), j) - tree.chain.joint_centre(tree.moved(i, -h), j)) /
           (2.0 * h);
       EXPECT_LT((by_frame.col(i) - slope).norm(), 1e-9) << j << ' ' << i;
     }
-    for (Eigen::Index g = 0; g < by_globals.cols(); ++g) {
+    for (Eigen::Index g = 0; g < by_geometry.cols(); ++g) {
       Chain up = tree.chain;
-      up.add_globals(h * Eigen::VectorXd::Unit(by_globals.cols(), g));
+      up.move_geometry(h * Eigen::VectorXd::Unit(by_geometry.cols(), g));
       EXPECT_LT(
-          (by_globals.col(g) - (up.joint_centre(tree.pose, j) - tree.chain.joint_centre(tree.pose, j)) / h)
+          (by_geometry.col(g) - (up.joint_centre(tree.pose, j) - tree.chain.joint_centre(tree.pose, j)) / h)
               .norm(),
           1e-8);
     }
   }
 }
 
-TEST(FrameSolver, RefineReturnsToAnExactPose) {
+TEST(PoseSolver, RefineReturnsToAnExactPose) {
   const RandomChain limb = make_random_chain({.segments = 3, .frames = 20, .noise_sd_m = 0.0});
-  FrameSolver solver(limb.chain);
+  PoseSolver solver(limb.chain);
   Random random(9, 1);
   for (int f = 0; f < 20; ++f) {
     ChainPose pose = limb.pose[f];
@@ -232,10 +230,10 @@ TEST(FrameSolver, RefineReturnsToAnExactPose) {
   }
 }
 
-TEST(FrameSolver, APriorDrawsTheJointAsItsWeightSays) {
+TEST(PoseSolver, APriorDrawsTheJointAsItsWeightSays) {
   RandomChain limb = make_random_chain({.frames = 1, .noise_sd_m = 0.0});
   for (int k = 1; k < 6; ++k) hide(limb.samples, 0, k);  // one marker: the joint lies on a sphere about it
-  FrameSolver solver(limb.chain);
+  PoseSolver solver(limb.chain);
   solver.set(limb.samples.frame(0));
   ChainPose pose = limb.pose[0];
   const Vector3d target = limb.pose[0].joint0;
@@ -245,56 +243,5 @@ TEST(FrameSolver, APriorDrawsTheJointAsItsWeightSays) {
   EXPECT_LT((pose.joint0 - target).norm(), 1e-6);
 }
 
-// The closed start of two lines and the general solver reach the same minimum from anywhere.
-TEST(ChainStarts, TwoLinesNeedNoOtherStarts) {
-  const RandomChain limb = make_random_chain(
-      {.frames = 60, .kind = SegmentKind::line, .noise_sd_m = 0.003, .missing = 0.25, .seed = 5});
-  FrameSolver solver(limb.chain);
-  ModeFinder finder(limb.chain);
-  std::vector<ChainMode> modes;
-  Random random(11, 1);
-  for (int f = 0; f < 60; ++f) {
-    solver.set(limb.samples.frame(f));
-    if (std::max(solver.sums().segment[0].seen, solver.sums().segment[1].seen) < 2) continue;
-    ASSERT_GT(finder.find(solver, limb.samples.frame(f), 0.003, nullptr, 40, modes), 0);
-    for (int start = 0; start < 4; ++start) {
-      ChainPose pose{.joint0 = limb.pose[f].joint0, .rotation = {}};
-      for (int s = 0; s < 2; ++s) pose.rotation.push_back(random_rotation(random));
-      const double cost = solver.refine(pose, {}, 100);
-      EXPECT_GE(cost, modes[0].cost - 1e-9 * modes[0].cost - 1e-14) << f;
-    }
-  }
-}
-
-TEST(FrameInformation, TellsWhichFramesHoldTheJoint) {
-  RandomChain limb = make_random_chain({.frames = 1, .noise_sd_m = 0.0});
-  FrameSolver solver(limb.chain);
-  FrameInformation information;
-  Eigen::MatrixXd H;
-  Eigen::VectorXd b;
-  Eigen::Matrix3Xd by_frame;
-  Eigen::Matrix3Xd by_globals;
-  const auto holds = [&](const ChainSamples& samples) {
-    solver.set(samples.frame(0));
-    solver.normal(limb.pose[0], {}, false, H, b);
-    information.set(limb.chain, H);
-    solver.joint_jacobian(limb.pose[0], 0, by_frame, by_globals);
-    return information.holds(by_frame);
-  };
-  EXPECT_TRUE(holds(limb.samples));
-  EXPECT_EQ(information.rank(), 9);
-  hide(limb.samples, 0, 0);
-  hide(limb.samples, 0, 3);
-  EXPECT_TRUE(holds(limb.samples));  // (2, 2)
-  hide(limb.samples, 0, 4);
-  EXPECT_TRUE(holds(limb.samples));  // (2, 1): a mirror pair, but each of full rank on the joint
-  EXPECT_EQ(information.rank(), 8);  // the turn about the line from joint to the one marker is open
-  hide(limb.samples, 0, 1);
-  EXPECT_FALSE(holds(limb.samples));  // (1, 1): a circle
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> left(information.joint_information(by_frame));
-  EXPECT_NEAR(left.eigenvalues()[0], 0.0, 1e-9);
-  EXPECT_GT(left.eigenvalues()[1], 1e-3);
-}
-
 }  // namespace
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// One frame of a chain: the pose that fits best, by Levenberg and Marquardt, what it tells and what it does
-// not. All of a frame's work is done with sums over its markers, so a step costs the same for 6 or 60 of
-// them.
+// The pose of a chain of known geometry that fits one frame best, by Levenberg and Marquardt, and the
+// derivatives of its cost. All work is done with sums over the frame's markers, so a step costs the same for
+// 6 or 60 of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,10 @@
 
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
-/// A joint known beforehand: adds (c - target)^T weight (c - target) to the cost. weight = sigma^2 times the
-/// inverse covariance, so that one marker weighs 1 per axis.
+/// Knowledge about a joint from elsewhere (its path in time): adds (c - target)^T weight (c - target) to the
+/// cost. weight = sigma^2 times the inverse covariance, so that one marker weighs 1 per axis.
 struct JointPrior {
   int joint = 0;
   Vector3d target = Vector3d::Zero();
@@ -38,10 +38,10 @@ struct FrameSums {
 };
 
 /// Works on one frame at a time; owns the scratch memory. Not for several threads at once.
-class FrameSolver {
+class PoseSolver {
  public:
   /// Keeps a reference: the chain must outlive the solver. After a change of its geometry call set() again.
-  explicit FrameSolver(const Chain& chain);
+  explicit PoseSolver(const Chain& chain);
 
   /// Take a frame: K x 3 coordinates, NaN where not seen; weights K (empty: all 1; 0: as if not seen).
   void set(const double* x, std::span<const double> weights = {});
@@ -54,16 +54,16 @@ class FrameSolver {
                 double tolerance = 1e-10);
 
   /// Normal matrix H and right-hand side b at a pose, for unit noise. `observed`: the second derivative of
-  /// the cost in the turns of line segments, which describes a single frame better than its expectation.
+  /// the cost in the rotations of line segments, which describes a single frame better than its expectation.
   void normal(const ChainPose& pose, std::span<const JointPrior> priors, bool observed, Eigen::MatrixXd& H,
               Eigen::VectorXd& b);
-  /// d (frame gradient) / d globals, n_f x n_g; adds to the globals' own block and gradient when given.
-  /// `x` is the frame that was set.
-  void globals(const ChainPose& pose, const double* x, std::span<const double> weights, Eigen::MatrixXd& G,
-               Eigen::MatrixXd* Hgg, Eigen::VectorXd* bg) const;
-  /// d joint / d frame parameters (3 x n_f) and / d globals (3 x n_g).
+  /// Linearize in the geometry parameters: G = d (frame gradient) / d (parameters), n_f x n_g. Adds their own
+  /// normal matrix and right-hand side to Hgg and bg when given. `x` is the frame that was set.
+  void linearize_geometry(const ChainPose& pose, const double* x, std::span<const double> weights,
+                          Eigen::MatrixXd& G, Eigen::MatrixXd* Hgg, Eigen::VectorXd* bg) const;
+  /// Derivatives of a joint's position by the frame's parameters (3 x n_f) and by the geometry's (3 x n_g).
   void joint_jacobian(const ChainPose& pose, int j, Eigen::Matrix3Xd& by_frame,
-                      Eigen::Matrix3Xd& by_globals) const;
+                      Eigen::Matrix3Xd& by_geometry) const;
 
   [[nodiscard]] const Chain& chain() const { return *chain_; }
 
@@ -76,29 +76,7 @@ class FrameSolver {
   Eigen::VectorXd b_, step_, damping_;
   std::vector<Vector3d> origin_, residual_;
   ChainPose trial_;
-  Eigen::Matrix3Xd by_frame_, by_globals_;
+  Eigen::Matrix3Xd by_frame_, by_geometry_;
 };
 
-/// What a frame's information says about its joints: pseudo-inverse of H with the rank decided at `tolerance`
-/// relative to the largest eigenvalue (turns measured in units of the chain's scale()).
-class FrameInformation {
- public:
-  /// H for unit noise. O(n_f^3).
-  void set(const Chain& chain, const Eigen::MatrixXd& H, double tolerance = 1e-7);
-  [[nodiscard]] const Eigen::MatrixXd& inverse() const { return inverse_; }  ///< n_f x n_f
-  [[nodiscard]] int rank() const { return rank_; }
-  /// A joint is held when its row space does not touch what the frame leaves open.
-  [[nodiscard]] bool holds(const Eigen::Matrix3Xd& by_frame) const;
-  /// Information on a joint with everything else of the frame eliminated, for unit noise; of any rank.
-  [[nodiscard]] Matrix3d joint_information(const Eigen::Matrix3Xd& by_frame) const;
-  /// log det of H / sigma^2, where a turn that the data do not fix counts as free by half a turn.
-  [[nodiscard]] static double log_det(const Chain& chain, const Eigen::MatrixXd& H, double sigma_m,
-                                      Eigen::MatrixXd& scratch);
-
- private:
-  Eigen::MatrixXd inverse_, open_, factor_, scaled_;
-  Eigen::VectorXd scale_;
-  int rank_ = 0;
-};
-
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/articulated/frame/frame_fit.h"
+#include "kinemark/stages/skeleton/articulated/frame/pose_solver.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::skeleton::articulated {
 
 namespace {
 
@@ -37,7 +37,7 @@ void add(Eigen::VectorXd& b, int row, int rows, const Vector3d& part) {
 
 }  // namespace
 
-FrameSolver::FrameSolver(const Chain& chain) : chain_(&chain) {
+PoseSolver::PoseSolver(const Chain& chain) : chain_(&chain) {
   const int n = chain.frame_parameters();
   sums_.segment.resize(chain.segments());
   H_.resize(n, n);
@@ -49,10 +49,10 @@ FrameSolver::FrameSolver(const Chain& chain) : chain_(&chain) {
   residual_.resize(chain.segments());
   trial_.rotation.resize(chain.segments());
   by_frame_.resize(3, n);
-  by_globals_.resize(3, static_cast<Eigen::Index>(chain.globals().size()));
+  by_geometry_.resize(3, static_cast<Eigen::Index>(chain.geometry_parameters().size()));
 }
 
-void FrameSolver::set(const double* x, std::span<const double> weights) {
+void PoseSolver::set(const double* x, std::span<const double> weights) {
   const Chain& c = *chain_;
   for (FrameSums::Segment& s : sums_.segment) s = {};
   sums_.centre.setZero();
@@ -80,7 +80,7 @@ void FrameSolver::set(const double* x, std::span<const double> weights) {
   }
 }
 
-double FrameSolver::cost(const ChainPose& pose, std::span<const JointPrior> priors) {
+double PoseSolver::cost(const ChainPose& pose, std::span<const JointPrior> priors) {
   double total = 0.0;
   for (int q = 0; q < chain_->segments(); ++q) {
     const FrameSums::Segment& s = sums_.segment[q];
@@ -97,17 +97,17 @@ double FrameSolver::cost(const ChainPose& pose, std::span<const JointPrior> prio
   return std::max(total, 0.0);
 }
 
-void FrameSolver::add_priors(const ChainPose& pose, std::span<const JointPrior> priors) {
+void PoseSolver::add_priors(const ChainPose& pose, std::span<const JointPrior> priors) {
   for (const JointPrior& prior : priors) {
-    joint_jacobian(pose, prior.joint, by_frame_, by_globals_);
+    joint_jacobian(pose, prior.joint, by_frame_, by_geometry_);
     const Vector3d off = prior.target - chain_->joint_centre(pose, prior.joint);
     H_.noalias() += by_frame_.transpose() * (prior.weight * by_frame_);
     b_.noalias() += by_frame_.transpose() * (prior.weight * off);
   }
 }
 
-void FrameSolver::normal(const ChainPose& pose, std::span<const JointPrior> priors, bool observed,
-                         Eigen::MatrixXd& H, Eigen::VectorXd& b) {
+void PoseSolver::normal(const ChainPose& pose, std::span<const JointPrior> priors, bool observed,
+                        Eigen::MatrixXd& H, Eigen::VectorXd& b) {
   const Chain& c = *chain_;
   H_.setZero();
   b_.setZero();
@@ -116,12 +116,12 @@ void FrameSolver::normal(const ChainPose& pose, std::span<const JointPrior> prio
     if (s.seen == 0) continue;
     const Matrix3d& R = pose.rotation[q];
     const Vector3d o = c.origin(pose, q) - sums_.centre;
-    const int at = c.turn_offset(q);
-    const int size = c.turn_size(q);
+    const int at = c.rotation_offset(q);
+    const int size = c.rotation_size(q);
     const Vector3d residual = s.x - s.w * o - R * s.m;
     add(b_, 0, 3, residual);
     for (int i = 0; i < 3; ++i) H_(i, i) += s.w;
-    // x moves by -R [m] eta with the segment's own turn eta.
+    // x moves by -R [m] eta with the segment's own rotation eta,
     const Matrix3d own = skew(s.m);
     add(H_, at, size, 0, 3, own * R.transpose());
     add(H_, at, size, at, size, s.mm.trace() * Matrix3d::Identity() - s.mm);
@@ -132,22 +132,22 @@ void FrameSolver::normal(const ChainPose& pose, std::span<const JointPrior> prio
       H_(at, at) += more;
       H_(at + 1, at + 1) += more;
     }
-    // ... and by -R_i [l] eta_i with the turn of every segment between joint 0 and this one.
-    for (const int j : c.way(q)) {
+    // and by -R_i [l] eta_i with the rotation of every segment i between joint 0 and this one.
+    for (const int j : c.joints_to(q)) {
       const int i = c.layout.parent[j];
-      const int at_i = c.turn_offset(i);
-      const int size_i = c.turn_size(i);
+      const int at_i = c.rotation_offset(i);
+      const int size_i = c.rotation_size(i);
       const Vector3d v = c.joint.col(j);
       const Matrix3d lever = skew(v) * pose.rotation[i].transpose();
       const Vector3d turned = pose.rotation[i].transpose() * residual;
       add(b_, at_i, size_i, v.cross(turned));
       add(H_, at_i, size_i, 0, 3, s.w * lever);
       add(H_, at, size, at_i, size_i, own * R.transpose() * lever.transpose());
-      for (const int j2 : c.way(q)) {
+      for (const int j2 : c.joints_to(q)) {
         if (j2 > j) break;
         const int i2 = c.layout.parent[j2];
         const Matrix3d lever2 = skew(c.joint.col(j2)) * pose.rotation[i2].transpose();
-        add(H_, at_i, size_i, c.turn_offset(i2), c.turn_size(i2), s.w * lever * lever2.transpose());
+        add(H_, at_i, size_i, c.rotation_offset(i2), c.rotation_size(i2), s.w * lever * lever2.transpose());
       }
       if (observed && size_i == 2) {
         const double more = v[2] * turned[2];
@@ -167,8 +167,8 @@ void FrameSolver::normal(const ChainPose& pose, std::span<const JointPrior> prio
   }
 }
 
-double FrameSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, int iterations,
-                           double tolerance) {
+double PoseSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, int iterations,
+                          double tolerance) {
   const Chain& c = *chain_;
   const int n = c.frame_parameters();
   double weight = 0.0;
@@ -180,7 +180,7 @@ double FrameSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, 
   for (int round = 0; round < iterations; ++round) {
     if (fresh) {
       normal(pose, priors, false, H_, b_);
-      // A turn that nothing fixes is held by a share of what a marker would tell.
+      // A rotation that no marker determines is held by a small share of what one would add.
       double largest = 0.0;
       for (int i = 3; i < n; ++i) largest = std::max(largest, H_(i, i));
       largest = std::max(largest, 1e-6 * length * length);
@@ -225,12 +225,12 @@ double FrameSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, 
   return best;
 }
 
-void FrameSolver::globals(const ChainPose& pose, const double* x, std::span<const double> weights,
-                          Eigen::MatrixXd& G, Eigen::MatrixXd* Hgg, Eigen::VectorXd* bg) const {
+void PoseSolver::linearize_geometry(const ChainPose& pose, const double* x, std::span<const double> weights,
+                                    Eigen::MatrixXd& G, Eigen::MatrixXd* Hgg, Eigen::VectorXd* bg) const {
   const Chain& c = *chain_;
-  const auto& all = c.globals();
+  const auto& all = c.geometry_parameters();
   G.setZero(c.frame_parameters(), static_cast<Eigen::Index>(all.size()));
-  // Globals come marker by marker, then joint by joint: find where each begins.
+  // Parameters come marker by marker, then joint by joint: find where each begins.
   std::size_t first_joint = 0;
   while (first_joint < all.size() && all[first_joint].marker >= 0) ++first_joint;
   std::size_t own = 0;
@@ -244,14 +244,14 @@ void FrameSolver::globals(const ChainPose& pose, const double* x, std::span<cons
     const Vector3d m = c.marker.col(k);
     const Vector3d residual = Eigen::Map<const Vector3d>(x + 3 * k) - c.origin(pose, q) - R * m;
     const auto couple = [&](std::size_t g, const Vector3d& d) {
-      // d: derivative of this marker's place by global g.
+      // d: derivative of this marker's position by parameter g.
       G.block<3, 1>(0, g) += w * d;
       const Vector3d turn = m.cross(R.transpose() * d);
-      for (int r = 0; r < c.turn_size(q); ++r) G(c.turn_offset(q) + r, g) += w * turn[r];
-      for (const int j : c.way(q)) {
+      for (int r = 0; r < c.rotation_size(q); ++r) G(c.rotation_offset(q) + r, g) += w * turn[r];
+      for (const int j : c.joints_to(q)) {
         const int i = c.layout.parent[j];
         const Vector3d lever = Vector3d(c.joint.col(j)).cross(pose.rotation[i].transpose() * d);
-        for (int r = 0; r < c.turn_size(i); ++r) G(c.turn_offset(i) + r, g) += w * lever[r];
+        for (int r = 0; r < c.rotation_size(i); ++r) G(c.rotation_offset(i) + r, g) += w * lever[r];
       }
       if (bg != nullptr) (*bg)[g] += w * d.dot(residual);
     };
@@ -259,9 +259,10 @@ void FrameSolver::globals(const ChainPose& pose, const double* x, std::span<cons
       couple(g, R.col(all[g].axis));
       if (Hgg != nullptr) (*Hgg)(g, g) += w;
     }
-    if (c.way(q).empty()) continue;
+    if (c.joints_to(q).empty()) continue;
     for (std::size_t g = first_joint; g < all.size(); ++g) {
-      if (std::find(c.way(q).begin(), c.way(q).end(), all[g].joint) == c.way(q).end()) continue;
+      if (std::find(c.joints_to(q).begin(), c.joints_to(q).end(), all[g].joint) == c.joints_to(q).end())
+        continue;
       const Vector3d d = pose.rotation[all[g].segment].col(all[g].axis);
       couple(g, d);
       if (Hgg == nullptr) continue;
@@ -271,27 +272,29 @@ void FrameSolver::globals(const ChainPose& pose, const double* x, std::span<cons
         (*Hgg)(h, g) += value;
       }
       for (std::size_t h = first_joint; h < all.size(); ++h) {
-        if (std::find(c.way(q).begin(), c.way(q).end(), all[h].joint) == c.way(q).end()) continue;
+        if (std::find(c.joints_to(q).begin(), c.joints_to(q).end(), all[h].joint) == c.joints_to(q).end())
+          continue;
         (*Hgg)(g, h) += w * d.dot(pose.rotation[all[h].segment].col(all[h].axis));
       }
     }
   }
 }
 
-void FrameSolver::joint_jacobian(const ChainPose& pose, int j, Eigen::Matrix3Xd& by_frame,
-                                 Eigen::Matrix3Xd& by_globals) const {
+void PoseSolver::joint_jacobian(const ChainPose& pose, int j, Eigen::Matrix3Xd& by_frame,
+                                Eigen::Matrix3Xd& by_geometry) const {
   const Chain& c = *chain_;
   by_frame.setZero(3, c.frame_parameters());
-  by_globals.setZero(3, static_cast<Eigen::Index>(c.globals().size()));
+  by_geometry.setZero(3, static_cast<Eigen::Index>(c.geometry_parameters().size()));
   by_frame.leftCols<3>().setIdentity();
-  for (const int step : c.way(j + 1)) {
+  for (const int step : c.joints_to(j + 1)) {
     const int i = c.layout.parent[step];
     const Matrix3d turn = -pose.rotation[i] * skew(c.joint.col(step));
-    by_frame.middleCols(c.turn_offset(i), c.turn_size(i)) = turn.leftCols(c.turn_size(i));
-    for (std::size_t g = 0; g < c.globals().size(); ++g) {
-      if (c.globals()[g].joint == step) by_globals.col(g) = pose.rotation[i].col(c.globals()[g].axis);
+    by_frame.middleCols(c.rotation_offset(i), c.rotation_size(i)) = turn.leftCols(c.rotation_size(i));
+    for (std::size_t g = 0; g < c.geometry_parameters().size(); ++g) {
+      if (c.geometry_parameters()[g].joint == step)
+        by_geometry.col(g) = pose.rotation[i].col(c.geometry_parameters()[g].axis);
     }
   }
 }
 
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::skeleton::articulated
