@@ -32,9 +32,9 @@ struct PosedFrames {
 /// Fits the geometry of `chain`, in place. Keeps references to all three.
 class GeometryFit {
  public:
-  /// Beforehand every joint is taken to lie about the mean of its segments' markers, by data::kJointPriorSd_m. With
-  /// noise `sigma_m` that says nothing beside what frames tell, and holds what they leave open (the position
-  /// along a hinge's axis). 0: nothing is known beforehand.
+  /// Beforehand every joint is taken to lie about the mean of its segments' markers, by
+  /// data::kJointPriorSd_m. With noise `sigma_m` that says nothing beside what frames tell, and holds what
+  /// they leave open (the position along a hinge's axis). 0: nothing is known beforehand.
   GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames& frames, double sigma_m = 0.0);
 
   /// Damped Gauss-Newton with variable projection: S dg = sum (b_g - G^T H^-1 b), S = sum (H_gg - G^T H^-1
