@@ -22,6 +22,10 @@ if(KINEMARK_DEVELOPER)
   else()
     # GCC 12 reports uninitialised and out-of-range reads inside Eigen's own expression templates.
     target_compile_options(kinemark_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+    # In unity builds every source is included: what is local to it looks shared.
+    if(CMAKE_UNITY_BUILD)
+      target_compile_options(kinemark_flags INTERFACE -Wno-subobject-linkage)
+    endif()
   endif()
 endif()
 if(KINEMARK_SANITIZE_ADDRESS)

@@ -18,7 +18,9 @@ Result<nlohmann::ordered_json> facts_of(const std::filesystem::path& file, doubl
   InfoJob job;
   job.file = file;
   job.rate_hz = rate_hz;
-  return run_info(job).transform(info_json);
+  const auto found = run_info(job);
+  if (!found) return std::unexpected(found.error());
+  return info_json(*found);
 }
 
 TEST(RunInfo, MarkersTablesAndModels) {

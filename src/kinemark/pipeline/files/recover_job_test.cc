@@ -45,7 +45,9 @@ class RecoverJobTest : public testing::Test {
   static Result<nlohmann::ordered_json> facts_of(const std::filesystem::path& file) {
     InfoJob job;
     job.file = file;
-    return run_info(job).transform(info_json);
+    const auto found = run_info(job);
+    if (!found) return std::unexpected(found.error());
+    return info_json(*found);
   }
 
   testing_support::ScratchFolder scratch_;

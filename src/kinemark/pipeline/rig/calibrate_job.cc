@@ -189,7 +189,7 @@ Status adjust(const CalibrateJob& job, const data::Rig& nominal, const Evidence&
   const bool by_scan = job.method == CalibrateJob::Method::scan;
   const auto& shown = by_scan ? evidence.scan : evidence.tree;
   if (!shown)
-    return fail(Code::usage, fmt::format("the method {} needs a recording of the {}", to_string(job.method),
+    return fail(Code::usage, fmt::format("the method {} needs a recording of the {}", method_name(job.method),
                                          by_scan ? "scan" : "tree"));
   if (job.align_only) {
     auto alignment = calibration::align_by_tree(nominal, *shown);
@@ -201,7 +201,7 @@ Status adjust(const CalibrateJob& job, const data::Rig& nominal, const Evidence&
   if (!found) return std::unexpected(found.error());
   out.bundle = std::move(found->report);
   rig = std::move(found->rig);
-  rig.method = to_string(job.method);
+  rig.method = method_name(job.method);
   auto alignment = calibration::compare_alignment(nominal, rig);
   if (!alignment) return std::unexpected(alignment.error());
   out.alignment = std::move(*alignment);
@@ -223,7 +223,7 @@ void add_gate(const CalibrateJob& job, std::string sentence, CalibrateOutcome& o
 
 }  // namespace
 
-std::string_view to_string(CalibrateJob::Method method) {
+std::string_view method_name(CalibrateJob::Method method) {
   constexpr std::array<std::string_view, 3> kNames{"bundle", "grid-lut", "scan"};
   return kNames[static_cast<std::size_t>(method)];
 }

@@ -33,7 +33,7 @@ struct CalibrateJob : JobSettings {
   bool align_only = false;            ///< tell how far the cameras stand from the nominal rig; write nothing
 };
 
-[[nodiscard]] std::string_view to_string(CalibrateJob::Method method);  ///< "bundle", "grid-lut", "scan"
+[[nodiscard]] std::string_view method_name(CalibrateJob::Method method);  ///< "bundle", "grid-lut", "scan"
 
 /// What `kinemark calibrate` found.
 struct CalibrateOutcome : JobOutcome {

@@ -11,7 +11,7 @@
 
 namespace kinemark::pipeline {
 
-std::string_view to_string(ReconstructJob::Method method) {
+std::string_view method_name(ReconstructJob::Method method) {
   constexpr EnumNames<ReconstructJob::Method::classic> kNames{"smoother", "frames", "classic"};
   return kNames[method];
 }

@@ -30,7 +30,7 @@ Json reconstruct_json(const ReconstructOutcome& outcome) {
   Json leds = Json::array();
   for (const auto& led : outcome.leds) leds.push_back(summary_of(led));
   for (std::size_t i = 0; i < outcome.fits.size(); ++i) add_fit(outcome.fits[i], leds[i]);
-  return Json{{"method", to_string(outcome.method)},
+  return Json{{"method", method_name(outcome.method)},
               {"frames", outcome.frames},
               {"written", outcome.written.front().string()},
               {"warnings", outcome.warnings},
