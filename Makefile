@@ -27,8 +27,14 @@ test:  ## everything that CI runs
 	tools/setup
 	python3 tools/run_tests.py --jobs $(JOBS)
 
-accept: release  ## the acceptance table, slow rows included
+accept: release  ## everything that CI runs within its budget, the acceptance table with its slow rows, clang-tidy on all
+	python3 tools/run_tests.py --jobs $(JOBS) --check-budget
 	python3 tests/acceptance/run.py
+	cmake --install build/release --prefix build/release/prefix
+	cmake -S tests/consumer/headers -B build/release/headers -G Ninja -DEACH=ON -DCMAKE_PREFIX_PATH=$(CURDIR)/build/release/prefix
+	cmake --build build/release/headers --parallel $(JOBS)
+	cmake --preset tidy
+	tools/check_tidy --all --jobs $(JOBS)
 
 bench: release  ## speed and cost beside OpenSim and ezc3d, on the same files in one run
 	tools/setup --oracles
@@ -40,14 +46,20 @@ fuzz:  ## fuzz the readers, SECONDS=60 each
 	cmake --build --preset asan --parallel $(JOBS)
 	python3 tools/fuzz --seconds $(SECONDS)
 
-lint:  ## clang-tidy, layers, licences, READMEs, layout
+lint:  ## clang-tidy on what changed, layers, licences, READMEs, layout
 	tools/setup
-	cmake --preset asan
+	cmake --preset tidy
 	tools/check_format
 	tools/check_layers.py
+	tools/check_public_headers.py
 	tools/check_spdx.py
 	tools/check_readmes.py
-	tools/check_tidy --build build/asan
+	tools/check_tidy --jobs $(JOBS)
+
+docs:  ## API documentation of the public headers: build/release/docs/html/index.html
+	tools/setup
+	cmake --preset release -DKINEMARK_DEVELOPER=ON
+	cmake --build --preset release --target docs
 
 format:  ## lay out all C++ files
 	tools/check_format --fix
@@ -55,4 +67,4 @@ format:  ## lay out all C++ files
 clean:  ## remove what was built
 	rm -rf build demo
 
-.PHONY: help demo program release test accept bench fuzz lint format clean
+.PHONY: help demo program release test accept bench fuzz lint docs format clean

@@ -2,46 +2,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/rig/calibrate_job.h"
+#include "kinemark/pipeline/rig/calibrate_json.h"
 
 namespace kinemark::cli {
 namespace {
 
-void say_alignment(const Globals& globals, const nlohmann::ordered_json& alignment) {
-  for (const auto& c : alignment.at("cameras")) {
-    const auto shift = c.at("right_down_forward_mm").get<std::vector<double>>();
-    const auto turn = c.at("tilt_pan_roll_deg").get<std::vector<double>>();
+void say_alignment(const Globals& globals, const calibration::Alignment& alignment) {
+  for (const auto& c : alignment.cameras) {
+    const Eigen::Vector3d shift_mm = 1e3 * c.shift_m;
     say(globals, fmt::format("camera {}: {:.1f} mm right, {:.1f} mm down, {:.1f} mm forward of the nominal "
-                             "place; to be tilted {:.2f}, "
+                             "position; to be tilted {:.2f}, "
                              "panned {:.2f}, rolled {:.2f} deg",
-                             c.at("camera").get<std::string>(), shift[0], shift[1], shift[2], turn[0],
-                             turn[1], turn[2]));
+                             c.camera, shift_mm.x(), shift_mm.y(), shift_mm.z(), c.turn_deg.x(),
+                             c.turn_deg.y(), c.turn_deg.z()));
   }
-  say(globals, "next: " + alignment.at("next").get<std::string>());
+  say(globals, "next: " + alignment.next);
 }
 
-int run_calibrate(const Globals& globals, pipeline::CalibrateJob& job) {
-  job.force = globals.force;
-  const auto done = pipeline::calibrate_rig_file(job, show_progress(globals, "steps"));
-  if (!done) {
-    const int status = report_error(done.error());
-    // A model that the counts contradict is a quality gate that was missed, not a bad file.
-    return done.error().message.starts_with("calibration refused") ? 1 : status;
+int run_command(const Globals& globals, pipeline::CalibrateJob& job) {
+  settle(globals, "steps", job);
+  const auto outcome = pipeline::run_calibrate(job);
+  if (!outcome) return report_error(outcome.error());
+  if (const int status = outcome->exit_status(); status != 0) {
+    // Nothing was found that could be told: the gate says why.
+    (void)report_error({Code::bad_input, outcome->gates.back().sentence});
+    return status;
   }
-  for (const auto& warning : done->at("warnings")) say(globals, warning.get<std::string>());
-  if (done->contains("chi2_per_dof"))
+  for (const auto& warning : outcome->warnings) say(globals, warning);
+  if (const auto& found = outcome->bundle)
     say(globals,
         fmt::format("{} poses, chi2/dof {:.2f}, warp of degree {}; tree sides right to {:.2f} mm RMS",
-                    done->at("poses").get<int>(), done->at("chi2_per_dof").get<double>(),
-                    done->at("warp_degree").get<int>(), done->at("side_rms_mm").get<double>()));
-  if (done->contains("alignment")) say_alignment(globals, done->at("alignment"));
-  if (done->contains("written")) say(globals, fmt::format("wrote {}", job.output.string()));
-  if (globals.json) fmt::print("{}\n", done->dump(2));
+                    found->poses, found->chi2_per_dof, found->warp_degree, 1e3 * found->side_rms_m));
+  if (outcome->alignment) say_alignment(globals, *outcome->alignment);
+  say_written(globals, *outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::calibrate_json(*outcome).dump(2));
   return 0;
 }
 
@@ -50,9 +47,10 @@ int run_calibrate(const Globals& globals, pipeline::CalibrateJob& job) {
 void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("calibrate", "A rig from recordings of a tree or a grid of known size");
   command->footer(
-      "Each recording says what it shows (see 'kinemark simulate rig --grid --tree-poses'). Exit status 1 "
+      "Each recording describes the object that it shows (see 'kinemark simulate rig --grid --tree-poses'). "
+      "Exit status 1 "
       "when the\n"
-      "model of the cameras does not fit what they counted.");
+      "model of the cameras does not fit the counts.");
   const auto job = std::make_shared<pipeline::CalibrateJob>();
   const std::map<std::string, pipeline::CalibrateJob::Method> methods{
       {"bundle", pipeline::CalibrateJob::Method::bundle},
@@ -64,9 +62,9 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
       ->required();
   command->add_option("--nominal", job->nominal, "Rig as it was set up by hand, rig.toml")->required();
   auto* output = command->add_option("-o,--output", job->output, "Rig to write, rig.toml");
-  auto* align =
-      command->add_flag("--align", job->align_only,
-                        "Only tell how far the cameras stand from the nominal rig, and what to turn");
+  auto* align = command->add_flag(
+      "--align", job->align_only,
+      "Only report how far the cameras are from their nominal poses, and the next adjustment");
   output->excludes(align);
   command
       ->add_option("--method", job->method,
@@ -79,7 +77,7 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
                    "Sides of the tree between LEDs 1-2, 1-3 and 2-3, m; as recorded when absent")
       ->expected(3);
   command->add_option("--frames-per-pose", job->frames_per_pose,
-                      "Frames that the tree stood still; as recorded when absent");
+                      "Frames of each pose of the tree; as recorded when absent");
   command->add_option("--warp-degree", job->bundle.warp_degree, "Degree of the detector's warp to begin with")
       ->capture_default_str();
   command->add_flag("--no-crosstalk{false},--crosstalk", job->bundle.crosstalk,
@@ -88,7 +86,7 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
                     "Keep the model as it is, fit or not");
   command->callback([&globals, job, output, align, &run] {
     if (output->count() == 0 && align->count() == 0) throw CLI::RequiredError("--output or --align");
-    run = [&globals, job] { return run_calibrate(globals, *job); };
+    run = [&globals, job] { return run_command(globals, *job); };
   });
 }
 

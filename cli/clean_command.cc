@@ -9,7 +9,7 @@
 namespace kinemark::cli {
 namespace {
 
-/// More markers than this are told of in the report only.
+/// With more markers than this the details are in the report only.
 constexpr std::size_t kMarkersTold = 12;
 
 struct CleanArguments {
@@ -38,8 +38,8 @@ void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome
   for (const auto& finding : report::clean_findings(report))
     say(globals,
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
-  for (const auto& note : outcome.notes) say(globals, fmt::format("note: {}", note));
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  for (const auto& note : outcome.warnings) say(globals, fmt::format("note: {}", note));
+  say_written(globals, outcome);
   if (globals.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
 }
 
@@ -66,14 +66,11 @@ int run_command(const Globals& globals, CleanArguments& arguments) {
   job.gaps.max_sd_m = 1e-3 * arguments.max_gap_sd_mm;
   job.gaps.noise_sd_m = job.filter.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.filter.correct_cutoff = !arguments.uncorrected;
-  job.threads = globals.threads;
-  job.seed = globals.seed;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  const auto outcome = pipeline::run_clean(job, show_progress(globals, "markers"));
+  settle(globals, "markers", job);
+  const auto outcome = pipeline::run_clean(job);
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
-  return 0;
+  return outcome->exit_status();
 }
 
 }  // namespace
@@ -94,7 +91,8 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
       ->capture_default_str();
   command->add_option("--max-gap", job.gaps.max_gap_s, "Longer gaps stay open, s")->capture_default_str();
   command
-      ->add_option("--max-gap-sd", arguments->max_gap_sd_mm, "Gaps that would be less certain stay open, mm")
+      ->add_option("--max-gap-sd", arguments->max_gap_sd_mm,
+                   "Largest standard deviation of a fill, mm; other gaps stay open")
       ->capture_default_str();
   command
       ->add_option("--filter", arguments->filter,
@@ -110,7 +108,7 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("--cutoff-rule", arguments->cutoff_rule, "butterworth without --cutoff: winter, challis")
       ->capture_default_str();
   command->add_flag("--uncorrected-cutoff", arguments->uncorrected,
-                    "butterworth: cut-off of each pass, as filtfilt elsewhere has it");
+                    "butterworth: cut-off of each pass, as filtfilt of other programs");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0: found from the data")
       ->capture_default_str();
   command
@@ -118,7 +116,7 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
                    "Samples that the recorder interpolated: keep, mark, missing or decimate")
       ->capture_default_str();
   command->add_flag("--reject", job.reject_defects,
-                    "Reject spikes, swaps, stuck and false samples instead of only telling");
+                    "Reject spikes, swaps, stuck and false samples instead of only reporting them");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
   command->add_option("--report", job.report, "Page to write, .html");

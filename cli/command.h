@@ -19,8 +19,7 @@ struct Globals {
   std::string command_line;  ///< as typed
 };
 
-/// A command adds itself to the program and leaves in `run` what to do; the number returned is the exit
-/// status.
+/// A command adds itself to the program and stores its action in `run`, which returns the exit status.
 using Run = std::function<int()>;
 
 void add_calibrate(CLI::App& app, const Globals& globals, Run& run);

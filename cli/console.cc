@@ -9,8 +9,9 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "kinemark/pipeline/files/outcome_json.h"
 
 namespace kinemark::cli {
 namespace {
@@ -28,16 +29,22 @@ void say(const Globals& globals, std::string_view line) {
   if (!globals.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
 }
 
-void print_written(const Globals& globals, const std::vector<std::filesystem::path>& paths,
-                   const std::vector<std::string>& warnings) {
-  for (const auto& warning : warnings) say(globals, fmt::format("note: {}", warning));
-  nlohmann::ordered_json written = nlohmann::ordered_json::array();
-  for (const auto& path : paths) {
-    say(globals, fmt::format("wrote {}", path.string()));
-    written.push_back(path.string());
-  }
-  if (globals.json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"written", written}, {"warnings", warnings}}.dump(2));
+void settle(const Globals& globals, std::string counts, pipeline::JobSettings& job) {
+  job.threads = globals.threads;
+  job.seed = globals.seed;
+  job.force = globals.force;
+  job.command_line = globals.command_line;
+  job.progress = show_progress(globals, std::move(counts));
+}
+
+void say_written(const Globals& globals, const pipeline::JobOutcome& outcome) {
+  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+}
+
+void print_written(const Globals& globals, const pipeline::JobOutcome& outcome) {
+  for (const auto& warning : outcome.warnings) say(globals, fmt::format("note: {}", warning));
+  say_written(globals, outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::outcome_json(outcome).dump(2));
 }
 
 int report_error(const Error& error) {
@@ -60,7 +67,7 @@ Progress show_progress(const Globals& globals, std::string what) {
     state->next = now + (terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(1000));
     const double elapsed = std::chrono::duration<double>(now - state->start).count();
     const double rate = static_cast<double>(done) / elapsed;
-    // Work in large pieces goes slower than one a second; before the first is done nothing is known.
+    // Large pieces may take more than a second each; there is no estimate before the first is done.
     const std::string pace =
         done == 0 ? std::string()
                   : fmt::format(", {:.{}f} per {}, {:.0f} s left", rate < 1.0 ? 60.0 * rate : rate,

@@ -4,23 +4,27 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "cli/command.h"
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::cli {
 
-/// One line for people, on stderr; nothing with --quiet.
+/// Print one line on stderr, except with --quiet.
 void say(const Globals& globals, std::string_view line);
 
+/// Into the job what every command takes. @param counts  what its progress counts: "frames"
+void settle(const Globals& globals, std::string counts, pipeline::JobSettings& job);
+
+/// A line for each file that was written.
+void say_written(const Globals& globals, const pipeline::JobOutcome& outcome);
+
 /// What was written, after notes on it: lines for people, or {"written": [...], "warnings": [...]} on stdout.
-void print_written(const Globals& globals, const std::vector<std::filesystem::path>& paths,
-                   const std::vector<std::string>& warnings = {});
+void print_written(const Globals& globals, const pipeline::JobOutcome& outcome);
 
 /// The sentence of a failure on stderr, and its exit status.
 [[nodiscard]] int report_error(const Error& error);

@@ -13,21 +13,17 @@ void add_convert(CLI::App& app, const Globals& globals, Run& run) {
   command->footer(
       "Markers: .c3d, .trc, .nwb, .csv, and .v3d in. Tables: .mot, .sto. Models: .osim of any version in, "
       "4.0 out.");
-  struct Arguments {
-    std::string in, out;
-    double rate_hz = 0.0;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  command->add_option("IN", arguments->in, "File to read")->required();
-  command->add_option("OUT", arguments->out, "File to write; its ending names the format")->required();
-  command->add_option("--rate", arguments->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] {
-      const auto warnings =
-          pipeline::convert_file(arguments->in, arguments->out, globals.force, arguments->rate_hz);
-      if (!warnings) return report_error(warnings.error());
-      print_written(globals, {arguments->out}, *warnings);
-      return 0;
+  const auto job = std::make_shared<pipeline::ConvertJob>();
+  command->add_option("IN", job->in, "File to read")->required();
+  command->add_option("OUT", job->out, "File to write; its ending names the format")->required();
+  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
+  command->callback([&globals, job, &run] {
+    run = [&globals, job] {
+      settle(globals, "files", *job);
+      const auto outcome = pipeline::run_convert(*job);
+      if (!outcome) return report_error(outcome.error());
+      print_written(globals, *outcome);
+      return outcome->exit_status();
     };
   });
 }

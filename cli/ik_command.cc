@@ -28,11 +28,11 @@ void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
   const auto& summary = outcome.summary;
   say(globals,
       fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; solved in {:.3f} s ({:.0f} frames/s).",
-                  motion.frames(), motion.time.rate_hz, result.markers.size(), motion.size(),
+                  motion.frames(), motion.time.rate_hz, result.fit.markers.size(), motion.size(),
                   result.solve_seconds, static_cast<double>(motion.frames()) / result.solve_seconds));
   say(globals,
       fmt::format("Marker error {:.2f} mm RMS, {:.1f} mm at most; {:.1f} % of the coordinates determined.",
-                  1e3 * result.rms_marker_error_m, 1e3 * result.max_marker_error_m,
+                  1e3 * result.fit.rms_error_m, 1e3 * result.fit.max_error_m,
                   100.0 * summary.determined_fraction));
   const auto partly = coordinates_partly_determined(summary, motion.frames());
   if (!partly.empty()) say(globals, partly);
@@ -48,17 +48,18 @@ struct IkArguments {
 
 int run_command(const Globals& globals, IkArguments& arguments) {
   auto& job = arguments.job;
-  if (auto status = apply(globals, arguments.motion, job); !status) return report_error(status.error());
+  if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   for (const auto& text : arguments.coordinate_weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return report_error(weight.error());
     job.options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
   }
   job.options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
-  const auto outcome = pipeline::run_ik(job, show_progress(globals, "frames"));
+  settle(globals, "frames", job);
+  const auto outcome = pipeline::run_ik(job);
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
-  return outcome->exit_status;
+  return outcome->exit_status();
 }
 
 }  // namespace
@@ -74,7 +75,8 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
   auto& job = arguments->job;
   auto& options = job.options;
   add_motion_options(*command, job, arguments->motion);
-  command->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options win over it")
+  command
+      ->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options take precedence")
       ->group("Input");
   command->add_option("--tasks", job.tasks, "OpenSim IKTaskSet: marker and coordinate weights")
       ->group("Input");
@@ -82,7 +84,7 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Output");
   command
       ->add_option("--coordinate-weight", arguments->coordinate_weights,
-                   "Pull a coordinate to 0 with NAME=W (OpenSim's convention). Repeatable.")
+                   "Coordinate task towards 0 with a weight, NAME=W (OpenSim's convention). Repeatable.")
       ->group("Estimate");
   command
       ->add_option_function<std::string>(
@@ -96,7 +98,7 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
               throw CLI::ValidationError("--loss", fmt::format("'{}' is not square, huber or cauchy", name));
             options.loss = loss->second;
           },
-          "How large residuals count: square, huber or cauchy")
+          "Loss of large residuals: square, huber or cauchy")
       ->default_str("square")
       ->group("Estimate");
   command
@@ -116,7 +118,7 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
       ->add_flag("--torques", job.torques,
                  "Also write Q_tau.sto and Q_tau_sd.sto (N m, N); --forces implies it")
       ->group("Estimate");
-  command->add_option("--loss-scale", arguments->loss_scale_mm, "Where huber and cauchy begin to bend, mm")
+  command->add_option("--loss-scale", arguments->loss_scale_mm, "Threshold of huber, scale of cauchy, mm")
       ->capture_default_str()
       ->group("Estimate");
   command->callback([&globals, arguments, &run] {

@@ -4,29 +4,26 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/files/file_facts.h"
+#include "kinemark/pipeline/files/info_json.h"
 
 namespace kinemark::cli {
 
 void add_info(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("info", "What a marker, motion, model or recording file holds");
-  struct Arguments {
-    std::string path;
-    double rate_hz = 0.0;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->path, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
+  const auto job = std::make_shared<pipeline::InfoJob>();
+  command->add_option("FILE", job->file, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
       ->required();
-  command->add_option("--rate", arguments->rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] {
-      const auto facts = pipeline::describe_file(arguments->path, arguments->rate_hz);
-      if (!facts) return report_error(facts.error());
+  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
+  command->callback([&globals, job, &run] {
+    run = [&globals, job] {
+      settle(globals, "files", *job);
+      const auto outcome = pipeline::run_info(*job);
+      if (!outcome) return report_error(outcome.error());
       if (globals.json)
-        fmt::print("{}\n", facts->dump(2));
+        fmt::print("{}\n", pipeline::info_json(*outcome).dump(2));
       else
-        fmt::print("{}", pipeline::facts_text(*facts));
-      return 0;
+        fmt::print("{}", pipeline::info_text(*outcome));
+      return outcome->exit_status();
     };
   });
 }

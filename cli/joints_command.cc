@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/joints/joints_job.h"
+#include "kinemark/pipeline/joints/joints_json.h"
 
 namespace kinemark::cli {
 namespace {
@@ -32,11 +32,8 @@ int run_command(const Globals& globals, JointsArguments& arguments) {
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.continuity = !arguments.no_continuity;
-  job.threads = globals.threads;
-  job.seed = globals.seed;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  const auto outcome = pipeline::run_joints(job, show_progress(globals, "frames"));
+  settle(globals, "frames", job);
+  const auto outcome = pipeline::run_joints(job);
   if (!outcome) return report_error(outcome.error());
   const auto& skeleton = outcome->skeleton;
   say(globals, fmt::format("{} frames at {:g} Hz, {} segments, {} joints; marker noise {:.2f} mm per axis.",
@@ -44,10 +41,10 @@ int run_command(const Globals& globals, JointsArguments& arguments) {
                            skeleton.joints.size(), 1e3 * skeleton.noise_sd_m));
   for (const auto& line : pipeline::skeleton_words(skeleton)) say(globals, line);
   for (const auto& warning : skeleton.warnings) say(globals, "attention: " + warning);
-  for (const auto& note : outcome->notes) say(globals, "note: " + note);
-  for (const auto& path : outcome->written) say(globals, fmt::format("wrote {}", path.string()));
-  if (globals.json) fmt::print("{}\n", outcome->json.dump(2));
-  return outcome->exit_status;
+  for (const auto& note : outcome->warnings) say(globals, "note: " + note);
+  say_written(globals, *outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::joints_json(job, *outcome).dump(2));
+  return outcome->exit_status();
 }
 
 }  // namespace
@@ -80,7 +77,7 @@ void add_joints(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("--sides", arguments->sides, "Segments that hold the centre still: both, parent or child")
       ->capture_default_str()
       ->group("Estimate");
-  command->add_option("--kind", arguments->kind, "Joints are: auto (the data say), ball or hinge")
+  command->add_option("--kind", arguments->kind, "Kind of the joints: auto (from the data), ball or hinge")
       ->capture_default_str()
       ->group("Estimate");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 finds it from the data")
@@ -94,7 +91,7 @@ void add_joints(CLI::App& app, const Globals& globals, Run& run) {
       ->add_flag("--soft-tissue", job.soft_tissue,
                  "articulated: every marker has a noise of its own, found from the data")
       ->group("Estimate");
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz")
       ->group("Input");
   command->add_flag("--keep-upsampled", job.keep_upsampled, "Use samples that the recorder interpolated, too")
       ->group("Input");

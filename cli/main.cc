@@ -32,7 +32,7 @@ void add_globals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print the result as JSON on stdout")->group("Everywhere");
 }
 
-/// One sentence on what was typed wrong, and where the options are explained.
+/// One sentence on the error in the command line and on where the options are explained.
 int report_usage(const CLI::App& app, const std::string& what) {
   std::string command = "kinemark";
   for (const CLI::App* at = &app; !at->get_subcommands().empty();) {

@@ -15,12 +15,12 @@ Result<std::pair<std::string, double>> parse_pair(const std::string& text, const
 }
 
 void print_motion(const Globals& globals, const pipeline::MotionOutcome& outcome) {
-  for (const auto& finding : outcome.summary.findings) {
-    const bool note = finding.level == report::Verdict::good;
-    if (note && finding.about == "coordinate") continue;
-    say(globals, fmt::format("{}: {}", note ? "note" : "attention", finding.text));
+  for (const auto& notice : outcome.summary.notices) {
+    const bool note = notice.level == report::Verdict::good;
+    if (note && notice.about == "coordinate") continue;
+    say(globals, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+  say_written(globals, outcome);
   if (globals.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share that turn markers into a motion of the model: `ik` and `track`.
+// Arguments common to the commands that estimate a motion of the model from markers: `ik` and `track`.
 #pragma once
 
 #include <fmt/core.h>
@@ -32,11 +32,11 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command.add_option("-t,--markers", job.markers, "Marker file, .c3d, .trc, .nwb, .csv or .v3d")
       ->group("Input");
-  command.add_option("--rate", job.rate_hz, "Frame rate of a marker file that tells none (.v3d), Hz")
+  command.add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz")
       ->group("Input");
   command
       .add_option("--forces", job.forces,
-                  "What pushed the body, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
+                  "External forces, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
       ->group("Input");
   command.add_option("--start", job.options.first_time_s, "First time to use, s")->group("Input");
   command.add_option("--end", job.options.last_time_s, "Last time to use, s")->group("Input");
@@ -69,9 +69,9 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Quality gates");
 }
 
-/// Into the job what was given on the command line.
+/// Copy the command line's arguments to the job.
 template <class Job>
-[[nodiscard]] Status apply(const Globals& globals, const MotionArguments& a, Job& job) {
+[[nodiscard]] Status apply(const MotionArguments& a, Job& job) {
   for (const auto& text : a.weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return std::unexpected(weight.error());
@@ -86,12 +86,8 @@ template <class Job>
   job.options.marker_noise_sd_m = 1e-3 * a.noise_mm;
   job.options.limits = !a.no_limits;
   job.options.error_bars = !a.no_error_bars;
-  job.options.threads = globals.threads;
-  job.options.seed = globals.seed;
   job.max_rms_m = 1e-3 * a.max_rms_mm;
   job.max_offset_m = 1e-3 * a.max_offset_mm;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
   return {};
 }
 

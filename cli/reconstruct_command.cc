@@ -5,26 +5,23 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/rig/reconstruct_job.h"
+#include "kinemark/pipeline/rig/reconstruct_json.h"
 
 namespace kinemark::cli {
 namespace {
 
-int run_reconstruct(const Globals& globals, pipeline::ReconstructJob& job) {
-  job.force = globals.force;
-  job.frames.threads = job.smoother.threads = globals.threads;
-  const auto done = pipeline::reconstruct_file(job);
-  if (!done) return report_error(done.error());
-  for (const auto& warning : done->at("warnings")) say(globals, warning.get<std::string>());
-  for (const auto& led : done->at("leds"))
+int run_command(const Globals& globals, pipeline::ReconstructJob& job) {
+  settle(globals, "LEDs", job);
+  const auto outcome = pipeline::run_reconstruct(job);
+  if (!outcome) return report_error(outcome.error());
+  for (const auto& warning : outcome->warnings) say(globals, warning);
+  for (const auto& led : outcome->leds)
     say(globals,
-        fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge",
-                    led.at("name").get<std::string>(), led.at("located").get<std::int64_t>(),
-                    led.at("frames").get<std::int64_t>(), led.at("occluded").get<std::int64_t>(),
-                    led.at("inconsistent").get<std::int64_t>(), led.at("near_edge").get<std::int64_t>()));
-  say(globals, fmt::format("wrote {}", job.output.string()));
-  if (globals.json) fmt::print("{}\n", done->dump(2));
-  return 0;
+        fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge", led.name,
+                    led.located, led.frames, led.occluded, led.inconsistent, led.near_edge));
+  say_written(globals, *outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::reconstruct_json(*outcome).dump(2));
+  return outcome->exit_status();
 }
 
 }  // namespace
@@ -64,7 +61,7 @@ void add_reconstruct(CLI::App& app, const Globals& globals, Run& run) {
   command->callback([&globals, job, &run] {
     run = [&globals, job] {
       job->smoother.dim_share = job->frames.dim_share;
-      return run_reconstruct(globals, *job);
+      return run_command(globals, *job);
     };
   });
 }

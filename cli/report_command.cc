@@ -10,21 +10,17 @@ namespace kinemark::cli {
 
 void add_report(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand("report", "One self-contained page of a solved trial");
-  struct Arguments {
-    std::string solved, page;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  command
-      ->add_option("IN", arguments->solved,
-                   "Q.mot as written by 'kinemark ik', with its companions beside it")
+  const auto job = std::make_shared<pipeline::ReportJob>();
+  command->add_option("IN", job->solved, "Q.mot as written by 'kinemark ik', with its companions beside it")
       ->required();
-  command->add_option("-o,--output", arguments->page, "Page to write, R.html")->required();
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] {
-      const auto status = pipeline::write_report(arguments->solved, arguments->page, globals.force);
-      if (!status) return report_error(status.error());
-      print_written(globals, {arguments->page});
-      return 0;
+  command->add_option("-o,--output", job->page, "Page to write, R.html")->required();
+  command->callback([&globals, job, &run] {
+    run = [&globals, job] {
+      settle(globals, "pages", *job);
+      const auto outcome = pipeline::run_report(*job);
+      if (!outcome) return report_error(outcome.error());
+      print_written(globals, *outcome);
+      return outcome->exit_status();
     };
   });
 }

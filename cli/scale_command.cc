@@ -4,23 +4,18 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/scale/scale_job.h"
+#include "kinemark/core/text.h"
+#include "kinemark/pipeline/scale/scale_json.h"
 
 namespace kinemark::cli {
 namespace {
-
-std::string join(const std::vector<std::string>& names) {
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
 
 void print_adapted(const Globals& globals, const motion::AdaptResult& result, const char* what) {
   say(globals,
       fmt::format("{}: {} frames, {} steps; marker error {:.2f} mm RMS, {:.2f} mm before.", what,
                   result.frames, result.iterations, 1e3 * result.rms_after_m, 1e3 * result.rms_before_m));
   if (!result.converged)
-    say(globals, "attention: the adaptation did not converge; its numbers are a step on the way");
+    say(globals, "attention: the adaptation did not converge; its numbers are intermediate");
   if (result.tissue_sd_m > 0.0)
     say(globals,
         fmt::format("Markers slide on the body with the posture, {:.1f} mm per axis; deviations include it.",
@@ -35,7 +30,8 @@ void print_adapted(const Globals& globals, const motion::AdaptResult& result, co
   for (const auto& sentence : result.recommendations) say(globals, fmt::format("attention: {}", sentence));
 }
 
-void print_outcome(const Globals& globals, const pipeline::ScaleOutcome& outcome) {
+void print_outcome(const Globals& globals, const pipeline::ScaleJob& job,
+                   const pipeline::ScaleOutcome& outcome) {
   if (!outcome.clavicles.empty()) say(globals, fmt::format("Set free: {}.", join(outcome.clavicles)));
   if (outcome.scaled)
     for (const auto& m : outcome.scaled->measurements)
@@ -45,9 +41,9 @@ void print_outcome(const Globals& globals, const pipeline::ScaleOutcome& outcome
     say(globals, fmt::format("{} markers placed; the pose fitted the model's markers to {:.1f} mm RMS.",
                              outcome.placed->markers.size(), 1e3 * outcome.placed->rms_m));
   if (outcome.from_motion) print_adapted(globals, *outcome.from_motion, "Motion");
-  for (const auto& note : outcome.notes) say(globals, fmt::format("attention: {}", note));
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
-  if (globals.json) fmt::print("{}\n", outcome.report);
+  for (const auto& note : outcome.warnings) say(globals, fmt::format("attention: {}", note));
+  say_written(globals, outcome);
+  if (globals.json) fmt::print("{}\n", pipeline::scale_json(job, outcome).dump(2));
 }
 
 struct ScaleArguments {
@@ -60,17 +56,14 @@ int run_command(const Globals& globals, ScaleArguments& arguments) {
   auto& job = arguments.job;
   job.adapt.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
   job.adapt.soft_tissue = !arguments.no_soft_tissue;
-  job.adapt.threads = globals.threads;
-  job.adapt.ik.seed = globals.seed;
   job.place_prior_sd_m = 1e-3 * arguments.place_prior_mm;
   job.size_prior_sd = 1e-2 * arguments.size_prior_percent;
   job.max_rms_m = 1e-3 * arguments.max_rms_mm;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  const auto outcome = pipeline::run_scale(job, show_progress(globals, "steps"));
+  settle(globals, "steps", job);
+  const auto outcome = pipeline::run_scale(job);
   if (!outcome) return report_error(outcome.error());
-  print_outcome(globals, *outcome);
-  return outcome->exit_status;
+  print_outcome(globals, job, *outcome);
+  return outcome->exit_status();
 }
 
 }  // namespace
@@ -79,7 +72,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
   auto* command =
       app.add_subcommand("scale", "A model made to fit a subject, with the uncertainty of every size");
   command->footer(
-      "Writes M.osim and beside it M_report.json: factors, lengths and marker places with standard "
+      "Writes M.osim and beside it M_report.json: factors, lengths and marker positions with standard "
       "deviations, and "
       "what\n"
       "the data do not determine. Exit status 1: the files are there, but the markers fit worse than "
@@ -87,15 +80,17 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
   const auto arguments = std::make_shared<ScaleArguments>();
   auto& job = arguments->job;
   command->add_option("-m,--model", job.model, "General body model, .osim")->group("Input");
-  command->add_option("--static", job.static_trial, "Marker file of a static trial; wins over the setup's")
+  command
+      ->add_option("--static", job.static_trial,
+                   "Marker file of a static trial; takes precedence over the setup's")
       ->group("Input");
-  command->add_option("--setup", job.setup, "OpenSim ScaleTool setup; other options win over it")
+  command->add_option("--setup", job.setup, "OpenSim ScaleTool setup; other options take precedence")
       ->group("Input");
   command
       ->add_option("-t,--markers", job.markers,
-                   "Marker file of a motion that sizes and places are adapted to")
+                   "Marker file of a motion to which sizes and positions are adapted")
       ->group("Input");
-  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that tell none (.v3d), Hz")
+  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that store none (.v3d), Hz")
       ->group("Input");
   command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
       ->group("Input");
@@ -114,7 +109,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Estimate");
   command
       ->add_option("--place-prior", arguments->place_prior_mm,
-                   "How far a marker may be from its place in the model so far, mm per axis (1 SD)")
+                   "How far a marker may be from its position in the model so far, mm per axis (1 SD)")
       ->capture_default_str()
       ->group("Estimate");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 estimates it")
@@ -122,7 +117,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Estimate");
   command
       ->add_flag("--no-soft-tissue", arguments->no_soft_tissue,
-                 "Do not look for markers that slide on the body")
+                 "Do not test for markers that slide on the body")
       ->group("Estimate");
   command->add_option("--frames", job.adapt.max_frames, "Frames of the motion to use at most")
       ->capture_default_str()

@@ -4,25 +4,24 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/pipeline/simulate/simulate_job.h"
+#include "kinemark/pipeline/simulate/simulate_subject_job.h"
 
 namespace kinemark::cli {
 namespace {
 
 struct SubjectArguments {
-  pipeline::SubjectJob job;
+  pipeline::SimulateSubjectJob job;
   double noise_mm = 1.0;
 };
 
 int run_subject(const Globals& globals, SubjectArguments& arguments) {
   auto& job = arguments.job;
-  job.options.seed = globals.seed;
   job.options.noise_sd_m = 1e-3 * arguments.noise_mm;
-  job.force = globals.force;
-  const auto written = pipeline::simulate_subject(job, show_progress(globals, "files"));
-  if (!written) return report_error(written.error());
-  print_written(globals, *written);
-  return 0;
+  settle(globals, "files", job);
+  const auto outcome = pipeline::run_simulate_subject(job);
+  if (!outcome) return report_error(outcome.error());
+  print_written(globals, *outcome);
+  return outcome->exit_status();
 }
 
 }  // namespace

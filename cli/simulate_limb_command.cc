@@ -12,7 +12,7 @@ namespace kinemark::cli {
 namespace {
 
 struct LimbArguments {
-  pipeline::LimbJob job;
+  pipeline::SimulateLimbJob job;
   double noise_mm = 1.0, stagger_mm = 0.0;
   std::vector<double> lengths_mm{150.0, 160.0};
   std::string interpolation = "linear";
@@ -22,8 +22,6 @@ struct LimbArguments {
 
 int run_limb(const Globals& globals, LimbArguments& arguments) {
   auto& job = arguments.job;
-  job.force = globals.force;
-  job.arm.seed = job.macaque.seed = globals.seed;
   job.arm.noise_sd_m = job.macaque.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.arm.stagger_m = 1e-3 * arguments.stagger_mm;
   job.arm.lengths_m = arguments.lengths_mm;
@@ -38,10 +36,11 @@ int run_limb(const Globals& globals, LimbArguments& arguments) {
   job.macaque.line_of_sight = !arguments.all_seen;
   job.upsample.how =
       arguments.interpolation == "cubic" ? simulation::Upsampling::cubic : simulation::Upsampling::linear;
-  const auto outcome = pipeline::simulate_limb(job, show_progress(globals, "files"));
+  settle(globals, "files", job);
+  const auto outcome = pipeline::run_simulate_limb(job);
   if (!outcome) return report_error(outcome.error());
-  print_written(globals, outcome->written, outcome->notes);
-  return 0;
+  print_written(globals, *outcome);
+  return outcome->exit_status();
 }
 
 /// What both have in common.

@@ -11,14 +11,14 @@ namespace kinemark::cli {
 namespace {
 
 struct RigArguments {
-  pipeline::RigJob job;
+  pipeline::SimulateRigJob job;
   std::string scene = "sign", detector = "tetra-lateral";
   std::vector<std::string> intensity;
   bool glint = false, z_is_up = false, keep_place = false, no_noise = false;
 };
 
 /// "0.5" for all LEDs or "hand=0.5" for one.
-Status add_intensity(const std::string& text, pipeline::RigJob& job) {
+Status add_intensity(const std::string& text, pipeline::SimulateRigJob& job) {
   const auto equals = text.rfind('=');
   const std::string name = equals == std::string::npos ? "" : text.substr(0, equals);
   const std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
@@ -30,7 +30,7 @@ Status add_intensity(const std::string& text, pipeline::RigJob& job) {
   return {};
 }
 
-Status complete(const Globals& globals, RigArguments& arguments) {
+Status complete(RigArguments& arguments) {
   auto& job = arguments.job;
   const auto scene = pipeline::parse_rig_scene(arguments.scene);
   if (!scene) return std::unexpected(scene.error());
@@ -38,24 +38,22 @@ Status complete(const Globals& globals, RigArguments& arguments) {
   const auto detector = data::parse_detector_kind(arguments.detector);
   if (!detector) return fail(Code::usage, detector.error().message);
   job.rig.detector = *detector;
-  job.rig.seed = job.recording.seed = globals.seed;
-  job.recording.threads = globals.threads;
   job.recording.noise = !arguments.no_noise;
   job.wheel.glint_share = arguments.glint ? 0.04 : 0.0;
   job.marker_options.z_is_up = arguments.z_is_up;
   job.marker_options.centred = !arguments.keep_place;
-  job.force = globals.force;
   for (const auto& text : arguments.intensity)
     if (auto s = add_intensity(text, job); !s) return s;
   return {};
 }
 
 int run_rig(const Globals& globals, RigArguments& arguments) {
-  if (auto s = complete(globals, arguments); !s) return report_error(s.error());
-  const auto outcome = pipeline::simulate_rig(arguments.job, show_progress(globals, "files"));
+  if (auto s = complete(arguments); !s) return report_error(s.error());
+  settle(globals, "files", arguments.job);
+  const auto outcome = pipeline::run_simulate_rig(arguments.job);
   if (!outcome) return report_error(outcome.error());
-  print_written(globals, outcome->written, outcome->notes);
-  return 0;
+  print_written(globals, *outcome);
+  return outcome->exit_status();
 }
 
 void add_scene_options(CLI::App& rig, RigArguments& arguments) {

@@ -21,7 +21,7 @@
 namespace kinemark::cli {
 namespace {
 
-/// What every study is asked.
+/// Options common to all studies.
 struct StudyArguments {
   std::string seeds, figures;
 };
@@ -32,8 +32,8 @@ void add_options(CLI::App& command, StudyArguments& arguments, const std::string
                      seeds_are + ": 3, 1-10 or 1,4,7-9; that of --seed when absent");
 }
 
-/// Run a study for its seeds, write its page, print its table. The page's file is made sure of first, as a
-/// study takes minutes.
+/// Run a study for its seeds, write its page, print its table. The page's file is opened first, as a study
+/// takes minutes.
 /// @param run      seeds in, Result of a study out
 /// @param page_of  its page, a Result
 template <class RunStudy, class PageOf>
@@ -147,7 +147,7 @@ void add_tai_chi(CLI::App& command, const Globals& globals, Run& run) {
                      "Recording of the 21 landmarks (taichi.v3d); simulated subjects when absent");
   taichi
       ->add_option("--rate", arguments->files.rate_hz,
-                   "Frame rate of a recording that tells none (.v3d), Hz; 179 when absent")
+                   "Frame rate of a recording that stores none (.v3d), Hz; 179 when absent")
       ->check(CLI::PositiveNumber);
   add_options(*taichi, *arguments, "Subjects to simulate");
   taichi->callback([&globals, arguments, &run] {

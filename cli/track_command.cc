@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/motion_arguments.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/motion/track_job.h"
 
@@ -63,42 +64,37 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   return {};
 }
 
-std::string names(const std::vector<std::string>& list) {
-  std::string text;
-  for (const auto& name : list) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome) {
   const auto& result = outcome.result;
   const auto& motion = result.motion;
   say(globals,
       fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; {} steps of {:.3g} ms in {:.3f} s.",
-                  motion.frames(), motion.time.rate_hz, result.markers.size(), motion.size(), result.steps,
-                  1e3 * result.step_s, result.solve_seconds));
+                  motion.frames(), motion.time.rate_hz, result.fit.markers.size(), motion.size(),
+                  result.steps, 1e3 * result.step_s, result.solve_seconds));
   say(globals,
       fmt::format("Marker error {:.2f} mm RMS against the recording, {:.2f} mm against the goals; rank "
                   "{} to {} of {}.",
-                  1e3 * result.rms_marker_error_m, 1e3 * result.rms_goal_error_m,
+                  1e3 * result.fit.rms_error_m, 1e3 * result.rms_goal_error_m,
                   *std::min_element(result.rank.begin(), result.rank.end()),
                   *std::max_element(result.rank.begin(), result.rank.end()), result.free_speeds));
   if (!result.locked_coordinates.empty())
     say(globals, fmt::format("note: Held at rest because no tracked marker moves them: {}",
-                             names(result.locked_coordinates)));
+                             join(result.locked_coordinates)));
   if (!result.undetermined_coordinates.empty())
     say(globals, fmt::format("note: Determined in fewer than 95 % of the frames: {}",
-                             names(result.undetermined_coordinates)));
+                             join(result.undetermined_coordinates)));
   print_motion(globals, outcome);
 }
 
 int run_command(const Globals& globals, const TrackArguments& arguments) {
   pipeline::TrackJob job = arguments.job;
-  if (auto status = apply(globals, arguments.motion, job); !status) return report_error(status.error());
+  if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   if (auto status = apply(arguments, job); !status) return report_error(status.error());
-  const auto outcome = pipeline::run_track(job, show_progress(globals, "frames"));
+  settle(globals, "frames", job);
+  const auto outcome = pipeline::run_track(job);
   if (!outcome) return report_error(outcome.error());
   print_outcome(globals, *outcome);
-  return outcome->exit_status;
+  return outcome->exit_status();
 }
 
 }  // namespace
@@ -107,8 +103,8 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
   auto* command = app.add_subcommand(
       "track", "Joint angles and torques from markers by direct marker control, with bounds");
   command->footer(
-      "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (what the "
-      "error cannot exceed,\nNaN where the markers do not determine the coordinate), Q_tau.sto and "
+      "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (bounds on "
+      "the error,\nNaN where the markers do not determine the coordinate), Q_tau.sto and "
       "Q_tau_sd.sto (N m, N), Q_rank.sto (directions that the\nlevels fix), Q_marker_errors.sto and "
       "Q_report.json. Exit status 1: the files are there, but a quality gate was missed.");
   const auto arguments = std::make_shared<TrackArguments>();
@@ -127,7 +123,7 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Tasks");
   command->add_flag("--no-lock", a.no_lock, "Leave coordinates that no marker moves to the posture task")
       ->group("Tasks");
-  command->add_option("--omega", options.omega_rad_s, "Stiffness of the pull, rad/s")
+  command->add_option("--omega", options.omega_rad_s, "Stiffness of the tracking, rad/s")
       ->capture_default_str()
       ->group("Control");
   command->add_option("--step", a.step_ms, "Largest step, ms; 0: omega x step = 0.5 or less")
@@ -142,7 +138,7 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
   command->add_option("--cutoff", options.cutoff_hz, "Low-pass of the goals, Hz; 0: none")
       ->capture_default_str()
       ->group("Control");
-  command->add_flag("--no-feed-forward", a.no_feed_forward, "Use places only, not their rates")
+  command->add_flag("--no-feed-forward", a.no_feed_forward, "Use positions only, not their rates")
       ->group("Control");
   command->callback([&globals, arguments, &run] {
     run = [&globals, arguments] { return run_command(globals, *arguments); };

@@ -3,6 +3,9 @@
 #
 # Helpers that make a folder's CMakeLists.txt a list: sources, public links, private links, tests.
 
+# Presets that build everything from nothing (release, ci, asan, tsan) join the sources of a target.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
+
 add_library(kinemark_flags INTERFACE)
 target_include_directories(kinemark_flags INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../src)
 # Same bits everywhere: no contraction to fused multiply-add, no fast-math, baseline instruction set.
@@ -18,7 +21,11 @@ if(KINEMARK_DEVELOPER)
     target_compile_options(kinemark_flags INTERFACE -Wno-shadow)
   else()
     # GCC 12 reports uninitialised and out-of-range reads inside Eigen's own expression templates.
-    target_compile_options(kinemark_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+    target_compile_options(kinemark_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+    # In unity builds every source is included: what is local to it looks shared.
+    if(CMAKE_UNITY_BUILD)
+      target_compile_options(kinemark_flags INTERFACE -Wno-subobject-linkage)
+    endif()
   endif()
 endif()
 if(KINEMARK_SANITIZE_ADDRESS)
@@ -27,15 +34,28 @@ if(KINEMARK_SANITIZE_ADDRESS)
 endif()
 if(KINEMARK_SANITIZE_THREAD)
   target_compile_options(kinemark_flags INTERFACE -fsanitize=thread)
+  target_compile_definitions(kinemark_flags INTERFACE KINEMARK_SANITIZE_THREAD)
+  add_custom_target(threads)  # the tests that run several threads
   target_link_options(kinemark_flags INTERFACE -fsanitize=thread)
 endif()
 if(KINEMARK_FUZZ)
   target_compile_options(kinemark_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Names stay inside the library that holds them, unless all are to be one shared library: then cmake/kinemark.map says
+# what it shows. An interface may break with every minor version before 1.0.
+option(BUILD_SHARED_LIBS "Make one libkinemark.so; else a static library for each component" OFF)
+if(BUILD_SHARED_LIBS)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+else()
+  set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+endif()
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(KINEMARK_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
 # Precompiled headers: what nearly every file reads, parsed once for the library and once for tests and programs.
 # Off where files must stand on their own includes (clang-tidy), and where there is nothing to gain.
-option(KINEMARK_PRECOMPILED "Precompile the headers that nearly every file reads" ON)
+option(KINEMARK_PRECOMPILED "Precompile the headers that nearly every file reads" ${PROJECT_IS_TOP_LEVEL})
 function(kinemark_precompile target)
   if(KINEMARK_PRECOMPILED AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
     cmake_parse_arguments(ARG "TESTS" "" "" ${ARGN})
@@ -57,29 +77,47 @@ function(kinemark_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   if(ARG_SOURCES)
     add_library(kinemark_${name} STATIC ${ARG_SOURCES})
-    target_link_libraries(kinemark_${name} PUBLIC kinemark_flags ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+    target_link_libraries(kinemark_${name} PUBLIC $<BUILD_INTERFACE:kinemark_flags> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+    target_compile_features(kinemark_${name} PUBLIC cxx_std_23)
     kinemark_precompile(kinemark_${name})
   else()
     add_library(kinemark_${name} INTERFACE)
-    target_link_libraries(kinemark_${name} INTERFACE kinemark_flags ${ARG_PUBLIC})
+    target_link_libraries(kinemark_${name} INTERFACE $<BUILD_INTERFACE:kinemark_flags> ${ARG_PUBLIC})
   endif()
   add_library(kinemark::${name} ALIAS kinemark_${name})
+  set_target_properties(kinemark_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY KINEMARK_COMPONENTS ${name})
 endfunction()
 
-# kinemark_tests(name SOURCES a_test.cc ... LINK links... LABELS ... [UNSANITIZED])  -> program test_name, ctest -R name
-# UNSANITIZED: left out where addresses are watched.
+# kinemark_tests(name SOURCES a_test.cc ... LINK links... THREADS b_test.cc ... LABELS ... [UNSANITIZED])
+# -> program test_name, ctest -R name. UNSANITIZED: left out where addresses are watched, as are tests whose name ends in
+# "TakesLong". THREADS: the sources, with what they need, of tests that run several threads: those with "Thread" or
+# "thread" in their name, and nothing else, are what the thread sanitizer's build makes and runs (target threads).
 function(kinemark_tests name)
   if(NOT KINEMARK_DEVELOPER)
     return()
   endif()
-  cmake_parse_arguments(ARG "UNSANITIZED" "" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED" "" "SOURCES;THREADS;LINK;LABELS" ${ARGN})
   if(ARG_UNSANITIZED AND KINEMARK_SANITIZE_ADDRESS)
     return()
   endif()
-  add_executable(test_${name} ${ARG_SOURCES})
+  if(KINEMARK_SANITIZE_THREAD)
+    if(NOT ARG_THREADS)
+      return()
+    endif()
+    add_dependencies(threads test_${name})
+    set(ARG_SOURCES)
+    set(only --gtest_filter=*Thread*:*thread*)
+  elseif(KINEMARK_SANITIZE_ADDRESS)
+    set(only --gtest_filter=-*TakesLong)
+  endif()
+  add_executable(test_${name} ${ARG_SOURCES} ${ARG_THREADS})
   target_link_libraries(test_${name} PRIVATE kinemark_flags kinemark::testing ${ARG_LINK} GTest::gmock GTest::gtest GTest::gtest_main)
   kinemark_precompile(test_${name} TESTS)
-  add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
+  if(ARG_THREADS)
+    list(APPEND ARG_LABELS threads)
+  endif()
+  add_test(NAME ${name} COMMAND test_${name} ${only} WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "unit;${ARG_LABELS}"
     ENVIRONMENT "KINEMARK_TEST_DATA=$ENV{KINEMARK_TEST_DATA}")
 endfunction()

@@ -9,10 +9,11 @@ A folder may include itself and the folders that ALLOWED lists for it, nothing e
 another stage, folders of layer 3 do not know each other, and only pipeline/ and the studies join stages. A study
 includes no other study but `common`, and the library includes none. Besides:
 
+- where a folder is itself in steps (STEPS), each includes only those before it, and only that folder includes them;
 - a header in `internal/` is included only from the folder that owns it, or from below it;
 - tests of layer 3 may also read their models and recordings through io/;
-- test helpers (tests/support, headers in `testing/`, `test_*.h`, `*_for_test.h`) are included only by tests, benchmarks
-  and fuzzers;
+- test helpers (tests/support, headers in `testing/`) are included only by tests, benchmarks and fuzzers, and stand
+  nowhere else;
 - a file of the project is included by its full path ("kinemark/core/result.h", "cli/console.h"), and it exists;
 - headers do not include each other in a circle.
 
@@ -39,6 +40,8 @@ ALLOWED = {
     # Front ends: no algorithm lives there, so they reach stages through pipeline/ only.
     "front end": ("core", "math", "data", *LAYER_3, "pipeline", "studies"),
 }
+# Folders in steps: their subfolders, lowest first. Files beside the subfolders may include all of them.
+STEPS = {"src/kinemark/stages/skeleton/articulated": ("chain", "frame", "geometry", "recording")}
 FRONT_ENDS = ("cli", "server", "python")
 SUFFIXES = {".h", ".cc"}
 
@@ -63,11 +66,7 @@ def folder_of(path):
 def is_test(path):
     """Tests, benchmarks and fuzzers, and the helpers that only they use."""
     path = PurePosixPath(path)
-    return (
-        path.stem.endswith(("_test", "_benchmark", "_fuzz"))
-        or path.stem.startswith("test_")
-        or "testing" in path.parts
-    )
+    return path.stem.endswith(("_test", "_benchmark", "_fuzz")) or "testing" in path.parts
 
 
 def may_include(source, target, from_test=False):
@@ -86,6 +85,24 @@ def owner_of_internal(path):
         return None
     last = max(i for i, part in enumerate(parts[:-1]) if part == "internal")
     return PurePosixPath(*parts[:last])
+
+
+def step_of(path):
+    """(folder in steps, step) of a path; the step is one beyond the last for files beside the subfolders."""
+    for folder, steps in STEPS.items():
+        if path.startswith(f"{folder}/"):
+            name = path.removeprefix(f"{folder}/").split("/")[0]
+            return folder, steps.index(name) if name in steps else len(steps)
+    return None, 0
+
+
+def breaks_steps(source, target):
+    """Whether `source` includes a later step than its own, or a step of a folder that it does not lie in."""
+    folder, step = step_of(target)
+    if folder is None or step == len(STEPS[folder]):
+        return False
+    source_folder, source_step = step_of(source)
+    return source_folder != folder or source_step < step
 
 
 def includes_of(text):
@@ -121,6 +138,8 @@ def check_file(root, path):
         return [f"{path}: lies in no layer; move it into a folder of src/kinemark"], edges
     if source.split("/")[0] not in ALLOWED:
         return [f"{path}: folder '{source}' has no layer; give it one in tools/check_layers.py"], edges
+    if PurePosixPath(path).suffix == ".h" and re.search(r"^test_|_test$", PurePosixPath(path).stem) and "testing" not in path:
+        problems.append(f"{path}: a helper of tests belongs into a folder testing/, under a name that says what it is")
     for line, quoted, included in includes_of((root / path).read_text(encoding="utf-8")):
         where = f"{path}:{line}"
         if included.startswith(("support/", "tests/")):
@@ -143,6 +162,8 @@ def check_file(root, path):
         target_folder = folder_of(target)
         if target_folder is None or not may_include(source, target_folder, is_test(path)):
             problems.append(f"{where}: {source} may not include {target_folder or target} ({included})")
+        if breaks_steps(path, target) and not is_test(path):
+            problems.append(f"{where}: {included} belongs to a later step, or to steps of another folder")
         owner = owner_of_internal(target)
         if owner is not None and owner not in PurePosixPath(path).parents:
             problems.append(f"{where}: {included} is internal to {owner}")

@@ -3,10 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Everything that must hold before a change lands, stage by stage. `make test` runs it; so does CI.
 
-    tools/run_tests.py [--only STAGE[,STAGE...]] [--from STAGE] [--jobs N] [--keep-going] [--list]
+    tools/run_tests.py [--only STAGE[,STAGE...]] [--from STAGE] [--jobs N] [--keep-going] [--check-budget] [--list]
 
-Each stage writes build/logs/STAGE.log and tells how long it took; the end of the log is shown when it fails. The first
-failing stage ends the run. The last line counts tests: "N passed, N failed".
+Each stage writes build/logs/STAGE.log and tells how long it took and how many processor minutes of its budget; the end
+of the log is shown when it fails. The first failing stage ends the run. Where all stages together take more than
+BUDGET_MINUTES, it says so, and fails with --check-budget. Tests that lack the real recordings fail their stage, unless
+KINEMARK_ALLOW_MISSING_DATA=1 allows it. The last line counts tests: "N passed, N failed".
 """
 
 import argparse
@@ -14,6 +16,7 @@ import dataclasses
 import hashlib
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -23,8 +26,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LOGS = ROOT / "build" / "logs"
-FUZZ_SECONDS = "60"
+FUZZ_SECONDS = "240"  # of all targets together
+TIDY_SECONDS = "150"
 SHOWN_LINES = 120
+BUDGET_MINUTES = 75  # of one processor, from nothing
 
 
 def search_path(root, path):
@@ -90,6 +95,10 @@ class Log:
                 check=False,
             ).returncode
 
+    def write(self, line):
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(f"{line}\n")
+
     def must(self, *command, **options):
         if self.run(*command, **options) != 0:
             raise Failed(f"'{' '.join(map(str, command))}' failed")
@@ -106,6 +115,27 @@ def script(*command):
         return Counts(passed=1)
 
     return stage
+
+
+def data_may_be_missing():
+    return os.environ.get("KINEMARK_ALLOW_MISSING_DATA") == "1"
+
+
+def demand_data(counts, missing):
+    """Raise Failed when `missing` tests had no real recordings and that is not allowed."""
+    if missing and not data_may_be_missing():
+        raise Failed(
+            f"{missing} tests lack the real recordings; set KINEMARK_TEST_DATA, or KINEMARK_ALLOW_MISSING_DATA=1", counts
+        )
+    return counts
+
+
+def data(log):
+    """The real recordings are there, or their absence is allowed."""
+    folder = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
+    there = (folder / "README.md").is_file()
+    log.write(f"real recordings: {folder} is {'there' if there else 'not there'}")
+    return demand_data(Counts(passed=1) if there else Counts(skipped=1), 0 if there else 1)
 
 
 def count_unittest(text):
@@ -128,15 +158,23 @@ def tools(log):
     return counts
 
 
-def cli(log):
-    """The program from outside, as built before."""
-    program = ROOT / "build" / "ci" / "bin" / "kinemark"
-    tests = ROOT / "tests" / "cli"
-    status = log.run(sys.executable, "-m", "unittest", "discover", "-s", tests, KINEMARK_PROGRAM=str(program))
-    counts = count_unittest(log.text())
-    if status != 0 or counts.passed == 0:
-        raise Failed("a test of the program failed", counts)
-    return counts
+def cli(preset, *modules):
+    """The program from outside, as built before: all of tests/cli or the modules named."""
+
+    def stage(log):
+        program = ROOT / "build" / preset / "bin" / "kinemark"
+        chosen = modules or ("discover",)
+        status = log.run(
+            *(sys.executable, "-m", "unittest", *chosen, "-v"),
+            cwd=ROOT / "tests" / "cli",
+            KINEMARK_PROGRAM=str(program),
+        )
+        counts = count_unittest(log.text())
+        if status != 0 or counts.passed == 0:
+            raise Failed("a test of the program failed", counts)
+        return demand_data(counts, len(re.findall(r"\bskipped ['\"]NO REAL DATA", log.text())))
+
+    return stage
 
 
 def build(preset):
@@ -146,6 +184,16 @@ def build(preset):
         return Counts(passed=1)
 
     return stage
+
+
+def cases_without_data(cases):
+    """How many GoogleTest cases were skipped because the real recordings are absent."""
+    skipped = (
+        case.find("skipped")
+        for file in cases.glob("*.xml")
+        for case in ElementTree.parse(file).getroot().iter("testcase")
+    )
+    return sum("real recordings are absent" in found.get("message", "") for found in skipped if found is not None)
 
 
 def count_ctest(junit, cases):
@@ -171,7 +219,7 @@ def count_ctest(junit, cases):
     return counts
 
 
-def unit_tests(preset):
+def unit_tests(preset, *chosen):
     def stage(log):
         cases = ROOT / "build" / preset / "cases"
         junit = ROOT / "build" / preset / "ctest.xml"
@@ -180,6 +228,7 @@ def unit_tests(preset):
         # A program that dies leaves no file of cases; CTest knows that it failed.
         status = log.run(
             *("ctest", "--preset", preset, "--parallel", log.jobs, "--output-junit", junit, "--no-tests=error"),
+            *chosen,
             GTEST_OUTPUT=f"xml:{cases}/",
         )
         if not junit.is_file():
@@ -187,28 +236,65 @@ def unit_tests(preset):
         counts = count_ctest(junit, cases)
         if status != 0 or counts.failed or not counts.passed:
             raise Failed("a test failed", counts)
-        return counts
+        return demand_data(counts, cases_without_data(cases))
 
     return stage
 
 
+def consumer(log):
+    """A stranger's project and the examples, built with both compilers against what `cmake --install` gives."""
+    build, installed = ROOT / "build" / "ci", ROOT / "build" / "ci" / "prefix"
+    shutil.rmtree(installed, ignore_errors=True)
+    log.must("cmake", "--install", build, "--prefix", installed)
+    log.must(sys.executable, ROOT / "tools" / "check_public_headers.py", "--installed", installed / "include")
+    counts = Counts(passed=2)
+    projects = {"consumer": "tests/consumer", "headers": "tests/consumer/headers", "examples": "examples"}
+    for compiler in ("g++", "clang++-19"):
+        for name, source in projects.items():
+            folder = build / "consumer" / compiler / name
+            shutil.rmtree(folder, ignore_errors=True)
+            log.must(
+                *("cmake", "-S", ROOT / source, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}"),
+                *("-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={installed}"),
+            )
+            log.must("cmake", "--build", folder, "--parallel", log.jobs)
+            counts.passed += 1
+        log.must(build / "consumer" / compiler / "consumer" / "consumer")
+        log.must("ctest", "--test-dir", build / "consumer" / compiler / "examples", "--no-tests=error")
+        counts.passed += 2
+    return counts
+
+
+def docs(log):
+    """The API documentation; a public name without a description fails it."""
+    log.must("cmake", "--build", "--preset", "ci", "--target", "docs")
+    return Counts(passed=1)
+
+
+def count_acceptance(text):
+    """Counts of acceptance/run.py; a known shortfall is no test that passed."""
+    found = re.findall(r"^acceptance: (\d+) passed, (\d+) failed, (\d+) skipped, \d+ known$", text, re.MULTILINE)
+    return Counts(*map(int, found[-1])) if found else Counts(failed=1)
+
+
 def acceptance(log):
     status = log.run(sys.executable, ROOT / "tests" / "acceptance" / "run.py", "--quick", "--build", ROOT / "build" / "ci")
-    found = re.findall(r"^acceptance: (\d+) passed, (\d+) failed, (\d+) skipped$", log.text(), re.MULTILINE)
-    counts = Counts(*map(int, found[-1])) if found else Counts(failed=1)
+    counts = count_acceptance(log.text())
     if status != 0:
         raise Failed("a row of the acceptance table failed", counts)
     return counts
 
 
 def fuzz(log):
-    log.must(sys.executable, ROOT / "tools" / "fuzz", "--seconds", FUZZ_SECONDS, "--jobs", log.jobs)
+    log.must(sys.executable, ROOT / "tools" / "fuzz", "--total-seconds", FUZZ_SECONDS, "--jobs", log.jobs)
     found = re.findall(r"^fuzz: (\d+) targets, 0 failed$", log.text(), re.MULTILINE)
     return Counts(passed=int(found[-1]))
 
 
 def tidy(log):
-    log.must(sys.executable, ROOT / "tools" / "check_tidy", "--build", ROOT / "build" / "asan", "--jobs", log.jobs)
+    """What changed, newest first, as far as the time allows; `make accept` looks at all."""
+    log.must("cmake", "--preset", "tidy")
+    log.must(sys.executable, ROOT / "tools" / "check_tidy", "--jobs", log.jobs, "--seconds", TIDY_SECONDS)
     return Counts(passed=1)
 
 
@@ -264,25 +350,40 @@ def demo(log):
     return Counts(passed=2)
 
 
-# Fast ones first; what each needs is built by an earlier one.
+def threads_build(log):
+    """The tests that run several threads, and nothing else."""
+    log.must("cmake", "--preset", "tsan")
+    log.must("cmake", "--build", "--preset", "tsan", "--parallel", log.jobs, "--target", "threads")
+    return Counts(passed=1)
+
+
+# Name: (what it does, its budget in processor minutes from nothing). Fast ones first; what each needs is built by an
+# earlier one. The budgets together stay below BUDGET_MINUTES.
 STAGES = {
-    "format": script("tools/check_format"),
-    "layers": script(sys.executable, "tools/check_layers.py"),
-    "licences": script(sys.executable, "tools/check_spdx.py"),
-    "readmes": script(sys.executable, "tools/check_readmes.py"),
-    "tools": tools,
-    "build": build("ci"),
-    "tests": unit_tests("ci"),
-    "cli": cli,
-    "acceptance": acceptance,
-    "viewer-page": viewer_page,
-    "viewer-tests": viewer_tests,
-    "viewer-browser": viewer_browser,
-    "demo": demo,
-    "asan-build": build("asan"),
-    "asan-tests": unit_tests("asan"),
-    "fuzz": fuzz,
-    "tidy": tidy,
+    "data": (data, 0.1),
+    "format": (script("tools/check_format"), 0.5),
+    "layers": (script(sys.executable, "tools/check_layers.py"), 0.1),
+    "licences": (script(sys.executable, "tools/check_spdx.py"), 0.1),
+    "readmes": (script(sys.executable, "tools/check_readmes.py"), 0.1),
+    "public-headers": (script(sys.executable, "tools/check_public_headers.py"), 0.1),
+    "tools": (tools, 0.5),
+    "build": (build("ci"), 17.5),
+    "tests": (unit_tests("ci"), 5),
+    "cli": (cli("ci"), 2.5),
+    "consumer": (consumer, 2),
+    "docs": (docs, 0.5),
+    "acceptance": (acceptance, 7),
+    "viewer-page": (viewer_page, 0.5),
+    "viewer-tests": (viewer_tests, 0.5),
+    "viewer-browser": (viewer_browser, 0.5),
+    "demo": (demo, 0.5),
+    "asan-build": (build("asan"), 15.5),
+    "asan-tests": (unit_tests("asan"), 6),
+    "asan-cli": (cli("asan", "test_bad_input"), 1.5),
+    "fuzz": (fuzz, 4.5),
+    "threads-build": (threads_build, 3),
+    "threads": (unit_tests("tsan", "--label-regex", "threads"), 1),
+    "tidy": (tidy, 5.2),
 }
 
 
@@ -297,29 +398,45 @@ def choose(stages, only, first):
     return names[names.index(first):] if first else names
 
 
-def run_stages(stages, names, logs, jobs=2, keep_going=False):
+def processor_minutes():
+    """Of all programs that were run and have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (used.ru_utime + used.ru_stime) / 60
+
+
+def run_stages(stages, names, logs, jobs=2, keep_going=False, check_budget=False, budget_minutes=BUDGET_MINUTES):
     """Exit status of running the named stages; prints a line for each and the closing line."""
-    total, failed, began = Counts(), [], time.monotonic()
+    total, failed, began, first_minutes = Counts(), [], time.monotonic(), processor_minutes()
     for number, name in enumerate(names, 1):
         print(f"[{number:2}/{len(names)}] {name} ...", flush=True)
-        log, started = Log(logs / f"{name}.log", jobs), time.monotonic()
+        run, budget = stages[name]
+        log, started, minutes = Log(logs / f"{name}.log", jobs), time.monotonic(), processor_minutes()
         try:
-            counts, why = stages[name](log), None
+            counts, why = run(log), None
         except Failed as failure:
             counts, why = failure.counts, str(failure)
         except OSError as error:
             counts, why = Counts(failed=1), str(error)
         total.add(counts)
-        took = time.monotonic() - started
+        minutes = processor_minutes() - minutes
+        cost = f"{minutes:.1f} of {budget:g} processor minutes" + (", OVER ITS BUDGET" if minutes > budget else "")
+        took = f"{time.monotonic() - started:.1f} s, {cost}"
         if why is None:
-            print(f"[{number:2}/{len(names)}] {name}: good, {took:.1f} s ({counts})", flush=True)
+            print(f"[{number:2}/{len(names)}] {name}: good, {took} ({counts})", flush=True)
             continue
         failed.append(name)
         print("\n".join(log.text().splitlines()[-SHOWN_LINES:]))
-        print(f"[{number:2}/{len(names)}] {name}: FAILED after {took:.1f} s: {why} ({counts}); all of it: {log.path}", flush=True)
+        print(f"[{number:2}/{len(names)}] {name}: FAILED after {took}: {why} ({counts}); all of it: {log.path}", flush=True)
         if not keep_going:
             break
-    print(f"{time.monotonic() - began:.0f} s in all" + (f"; failed: {', '.join(failed)}" if failed else ""))
+    minutes = processor_minutes() - first_minutes
+    if minutes > budget_minutes:
+        print(f"{minutes:.1f} processor minutes, more than the {budget_minutes:g} of a whole run")
+        if check_budget:
+            failed.append("the budget")
+            total.add(Counts(failed=1))
+    spent = f"{time.monotonic() - began:.0f} s in all, {minutes:.1f} processor minutes"
+    print(spent + (f"; failed: {', '.join(failed)}" if failed else ""))
     print(total, flush=True)
     return 1 if failed else 0
 
@@ -330,17 +447,18 @@ def main(arguments):
     parser.add_argument("--from", dest="first", metavar="STAGE")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
     parser.add_argument("--keep-going", action="store_true")
+    parser.add_argument("--check-budget", action="store_true")
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args(arguments)
     if options.list:
-        print("\n".join(STAGES))
+        print("\n".join(f"{name:16}{budget:g}" for name, (_, budget) in STAGES.items()))
         return 0
     try:
         names = choose(STAGES, options.only, options.first)
     except ValueError as error:
         print(f"run_tests: {error}", file=sys.stderr)
         return 2
-    return run_stages(STAGES, names, LOGS, options.jobs, options.keep_going)
+    return run_stages(STAGES, names, LOGS, options.jobs, options.keep_going, options.check_budget)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 
 namespace kinemark::studies {
 
-/// Text whose `&`, `<`, `>` and `"` HTML and SVG show as they are.
+/// Text with `&`, `<`, `>` and `"` escaped for HTML and SVG.
 [[nodiscard]] std::string html_text(std::string_view text);
 
 }  // namespace kinemark::studies

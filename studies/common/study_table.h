@@ -13,13 +13,13 @@
 
 namespace kinemark::studies {
 
-/// One line of a study's table. Values that nobody gave are absent.
+/// One line of a study's table. Values that are not available are absent.
 struct StudyRow {
   std::string quantity, unit;
   std::optional<double> paper;    ///< as published
   std::optional<double> classic;  ///< by the paper's own method, or the field's, on our data
   double ours = 0.0;
-  std::optional<double> limit;              ///< what is possible: Cramer-Rao, or the deviation that was told
+  std::optional<double> limit;  ///< what is possible: Cramer-Rao bound, or the predicted deviation
   std::optional<double> at_least, at_most;  ///< what is asked of `ours`
   /// Within its bounds; NaN is not.
   [[nodiscard]] bool pass() const {
@@ -39,9 +39,9 @@ struct StudyTable {
 /// {"seeds": [...], "rows": [{quantity, unit, paper, classic, ours, limit, bound, pass}], "pass": ...}; bound
 /// is a number (at most) or [at least, at most]; what is absent is null.
 [[nodiscard]] nlohmann::ordered_json study_json(const StudyTable& table);
-/// The unit for people: none for a plain number, whose unit is "1".
+/// The unit as displayed: empty for a plain number, whose unit is "1".
 [[nodiscard]] std::string_view unit_words(const StudyRow& row);
-/// The table for people, columns as wide as they need to be, and a line that says what they are.
+/// The table as text with aligned columns, and a line that explains them.
 [[nodiscard]] std::string study_text(const StudyTable& table);
 
 }  // namespace kinemark::studies

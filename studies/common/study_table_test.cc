@@ -92,7 +92,7 @@ TEST(StudyTable, BoundsAreAskedOfOursAlone) {
   EXPECT_TRUE(row.pass());
   row.ours = std::nan("");
   row.at_least.reset();
-  EXPECT_TRUE(row.pass());  // nothing was asked
+  EXPECT_TRUE(row.pass());  // no bound
 }
 
 TEST(StudyTable, SeedsAreBoundedAndKeepTheirOrder) {

@@ -25,7 +25,7 @@ class SvgScene {
   void line(std::string colour, const Eigen::Matrix3Xd& x, double width, bool shadow = false);
   /// hollow: a ring instead of a disc.
   void dot(std::string colour, const Eigen::Vector3d& x, double radius, bool hollow = false);
-  /// Words beside a point.
+  /// A label beside a point.
   void words(std::string text, const Eigen::Vector3d& x);
 
   /// The element, 640 x 480 pixels, scaled so that everything fits. Non-finite points are left out.
@@ -34,7 +34,7 @@ class SvgScene {
  private:
   struct Thing {
     std::string colour, text;
-    Eigen::Matrix3Xd x;  // one column: a dot or words
+    Eigen::Matrix3Xd x;  // one column: a dot or a label
     double size = 1.0;
     bool hollow = false;
   };

@@ -67,7 +67,7 @@ CentreErrors judge_centres(const data::Skeleton& skeleton, const simulation::Lim
       const bool determined = state == data::CentreState::determined;
       ++out.answered;
       out.squares_answered += squares;
-      // A NaN covariance says nothing and is not beyond anything.
+      // A frame with a NaN covariance does not count as beyond.
       const bool far = squares > kFar * kFar * covariance.trace();
       out.beyond_5sd += far ? 1 : 0;
       if (!determined) continue;

@@ -25,7 +25,7 @@ CentreErrors by_the_field(const LimbRecording& limb, skeleton::FunctionalMethod 
   options.method = method;
   options.kind = data::JointChoice::ball;
   const auto found = skeleton::find_joints(limb.markers, limb.layout, options);
-  // Where SCoRE cannot be used another method stands in, which is not asked here.
+  // Where SCoRE cannot be used another method replaces it, which does not count here.
   const bool stood_in =
       found && method == skeleton::FunctionalMethod::score && found->joints.front().method != "SCoRE";
   return found && !stood_in ? judge_centres(*found, limb, nullptr) : refused(limb);

@@ -165,7 +165,7 @@ Result<StudyFigure> arm_picture(std::uint64_t seed) {
   options.continuity = false;
   const auto ours = skeleton::fit_articulated(limb->markers, limb->layout, options);
   if (!ours) return std::unexpected(ours.error());
-  // The frame whose error by the report's method is the median of all, so that it flatters nobody.
+  // The frame whose error by the report's method is the median of all, so that it favours no method.
   std::vector<std::pair<double, std::int64_t>> errors;
   for (std::int64_t f = 0; f < limb->markers.frames(); ++f)
     if (theirs->centre(f, 0).allFinite())

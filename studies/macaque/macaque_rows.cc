@@ -38,7 +38,7 @@ class Extreme {
   std::optional<double> value_;
 };
 
-/// What a method that never answered has to say.
+/// The entry of a method without any result.
 std::optional<double> if_any(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
@@ -207,7 +207,7 @@ void add_sleeve(const MacaqueStudy& study, bool pooled, std::vector<StudyRow>& r
   for (const auto& r : study.sleeve) {
     if (!r.cell.hard) usual.add(r.errors.alone.over_bound());
     answered.add(kPercent * r.errors.smoothed.share_answered());
-    // A handful of flagged frames says nothing of their errors.
+    // A few flagged frames do not give an error.
     constexpr std::int64_t kEnough = 30;
     if (r.errors.smoothed.answered - r.errors.smoothed.determined >= kEnough)
       bridged.add(r.errors.smoothed.rms_flagged_m() / r.errors.smoothed.rms_determined_m());

@@ -38,7 +38,7 @@ TEST(StudyMacaque, CellsBecomeATableAndAPage) {
   std::set<std::string> names;
   for (const auto& row : study->table.rows) {
     EXPECT_TRUE(std::isfinite(row.ours)) << row.quantity;
-    // The share of frames known of a single seed proves nothing: it is told, and bounded by no number.
+    // The share of known frames of a single seed is not conclusive: it is reported without a bound.
     const bool share = row.quantity.find("frames known (") != std::string::npos;
     EXPECT_NE(row.at_least || row.at_most, share) << row.quantity;
     EXPECT_TRUE(names.insert(row.quantity).second) << row.quantity;
@@ -180,7 +180,7 @@ TEST(MacaqueRows, CellsThatWereNotAskedForHaveNoRow) {
   const auto rows = macaque_rows(study, 10);
   EXPECT_NE(row(rows, "2 mm noise, 0 % missing"), nullptr);
   EXPECT_EQ(row(rows, "20 % missing"), nullptr);
-  EXPECT_EQ(row(rows, "4 of 5"), nullptr);  // without the 40 % nobody knows how much may be missing
+  EXPECT_EQ(row(rows, "4 of 5"), nullptr);  // without the 40 % the largest missing share is unknown
   EXPECT_EQ(row(rows, "staggered"), nullptr);
   EXPECT_EQ(row(rows, "sleeve"), nullptr);
 }

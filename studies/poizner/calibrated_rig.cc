@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/poizner/calibrated_rig.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <chrono>
 
+#include "kinemark/math/rotation_fit.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/still_poses.h"
 #include "kinemark/stages/reconstruction/grid_lookup.h"
@@ -20,10 +20,9 @@ struct Pairs {
 
   [[nodiscard]] math::SE3 fit() const {
     const auto n = static_cast<Eigen::Index>(from.size());
-    const Eigen::Matrix4d motion =
-        Eigen::umeyama(Eigen::Map<const Eigen::Matrix3Xd>(from.front().data(), 3, n),
-                       Eigen::Map<const Eigen::Matrix3Xd>(to.front().data(), 3, n), false);
-    return {motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
+    return math::fit_rigid(Eigen::Map<const Eigen::Matrix3Xd>(from.front().data(), 3, n),
+                           Eigen::Map<const Eigen::Matrix3Xd>(to.front().data(), 3, n))
+        .target_from_source;
   }
 };
 
@@ -44,7 +43,7 @@ math::SE3 align_ours(const CalibratedRig& rig, const calibration::StillPoses& tr
 math::SE3 align_classic(const data::Rig& classic, const calibration::StillPoses& tree,
                         const simulation::TreePosesRecording& recorded) {
   constexpr double kBright =
-      100.0;  // counts of every channel: away from the edge, where the table is at a loss
+      100.0;  // counts of every channel: away from the edge, where the table does not hold
   Pairs pairs;
   for (int pose = 0; pose < std::min(kAligned, tree.poses()); ++pose)
     for (int led = 0; led < tree.leds(); ++led) {

@@ -29,7 +29,7 @@ struct CalibratedRig {
   calibration::BundleResult bundle;  ///< rig and report
   double bundle_s = 0.0;             ///< time that the bundle took
   /// Rigid motions that take each method's world onto the true one, found on the tree's poses: the study
-  /// judges lengths and shapes, and no method can know where the laboratory is.
+  /// compares lengths and shapes, since no method can determine the laboratory frame.
   math::SE3 truth_from_ours, truth_from_classic;
 };
 

@@ -18,7 +18,7 @@ struct ClassicPath {
 };
 
 /// Look-up tables, occluded sightings bridged by a spline on each camera's plane, Butterworth at 12 Hz there,
-/// midpoint of the rays, differences. Knows only the frame's time, as the paper did.
+/// midpoint of the rays, differences. Uses only the frame's time, as the paper did.
 [[nodiscard]] std::vector<ClassicPath> classic_paths(const data::Counts& counts, const data::Rig& classic,
                                                      const std::vector<std::uint8_t>& usable);
 

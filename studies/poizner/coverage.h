@@ -7,7 +7,7 @@
 
 namespace kinemark::studies {
 
-/// How often the truth lies within one and two standard deviations of what was told.
+/// How often the truth lies within one and two predicted standard deviations.
 struct Coverage {
   std::int64_t within_1 = 0, within_2 = 0, all = 0;
 

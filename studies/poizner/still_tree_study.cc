@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/locate.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
@@ -21,12 +22,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::array<std::array<int, 2>, 3> kSides{{{0, 1}, {0, 2}, {1, 2}}};
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
-}
 
 /// Mean and scatter of each LED's points while nothing moved.
 struct Cloud {
@@ -59,8 +54,8 @@ void add_distances(const Cloud& cloud, StillMeasures& to) {
   }
 }
 
-/// Standard deviation of a distance between mean positions: what the rig's covariance does to both ends
-/// together, and the noise of `frames` frames.
+/// Standard deviation of a distance between mean positions: the rig's covariance propagated to both ends, and
+/// the noise of `frames` frames.
 double predict(const data::Rig& rig, const data::Counts& counts, const Cloud& cloud,
                const std::vector<Matrix3d>& frame_noise, const std::array<int, 2>& side) {
   const auto a = static_cast<std::size_t>(side[0]), b = static_cast<std::size_t>(side[1]);
@@ -169,9 +164,9 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
   }
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
-    out.classic.sd_m[axis] = median(classic_sd[a]);
-    out.ours.sd_m[axis] = median(our_sd[a]);
-    out.cramer_rao_sd_m[axis] = median(bound_sd[a]);
+    out.classic.sd_m[axis] = math::median(classic_sd[a]);
+    out.ours.sd_m[axis] = math::median(our_sd[a]);
+    out.cramer_rao_sd_m[axis] = math::median(bound_sd[a]);
   }
   out.error_over_predicted = std::sqrt(squares / static_cast<double>(out.predicted_sd_m.size()));
   return out;

@@ -12,7 +12,7 @@
 
 namespace kinemark::studies {
 
-/// What one method makes of the tree held still in ten places.
+/// Results of one method for the tree held still in ten poses.
 struct StillMeasures {
   Eigen::Vector3d sd_m = Eigen::Vector3d::Zero();  ///< median over places and LEDs, per axis
   double over_cramer_rao = 0.0;                    ///< scatter over the bound, mean over places
@@ -36,7 +36,7 @@ struct StillStudyOptions {
   double intensity = 1.0;  ///< of the LEDs
 };
 
-/// Scenario S1: ten places, 100 frames at 100 Hz each.
+/// Scenario S1: ten poses, 100 frames at 100 Hz each.
 [[nodiscard]] Result<StillOutcome> study_still_tree(const CalibratedRig& rig,
                                                     const StillStudyOptions& options = {});
 

@@ -27,7 +27,7 @@ inline constexpr int kWheels = 4;
 [[nodiscard]] simulation::WheelOptions study_wheel_options(int wheel);
 [[nodiscard]] std::string_view wheel_name(int wheel);
 
-/// Everything that one rig gave.
+/// Results of one rig.
 struct PoiznerSeed {
   std::uint64_t seed = 0;
   double chi2_per_dof = 0.0;

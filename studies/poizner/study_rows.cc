@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// From what every seed gave to the lines of the table.
+// From the results of all seeds to the rows of the table.
 #include "studies/poizner/study_rows.h"
 
 #include <fmt/core.h>
@@ -9,22 +9,20 @@
 #include <array>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::studies {
 namespace {
 
 constexpr double kMillimetres = 1e3;
 using Seeds = std::vector<PoiznerSeed>;
+using math::median;
 
 template <class Get>
 std::vector<double> over(const Seeds& seeds, double unit, const Get& get) {
   std::vector<double> out;
   for (const auto& seed : seeds) out.push_back(unit * get(seed));
   return out;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
 }
 
 /// NaN when one of the values is: a rig without a number is not hidden by others.
@@ -237,7 +235,7 @@ std::vector<StudyRow> study_rows(const Seeds& seeds) {
   add_tree(seeds, rows);
   for (int wheel = 0; wheel < kWheels; ++wheel) add_wheel(seeds, wheel, rows);
   add_arm(seeds, rows);
-  // Shares of a few rigs say little: errors of one rig go together.
+  // Shares of a few rigs are not conclusive: errors of one rig are correlated.
   constexpr std::size_t kEnough = 10;
   if (seeds.size() >= kEnough) add_coverage_rows(seeds, rows);
   return rows;

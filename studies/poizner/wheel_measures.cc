@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::studies {
 
@@ -40,9 +41,7 @@ WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter
     out.max_error_m = std::max(out.max_error_m, std::abs(d - true_diameter_m));
   }
   out.sd_m = std::sqrt(squares / static_cast<double>(n - 1));
-  std::ranges::sort(diameters);
-  out.median_error_m =
-      0.5 * (diameters[diameters.size() / 2] + diameters[(diameters.size() - 1) / 2]) - true_diameter_m;
+  out.median_error_m = math::median(diameters) - true_diameter_m;
 
   double longest = 0.0, shortest = std::numeric_limits<double>::infinity();
   for (int degree = 0; degree < 180; ++degree) {

@@ -13,8 +13,6 @@
 namespace kinemark::studies {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr std::int64_t kWheelFrames = 220, kWheelEnds = 8;  // frames at both ends that errors leave out
 constexpr std::uint64_t kWheelStream = 400;  // of the noise: one more for the second orientation
 

@@ -45,7 +45,7 @@ struct TurnedPath {
 [[nodiscard]] TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives& rates,
                                      std::int64_t led, const math::SE3& truth_from_world);
 
-/// Standard deviations as errors are told: root mean square over frames of the 3-D length.
+/// Standard deviations in the form of the errors: root mean square over frames of the 3-D length.
 [[nodiscard]] MotionErrors told_errors(const TurnedPath& path, std::int64_t first, std::int64_t last);
 
 /// Count errors of position, and of velocity and acceleration, against their standard deviations.

@@ -116,7 +116,7 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
   const auto& ours = control.motion;
   const auto& theirs = least_squares.motion;
   check(ours.coordinates == theirs.coordinates, "compare() needs motions of one model");
-  const auto shift = control.first_frame - least_squares.first_frame;
+  const auto shift = control.fit.first_frame - least_squares.fit.first_frame;
   check(shift >= 0 && shift + ours.frames() <= theirs.frames(), "least squares covers the tracked frames");
   ControlComparison out{.set = std::move(set)};
   const auto first = std::min(static_cast<std::int64_t>(std::llround(ours.time.rate_hz)), ours.frames());

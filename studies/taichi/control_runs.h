@@ -47,8 +47,8 @@ struct ControlSetting {
                                                       const ControlSetting& setting,
                                                       const Eigen::VectorXd& rest);
 
-/// Track and least squares on the same goals, frames from one second on. What is determined is known of
-/// tracks with error bars.
+/// Track and least squares on the same goals, frames from one second on. Which coordinates are determined is
+/// known only for tracks with error bars.
 struct ControlComparison {
   std::string set;
   double least_squares_rms_m = 0.0, least_squares_max_m = 0.0;  ///< landmark to goal

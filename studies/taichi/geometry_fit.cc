@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kPrior_m = 0.02;
 
-/// Joints whose places the landmarks tell. The parts of a foot, and bodies that are welded together, would
-/// only repeat each other.
+/// Joints whose positions the landmarks determine. The parts of a foot and bodies welded together are not
+/// independent.
 bool is_told(const data::JointDescription& joint) {
   if (joint.parent_body_idx == data::kGround) return false;
   if (joint.name.starts_with("subtalar") || joint.name.starts_with("mtp")) return false;
@@ -71,7 +71,7 @@ Result<GeometryFit> fit_geometry(const data::ModelDescription& model, const data
     auto best = adapt(model, freedom);
     if (!best) return std::unexpected(best.error());
     if (freedom == Freedom::places) {
-      // So many numbers have more than one resting place: start a second time from adapted joints.
+      // With so many parameters there is more than one minimum: start a second time from adapted joints.
       const auto centres = adapt(model, Freedom::centres);
       if (!centres) return std::unexpected(centres.error());
       auto second = adapt(centres->model, Freedom::places);

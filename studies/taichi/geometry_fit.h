@@ -12,14 +12,14 @@
 
 namespace kinemark::studies {
 
-/// What of a model's geometry may change to fit the landmarks.
+/// Geometry parameters that may change to fit the landmarks.
 enum class Freedom : std::uint8_t {
   none,     ///< as scaled by medians
   centres,  ///< joints; landmarks that are joint centres stay joint centres (72 numbers; 78 with clavicles)
-  places    ///< joints, and the place of every landmark (111; 117)
+  places    ///< joints, and the position of every landmark (111; 117)
 };
 
-/// The numbers of a model with landmarks that may change, each with a prior of 20 mm: three per joint of
+/// The geometry parameters of a model with landmarks, each with a prior of 20 mm: three per joint of
 /// trunk, arms, thighs and shanks (clavicles where they move), and three per landmark that is free.
 [[nodiscard]] Result<std::vector<motion::GeometryParameter>> landmark_geometry(
     const data::ModelDescription& model, Freedom freedom);

@@ -4,12 +4,12 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
+#include "kinemark/core/text.h"
 #include "kinemark/math/scalar_function.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::studies {
 namespace {
@@ -106,13 +106,13 @@ std::vector<LandmarkPlace> landmark_places() {
 }
 
 Result<Trajectories> prepare_landmarks(const Trajectories& recorded, double rate_hz) {
-  std::string absent;
+  std::vector<std::string> absent;
   for (const auto name : kTaiChiLandmarks)
-    if (recorded.find(name) < 0) absent += fmt::format("{}{}", absent.empty() ? "" : ", ", name);
+    if (recorded.find(name) < 0) absent.emplace_back(name);
   if (!absent.empty())
     return fail(Code::bad_input,
                 fmt::format("the recording lacks {}; the 21 landmarks of the tai chi recording were expected",
-                            absent));
+                            join(absent)));
   if (recorded.frames() < 2) return fail(Code::bad_input, "the recording holds fewer than two frames");
   const auto turn = z_is_up(recorded);
   if (!turn) return std::unexpected(turn.error());
@@ -155,10 +155,7 @@ double median_distance(const Trajectories& landmarks, std::string_view a, std::s
   for (std::int64_t f = 0; f < landmarks.frames(); ++f)
     if (landmarks.present(f, i) && landmarks.present(f, j))
       distances.push_back((landmarks.x(f, i) - landmarks.x(f, j)).norm());
-  if (distances.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::ranges::nth_element(distances, middle);
-  return *middle;
+  return math::upper_median(distances);
 }
 
 }  // namespace kinemark::studies

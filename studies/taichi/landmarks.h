@@ -19,10 +19,10 @@ inline constexpr std::array<std::string_view, 21> kTaiChiLandmarks{
     "RElbow", "LWrist", "RWrist", "LHand",  "RHand",     "Pelvis",    "LHip",
     "RHip",   "LKnee",  "RKnee",  "LAnkle", "RAnkle",    "LFoot",     "RFoot"};
 
-/// Where a landmark belongs in kinemark's human.
+/// Attachment of a landmark to kinemark's human.
 struct LandmarkPlace {
   std::string landmark, body;
-  std::string joint;  ///< that it is the centre of, a child joint of the body; empty: a point of its own
+  std::string joint;  ///< whose centre the landmark is, a child joint of the body; empty: a point of its own
 };
 /// One per landmark, in the order of kTaiChiLandmarks. Shoulders hang on the clavicles.
 [[nodiscard]] std::vector<LandmarkPlace> landmark_places();

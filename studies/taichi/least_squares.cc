@@ -14,7 +14,7 @@ namespace kinemark::studies {
 
 motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
                                       std::span<const std::string> landmarks) {
-  // Of the sum of squared distances; few landmarks leave much open that must not pull at them.
+  // Of the sum of squared distances; few landmarks leave much undetermined, which must not affect them.
   constexpr double kStill_m2 = 1e-6, kStillFew_m2 = 1e-8, kClavicle_m2 = 1e-3;
   constexpr std::size_t kFew = 6;
   motion::IkOptions options;

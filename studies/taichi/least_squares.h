@@ -12,14 +12,14 @@
 
 namespace kinemark::studies {
 
-/// How inverse kinematics of the landmarks is asked for: no limits, weak pulls to zero that keep what the
-/// landmarks leave open still (1e-6 m^2/rad^2; clavicles 1e-3, because both landmarks of the trunk lie on one
-/// axis and its turn about it would else be free).
+/// Options of inverse kinematics for the landmarks: no limits, weak coordinate tasks towards zero for what
+/// the landmarks do not determine (1e-6 m^2/rad^2; clavicles 1e-3, because both landmarks of the trunk lie on
+/// one axis and the rotation about it would otherwise be free).
 /// @param landmarks  only these count; all when empty
 [[nodiscard]] motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
                                                     std::span<const std::string> landmarks = {});
 
-/// Where the model carries its landmarks in every frame of a motion: goals that it can reach. Named and timed
+/// Positions of the model's landmarks in every frame of a motion, which are reachable goals. Named and timed
 /// as the motion.
 [[nodiscard]] data::Trajectories carried_landmarks(const model::Model& model,
                                                    const data::JointMotion& motion);

@@ -24,7 +24,8 @@ struct TaiChiJob {
   int threads = 1;
 };
 
-/// One set of landmarks tracked at 1 ms and at 1/60 s, on recorded goals and on goals that the model made.
+/// One set of landmarks tracked at 1 ms and at 1/60 s, on recorded goals and on goals computed from the
+/// model.
 struct SetOutcome {
   ControlComparison recorded_fine, recorded_coarse, reachable_fine;
   std::optional<ControlComparison> reachable_coarse;  ///< where it is asked for
@@ -37,7 +38,7 @@ struct TaiChiDrawing {
   motion::TrackResult whole, upper, paper;
 };
 
-/// Everything that one subject gave.
+/// Results of one subject.
 struct TaiChiSubject {
   std::uint64_t seed = 0;
   GeometryFit medians, centres, places;                             ///< 40 coordinates

@@ -14,7 +14,7 @@ namespace kinemark::studies {
 
 struct TaiChiFiles {
   std::filesystem::path data;  ///< recording of the 21 landmarks; empty: simulated subjects
-  double rate_hz = 0.0;        ///< of a file that tells none; 0: 179, as the tai chi data were recorded
+  double rate_hz = 0.0;        ///< for a file that stores none; 0: 179, as the tai chi data were recorded
   std::vector<std::uint64_t> seeds{1};  ///< of the simulated subjects
   int threads = 1;
 };

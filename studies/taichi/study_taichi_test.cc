@@ -83,7 +83,7 @@ TEST(LeastSquares, OnlyNamedLandmarksCount) {
   const std::vector<std::string> two{"RWrist", "LWrist"};
   const auto ik = motion::solve_ik(s.model, s.landmarks, landmark_ik_options(s.description, two)).value();
   EXPECT_EQ(ik.motion.markers.size(), 2U);
-  EXPECT_LT(ik.rms_marker_error_m, 1e-4) << "two points are always reached";
+  EXPECT_LT(ik.fit.rms_error_m, 1e-4) << "two points are always reached";
 }
 
 TEST(LandmarkSets, AreWhatTheyAreCalled) {
@@ -143,7 +143,7 @@ TEST(RunControl, FollowsGoalsThatTheModelMade) {
       run_control(s.model, s.made, paper_set(), {.step_s = 0.002, .first_frame = 30, .last_frame = 60},
                   first_pose(s.ik.motion));
   ASSERT_TRUE(part) << part.error().message;
-  EXPECT_EQ(part->first_frame, 30);
+  EXPECT_EQ(part->fit.first_frame, 30);
   EXPECT_EQ(part->motion.frames(), 31);
   EXPECT_LE(*std::ranges::max_element(part->rank), 12);
   EXPECT_THROW((void)run_control(s.model, s.made, paper_set(), {}, Eigen::VectorXd::Zero(3)), ContractError);

@@ -20,7 +20,7 @@ using data::ModelDescription;
 using data::Trajectories;
 using Eigen::Vector3d;
 
-// Places of landmarks that are no joint centre, in the human model as it is, m.
+// Positions of landmarks that are not joint centres, in the human model as it is, m.
 const Vector3d kPelvisPoint(-0.120, 0.010, 0.0);  // on the sacrum: the hips lie 60 mm ahead, 87 mm below
 const Vector3d kHeadFront(0.095, 0.200, 0.0), kHeadBack(-0.065, 0.200, 0.0);
 const Vector3d kHand(0.0, -0.090, 0.0), kFoot(0.227, 0.002, 0.0);
@@ -28,7 +28,7 @@ const Vector3d kHand(0.0, -0.090, 0.0), kFoot(0.227, 0.002, 0.0);
 const Vector3d kHipDirection = Vector3d(0.56, -0.83, 0.0).normalized();
 constexpr double kClavicleForward_m = 0.020, kClavicleAside_m = 0.030;
 
-/// The description with its joints by name; every place is set through here.
+/// The description with its joints by name; every position is set through here.
 class Body {
  public:
   explicit Body(ModelDescription& model) : model_(model) {}
@@ -40,7 +40,7 @@ class Body {
                   fmt::format("the model has no joint '{}'; kinemark's human was expected", name));
     return static_cast<std::size_t>(at - model_.joints.begin());
   }
-  /// Place of a joint in its parent, m. The joint is there: with_landmarks() looked.
+  /// Position of a joint in its parent, m. with_landmarks() has checked that the joint exists.
   Vector3d& place(std::string_view name) { return model_.joints[*joint(name)].parent_from_joint.translation; }
   void stretch(std::string_view name, double length_m) { place(name) *= length_m / place(name).norm(); }
   void mark(std::string_view landmark, const Vector3d& x_in_body) {
@@ -88,7 +88,7 @@ double shoulder_height(const Trajectories& landmarks) {
   return sum / count;
 }
 
-/// Distances that must be known, told by name when they are not.
+/// Distances that must be known; missing ones are reported by name.
 class Medians {
  public:
   explicit Medians(const Trajectories& landmarks) : landmarks_(landmarks) {}
@@ -114,7 +114,7 @@ void scale_trunk(Body& body, Medians& median, double size, double shoulder_heigh
   const double half_width = 0.5 * median("LHip", "RHip");
   const double reach = median("Pelvis", "RHip");
   const double depth = std::sqrt(std::max(0.0, reach * reach - half_width * half_width));
-  // The generic pelvis, sized; the landmark's place follows from the hips.
+  // The generic pelvis, sized; the landmark's position follows from the hips.
   const Vector3d hip = size * Vector3d(body.place("hip_r").x(), body.place("hip_r").y(), 0.0);
   body.place("hip_r") = hip + Vector3d(0.0, 0.0, half_width);
   body.place("hip_l") = hip - Vector3d(0.0, 0.0, half_width);

@@ -19,7 +19,7 @@ namespace kinemark::studies {
 
 struct TaiChiModelOptions {
   bool lock_unseen = false;  ///< lock unseen_coordinates(): 36 of 40 are left
-  double mass_kg = 75.0;     ///< of the whole body, > 0; the recording does not tell it
+  double mass_kg = 75.0;     ///< of the whole body, > 0; not known from the recording
 };
 
 /// The human model with the landmarks as its only markers, at the joint centres of the model as it is.

@@ -70,7 +70,7 @@ TEST(WithLandmarks, LocksWhatTheLandmarksDoNotMove) {
   int count = 0;
   for (const auto& coordinate : locked.coordinates) count += coordinate.locked;
   EXPECT_EQ(count, 4);
-  // Turning any of them moves no landmark; turning any other moves some.
+  // Rotating any of them moves no landmark; rotating any other moves some.
   const auto compiled = model::Model::compile(*with_landmarks(human())).value();
   model::Workspace w(compiled);
   Eigen::VectorXd q(compiled.coordinate_count());
@@ -84,7 +84,7 @@ TEST(WithLandmarks, LocksWhatTheLandmarksDoNotMove) {
     moved[c] += 0.1;
     model::kinematics(compiled, w, model::state_from_coordinates(compiled, moved));
     const double most = (w.marker - before).colwise().norm().maxCoeff();
-    // The forearm's axis passes the wrist at some millimetres, and the palm turns with it.
+    // The forearm's axis passes the wrist at some millimetres, and the palm rotates with it.
     const bool unseen = locked.coordinates[static_cast<std::size_t>(c)].locked;
     if (unseen)
       EXPECT_LT(most, 0.01) << locked.coordinates[static_cast<std::size_t>(c)].name;

@@ -33,7 +33,7 @@ VectorXd times(const TimeBase& time) {
   return VectorXd::LinSpaced(time.frames, time.time_s(0), time.time_s(time.frames - 1));
 }
 
-/// One coordinate in degrees, on the turn nearest to zero at the first frame and continuous from there on.
+/// One coordinate in degrees, on the branch nearest to zero at the first frame and continuous from there on.
 VectorXd angle_deg(const data::JointMotion& motion, std::string_view coordinate) {
   const auto c = motion.find(coordinate);
   check(c >= 0, "the figures draw coordinates of the human model");
@@ -74,7 +74,7 @@ Eigen::MatrixX3d errors(const data::JointMotion& motion, std::string_view landma
   return out;
 }
 
-/// Figure 3: height and forward place of one landmark, goal and tracked.
+/// Figure 3: height and forward position of one landmark, goal and tracked.
 std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int axis) {
   constexpr std::array<const char*, 3> kAxis{"forward", "up", "right"};
   const auto m = drawing.goals.find(landmark);
@@ -89,9 +89,9 @@ std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int ax
     plot.line(name, colour, times(motion.time), goal.segment(first, motion.frames()) - error.col(axis));
   };
   add("least squares, all 21", kLeastSquares, drawing.least_squares.motion,
-      drawing.least_squares.first_frame);
-  add("whole body", kWhole, drawing.whole.motion, drawing.whole.first_frame);
-  add("2 + 2 landmarks", kPaper, drawing.paper.motion, drawing.paper.first_frame);
+      drawing.least_squares.fit.first_frame);
+  add("whole body", kWhole, drawing.whole.motion, drawing.whole.fit.first_frame);
+  add("2 + 2 landmarks", kPaper, drawing.paper.motion, drawing.paper.fit.first_frame);
   return plot.svg();
 }
 
@@ -105,12 +105,12 @@ std::string margins(const data::JointMotion& motion, const char* title) {
   return plot.svg();
 }
 
-/// Figure 4, lower part: control against least squares for one coordinate, and what it cannot exceed.
+/// Figure 4, lower part: control against least squares for one coordinate, and its bound.
 std::string joint_margin(const TaiChiDrawing& drawing, std::string_view coordinate) {
   const auto& ours = drawing.whole.motion;
   const auto c = ours.find(coordinate);
   SvgPlot plot(std::string(coordinate), "time, s", fmt::format("{}: error and its bound, deg", coordinate));
-  const auto shift = drawing.whole.first_frame - drawing.least_squares.first_frame;
+  const auto shift = drawing.whole.fit.first_frame - drawing.least_squares.fit.first_frame;
   VectorXd bound = VectorXd::Constant(ours.frames(), kNaN);
   const auto& goal_bound = drawing.whole.goal_bound;
   for (std::int64_t f = 0; f < ours.frames() && !goal_bound.empty(); ++f)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// From what every subject gave to the lines of the table.
+// From the results of all subjects to the rows of the table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kMillimetres = 1e3;
 using Subjects = std::vector<TaiChiSubject>;
 
-/// Largest over subjects; NaN wins.
+/// Largest over subjects; NaN if any is NaN.
 template <class Get>
 double worst(const Subjects& subjects, double unit, const Get& get) {
   double out = -1e300;
@@ -60,7 +60,7 @@ void add_geometry(const Subjects& subjects, bool recorded, std::vector<StudyRow>
                       })});
 }
 
-/// What one run of control is held against.
+/// Bounds of one run of control.
 struct Asked {
   std::optional<double> over_least_squares_mm, rms_mm, angle_deg;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Do the error bars keep their word? Simulated subjects with known truth, pooled over coordinates and frames.
+// Coverage of the error bars: simulated subjects with known truth, pooled over coordinates and frames.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -83,9 +83,7 @@ void check(const model::Model& model, const World& world, int subjects) {
       fmt::format("{:.1f} % ({}) to {:.1f} % ({})", low->at_one(), name(low), high->at_one(), name(high)));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const int subjects = argc > 1 ? std::stoi(argv[1]) : 20;
   const auto model = model::Model::compile(pipeline::human_model().value()).value();
   check(model, {.name = "1 mm noise"}, subjects);
@@ -105,3 +103,7 @@ int main(int argc, char** argv) {
             subjects);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("coverage", run_check);
+
+}  // namespace

@@ -24,6 +24,7 @@
 namespace {
 
 using namespace kinemark;
+using testing_support::print_note;
 using testing_support::print_row;
 
 /// Sums over coordinates, frames and subjects of one estimator in one world.
@@ -114,10 +115,8 @@ Scores compare(const model::Model& model, const World& world, int subjects) {
   return scores;
 }
 
-}  // namespace
-
-/// accept_estimators [SUBJECTS]
-int main(int argc, char** argv) {
+/// accept_motion estimators [SUBJECTS]
+int run_check(int argc, char** argv) {
   const int subjects = argc > 1 ? std::stoi(argv[1]) : 3;
   const auto model = model::Model::compile(
                          io::read_osim(testing_support::project_folder() / "models" / "human.osim").value())
@@ -129,8 +128,8 @@ int main(int argc, char** argv) {
   for (const auto& world : worlds) {
     const auto scores = compare(model, world, subjects);
     const bool noise_only = world.soft_tissue == 0.0;
-    print_row(true, fmt::format("least squares, {}", world.name), "reported", scores.least_squares.text());
-    print_row(true, fmt::format("direct marker control, {}", world.name), "reported", scores.control.text());
+    print_note(fmt::format("least squares, {}", world.name), scores.least_squares.text());
+    print_note(fmt::format("direct marker control, {}", world.name), scores.control.text());
     const auto& smoother = scores.smoother;
     const double covered = smoother.share(smoother.one, smoother.determined),
                  covered_two = smoother.share(smoother.two, smoother.determined);
@@ -145,3 +144,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("estimators", run_check);
+
+}  // namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // What goes wrong in real marker sets: swapped labels, another subject, noise, few markers. `automatic` must
-// be no worse than a prototype with a gate, and say when two markers of a rigid group have changed places.
-// Usage: accept_gap_traps GAPS_PER_TRIAL [SEED]
+// be no worse than a prototype with a gate, and report when two markers of a rigid group have exchanged
+// labels. Usage: accept_gap_traps GAPS_PER_TRIAL [SEED]
 #include <fmt/core.h>
 
 #include <Eigen/Core>
@@ -18,6 +18,7 @@
 #include "acceptance/gap_trials.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/gaps/candidates.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "support/acceptance.h"
@@ -176,9 +177,7 @@ void run(Case& c) {
                  s.first_frame < c.first + c.frames && s.last_frame >= c.first;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const auto data = test_data_folder();
   if (!data) return skip_all("gap traps");
   const int gaps = argc > 1 ? std::atoi(argv[1]) : 10;
@@ -212,10 +211,9 @@ int main(int argc, char** argv) {
       swaps += c.swapped.first >= 0 ? 1 : 0;
       flagged += c.flagged ? 1 : 0;
     }
-    std::ranges::sort(rms);
     const auto n = static_cast<double>(rms.size());
     const double pooled = std::sqrt(square / n);
-    const double median = 0.5 * (rms[(rms.size() - 1) / 2] + rms[rms.size() / 2]);
+    const double median = math::median(rms);
     const Trap& t = kTraps[trap];
     print_row(pooled <= t.rms_mm && median <= t.median_mm, fmt::format("gap trap: {}", t.name),
               fmt::format("RMS <= {:.2f} mm, median <= {:.2f} mm (with gate)", t.rms_mm, t.median_mm),
@@ -226,3 +224,7 @@ int main(int argc, char** argv) {
             ">= 90 % of the swaps", fmt::format("{} of {}", flagged, swaps));
   return exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("gap_traps", run_check);
+
+}  // namespace

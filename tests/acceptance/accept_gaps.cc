@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Artificial gaps of known truth in real trials: how far each way of filling is off, and whether `automatic`
-// knows it. Usage: accept_gaps GAPS_PER_CELL [SEED] [table]
+// Artificial gaps of known truth in real trials: errors of each method, and whether the error bars of
+// `automatic` are right. Usage: accept_gaps GAPS_PER_CELL [SEED] [table]
 #include <fmt/core.h>
 
 #include <Eigen/Core>
@@ -221,9 +221,7 @@ void print_table(const std::vector<Target>& targets, const std::vector<GapTrial>
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const auto data = test_data_folder();
   if (!data) return skip_all("artificial gaps in real trials");
   const int gaps = argc > 1 ? std::atoi(argv[1]) : 7;
@@ -290,3 +288,7 @@ int main(int argc, char** argv) {
             fmt::format("{:.1f} %, {:.1f} %", 100 * one / n, 100 * two / n));
   return exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("gaps", run_check);
+
+}  // namespace

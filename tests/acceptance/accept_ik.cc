@@ -166,8 +166,8 @@ void shoulder(const fs::path& data) {
   }
   print_row(worst <= 0.2, "opensim-core-ik case 2, columns",
             "within 0.2 RMS per column, as OpenSim's test asks", fmt::format("{:.3f} ({})", worst, where));
-  print_row(c.result.max_loop_gap_m <= 1e-6, "opensim-core-ik case 2, loop", "closed to 1e-6 m",
-            fmt::format("{:.2g} m", c.result.max_loop_gap_m));
+  print_row(c.result.fit.max_loop_gap_m <= 1e-6, "opensim-core-ik case 2, loop", "closed to 1e-6 m",
+            fmt::format("{:.2g} m", c.result.fit.max_loop_gap_m));
 }
 
 void hamner(const fs::path& data) {
@@ -203,7 +203,7 @@ void hamner(const fs::path& data) {
   job.output = scratch.path() / "Q.mot";
   const auto told = pipeline::run_ik(job).value().summary;
   const auto bicep =
-      std::ranges::find(told.markers, "L.Bicep", [](const report::MarkerSummary& m) { return m.name; });
+      std::ranges::find(told.markers, "L.Bicep", [](const report::MarkerRow& m) { return m.name; });
   const bool found = bicep != told.markers.end() && !bicep->used;
   print_row(found && bicep->why_excluded == "never seen", "opensim-hamner, all-zero L.Bicep",
             "found, excluded and said",
@@ -230,8 +230,8 @@ void arm(const fs::path& data) {
   const auto model = load_model(folder / "arm26.osim");
   const auto good =
       motion::solve_ik(model, io::read_markers(folder / "arm26_elbow_flex.trc").value().markers).value();
-  print_row(good.rms_marker_error_m <= 0.7e-3, "opensim-arm26", "0.7 mm RMS",
-            fmt::format("{:.3f} mm", 1e3 * good.rms_marker_error_m));
+  print_row(good.fit.rms_error_m <= 0.7e-3, "opensim-arm26", "0.7 mm RMS",
+            fmt::format("{:.3f} mm", 1e3 * good.fit.rms_error_m));
   testing_support::ScratchSpace scratch("accept_ik");
   pipeline::IkJob job;
   job.model = folder / "arm26.osim";
@@ -241,15 +241,13 @@ void arm(const fs::path& data) {
   std::string sentence;
   for (const auto& gate : twin.summary.run.gates)
     if (!gate.passed && gate.name == "mean_marker_offset") sentence = gate.sentence;
-  print_row(twin.exit_status == 1 && sentence.find("0.800 m") != std::string::npos,
+  print_row(twin.exit_status() == 1 && sentence.find("0.800 m") != std::string::npos,
             "opensim-arm26, the twin 800 mm too low", "exit status 1 and a sentence naming 0.8 m",
-            fmt::format("status {}: {}", twin.exit_status, sentence));
+            fmt::format("status {}: {}", twin.exit_status(), sentence));
 }
 
-}  // namespace
-
-/// accept_ik [CASE...]: all cases, or those named.
-int main(int argc, char** argv) {
+/// accept_motion ik [CASE...]: all cases, or those named.
+int run_check(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("inverse kinematics on real recordings");
   const std::vector<std::pair<std::string, void (*)(const fs::path&)>> cases = {{"nimble", nimble},
@@ -264,3 +262,7 @@ int main(int argc, char** argv) {
     if (named.empty() || std::find(named.begin(), named.end(), name) != named.end()) run(*data);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("ik", run_check);
+
+}  // namespace

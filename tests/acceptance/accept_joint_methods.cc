@@ -72,7 +72,7 @@ Ball make_ball(double range_rad, std::uint64_t seed) {
     Eigen::Vector3d at;
     for (double& c : at) c = motion.uniform(-0.1, 0.1);
     const double azimuth = motion.uniform(0.0, 2.0 * std::numbers::pi);
-    // Even over the cap of half the range; turns about the long axis over half the range as well.
+    // Even over the cap of half the range; rotations about the long axis over half the range as well.
     const double height = motion.uniform(std::cos(0.5 * range_rad), 1.0);
     const double roll = motion.uniform(-0.25, 0.25) * range_rad;
     const Eigen::Vector3d axis(std::cos(azimuth), std::sin(azimuth), 0.0);
@@ -97,7 +97,7 @@ Ball make_ball(double range_rad, std::uint64_t seed) {
 struct Pool {
   std::string name;
   double frame = 0.0;                ///< of every frame by itself
-  double parent = 0.0, child = 0.0;  ///< of the mean place in each segment's true axes
+  double parent = 0.0, child = 0.0;  ///< of the mean position in each segment's true axes
   void add(const data::Skeleton& skeleton, const Ball& ball) {
     Eigen::Vector3d in_parent = Eigen::Vector3d::Zero(), in_child = Eigen::Vector3d::Zero();
     double squares = 0.0;
@@ -152,7 +152,7 @@ void ehrig(int seeds) {
 
 // The functional hip
 
-/// How a carried centre lies to the laboratory's own in the walk.
+/// Position of a carried centre relative to the laboratory's own in the walk.
 struct Comparison {
   double mean_distance_m = 0.0, within = 0.0;
   double sd_m = 0.0;        ///< root of the trace of the mean covariance
@@ -299,9 +299,7 @@ void knee(const fs::path& data) {
             fmt::format("{}; {}", data::to_string(automatic.joints[0].kind), automatic.joints[0].words));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   const auto asked = [&](const char* name) { return what == name || what == "all"; };
   if (asked("ehrig")) ehrig(argc > 2 ? std::atoi(argv[2]) : 10);
@@ -312,3 +310,7 @@ int main(int argc, char** argv) {
   if (asked("knee")) knee(*data);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joint_methods", run_check);
+
+}  // namespace

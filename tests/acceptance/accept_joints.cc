@@ -44,7 +44,7 @@ bool near_bound(const Tally& t, const Run& run) {
   return run.quick ? t.worst_seed() <= 1.15 : t.ratio() <= 1.1 && t.worst_seed() <= 1.15;
 }
 
-/// The same, and no frame called determined whose bound says that it is not: none goes unjudged.
+/// The same, and no frame is called determined whose bound shows that it is not.
 bool at_bound(const Tally& t, const Run& run) {
   return near_bound(t, run) && t.determined_without_bound == 0;
 }
@@ -60,8 +60,8 @@ void print_coverage(const std::string& what, const Tally& t) {
 }
 
 void print_flags(const std::string& what, bool mirrors, const Tally& t) {
-  // A full run of solids has thousands of mirror pairs and half of the guesses are wrong: none means a test
-  // gone blind. Lines have no mirrors.
+  // A full run of solids has thousands of mirror pairs and half of the guesses are wrong: none means that the
+  // test is ineffective. Lines have no mirror images.
   if (t.wrong == 0 && mirrors) {
     print_row(false, what + ": errors beyond 5 SD", ">= 99 % lie in frames flagged",
               "nothing to test: no frame errs so far");
@@ -159,9 +159,7 @@ void chain(const Run& run, Tally& pooled) {
             fmt::format("{:.1f} and {:.1f} % of {}", 100.0 * one, 100.0 * two, all.lengths));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   Run run;
   if (argc > 1) run.seeds = std::max(1, std::atoi(argv[1]));
   run.quick = run.seeds < 3;
@@ -181,3 +179,7 @@ int main(int argc, char** argv) {
   print_flags("all cells", !run.quick && (wanted("staggered") || wanted("weak") || wanted("chain")), pooled);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joints", run_check);
+
+}  // namespace

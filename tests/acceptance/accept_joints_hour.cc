@@ -42,9 +42,7 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   const Cost minute = run(1.0), ten = run(10.0), hour = run(60.0);
   print_row(hour.seconds <= 20.0, "an hour of 16 markers, one thread", "<= 20 s",
             fmt::format("{:.1f} s, {:.1f} us a frame, {} of {} frames answered", hour.seconds,
@@ -60,3 +58,7 @@ int main() {
             fmt::format("{:.0f} MB", memory));
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joints_hour", run_check);
+
+}  // namespace

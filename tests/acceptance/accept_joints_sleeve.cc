@@ -55,7 +55,7 @@ void frame_by_frame(const Run& run) {
     all.add(t);
   }
   const double one = Tally::part(all.in_1sd, all.coordinates), two = Tally::part(all.in_2sd, all.coordinates);
-  // The geometry's error is common to a recording's frames: one recording says little about coverage.
+  // The geometry's error is common to a recording's frames: one recording is not conclusive about coverage.
   if (!run.quick)
     print_row(one >= 0.60 && one <= 0.75 && two >= 0.91 && two <= 0.985, "sleeve: coverage of centres",
               "60-75 % and 91-98.5 %", fmt::format("{:.1f} and {:.1f} %", 100.0 * one, 100.0 * two));
@@ -80,9 +80,7 @@ void in_time(const Run& run, const char* what, const simulation::SleeveOptions& 
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   Run run;
   if (argc > 1) run.seeds = std::max(1, std::atoi(argv[1]));
   run.quick = run.seeds < 3;
@@ -98,3 +96,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("joints_sleeve", run_check);
+
+}  // namespace

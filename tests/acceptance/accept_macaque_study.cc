@@ -9,8 +9,10 @@
 #include "studies/macaque/study_macaque_job.h"
 #include "support/acceptance.h"
 
-/// accept_macaque_study quick | all [SEEDS]   quick: few cells, one seed
-int main(int argc, char** argv) {
+namespace {
+
+/// accept_studies macaque_study quick | all [SEEDS]   quick: few cells, one seed
+int run_check(int argc, char** argv) {
   using namespace kinemark;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   studies::MacaqueJob job;
@@ -32,11 +34,14 @@ int main(int argc, char** argv) {
     if (row.limit) measured += fmt::format(", bound {:.4g}", *row.limit);
     if (row.classic) measured += fmt::format(", classic {:.4g}", *row.classic);
     if (row.paper) measured += fmt::format(", paper {:.4g}", *row.paper);
-    if (asked.empty()) {  // shares of a single seed: nothing is asked of them, so nothing passes
-      fmt::print("{}: {} {}\n", row.quantity, measured, row.unit);
-      continue;
-    }
-    testing_support::print_row(row.pass(), row.quantity, asked + row.unit, measured);
+    if (asked.empty())  // shares of a single seed have no bound, so none passes
+      testing_support::print_note(row.quantity, measured + " " + row.unit);
+    else
+      testing_support::print_row(row.pass(), row.quantity, asked + row.unit, measured);
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("macaque_study", run_check);
+
+}  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // A pair of cameras films a body; one of them goes dark for a second. What the other one sees of every marker
-// must carry the smoother through, and its bars must say how well.
+// must suffice for the smoother, and its error bars must be right.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -123,10 +123,8 @@ struct Sums {
   }
 };
 
-}  // namespace
-
-/// accept_one_camera [SUBJECTS]
-int main(int argc, char** argv) {
+/// accept_motion one_camera [SUBJECTS]
+int run_check(int argc, char** argv) {
   const int subjects = argc > 1 ? std::stoi(argv[1]) : 2;
   const auto model = model::Model::compile(
                          io::read_osim(testing_support::project_folder() / "models" / "human.osim").value())
@@ -167,3 +165,7 @@ int main(int argc, char** argv) {
                   bar_lit));
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("one_camera", run_check);
+
+}  // namespace

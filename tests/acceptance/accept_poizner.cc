@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
@@ -23,12 +24,8 @@
 namespace {
 
 using namespace kinemark;
+using testing_support::print_note;
 using testing_support::print_row;
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
-}
 
 /// One number of the 1986 method as the reference found it, and how to get it from a seed.
 struct Anchor {
@@ -86,8 +83,12 @@ void study(int last) {
     std::string asked;
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
     if (row.at_most) asked += fmt::format("<= {:.4g} ", *row.at_most);
-    print_row(row.pass(), row.quantity, asked + row.unit,
-              fmt::format("{:.4g}{}", row.ours, row.limit ? fmt::format(" (limit {:.4g})", *row.limit) : ""));
+    const std::string measured =
+        fmt::format("{:.4g}{}", row.ours, row.limit ? fmt::format(" (limit {:.4g})", *row.limit) : "");
+    if (asked.empty())
+      print_note(row.quantity, measured + " " + row.unit);
+    else
+      print_row(row.pass(), row.quantity, asked + row.unit, measured);
   }
   if (last < 10) return;
   std::vector<double> mean, most;
@@ -108,7 +109,7 @@ void study(int last) {
   for (const auto& anchor : anchors()) {
     std::vector<double> values;
     for (const auto& seed : done.seeds) values.push_back(anchor.get(seed));
-    const double found = median(values);
+    const double found = math::median(values);
     print_row(std::abs(found / anchor.value - 1.0) <= 0.15, std::string("1986 method: ") + anchor.what,
               fmt::format("{:.3g} +- 15 %", anchor.value), fmt::format("{:.3g}", found));
   }
@@ -241,10 +242,8 @@ void speed() {
   }
 }
 
-}  // namespace
-
-/// accept_poizner study LAST_SEED | stress | speed
-int main(int argc, char** argv) {
+/// accept_rig poizner study LAST_SEED | stress | speed
+int run_check(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string what = arguments.empty() ? "study" : arguments.front();
   if (what == "study") study(arguments.size() > 1 ? std::stoi(arguments[1]) : 10);
@@ -252,3 +251,7 @@ int main(int argc, char** argv) {
   if (what == "speed") speed();
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("poizner", run_check);
+
+}  // namespace

@@ -216,9 +216,7 @@ void scenes_in_sight() {
             fmt::format("{} of {}", off, sightings));
 }
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   std::ifstream file(testing_support::project_folder() / "tests/acceptance/rig_golden.json");
   const json golden = json::parse(file);
   const auto rig = simulation::draw_rig({.seed = 1}).value();
@@ -232,3 +230,7 @@ int main() {
   scenes_in_sight();
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("rig_golden", run_check);
+
+}  // namespace

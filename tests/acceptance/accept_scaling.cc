@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Segment sizes and marker places from motion, on simulated subjects of known size.
+// Segment sizes and marker positions from motion, on simulated subjects of known size.
 #include <fmt/core.h>
 
 #include <Eigen/Core>
@@ -185,7 +185,8 @@ void rich(const data::ModelDescription& human, int subjects) {
             fmt::format("{} of {} end segments refused, {} bones", refused, 3 * subjects, wrongly));
 }
 
-// The deviations of rich motion hardly differ between subjects: a few tell what poor motion widens.
+// The deviations of rich motion hardly differ between subjects: a few suffice to show the effect of poor
+// motion.
 void poor(const data::ModelDescription& human, int subjects) {
   const Outcome wide = simulate(human, std::min(subjects, 4), {});
   const Outcome o = simulate(human, subjects, {.width = 0.15});
@@ -214,7 +215,7 @@ void still(const data::ModelDescription& human, int subjects) {
             fmt::format("{} of {} called determined", told, 6 * subjects));
   print_row(c.one >= 62.0 && c.two >= 91.0, "still legs: intervals cover", ">= 62 / 91 %", say(c));
   // The intervals of what is not determined are those of the sizes' prior, far wider than the errors. The
-  // deviations, which trust the marker places, promise more and are held to the same.
+  // deviations, which assume the prior of the marker positions, are smaller and have the same bounds.
   const Coverage d = coverage(o.error, o.sd);
   print_row(d.one >= 62.0 && d.two >= 91.0, "still legs: deviations cover, given placed markers",
             ">= 62 / 91 %", say(d));
@@ -260,9 +261,7 @@ void quick(const data::ModelDescription& human) {
             fmt::format("{:.2f}", worst));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const int subjects = arguments.size() > 1 ? std::stoi(arguments[1]) : 40;
   const auto human = io::read_osim(testing_support::project_folder() / "models/human.osim").value();
@@ -274,3 +273,7 @@ int main(int argc, char** argv) {
   if (which == "tissue") tissue(human, subjects);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("scaling", run_check);
+
+}  // namespace

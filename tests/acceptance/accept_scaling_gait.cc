@@ -60,9 +60,7 @@ Worst compare_knees(const data::ModelDescription& ours, const data::ModelDescrip
   return worst;
 }
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("opensim-gait2354 with its Scale setup");
   const fs::path folder = *data / "opensim-gait2354";
@@ -122,3 +120,7 @@ int main() {
             fmt::format("{:.3f} mm ({}), {} compared", 1e3 * places.value, places.where, places.seen));
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("scaling_gait", run_check);
+
+}  // namespace

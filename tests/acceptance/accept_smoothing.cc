@@ -87,7 +87,7 @@ Errors oracle(const data::Trajectories& in, const Movement& movement, double sig
 
 constexpr const char* kMovementNames[] = {"wheel", "hand", "elbow", "reach", "tremor"};
 
-/// The smoother against the best of its family: nothing is told to it, not even the noise.
+/// The smoother against the best of its family: it is given nothing, not even the noise.
 void against_the_oracle(const std::vector<Movement>& movements, int markers, std::uint64_t seed,
                         testing_support::Axes axes, const std::string& which) {
   for (const double sigma_mm : {0.5, 0.1}) {
@@ -375,9 +375,7 @@ void online(const std::vector<Movement>& movements) {
             "online twin that waits for all, beside offline", "1e-9 m", fmt::format("{:.1e} m", worst));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "quick";
   const auto movements = testing_support::movements();
   using testing_support::Axes;
@@ -395,3 +393,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("smoothing", run_check);
+
+}  // namespace

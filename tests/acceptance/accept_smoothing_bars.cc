@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Do the smoother's error bars keep their word? Five movements, two noise levels, with and without gaps.
+// Coverage of the smoother's error bars: five movements, two noise levels, with and without gaps.
 #include <fmt/core.h>
 
 #include <array>
@@ -83,9 +83,7 @@ void row(const std::string& what, const Three& three) {
                                          three[1].text(), three[2].text()));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const int markers = argc > 1 ? std::stoi(argv[1]) : 12;
   const auto movements = testing_support::movements();
   for (const bool gaps : {false, true}) {
@@ -106,3 +104,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("smoothing_bars", run_check);
+
+}  // namespace

@@ -120,10 +120,12 @@ void live() {
                   ms[ms.size() / 2], 1e3 * std::sqrt(sum / std::max(count, 1.0))));
 }
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   live();
   hour();
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("smoothing_speed", run_check);
+
+}  // namespace

@@ -85,7 +85,7 @@ void check_reader(const io::V3dFile& file) {
   const auto as_read = [&](std::int64_t f, std::int64_t s) -> Eigen::Matrix3d {
     return file.orientations.world_from_segment(f, s);
   };
-  // The same three turns about fixed axes: Rz Ry Rx.
+  // The same three rotations about fixed axes: Rz Ry Rx.
   const auto fixed = [&](std::int64_t f, std::int64_t s) -> Eigen::Matrix3d {
     const Vector3d a = file.orientations.angles(f, s);
     return (Eigen::AngleAxisd(a.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(a.y(), Vector3d::UnitY()) *
@@ -109,17 +109,15 @@ void check_medians(const data::Trajectories& landmarks, bool clavicles, double m
   if (clavicles) motion::add_clavicles(description).value();
   const auto model = model::Model::compile(description).value();
   const auto ik = motion::solve_ik(model, landmarks, studies::landmark_ik_options(description)).value();
-  print_row(kMillimetres * ik.rms_marker_error_m <= most_mm && landmarks.frames() == 1002,
+  print_row(kMillimetres * ik.fit.rms_error_m <= most_mm && landmarks.frames() == 1002,
             fmt::format("tai chi, least squares, 21 landmarks, scaled by medians, {} coordinates",
                         model.coordinate_count()),
             fmt::format("1002 rows at 60 Hz, RMS <= {} mm", most_mm),
             fmt::format("{} rows, {:.2f} mm, at most {:.1f} mm", landmarks.frames(),
-                        kMillimetres * ik.rms_marker_error_m, kMillimetres * ik.max_marker_error_m));
+                        kMillimetres * ik.fit.rms_error_m, kMillimetres * ik.fit.max_error_m));
 }
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("the tai chi recording");
   const auto file = acceptance::read_tai_chi(*data);
@@ -133,3 +131,7 @@ int main() {
   check_medians(landmarks, true, 7.5);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("taichi", run_check);
+
+}  // namespace

@@ -118,8 +118,8 @@ void sets(const Scene& scene) {
   }
 }
 
-/// Runs of five seconds over gains, damping, posture and the place in the recording to start from; the pose
-/// to return to lies up to 0.3 rad from the posture there.
+/// Runs of five seconds over gains, damping, posture and the time in the recording at the start; the rest
+/// pose differs by up to 0.3 rad from the posture there.
 void stability(const Scene& scene, const LandmarkSet& set, const std::string& name, int runs, bool limits) {
   constexpr double kOff_rad = 0.3;
   constexpr std::int64_t kLength = 300, kApart = 7;  // frames
@@ -159,10 +159,8 @@ void stability(const Scene& scene, const LandmarkSet& set, const std::string& na
             "no failure", fmt::format("{} failures{}", failures, first));
 }
 
-}  // namespace
-
-/// accept_taichi_control whole | sets | stability [RUNS]
-int main(int argc, char** argv) {
+/// accept_studies taichi_control whole | sets | stability [RUNS]
+int run_check(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("direct marker control of the tai chi recording");
   const Scene scene = prepare(*data);
@@ -178,3 +176,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("taichi_control", run_check);
+
+}  // namespace

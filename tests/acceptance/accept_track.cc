@@ -14,6 +14,7 @@
 #include "acceptance/track_subject.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -65,10 +66,10 @@ void equations() {
     MatrixXd J;
     model::mass_matrix(model, w, t.M);
     model::marker_jacobian(model, w, J);
-    // One marker each of pelvis, hand, foot and head: nothing that a level asks for conflicts with another.
+    // One marker each of pelvis, hand, foot and head: the goals of the levels do not conflict.
     for (const char* name : {"RASI", "LFIN", "RTOE", "RFHD"}) {
       const auto m = model.description().find_marker(name);
-      if (m < 0) continue;  // told below: all four must be there
+      if (m < 0) continue;  // reported below: all four must be there
       t.J.push_back(J.middleRows(3 * m, 3));
       VectorXd r(3);
       for (auto& value : r) value = random.gaussian();
@@ -191,9 +192,7 @@ Held count_bounds(const model::Model& model, const motion::TrackResult& track,
       ratios.push_back(bound / std::max(miss, 1e-12));
     }
   if (ratios.empty()) return held;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  held.ratio = ratios[ratios.size() / 2];
+  held.ratio = math::upper_median(ratios);
   return held;
 }
 
@@ -248,10 +247,8 @@ void bounds(int seeds) {
   }
 }
 
-}  // namespace
-
-/// accept_track [SEEDS]: subjects per row.
-int main(int argc, char** argv) {
+/// accept_motion track [SEEDS]: subjects per row.
+int run_check(int argc, char** argv) {
   const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
   equations();
   one_level(seeds);
@@ -259,3 +256,7 @@ int main(int argc, char** argv) {
   bounds(seeds);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("track", run_check);
+
+}  // namespace

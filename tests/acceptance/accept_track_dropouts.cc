@@ -153,10 +153,12 @@ void dropouts(int stride) {
             "no jump > 1 mm beyond its SD", place.text(1e3, "mm"));
 }
 
-}  // namespace
-
-/// accept_track_dropouts [STRIDE]: every STRIDE-th marker drops out.
-int main(int argc, char** argv) {
+/// accept_motion track_dropouts [STRIDE]: every STRIDE-th marker drops out.
+int run_check(int argc, char** argv) {
   dropouts(argc > 1 ? std::max(1, std::atoi(argv[1])) : 1);
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("track_dropouts", run_check);
+
+}  // namespace

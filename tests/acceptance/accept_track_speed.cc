@@ -60,9 +60,7 @@ class Mujoco {
   std::unique_ptr<mjData, decltype(&mj_deleteData)> data_{nullptr, mj_deleteData};
 };
 
-}  // namespace
-
-int main() {
+int run_check(int /*argc*/, char** /*argv*/) {
   const auto model = human();
   Mujoco judge(model);
   if (!judge.works()) {
@@ -93,3 +91,7 @@ int main() {
       fmt::format("{:.1f} times: {:.1f} us against {:.2f} us", ours / theirs, 1e6 * ours, 1e6 * theirs));
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("track_speed", run_check);
+
+}  // namespace

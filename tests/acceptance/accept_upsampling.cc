@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams that a recorder interpolated: found with factor and phase, nothing else called, limits told.
+// Streams that a recorder interpolated: found with factor and phase, no false alarms, limits reported.
 // Arguments: number of single-marker streams (default 2000), "no-recordings" to leave the real files out.
 #include <fmt/core.h>
 
@@ -62,7 +62,7 @@ Stream positive(Random& random, const MotionLibrary& library, double duration_s,
   return s;
 }
 
-/// One stream that nobody interpolated, at 60 to 360 Hz.
+/// One stream that was not interpolated, at 60 to 360 Hz.
 Stream negative(Random& random, const MotionLibrary& library, double duration_s, double rate_hz,
                 Truth& truth) {
   const Path path = random_path(random, library, duration_s);
@@ -222,7 +222,7 @@ void check_jitter(int count, const MotionLibrary& library) {
             fmt::format("{}, farthest {} frames off", right, farthest));
 }
 
-/// What cannot be seen must not be called something else, and the spectrum must tell.
+/// What cannot be detected must not be reported as something else, and the spectrum must show it.
 void check_limits(int count, const MotionLibrary& library) {
   struct Limit {
     const char* what;
@@ -321,9 +321,7 @@ void check_real(const std::filesystem::path& folder) {
             "each reported as such", fmt::format("{} of 14{}", told, wrong));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_check(int argc, char** argv) {
   const int streams = argc > 1 ? std::stoi(argv[1]) : 2000;
   const bool with_recordings = argc <= 2;
   const auto folder = testing_support::test_data_folder();
@@ -340,3 +338,7 @@ int main(int argc, char** argv) {
   }
   return testing_support::exit_status();
 }
+
+const kinemark::testing_support::AcceptanceCheck kCheck("upsampling", run_check);
+
+}  // namespace

@@ -25,7 +25,7 @@ struct GapTrial {
 [[nodiscard]] GapTrial load_gap_trial(const std::filesystem::path& data, const std::string& file,
                                       std::int64_t max_frames, std::uint64_t seed, bool from_start);
 
-/// Segment of a marker as the data tell it: a set (of at most six, the marker first) whose mutual distances
+/// Segment of a marker from the data: a set (of at most six, the marker first) whose mutual distances
 /// have SDs below 10 mm.
 [[nodiscard]] std::vector<std::int64_t> find_segment(const data::Trajectories& markers, std::int64_t marker);
 

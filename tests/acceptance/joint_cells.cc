@@ -149,7 +149,8 @@ void measure(const simulation::LimbRecording& limb, data::SegmentKind kind, doub
       }
       ++one.bounded;
       one.squares_m2 += e.squaredNorm();
-      // Near a fold the bound grows without limit and says nothing: there the fit's own claim is held to.
+      // Near a fold the bound grows without limit: there the fit's own standard deviation is used as the
+      // bound.
       const bool fold = C.trace() < kFold * bound.variance(k);
       one.bound_m2 += fold ? C.trace() : bound.variance(k);
       for (int i = 0; i < 3; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Five movements with known derivatives, seen in noise: what filters are judged by. 100 Hz, 4.4 s, one
+// Five movements with known derivatives, with noise, to evaluate filters. 100 Hz, 4.4 s, one
 // coordinate each.
 #pragma once
 

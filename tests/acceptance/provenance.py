@@ -102,8 +102,7 @@ def judge_c3d(path, wanted):
         by_kind[kind].append(residual[MARKERS.index(marker), frame - 1])
     filled, measured, absent = (np.array(by_kind[k]) for k in ("filled", "measured", "absent"))
     row(bool((filled == 0).all()), "ezc3d: residual of what was filled", f"0 on {filled.size}", f"{(filled == 0).sum()} are 0")
-    # Fails today: ezc3d takes the bits of the fourth float for two integers, so our placeholder of one step (1.0) is 0 to
-    # it, as a filled sample is. The row above therefore does not tell the two apart; our own reader does, in compare().
+    # A known shortfall (checks.toml): the row above does not tell the two apart to ezc3d; our own reader does, in compare().
     row(bool((measured > 0).all()), "ezc3d: residual of what was measured", f"> 0 on {measured.size}",
         f"{(measured > 0).sum()} are > 0")
     row(bool((absent < 0).all()), "ezc3d: residual of what is missing", f"< 0 on {absent.size}", f"{(absent < 0).sum()} are < 0")

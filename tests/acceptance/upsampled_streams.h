@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Marker streams that a recorder interpolated, and others that only look odd: made here without the library,
-// so that the detector is judged by somebody else's arithmetic.
+// Marker streams that a recorder interpolated, and others that are only unusual: generated here without the
+// library, so that the detector is judged by somebody else's arithmetic.
 #pragma once
 
 #include <Eigen/Core>

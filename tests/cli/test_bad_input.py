@@ -55,7 +55,7 @@ class MissingAndUnreadable(CommandTest):
             name = f"cut{source.suffix}"
             self.write(name, source.read_bytes()[:size])
             ran = self.good("validate", name, status=1)
-            self.assertIn("promises 100 frames" if source is self.c3d else "header says 100 frames", ran.err)
+            self.assertIn("states 100 frames" if source is self.c3d else "header says 100 frames", ran.err)
 
 
 class WrongContent(CommandTest):

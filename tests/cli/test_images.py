@@ -31,7 +31,7 @@ def dot(a, b):
 
 
 class Camera:
-    """A pinhole camera at a place, looking at a target, Y up."""
+    """A pinhole camera at a position, looking at a target, Y up."""
 
     def __init__(self, name, place, target):
         z = unit([t - p for t, p in zip(target, place)])

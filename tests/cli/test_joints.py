@@ -154,7 +154,7 @@ class Joints(CommandTest):
 
     def test_what_cannot_be_known_is_one_sentence(self):
         self.write("still.csv", arm(moving=False)[0])
-        self.refused(3, ["still.csv", "no joint can be seen"], "joints", "still.csv")
+        self.refused(3, ["still.csv", "no joint can be found"], "joints", "still.csv")
         self.write("two.csv", arm(lose=lambda f, name: name not in ("u0", "f0"))[0])
         two = '[[segment]]\nname = "a"\nmarkers = ["u0"]\n[[segment]]\nname = "b"\nmarkers = ["f0"]\n'
         self.write("two.toml", two)

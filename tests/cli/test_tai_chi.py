@@ -32,7 +32,7 @@ class Visual3D(CommandTest):
         self.refused(2, ["a.v3d", "--rate"], "convert", "a.v3d", "a.trc")
         self.good("convert", "a.v3d", "a.trc", "--rate", "179")
         self.assertEqual(json.loads(self.good("info", "a.trc", "--json").out)["rate_hz"], 179.0)
-        self.refused(2, "the file tells its own rate", "convert", "a.trc", "b.trc", "--rate", "179")
+        self.refused(2, "the file stores its own rate", "convert", "a.trc", "b.trc", "--rate", "179")
 
     def test_damage_is_one_sentence(self):
         self.write("cut.v3d", v3d()[:40])

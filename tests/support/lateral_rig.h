@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Two lateral-effect cameras and what they count of moving points: for tests of stages, which may not know
+// Two lateral-effect cameras and their counts of moving points: for tests of stages, which may not include
 // the simulator.
 #pragma once
 

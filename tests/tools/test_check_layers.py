@@ -118,6 +118,23 @@ class CheckLayers(unittest.TestCase):
             [],
         )
 
+    def test_steps_include_only_those_before_them(self):
+        folder = "src/kinemark/stages/skeleton/articulated"
+        header = "kinemark/stages/skeleton/articulated"
+        steps = {
+            f"{folder}/chain/chain.h": "",
+            f"{folder}/geometry/fit.h": f'#include "{header}/chain/chain.h"\n',
+            f"{folder}/articulated.cc": f'#include "{header}/geometry/fit.h"\n',
+        }
+        self.assertEqual(self.problems(**steps), [])
+        back = self.problems(**steps, **{f"{folder}/frame/solver.h": f'#include "{header}/geometry/fit.h"\n'})
+        self.assertEqual(len(back), 1, back)
+        self.assertIn("a later step", back[0])
+        outside = self.problems(
+            **steps, **{"src/kinemark/stages/skeleton/topology/tree.h": f'#include "{header}/chain/chain.h"\n'}
+        )
+        self.assertEqual(len(outside), 1, outside)
+
     def test_catches_a_circle_of_headers(self):
         found = self.problems(
             **{
@@ -139,7 +156,7 @@ class CheckLayers(unittest.TestCase):
             "only tests may include",
             self.only_problem("src/kinemark/core/a.cc", '#include "support/scratch.h"\n'),
         )
-        for helper in ("testing/tree.h", "test_trees.h", "trees_for_test.h"):
+        for helper in ("testing/tree.h", "testing/body/tree.h"):
             with self.subTest(helper=helper):
                 line = f'#include "kinemark/model/{helper}"\n'
                 helper = {f"src/kinemark/model/{helper}": '#include "support/scratch.h"\n'}
@@ -147,6 +164,14 @@ class CheckLayers(unittest.TestCase):
                 found = self.problems(**helper, **{"src/kinemark/model/a.cc": line})
                 self.assertEqual(len(found), 1, found)
                 self.assertIn("is for tests only", found[0])
+
+    def test_helpers_of_tests_stand_in_a_folder_of_their_own(self):
+        for name in ("test_trees.h", "trees_for_test.h"):
+            with self.subTest(name=name):
+                problems = self.problems(**{f"src/kinemark/model/{name}": ""})
+                self.assertEqual(len(problems), 1, problems)
+                self.assertIn(f"model/{name}: a helper of tests belongs into a folder testing/", problems[0])
+        self.assertEqual(self.problems(**{"src/kinemark/model/testing/test_trees.h": ""}), [])
 
     def test_catches_missing_files_and_short_paths(self):
         self.assertIn(

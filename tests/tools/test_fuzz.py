@@ -28,6 +28,14 @@ class FindTargets(unittest.TestCase):
         self.assertIn("tests/fuzz/corpus/gone has no program fuzz_gone", problems[1])
 
 
+class Share(unittest.TestCase):
+    def test_divides_a_time_for_all_and_leaves_none_without(self):
+        self.assertEqual(fuzz.share(240, 12), 20)
+        self.assertEqual(fuzz.share(240, 9), 26)
+        self.assertEqual(fuzz.share(5, 9), 1)
+        self.assertEqual(fuzz.share(240, 0), 240)
+
+
 class Summary(unittest.TestCase):
     def test_tells_inputs_and_coverage(self):
         log = "#10 NEW cov: 50 ft: 60 corp: 2/3b\n#99 DONE cov: 1234 ft: 9 corp: 4/5b\nstat::number_of_executed_units: 56789\n"

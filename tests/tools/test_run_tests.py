@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import io
+import os
 import sys
 import unittest
+from unittest import mock
 
 from support import Tree, load_tool
 
@@ -13,6 +15,7 @@ Counts = tests.Counts
 
 class RunStages(unittest.TestCase):
     def run_stages(self, stages, **options):
+        stages = {name: stage if isinstance(stage, tuple) else (stage, 1) for name, stage in stages.items()}
         with Tree({}) as logs, contextlib.redirect_stdout(io.StringIO()) as out:
             status = tests.run_stages(stages, list(stages), logs, **options)
         return status, out.getvalue()
@@ -21,7 +24,7 @@ class RunStages(unittest.TestCase):
         status, said = self.run_stages({"a": lambda _: Counts(3), "b": lambda _: Counts(4, 0, 2)})
         self.assertEqual(status, 0)
         self.assertTrue(said.endswith("\n7 passed, 0 failed, 2 skipped\n"), said)
-        self.assertRegex(said, r"\[ 1/2\] a: good, \d+\.\d s \(3 passed, 0 failed\)")
+        self.assertRegex(said, r"\[ 1/2\] a: good, \d+\.\d s, 0\.0 of 1 processor minutes \(3 passed, 0 failed\)")
 
     def test_stops_at_the_first_failing_stage_names_it_and_shows_its_log(self):
         def bad(log):
@@ -47,6 +50,64 @@ class RunStages(unittest.TestCase):
         status, said = self.run_stages({"a": tests.script("/nonexistent/program")})
         self.assertEqual(status, 1)
         self.assertTrue(said.endswith("\n0 passed, 1 failed\n"), said)
+
+    def test_a_stage_over_its_budget_is_told_and_the_sum_fails_where_asked(self):
+        def busy(log):
+            log.must(sys.executable, "-c", "import time\nwhile time.process_time() < 0.2: pass")
+            return Counts(1)
+
+        stages = {"busy": (busy, 0.001), "idle": (lambda _: Counts(1), 0.001)}
+        status, said = self.run_stages(stages)
+        self.assertEqual(status, 0)
+        self.assertRegex(said, r"busy: good, .* of 0.001 processor minutes, OVER ITS BUDGET \(")
+        self.assertRegex(said, r"idle: good, .* of 0.001 processor minutes \(")
+        status, said = self.run_stages(stages, budget_minutes=0.002)
+        self.assertEqual(status, 0)
+        self.assertIn("processor minutes, more than the 0.002 of a whole run\n", said)
+        status, said = self.run_stages(stages, budget_minutes=0.002, check_budget=True)
+        self.assertEqual(status, 1)
+        self.assertIn("; failed: the budget\n2 passed, 1 failed\n", said)
+        self.assertEqual(self.run_stages(stages, check_budget=True)[0], 0)
+
+    def test_the_budgets_of_all_stages_fit_into_that_of_a_run(self):
+        self.assertLessEqual(sum(budget for _, budget in tests.STAGES.values()), tests.BUDGET_MINUTES)
+
+
+class MissingData(unittest.TestCase):
+    def demand(self, missing, **environment):
+        with mock.patch.dict(os.environ, environment):
+            if "KINEMARK_ALLOW_MISSING_DATA" not in environment:
+                os.environ.pop("KINEMARK_ALLOW_MISSING_DATA", None)
+            return tests.demand_data(Counts(5, 0, missing), missing)
+
+    def test_tests_without_data_fail_unless_allowed(self):
+        self.assertEqual(self.demand(0), Counts(5))
+        with self.assertRaisesRegex(tests.Failed, "^2 tests lack the real recordings; set KINEMARK_TEST_DATA"):
+            self.demand(2)
+        with self.assertRaises(tests.Failed):
+            self.demand(2, KINEMARK_ALLOW_MISSING_DATA="0")
+        self.assertEqual(self.demand(2, KINEMARK_ALLOW_MISSING_DATA="1"), Counts(5, 0, 2))
+
+    def test_the_first_stage_says_whether_the_data_are_there(self):
+        with Tree({"data/README.md": ""}) as root:
+            log = tests.Log(root / "log")
+            with mock.patch.dict(os.environ, KINEMARK_TEST_DATA=str(root / "data"), KINEMARK_ALLOW_MISSING_DATA=""):
+                self.assertEqual(tests.data(log), Counts(1))
+            with mock.patch.dict(os.environ, KINEMARK_TEST_DATA=str(root / "gone"), KINEMARK_ALLOW_MISSING_DATA=""):
+                with self.assertRaises(tests.Failed):
+                    tests.data(log)
+            with mock.patch.dict(os.environ, KINEMARK_TEST_DATA=str(root / "gone"), KINEMARK_ALLOW_MISSING_DATA="1"):
+                self.assertEqual(tests.data(log), Counts(0, 0, 1))
+            self.assertIn("gone is not there", log.text())
+
+    def test_counts_cases_that_were_skipped_for_want_of_data_only(self):
+        cases = """<testsuites><testsuite>
+          <testcase name="a" result="completed"/>
+          <testcase name="b" result="skipped"><skipped message="x.cc:5&#x0A;SKIPPED: the real recordings are absent"/></testcase>
+          <testcase name="c" result="skipped"><skipped message="the sanitizer owns the allocator"/></testcase>
+        </testsuite></testsuites>"""
+        with Tree({"test_a.xml": cases}) as root:
+            self.assertEqual(tests.cases_without_data(root), 1)
 
 
 class SearchPath(unittest.TestCase):
@@ -74,6 +135,10 @@ class CountTests(unittest.TestCase):
         text = "Ran 12 tests in 0.1s\n\nFAILED (failures=1, errors=2, skipped=3)\n"
         self.assertEqual(tests.count_unittest(text), Counts(6, 3, 3))
         self.assertEqual(tests.count_unittest("Traceback"), Counts(0, 1))
+
+    def test_counts_acceptance_rows(self):
+        self.assertEqual(tests.count_acceptance("x\nacceptance: 5 passed, 1 failed, 2 skipped, 3 known\n"), Counts(5, 1, 2))
+        self.assertEqual(tests.count_acceptance("Traceback"), Counts(0, 1))
 
     def test_counts_cases_of_googletest_and_other_programs(self):
         junit = """<testsuite>

@@ -31,7 +31,7 @@ std::optional<Eigen::Vector2d> undistort(const data::Distortion& distortion,
   for (int iteration = 0; iteration < 50; ++iteration) {
     const Distorted at = distort(distortion, slopes);
     const Eigen::Vector2d miss = at.slopes - distorted;
-    // A determinant that is not positive means that the polynomial has turned back.
+    // A determinant that is not positive means that the polynomial is no longer increasing.
     if (!(at.d_slopes.determinant() > 0.0)) return std::nullopt;
     if (miss.norm() <= 1e-14 * (1.0 + distorted.norm())) return slopes;
     slopes -= at.d_slopes.inverse() * miss;

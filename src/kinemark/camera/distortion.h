@@ -11,7 +11,7 @@ namespace kinemark::camera {
 
 /// Slopes behind the lens, with their derivatives.
 struct Distorted {
-  Eigen::Vector2d slopes;
+  Eigen::Vector2d slopes;                    ///< X/Z and Y/Z behind the lens, no unit
   Eigen::Matrix2d d_slopes;                  ///< by the slopes before the lens
   Eigen::Matrix<double, 2, 5> d_parameters;  ///< by k1, k2, k3, p1, p2
 };

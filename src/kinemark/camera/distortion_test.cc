@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 
 namespace kinemark::camera {
 namespace {

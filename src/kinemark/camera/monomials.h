@@ -12,15 +12,16 @@ namespace kinemark::camera {
 /// Holds its numbers itself: no allocation.
 class Monomials {
  public:
-  static constexpr int kMost = (data::kHighestDegree + 1) * (data::kHighestDegree + 2) / 2;
+  static constexpr int kMost =
+      (data::kHighestDegree + 1) * (data::kHighestDegree + 2) / 2;  ///< terms at most
 
   /// lowest >= 0, highest <= data::kHighestDegree; highest < lowest: none.
   Monomials(double x, double y, int lowest, int highest);
 
-  [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] auto value() const { return value_.head(size_); }
-  [[nodiscard]] auto d_x() const { return d_x_.head(size_); }
-  [[nodiscard]] auto d_y() const { return d_y_.head(size_); }
+  [[nodiscard]] int size() const { return size_; }                 ///< number of terms
+  [[nodiscard]] auto value() const { return value_.head(size_); }  ///< the terms, size() of them
+  [[nodiscard]] auto d_x() const { return d_x_.head(size_); }      ///< their derivatives by x
+  [[nodiscard]] auto d_y() const { return d_y_.head(size_); }      ///< their derivatives by y
 
  private:
   using Terms = Eigen::Matrix<double, kMost, 1>;

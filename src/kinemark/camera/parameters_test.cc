@@ -8,7 +8,7 @@
 #include <set>
 
 #include "kinemark/camera/projection.h"
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 
 namespace kinemark::camera {
 namespace {

@@ -23,7 +23,7 @@ Eigen::Map<const Eigen::VectorXd> terms(const std::vector<double>& v) {
   return {v.data(), static_cast<Eigen::Index>(v.size())};
 }
 
-/// Place on the real sheet of a spot that an ideal camera would see at ideal.
+/// Position on the real sheet of a spot whose position on an ideal one is `ideal`.
 struct Warped {
   Vector2d image;
   Matrix2d d_ideal;
@@ -83,7 +83,7 @@ Projection project_into(const data::Camera& camera, const Vector3d& x_in_world, 
   return out;
 }
 
-/// The place of an ideal camera's spot that the warp takes to image.
+/// The ideal spot position that the warp maps to image.
 std::optional<Vector2d> unwarp(const data::Detector& detector, const Vector2d& image) {
   Vector2d ideal = image;
   for (int iteration = 0; iteration < 50; ++iteration) {

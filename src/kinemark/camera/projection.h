@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// From a point in the world to its place in the image, and back to a ray: pinhole and lateral-effect cameras.
+// From a point in the world to its position in the image, and back to a ray: pinhole and lateral-effect
+// cameras.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,7 @@ namespace kinemark::camera {
 /// Where a camera sees a point, in pixels (pinhole) or half-sides of the sheet, warp included
 /// (lateral-effect).
 struct Projection {
-  Eigen::Vector2d image;
+  Eigen::Vector2d image;                ///< x right, y down
   Eigen::Vector3d x_in_cam;             ///< m
   Eigen::Matrix<double, 2, 3> d_point;  ///< by the point in the world, per m
   bool in_front = false;                ///< depth > 0; elsewhere image is the mirrored one and means nothing
@@ -38,7 +39,7 @@ struct Ray {
   Eigen::Vector3d direction_in_world;  ///< of unit length, away from the camera
 };
 
-/// The ray that arrives at a place of the image: inverse of project() by Newton's method. No value where warp
+/// The ray that belongs to an image position: inverse of project() by Newton's method. No value where warp
 /// or distortion have no inverse.
 [[nodiscard]] std::optional<Ray> unproject(const data::Camera& camera, const Eigen::Vector2d& image);
 

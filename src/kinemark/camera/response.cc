@@ -16,16 +16,15 @@ using data::ParameterLayout;
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Eigen::Vector4d;
 
-/// Channels from electrodes: row k of the result is what channel k gets of each electrode.
+/// Channels from electrodes: row k of the result holds the shares of the electrodes in channel k.
 Matrix4d mixing(const data::Detector& detector) {
   return detector.gain.asDiagonal() * (Matrix4d::Identity() + detector.crosstalk).transpose();
 }
 
 SpotResponse through(const Matrix4d& mix, const Shares& s) { return {mix * s.share, mix * s.d_spot}; }
 
-/// Derivatives by what lies behind the spot: crosstalk, generic shares and gain.
+/// Derivatives by the parameters after the spot: crosstalk, generic shares and gain.
 void fill_channels(const data::Detector& detector, const ParameterLayout& layout, const Shares& s,
                    const Vector2d& spot, const Matrix4d& mix, ResponseJacobian d_parameters) {
   int column = layout.crosstalk;
@@ -59,7 +58,7 @@ Response respond(const data::Camera& camera, const Vector3d& x_in_world, Respons
   check(camera.kind == data::CameraKind::lateral_effect, "respond() needs a lateral-effect camera");
   const ParameterLayout layout(camera);
   check(d_parameters.cols() == layout.count, "respond() needs one column per parameter of the camera");
-  // Up to the warp, parameters move the spot; behind it they change what channels make of the spot.
+  // Parameters up to the warp move the spot; those after it change the response of the channels to the spot.
   constexpr int kMostMoving = ParameterLayout::warp_x + 2 * Monomials::kMost;
   Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, kMostMoving> d_image(2, layout.crosstalk);
   const Projection seen = project(camera, x_in_world, d_image);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What a lateral-effect camera reports of a point of light: counts = S * phi(point) + offset, with S the
-// light's strength (counts), which nobody knows, and phi the response of the four channels.
+// Measurement model of a lateral-effect camera for a point light source: counts = S * phi(point) + offset,
+// with S the unknown strength of the light (counts) and phi the response of the four channels.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 
 namespace kinemark::camera {
 
+/// What the four channels of a lateral-effect camera say of a point light, and where it falls.
 struct Response {
   Eigen::Vector4d phi;                  ///< of channels +x, -x, +y, -y; sum near 1 (duo-lateral: 2)
   Eigen::Matrix<double, 4, 3> d_point;  ///< by the point in the world, per m
@@ -30,11 +31,13 @@ using ResponseJacobian = Eigen::Ref<Eigen::Matrix<double, 4, Eigen::Dynamic>>;
 [[nodiscard]] Response respond(const data::Camera& camera, const Eigen::Vector3d& x_in_world,
                                ResponseJacobian d_parameters);
 
-/// Response at a known place of the sheet (half-sides, warp included), with derivatives by that place.
+/// Response at a known position on the sheet (half-sides, warp included), with derivatives by that position.
 struct SpotResponse {
-  Eigen::Vector4d phi;
-  Eigen::Matrix<double, 4, 2> d_spot;
+  Eigen::Vector4d phi;                 ///< of channels +x, -x, +y, -y
+  Eigen::Matrix<double, 4, 2> d_spot;  ///< by the place of the spot, per half-side
 };
+/// @param spot  half-sides; beyond the detector's edge it counts as lying there. O(terms of the warp);
+/// allocates nothing.
 [[nodiscard]] SpotResponse respond_at(const data::Detector& detector, const Eigen::Vector2d& spot);
 
 }  // namespace kinemark::camera

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 
 namespace kinemark::camera {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemark/camera/shares.h"
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 
 namespace kinemark::camera {
 namespace {

@@ -10,10 +10,11 @@
 
 namespace kinemark::camera {
 
-/// Currents at +x, -x, +y, -y per photocurrent, and their derivatives by the place of the spot (half-sides).
+/// Currents at +x, -x, +y, -y per photocurrent, and their derivatives by the position of the spot
+/// (half-sides).
 struct Shares {
-  Eigen::Vector4d share;
-  Eigen::Matrix<double, 4, 2> d_spot;
+  Eigen::Vector4d share;               ///< at +x, -x, +y, -y
+  Eigen::Matrix<double, 4, 2> d_spot;  ///< per half-side
 };
 
 /// Tetra-lateral sheet, |x|, |y| < 1: harmonic measures of the four edges of a square, in closed form by the
@@ -30,8 +31,8 @@ struct Shares {
 /// Polynomial shares; see data::Detector::generic.
 [[nodiscard]] Shares generic_shares(std::span<const double> coefficients, int degree, double x, double y);
 
-/// Shares of a detector's kind at a place on the ideal sheet: no warp, crosstalk or gain. A place beyond
-/// detector.edge counts as lying there, with derivative 0 across it.
+/// Shares of a detector's kind at a position on the ideal sheet: no warp, crosstalk or gain. A position
+/// beyond detector.edge is moved to the edge, with derivative 0 across it.
 [[nodiscard]] Shares shares(const data::Detector& detector, double x, double y);
 
 }  // namespace kinemark::camera

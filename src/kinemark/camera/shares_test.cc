@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 
 namespace kinemark::camera {
 namespace {

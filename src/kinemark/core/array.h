@@ -12,14 +12,17 @@ namespace kinemark {
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
   template <class U>
+  /// The same allocator for another type, as containers ask for it.
   struct rebind {
-    using other = UninitializedAllocator<U>;
+    using other = UninitializedAllocator<U>;  ///< for type U
   };
   template <class U>
+  /// Default-initialises, which leaves numbers as they are.
   void construct(U* p) noexcept {
     ::new (static_cast<void*>(p)) U;
   }
   template <class U, class... Args>
+  /// Constructs from arguments, as any allocator.
   void construct(U* p, Args&&... args) {
     ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
   }

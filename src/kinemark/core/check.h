@@ -8,13 +8,13 @@
 
 namespace kinemark {
 
-/// Thrown when a caller broke a function's contract (a shape, an index); never for bad files.
+/// Thrown when the caller violates a precondition (a shape, an index); never for bad files.
 class ContractError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// Guard at a public boundary; active in every build.
+/// Checks a precondition of a public function; active in every build.
 inline void check(bool condition, const char* message,
                   const std::source_location& where = std::source_location::current()) {
   if (!condition) [[unlikely]] {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Signed indices, as Eigen counts, at containers that count unsigned.
+// Converts Eigen's signed indices to the unsigned ones of the standard containers.
 #pragma once
 
 #include <concepts>

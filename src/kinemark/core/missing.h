@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a number says that it is missing: by NaN, with a state beside it that says why.
+// Missing numbers are NaN; a state stored beside them gives the reason.
 #pragma once
 
 #include <limits>

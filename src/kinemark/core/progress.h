@@ -7,8 +7,8 @@
 
 namespace kinemark {
 
-/// Called now and then by long work with what is done of what there is to do; returns false to stop it (the
-/// work then ends with Code::cancelled). May be empty.
+/// Progress callback of long computations: called at intervals with the steps done and the steps in total.
+/// Returning false stops the computation, which then ends with Code::cancelled. May be empty.
 using Progress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 }  // namespace kinemark

@@ -16,6 +16,7 @@ namespace kinemark {
 /// 0x9E3779B97F4A7C15).
 class Random {
  public:
+  /// Stream number `stream` of a seed, before its first draw.
   Random(std::uint64_t seed, std::uint64_t stream);
 
   /// Uniform on [0, 1), 53 bits.
@@ -26,7 +27,7 @@ class Random {
   double gaussian();
   /// Jump so that the next draw is number `draws_done` + 1.
   void seek(std::uint64_t draws_done) { counter_ = draws_done; }
-  [[nodiscard]] std::uint64_t draws() const { return counter_; }
+  [[nodiscard]] std::uint64_t draws() const { return counter_; }  ///< draws done so far
 
  private:
   std::uint64_t key_;

@@ -10,7 +10,7 @@
 
 namespace kinemark {
 
-/// What kind of thing went wrong. Each code maps to one exit status of the program (exit_status()).
+/// Category of a failure. Each code maps to one exit status of the program (exit_status()).
 enum class Code : std::uint8_t {
   usage,          ///< options that contradict each other or lie outside their range
   bad_input,      ///< a file or array whose content is wrong
@@ -20,15 +20,16 @@ enum class Code : std::uint8_t {
   cancelled,      ///< a signal or the caller asked to stop
 };
 
-/// One failure, told in one sentence: "file: place: what is wrong; what was expected".
+/// One failure, described in one sentence: "file: place: what is wrong; what was expected".
 struct Error {
-  Code code = Code::bad_input;
-  std::string message;
+  Code code = Code::bad_input;  ///< what kind of failure
+  std::string message;          ///< one sentence for people
 };
 
 /// The value, or the reason why there is none. Library functions never print and never exit.
 template <class T>
 using Result = std::expected<T, Error>;
+/// Success, or the reason why not.
 using Status = std::expected<void, Error>;
 
 /// Shorthand for returning a failure: `return fail(Code::io, "cannot open x.c3d");`

@@ -9,10 +9,11 @@ namespace kinemark {
 
 /// Evenly spaced instants: frame i is at t0_s + i / rate_hz, for i in [0, frames).
 struct TimeBase {
-  double rate_hz = 0.0;  ///< > 0
-  double t0_s = 0.0;     ///< time of frame 0
-  std::int64_t frames = 0;
+  double rate_hz = 0.0;     ///< > 0
+  double t0_s = 0.0;        ///< time of frame 0
+  std::int64_t frames = 0;  ///< number of instants, >= 0
 
+  /// Time of a frame, s.
   [[nodiscard]] double time_s(std::int64_t frame) const {
     return t0_s + static_cast<double>(frame) / rate_hz;
   }
@@ -20,7 +21,7 @@ struct TimeBase {
   [[nodiscard]] std::int64_t nearest_frame(double time_s) const {
     return static_cast<std::int64_t>(std::llround((time_s - t0_s) * rate_hz));
   }
-  friend bool operator==(const TimeBase&, const TimeBase&) = default;
+  friend bool operator==(const TimeBase&, const TimeBase&) = default;  ///< the same instants, to the bit
 };
 
 }  // namespace kinemark

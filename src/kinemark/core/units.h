@@ -6,8 +6,8 @@
 
 namespace kinemark {
 
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-inline constexpr double kStandardGravity = 9.80665;  ///< m/s^2
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;  ///< rad per degree
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;  ///< degrees per rad
+inline constexpr double kStandardGravity = 9.80665;             ///< m/s^2
 
 }  // namespace kinemark

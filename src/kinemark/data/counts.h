@@ -20,7 +20,8 @@ enum CountFlag : std::uint8_t {
   kCountLost = 4,       ///< never recorded; the four counts are 0
 };
 
-/// What a rig of lateral-effect cameras converts: F frames, L LEDs lit in turn, C cameras with four channels.
+/// Output of the converters of a rig of lateral-effect cameras: F frames, L LEDs lit in turn, C cameras with
+/// four channels.
 ///
 /// A channel is one electrode, in the order +x, -x, +y, -y of the detector (pin-cushion detectors: the
 /// corners
@@ -39,9 +40,12 @@ struct Counts {
   Array<std::int16_t> dark;          ///< F x C x 4; empty without a dark slot
   Array<double> dark_time_s;         ///< C x 4, s after the frame's time; empty without a dark slot
 
-  [[nodiscard]] std::int64_t frames() const { return time.frames; }
-  [[nodiscard]] std::int64_t led_count() const { return static_cast<std::int64_t>(leds.size()); }
-  [[nodiscard]] std::int64_t camera_count() const { return static_cast<std::int64_t>(cameras.size()); }
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }                                ///< F
+  [[nodiscard]] std::int64_t led_count() const { return static_cast<std::int64_t>(leds.size()); }  ///< L
+  [[nodiscard]] std::int64_t camera_count() const {
+    return static_cast<std::int64_t>(cameras.size());
+  }  ///< C
+  /// whether frames hold a slot without light
   [[nodiscard]] bool has_dark_slot() const { return !dark_time_s.empty(); }
   /// Index of a sighting, into flags and, times four, into counts.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t led, std::int64_t camera) const {
@@ -66,6 +70,7 @@ struct Counts {
   [[nodiscard]] Eigen::Map<const Eigen::Vector4d> dark_offset_s(std::int64_t camera) const {
     return Eigen::Map<const Eigen::Vector4d>(dark_time_s.data() + 4 * camera);
   }
+  /// Whether a sighting bears a flag.
   [[nodiscard]] bool has_flag(std::int64_t frame, std::int64_t led, std::int64_t camera,
                               CountFlag flag) const {
     return (flags[index(frame, led, camera)] & flag) != 0;

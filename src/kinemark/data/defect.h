@@ -10,9 +10,9 @@
 
 namespace kinemark::data {
 
-/// What recorders and exporters do to marker streams.
+/// What can be wrong with samples.
 enum class DefectKind : std::uint8_t {
-  zero,              ///< exactly (0, 0, 0): an exporter's way to write "not seen"
+  zero,              ///< exactly (0, 0, 0): written by exporters for "not seen"
   stuck,             ///< the last value held while marker and neighbours move
   duplicated_frame,  ///< all markers repeat the frame before
   clock_jump,        ///< frames missing or repeated in time
@@ -28,17 +28,17 @@ enum class DefectKind : std::uint8_t {
 /// One defect of a recording: where, how strong the evidence is, a sentence that says it with numbers, and
 /// what was done about it.
 struct Defect {
-  DefectKind kind = DefectKind::zero;
-  std::int64_t marker = -1;        ///< -1: all markers
-  std::int64_t other_marker = -1;  ///< the partner of a swap, else -1
-  std::int64_t first_frame = 0;    ///< both ends belong to it
-  std::int64_t last_frame = 0;
+  DefectKind kind = DefectKind::zero;  ///< what is wrong
+  std::int64_t marker = -1;            ///< -1: all markers
+  std::int64_t other_marker = -1;      ///< the partner of a swap, else -1
+  std::int64_t first_frame = 0;        ///< both ends belong to it
+  std::int64_t last_frame = 0;         ///< both ends belong to it
   double evidence = kNaN;    ///< the deciding ratio, larger is stronger; what it is depends on the kind;
                              ///< NaN: none was formed
-  double confidence = kNaN;  ///< 0 to 1; below 0.8 a person should look; NaN: whoever found it had no doubt
-  std::string sentence;
-  std::string done;      ///< in words: "rejected", "left as it is", ...; empty: nobody has decided
-  bool handled = false;  ///< false with a confidence of 0.8 and more: needs attention
+  double confidence = kNaN;  ///< 0 to 1; below 0.8 a person should check; NaN: whoever found it had no doubt
+  std::string sentence;      ///< the same in words
+  std::string done;          ///< in words: "rejected", "left as it is", ...; empty: nobody has decided
+  bool handled = false;      ///< false with a confidence of 0.8 and more: needs attention
 };
 
 }  // namespace kinemark::data

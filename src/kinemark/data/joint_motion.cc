@@ -8,20 +8,14 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/enum_names.h"
+
 namespace kinemark::data {
 
 std::string_view to_string(FrameStatus status) {
-  switch (status) {
-    case FrameStatus::converged:
-      return "converged";
-    case FrameStatus::not_converged:
-      return "not_converged";
-    case FrameStatus::underdetermined:
-      return "underdetermined";
-    case FrameStatus::no_markers:
-      return "no_markers";
-  }
-  return "unknown";
+  static constexpr EnumNames<FrameStatus::no_markers> kNames{"converged", "not_converged", "underdetermined",
+                                                             "no_markers"};
+  return kNames[status];
 }
 
 std::int64_t JointMotion::find(std::string_view coordinate) const {

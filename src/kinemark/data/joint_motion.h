@@ -22,6 +22,7 @@ enum class FrameStatus : std::uint8_t {
                     ///< undetermined
 };
 
+/// "converged", "not_converged", "underdetermined", "no_markers"
 [[nodiscard]] std::string_view to_string(FrameStatus status);
 
 /// Joint coordinates through time: F frames, n coordinates, M markers. Angles in rad, translations in m.
@@ -29,8 +30,8 @@ struct JointMotion {
   std::vector<std::string> coordinates;  ///< n names, in the model's order
   std::vector<bool> is_rotation;         ///< n; true: rad, false: m
   std::vector<std::string> markers;      ///< M names of the markers that were used
-  TimeBase time;
-  Array<double> q;                 ///< F x n
+  TimeBase time;                         ///< F = time.frames
+  Array<double> q;                       ///< F x n
   Array<double> q_sd;              ///< F x n, one standard deviation; NaN where not determined or unknown
   Array<std::uint8_t> determined;  ///< F x n; 0: the visible markers do not fix this coordinate
   Array<double> v, a;              ///< F x n, dq/dt and d2q/dt2; empty when not computed
@@ -38,15 +39,16 @@ struct JointMotion {
                               ///< when not computed, NaN where it is not known
   Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN
                           ///< where not determined
-  Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where not seen
+  Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where the marker was not seen
   Array<FrameStatus> status;   ///< F
 
-  [[nodiscard]] std::int64_t frames() const { return time.frames; }
-  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(coordinates.size()); }
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }                                  ///< F
+  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(coordinates.size()); }  ///< n
+  /// Place of a coordinate's number in a frame, in every F x n array.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t coordinate) const {
     return static_cast<std::size_t>(frame * size() + coordinate);
   }
-  [[nodiscard]] std::int64_t find(std::string_view coordinate) const;
+  [[nodiscard]] std::int64_t find(std::string_view coordinate) const;  ///< index of a coordinate, or -1
   /// Shapes agree and q is finite.
   [[nodiscard]] Status validate() const;
 };

@@ -14,12 +14,12 @@ namespace kinemark::data {
 
 /// One filter that was tried: the smaller its criterion, the better.
 struct FilterCandidate {
-  int order = 0;
+  int order = 0;            ///< of the filter
   double cutoff_hz = kNaN;  ///< best of this order; savgol: -3 dB of the window
   double criterion = kNaN;  ///< see MarkerAccount::criterion_name
 };
 
-/// Power spectral density at a few frequencies, summed over the axes. All three have one length, or are empty
+/// Power spectral density at some frequencies, summed over the axes. All three have one length, or are empty
 /// when no stretch without gaps is long enough.
 struct Spectrum {
   std::vector<double> frequency_hz;        ///< rising, > 0, log-spaced
@@ -29,7 +29,7 @@ struct Spectrum {
 
 /// What smoothing did to one marker, and why.
 struct MarkerAccount {
-  std::string name;
+  std::string name;        ///< of the marker
   FilterUsed used;         ///< method, order, cut-off, noise level
   std::string words;       ///< one or two sentences for people: what the filter did and why it was chosen
   std::string noise_from;  ///< "given", "covariance", "data", or "" when unknown
@@ -46,11 +46,11 @@ struct MarkerAccount {
   /// Standard deviations of position, velocity, acceleration and jerk against what the model alone says: at
   /// seen samples, and for what gaps and ends add. 1 means the model was right.
   std::array<double, 4> bar_scale{1.0, 1.0, 1.0, 1.0};
-  std::array<double, 4> gap_bar_scale{1.0, 1.0, 1.0, 1.0};
+  std::array<double, 4> gap_bar_scale{1.0, 1.0, 1.0, 1.0};   ///< likewise, for what gaps and ends add
   std::int64_t measured = 0, bridged = 0, left_missing = 0;  ///< frames
   std::int64_t bad_variances =
-      0;  ///< samples whose variance was not positive and finite: the median was taken
-  Spectrum spectrum;
+      0;              ///< samples whose variance was not positive and finite: the median was taken
+  Spectrum spectrum;  ///< of the marker's samples
 };
 
 }  // namespace kinemark::data

@@ -120,7 +120,7 @@ Status ModelDescription::validate() const {
   for (const auto& marker : markers)
     if (!is_body(marker.body_idx) || !marker.x_in_body.allFinite())
       return fail(Code::bad_input,
-                  fmt::format("marker '{}' has a body or a place that does not exist", marker.name));
+                  fmt::format("marker '{}' has a body or a position that is not valid", marker.name));
   return {};
 }
 

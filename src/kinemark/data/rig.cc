@@ -5,39 +5,17 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <set>
-#include <utility>
+
+#include "kinemark/core/enum_names.h"
 
 namespace kinemark::data {
 namespace {
 
-constexpr std::array<std::pair<CameraKind, std::string_view>, 2> kCameraNames{
-    {{CameraKind::pinhole, "pinhole"}, {CameraKind::lateral_effect, "lateral-effect"}}};
-constexpr std::array<std::pair<DetectorKind, std::string_view>, 4> kDetectorNames{
-    {{DetectorKind::tetra_lateral, "tetra-lateral"},
-     {DetectorKind::duo_lateral, "duo-lateral"},
-     {DetectorKind::pin_cushion, "pin-cushion"},
-     {DetectorKind::generic, "generic"}}};
-
-template <class Names>
-std::string_view name_of(const Names& names, auto kind) {
-  for (const auto& [k, name] : names)
-    if (k == kind) return name;
-  return "unknown";
-}
-
-template <class Names>
-auto kind_of(const Names& names, std::string_view wanted, std::string_view what)
-    -> Result<typename Names::value_type::first_type> {
-  std::string known;
-  for (const auto& [kind, name] : names) {
-    if (name == wanted) return kind;
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  return fail(Code::bad_input, fmt::format("'{}' is not a {}; known are {}", wanted, what, known));
-}
+constexpr EnumNames<CameraKind::lateral_effect> kCameraNames{"pinhole", "lateral-effect"};
+constexpr EnumNames<DetectorKind::generic> kDetectorNames{"tetra-lateral", "duo-lateral", "pin-cushion",
+                                                          "generic"};
 
 std::unexpected<Error> wrong(const Camera& camera, const std::string& what) {
   return fail(Code::bad_input, fmt::format("camera '{}': {}", camera.name, what));
@@ -51,8 +29,9 @@ Status check_pose(const Camera& camera) {
       (pose.rotation * pose.rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (off > 1e-6 || pose.rotation.determinant() < 0.0)
     return wrong(
-        camera, fmt::format("its rotation is not one: R R' differs from 1 by {:.2g}, determinant {:.6g}", off,
-                            pose.rotation.determinant()));
+        camera,
+        fmt::format("its rotation is not orthonormal: R R' differs from 1 by {:.2g}, determinant {:.6g}", off,
+                    pose.rotation.determinant()));
   return {};
 }
 
@@ -133,13 +112,13 @@ Status check_electronics(const Electronics& e) {
 
 }  // namespace
 
-std::string_view to_string(CameraKind kind) { return name_of(kCameraNames, kind); }
-std::string_view to_string(DetectorKind kind) { return name_of(kDetectorNames, kind); }
+std::string_view to_string(CameraKind kind) { return kCameraNames[kind]; }
+std::string_view to_string(DetectorKind kind) { return kDetectorNames[kind]; }
 Result<CameraKind> parse_camera_kind(std::string_view name) {
-  return kind_of(kCameraNames, name, "kind of camera");
+  return kCameraNames.parse(name, "kind of camera", Code::bad_input);
 }
 Result<DetectorKind> parse_detector_kind(std::string_view name) {
-  return kind_of(kDetectorNames, name, "kind of detector");
+  return kDetectorNames.parse(name, "kind of detector", Code::bad_input);
 }
 
 int monomial_count(int lowest_degree, int highest_degree) {

@@ -29,7 +29,7 @@ TEST(Kinds, NamesReadBack) {
                           DetectorKind::generic})
     EXPECT_EQ(parse_detector_kind(to_string(kind)), kind);
   EXPECT_THAT(parse_camera_kind("fisheye").error().message,
-              "'fisheye' is not a kind of camera; known are pinhole, lateral-effect");
+              "there is no kind of camera 'fisheye'; there are pinhole and lateral-effect");
   EXPECT_THAT(parse_detector_kind("ccd").error().message, HasSubstr("duo-lateral"));
 }
 
@@ -71,7 +71,7 @@ TEST(Rig, EachBrokenRuleIsNamed) {
   EXPECT_THAT(message([](Rig& r) { r.cameras.clear(); }), HasSubstr("no camera"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[1].name = "A"; }), HasSubstr("'A' occurs twice"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].cam_from_world.rotation(0, 0) = -1.0; }),
-              HasSubstr("camera 'A': its rotation is not one"));
+              HasSubstr("camera 'A': its rotation is not orthonormal"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].cam_from_world.translation.x() = NAN; }), HasSubstr("pose"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].focal = 0.0; }), HasSubstr("focal length 0"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].aspect = -1.0; }), HasSubstr("aspect -1"));

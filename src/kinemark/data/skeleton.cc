@@ -10,36 +10,22 @@
 #include <set>
 #include <string>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/math/symmetric3.h"
 
 namespace kinemark::data {
 
 std::string_view to_string(SegmentKind kind) {
-  switch (kind) {
-    case SegmentKind::line:
-      return "line";
-    case SegmentKind::plane:
-      return "plane";
-    case SegmentKind::solid:
-      return "solid";
-  }
-  return "unknown";
+  static constexpr EnumNames<SegmentKind::solid> kNames{"line", "plane", "solid"};
+  return kNames[kind];
 }
 
 std::string_view to_string(JointKind kind) { return kind == JointKind::hinge ? "hinge" : "ball"; }
 
 std::string_view to_string(CentreState state) {
-  switch (state) {
-    case CentreState::undetermined:
-      return "undetermined";
-    case CentreState::ambiguous:
-      return "ambiguous";
-    case CentreState::bridged:
-      return "bridged";
-    case CentreState::determined:
-      return "determined";
-  }
-  return "unknown";
+  static constexpr EnumNames<CentreState::determined> kNames{"undetermined", "ambiguous", "bridged",
+                                                             "determined"};
+  return kNames[state];
 }
 
 Status SegmentLayout::validate(std::int64_t markers) const {
@@ -94,7 +80,7 @@ Status Skeleton::validate() const {
     if (s.name.empty() || !names.insert(s.name).second)
       return bad(fmt::format("segment name '{}' is empty or used twice", s.name));
     if (s.x_in_segment.cols() != static_cast<Eigen::Index>(s.markers.size()))
-      return bad(fmt::format("segment '{}' has {} markers but {} places", s.name, s.markers.size(),
+      return bad(fmt::format("segment '{}' has {} markers but {} positions", s.name, s.markers.size(),
                              s.x_in_segment.cols()));
     for (const int m : s.markers)
       if (m < 0 || m >= static_cast<int>(markers.size()))
@@ -121,7 +107,7 @@ Status Skeleton::validate() const {
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Map<const Eigen::Vector3d> c(centre_in_world.data() + 3 * i);
     if (state[i] == CentreState::undetermined ? !c.array().isNaN().all() : !c.allFinite())
-      return bad(fmt::format("the centre of joint '{}' in frame {} is called {} and is ({}, {}, {})",
+      return bad(fmt::format("the centre of joint '{}' in frame {} has the state {} and is ({}, {}, {})",
                              joints[i % joints.size()].name, i / joints.size(), to_string(state[i]), c.x(),
                              c.y(), c.z()));
   }

@@ -14,56 +14,59 @@
 
 namespace kinemark::data {
 
-/// How the markers of a segment lie among themselves: on a line, in a plane, or neither.
+/// Geometry of a segment's markers: on a line, in a plane, or neither.
 enum class SegmentKind : std::uint8_t { line, plane, solid };
 
-/// How two segments move against each other: about a point, or about an axis.
+/// Relative motion of two segments: about a point, or about an axis.
 enum class JointKind : std::uint8_t { ball, hinge };
 
 /// What is known of a joint centre in one frame.
 enum class CentreState : std::uint8_t {
   undetermined,  ///< the visible markers leave a curve or more open: NaN
-  ambiguous,     ///< several places fit alike; the best one is given, its covariance is that place's own
+  ambiguous,     ///< several positions fit equally well; the best one is given with its own covariance
   bridged,       ///< chosen or found with the help of neighbouring frames
-  determined,    ///< one place fits, by the frame's own markers
+  determined,    ///< one position fits, from the markers of this frame alone
 };
 
-[[nodiscard]] std::string_view to_string(SegmentKind kind);
-[[nodiscard]] std::string_view to_string(JointKind kind);
+[[nodiscard]] std::string_view to_string(SegmentKind kind);  ///< "line", "plane", "solid"
+[[nodiscard]] std::string_view to_string(JointKind kind);    ///< "ball", "hinge"
+/// "undetermined", "ambiguous", "bridged", "determined"
 [[nodiscard]] std::string_view to_string(CentreState state);
 
-/// Which markers ride on which segment and which segments meet in a joint: what every method of
-/// stages/skeleton needs to know beforehand.
+/// Which markers belong to which segment and which segments a joint connects: the input that every method of
+/// stages/skeleton needs.
 struct SegmentLayout {
+  /// Markers that move together.
   struct Segment {
-    std::string name;
+    std::string name;          ///< unique
     std::vector<int> markers;  ///< indices into the recording's markers
   };
+  /// Two segments that meet.
   struct Joint {
-    std::string name;
+    std::string name;           ///< unique
     int parent = 0, child = 0;  ///< indices of segments
   };
-  std::vector<Segment> segments;
-  std::vector<Joint> joints;
+  std::vector<Segment> segments;  ///< S
+  std::vector<Joint> joints;      ///< J
 
   /// Names are unique, no marker is on two segments, indices are in range (`markers` of the recording),
   /// joints form no circle.
   [[nodiscard]] Status validate(std::int64_t markers) const;
 };
 
-/// A rigid set of markers and their places in the segment's own axes.
+/// A rigid set of markers and their positions in the segment's own axes.
 struct SkeletonSegment {
-  std::string name;
-  SegmentKind kind = SegmentKind::solid;
-  std::vector<int> markers;       ///< indices into Skeleton::markers
-  Eigen::Matrix3Xd x_in_segment;  ///< one column a marker, m; line: along z, plane: in x and z
+  std::string name;                       ///< as in the layout
+  SegmentKind kind = SegmentKind::solid;  ///< how its markers lie
+  std::vector<int> markers;               ///< indices into Skeleton::markers
+  Eigen::Matrix3Xd x_in_segment;          ///< one column a marker, m; line: along z, plane: in x and z
 };
 
 /// A joint between two segments.
 struct SkeletonJoint {
-  std::string name;
-  JointKind kind = JointKind::ball;
-  int parent_segment = 0, child_segment = 0;
+  std::string name;                           ///< as in the layout
+  JointKind kind = JointKind::ball;           ///< given or found
+  int parent_segment = 0, child_segment = 0;  ///< indices into Skeleton::segments
   Eigen::Vector3d centre_in_parent = Eigen::Vector3d::Zero(),
                   centre_in_child = Eigen::Vector3d::Zero();  ///< m
   Eigen::Matrix3d covariance_in_parent = Eigen::Matrix3d::Zero(),
@@ -71,35 +74,37 @@ struct SkeletonJoint {
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(),
                   axis_in_child = Eigen::Vector3d::Zero();  ///< unit length; zero for a ball joint
   double axis_sd_rad = 0.0;          ///< of each of the two tilts of the axis; NaN when unknown
-  double range_of_motion_rad = 0.0;  ///< largest turn of child against parent seen
+  double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen
   std::string method;                ///< "SCoRE", "articulated", ...
   std::string words;                 ///< what the motion shows of this joint and what it does not
 };
 
 /// Distance between two joint centres of one segment.
 struct SkeletonLength {
-  std::string name;
-  int joint_a = 0, joint_b = 0;
+  std::string name;                   ///< "elbow to wrist"
+  int joint_a = 0, joint_b = 0;       ///< indices into Skeleton::joints
   double length_m = 0.0, sd_m = 0.0;  ///< SD is NaN when unknown
 };
 
-/// Segments, joints and, frame by frame, the joints' places: F frames, J joints, metres.
+/// Segments, joints and, frame by frame, the joint centres: F frames, J joints, metres.
 struct Skeleton {
-  std::vector<std::string> markers;  ///< M, as in the recording
-  std::vector<SkeletonSegment> segments;
-  std::vector<SkeletonJoint> joints;  ///< J
-  std::vector<SkeletonLength> lengths;
-  TimeBase time;
-  Array<double> centre_in_world;  ///< F x J x 3, m; NaN where undetermined
-  Array<double> covariance;       ///< F x J x 6 (xx xy xz yy yz zz), m^2; NaN where undetermined or unknown
-  Array<CentreState> state;       ///< F x J
-  double noise_sd_m = 0.0;        ///< of the markers, per axis, as given or found; NaN when unknown
+  std::vector<std::string> markers;       ///< M, as in the recording
+  std::vector<SkeletonSegment> segments;  ///< as in the layout, with the places of their markers
+  std::vector<SkeletonJoint> joints;      ///< J
+  std::vector<SkeletonLength> lengths;    ///< between the joints that share a segment
+  TimeBase time;                          ///< F = time.frames
+  Array<double> centre_in_world;          ///< F x J x 3, m; NaN where undetermined
+  Array<double> covariance;  ///< F x J x 6 (xx xy xz yy yz zz), m^2; NaN where undetermined or unknown
+  Array<CentreState> state;  ///< F x J
+  double noise_sd_m = 0.0;   ///< of the markers, per axis, as given or found; NaN when unknown
   std::vector<std::string> warnings;  ///< one sentence each
 
-  [[nodiscard]] std::int64_t frames() const { return time.frames; }
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }  ///< F
+  /// Place of a joint in a frame, in every F x J array.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t joint) const {
     return static_cast<std::size_t>(frame) * joints.size() + static_cast<std::size_t>(joint);
   }
+  /// A centre in the world, m; NaN where undetermined.
   [[nodiscard]] Eigen::Map<const Eigen::Vector3d> centre(std::int64_t frame, std::int64_t joint) const {
     return Eigen::Map<const Eigen::Vector3d>(centre_in_world.data() + 3 * index(frame, joint));
   }

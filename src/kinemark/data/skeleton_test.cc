@@ -42,7 +42,7 @@ TEST(Skeleton, RefusesCentresThatContradictTheirState) {
   s.state[1] = CentreState::determined;
   auto status = s.validate();
   ASSERT_FALSE(status);
-  EXPECT_THAT(status.error().message, HasSubstr("joint 'elbow' in frame 1 is called determined"));
+  EXPECT_THAT(status.error().message, HasSubstr("joint 'elbow' in frame 1 has the state determined"));
   s = elbow();
   s.centre_in_world[0] = 1.0;
   EXPECT_FALSE(s.validate());

@@ -23,10 +23,11 @@ struct Table {
   std::vector<std::string> columns;   ///< K names, time not among them
   Array<double> time_s;               ///< R, increasing
   Array<double> values;               ///< R x K, row first; NaN where the file has none
-  std::vector<std::string> warnings;  ///< what was odd about the file, one sentence each
+  std::vector<std::string> warnings;  ///< irregularities of the file, one sentence each
 
-  [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(time_s.size()); }
-  [[nodiscard]] std::int64_t find(std::string_view column) const;
+  [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(time_s.size()); }  ///< R
+  [[nodiscard]] std::int64_t find(std::string_view column) const;  ///< index of a column, or -1
+  /// One cell; NaN where the file has none.
   [[nodiscard]] double operator()(std::int64_t row, std::int64_t column) const {
     return values[static_cast<std::size_t>(row) * columns.size() + static_cast<std::size_t>(column)];
   }

@@ -10,25 +10,14 @@
 #include <set>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/enum_names.h"
 
 namespace kinemark::data {
 
 std::string_view to_string(SampleState state) {
-  switch (state) {
-    case SampleState::missing:
-      return "missing";
-    case SampleState::measured:
-      return "measured";
-    case SampleState::interpolated:
-      return "interpolated";
-    case SampleState::model_filled:
-      return "model_filled";
-    case SampleState::upsampled:
-      return "upsampled";
-    case SampleState::rejected:
-      return "rejected";
-  }
-  return "unknown";
+  static constexpr EnumNames<SampleState::rejected> kNames{"missing",      "measured",  "interpolated",
+                                                           "model_filled", "upsampled", "rejected"};
+  return kNames[state];
 }
 
 void Trajectories::set_missing(std::int64_t frame, std::int64_t marker, SampleState why) {

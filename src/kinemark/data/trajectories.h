@@ -14,7 +14,8 @@
 
 namespace kinemark::data {
 
-/// Where a sample comes from. Anything but `measured` was made by somebody or is not there.
+/// Provenance of a sample. Only `measured` samples come from the cameras; the others were computed or are
+/// absent.
 enum class SampleState : std::uint8_t { missing, measured, interpolated, model_filled, upsampled, rejected };
 
 /// Name of a state as written in files and tables: "missing", "measured", ...
@@ -33,19 +34,23 @@ struct Trajectories {
   /// How samples were made ("cubic", "rigid body", ...) and, F x M, by which: 0 as recorded, k by methods[k -
   /// 1]. `method` is empty where nothing was made.
   std::vector<std::string> methods;
+  /// F x M; 0 as recorded, k by methods[k - 1]; empty where nothing was made.
   Array<std::uint8_t> method;
-  /// When a marker was really seen, s after its frame's time: M (the same in every frame), F x M, or empty
-  /// (0).
+  /// Time at which a marker was actually measured, s after its frame's time: M (the same in every frame), F x
+  /// M, or empty (0).
   Array<double> sample_offset_s;
 
-  [[nodiscard]] std::int64_t frames() const { return time.frames; }
-  [[nodiscard]] std::int64_t markers() const { return static_cast<std::int64_t>(names.size()); }
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }                               ///< F
+  [[nodiscard]] std::int64_t markers() const { return static_cast<std::int64_t>(names.size()); }  ///< M
+  /// Place of a marker in a frame, in every F x M array.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t marker) const {
     return static_cast<std::size_t>(frame * markers() + marker);
   }
+  /// A sample, m; NaN where it is not present.
   [[nodiscard]] Eigen::Map<const Eigen::Vector3d> x(std::int64_t frame, std::int64_t marker) const {
     return Eigen::Map<const Eigen::Vector3d>(x_in_world.data() + 3 * index(frame, marker));
   }
+  /// The same, to be written; the state is left as it is.
   [[nodiscard]] Eigen::Map<Eigen::Vector3d> x(std::int64_t frame, std::int64_t marker) {
     return Eigen::Map<Eigen::Vector3d>(x_in_world.data() + 3 * index(frame, marker));
   }
@@ -60,6 +65,7 @@ struct Trajectories {
   void set_method(std::int64_t frame, std::int64_t marker, std::string_view name);
   /// Time of a sample, s.
   [[nodiscard]] double time_s(std::int64_t frame, std::int64_t marker) const;
+  /// Take a sample's coordinates away and say why: missing or rejected.
   void set_missing(std::int64_t frame, std::int64_t marker, SampleState why = SampleState::missing);
   /// Index of a marker, or -1.
   [[nodiscard]] std::int64_t find(std::string_view name) const;

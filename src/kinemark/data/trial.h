@@ -17,13 +17,13 @@ namespace kinemark::data {
 /// Analog channels sampled evenly: S samples, K channels, in the unit that each channel names.
 struct AnalogChannels {
   std::vector<std::string> names;  ///< K
-  std::vector<std::string> units;  ///< K, as the file says ("V", "N", "Nmm"), may be empty
-  double rate_hz = 0.0;
-  std::int64_t samples = 0;  ///< S
-  Array<double> values;      ///< S x K
+  std::vector<std::string> units;  ///< K, as stated in the file ("V", "N", "Nmm"), may be empty
+  double rate_hz = 0.0;            ///< of each channel
+  std::int64_t samples = 0;        ///< S
+  Array<double> values;            ///< S x K
 };
 
-/// An instant that somebody labelled.
+/// A labelled instant (an event).
 struct Event {
   std::string label;    ///< "Foot Strike"
   std::string context;  ///< "Left", "Right", "General" or empty
@@ -43,21 +43,22 @@ struct ForcePlate {
 struct Trial {
   std::string source;            ///< file name as given
   std::string format;            ///< "C3D", "TRC"
-  std::string units_in_file;     ///< length unit of the file: "mm", "m", or empty when it did not say
-  std::string software;          ///< who wrote the file, or empty
+  std::string units_in_file;     ///< length unit of the file: "mm", "m", or empty when it is not stated
+  std::string software;          ///< the program that wrote the file, or empty
   std::int64_t first_frame = 1;  ///< number of the first frame in the file's own counting
   Trajectories markers;          ///< t0 is (first_frame - 1) / rate for C3D, the first time written for TRC
   Array<float>
       residual_m;  ///< F x M reconstruction residual, NaN where not measured; empty when the file has none
   Array<std::uint8_t>
-      camera_mask;  ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
-  AnalogChannels analog;
-  std::vector<Event> events;
-  std::vector<ForcePlate> force_plates;
-  std::vector<std::string> warnings;  ///< what was odd about the file, one sentence each
+      camera_mask;            ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
+  AnalogChannels analog;      ///< no channels: the file has none
+  std::vector<Event> events;  ///< in the order of the file
+  std::vector<ForcePlate> force_plates;  ///< in the order of the file
+  std::vector<std::string> warnings;     ///< irregularities of the file, one sentence each
 
+  /// number of the last frame in the file's own counting
   [[nodiscard]] std::int64_t last_frame() const { return first_frame + markers.frames() - 1; }
-  /// Markers are valid and all other arrays have the shapes they promise.
+  /// Markers are valid and all other arrays have their documented shapes.
   [[nodiscard]] Status validate() const;
 };
 

@@ -5,42 +5,20 @@
 #include <algorithm>
 #include <iterator>
 
+#include "kinemark/core/enum_names.h"
+
 namespace kinemark::data {
 
 std::string_view to_string(InterpolationKernel kernel) {
-  switch (kernel) {
-    case InterpolationKernel::none:
-      return "none";
-    case InterpolationKernel::hold:
-      return "hold";
-    case InterpolationKernel::linear:
-      return "linear";
-    case InterpolationKernel::spline:
-      return "cubic spline";
-    case InterpolationKernel::catmull_rom:
-      return "Catmull-Rom";
-    case InterpolationKernel::lagrange:
-      return "Lagrange";
-    case InterpolationKernel::pchip:
-      return "PCHIP";
-    case InterpolationKernel::akima:
-      return "Akima";
-  }
-  return "unknown";
+  static constexpr EnumNames<InterpolationKernel::akima> kNames{
+      "none", "hold", "linear", "cubic spline", "Catmull-Rom", "Lagrange", "PCHIP", "Akima"};
+  return kNames[kernel];
 }
 
 std::string_view to_string(BandVerdict verdict) {
-  switch (verdict) {
-    case BandVerdict::unknown:
-      return "unknown";
-    case BandVerdict::open:
-      return "open";
-    case BandVerdict::low_passed:
-      return "low-passed or model-generated";
-    case BandVerdict::undecided:
-      return "undecided";
-  }
-  return "unknown";
+  static constexpr EnumNames<BandVerdict::undecided> kNames{"unknown", "open",
+                                                            "low-passed or model-generated", "undecided"};
+  return kNames[verdict];
 }
 
 int Upsampling::phase_at(std::int64_t frame) const {

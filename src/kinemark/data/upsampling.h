@@ -27,8 +27,8 @@ enum class InterpolationKernel : std::uint8_t {
 
 /// From this frame to the next run real samples are the frames n with n % factor == phase.
 struct PhaseRun {
-  std::int64_t first_frame = 0;
-  int phase = 0;
+  std::int64_t first_frame = 0;  ///< where the run begins
+  int phase = 0;                 ///< 0 to factor - 1
 };
 
 /// One stream, or all streams together. Factor 1: not found to be interpolated; the numbers then are those of
@@ -44,18 +44,19 @@ struct Upsampling {
   double residual_m = 0.0;        ///< what the kernel leaves unexplained, median RMS
   double rounding_m = 0.0;        ///< the same if there is nothing but rounding
   std::vector<PhaseRun> runs;  ///< in time order, the first at frame 0; more than one where the phase slips
-  bool inherited = false;      ///< too little of its own to see (still, short): taken over from the recording
+  bool inherited = false;      ///< too few data of its own (at rest, short): copied from the recording
 
+  /// Whether samples were made.
   [[nodiscard]] bool found() const { return factor > 1; }
   /// Phase in force at a frame; 0 when nothing was found.
   [[nodiscard]] int phase_at(std::int64_t frame) const;
-  /// True when the sample was really taken there, or nothing was found.
+  /// True when the sample was measured, or nothing was found.
   [[nodiscard]] bool real(std::int64_t frame) const {
     return factor == 1 || frame % factor == phase_at(frame);
   }
 };
 
-/// What the spectrum of a stream says of who made its noise.
+/// What the top of a spectrum says.
 enum class BandVerdict : std::uint8_t {
   unknown,     ///< no complete stretch of 64 frames
   open,        ///< noise up to half the rate, as cameras give it
@@ -68,10 +69,10 @@ enum class BandVerdict : std::uint8_t {
 
 /// Levels are those of white noise that would have the same density: RMS over the whole band, per axis.
 struct BandCheck {
-  BandVerdict verdict = BandVerdict::unknown;
-  double top_m = 0.0;     ///< level at 0.8 to 1 of half the rate
-  double middle_m = 0.0;  ///< level at 0.3 to 0.6 of half the rate
-  double edge_hz = 0.0;   ///< above this the density stays within ten times that at the top
+  BandVerdict verdict = BandVerdict::unknown;  ///< what the levels say
+  double top_m = 0.0;                          ///< level at 0.8 to 1 of half the rate
+  double middle_m = 0.0;                       ///< level at 0.3 to 0.6 of half the rate
+  double edge_hz = 0.0;  ///< above this the density stays within ten times that at the top
 };
 
 /// Whether the recorder made samples of a recording: what was found, what not, what cannot be seen, and what
@@ -82,7 +83,7 @@ struct UpsamplingAccount {
   std::vector<Upsampling> markers;      ///< M
   BandCheck band;                       ///< median over the markers
   std::vector<BandCheck> marker_bands;  ///< M
-  std::vector<std::string> sentences;   ///< for people; the last one says what the test is blind to
+  std::vector<std::string> sentences;   ///< for people; the last one names what the test cannot detect
   std::string done;                     ///< "marked as upsampled", "removed", ...; empty: nothing to do
   bool handled = false;                 ///< false with a factor above 1: needs attention
 

@@ -20,11 +20,12 @@ struct Wrench {
   Array<double> point;   ///< F x 3, m, where the force acts; NaN allowed where force and moment are 0
 };
 
+/// What plates, handles and cables do to the body, on one clock.
 struct Wrenches {
-  TimeBase time;
-  std::vector<Wrench> items;
+  TimeBase time;              ///< F = time.frames
+  std::vector<Wrench> items;  ///< one a plate, handle or cable
 
-  [[nodiscard]] std::int64_t frames() const { return time.frames; }
+  [[nodiscard]] std::int64_t frames() const { return time.frames; }  ///< F
   /// Shapes agree, and a force that is not 0 has a point.
   [[nodiscard]] Status validate() const;
 };

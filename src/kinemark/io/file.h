@@ -16,13 +16,14 @@ namespace kinemark::io {
 /// sentence that names the file.
 class InputFile {
  public:
+  /// Open for reading; Code::io with the system's reason when that cannot be done.
   static Result<InputFile> open(const std::filesystem::path& path);
-  InputFile(InputFile&& other) noexcept;
-  InputFile& operator=(InputFile&& other) noexcept;
+  InputFile(InputFile&& other) noexcept;             ///< takes the open file over
+  InputFile& operator=(InputFile&& other) noexcept;  ///< closes its own and takes the other over
   ~InputFile();
 
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::size_t size() const { return size_; }         ///< bytes
+  [[nodiscard]] const std::string& name() const { return name_; }  ///< the path as given, for messages
   /// Fill `out` from `offset`; returns the number of bytes there were (less than asked only at the end of the
   /// file).
   [[nodiscard]] Result<std::size_t> read_at(std::size_t offset, std::span<std::byte> out) const;
@@ -43,14 +44,17 @@ class InputFile {
 /// refused (Code::io) unless `force` is set.
 class OutputFile {
  public:
+  /// Begin a file. Code::io when it exists and `force` is false, or the folder cannot be written.
   static Result<OutputFile> create(const std::filesystem::path& path, bool force);
-  OutputFile(OutputFile&& other) noexcept;
+  OutputFile(OutputFile&& other) noexcept;  ///< takes the open file over
   OutputFile& operator=(OutputFile&&) = delete;
   ~OutputFile();
 
   /// Append bytes. A full disk is reported here or by commit().
   [[nodiscard]] Status write(std::span<const std::byte> bytes);
+  /// Append text, byte by byte as it is.
   [[nodiscard]] Status write(std::string_view text);
+  /// Make the file appear under its name, on the disk for good. Code::io when that fails: then there is none.
   [[nodiscard]] Status commit();
   /// The file as it is called until commit(), for libraries that must open it by name. They may change its
   /// content, not replace it.

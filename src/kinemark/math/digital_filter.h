@@ -9,7 +9,7 @@ namespace kinemark::math {
 
 /// H(z) = (b0 + b1 / z + b2 / z^2) / (1 + a1 / z + a2 / z^2).
 struct Biquad {
-  double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
+  double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;  ///< a0 is 1
 };
 
 /// Low-pass Butterworth filter of even order as order / 2 sections, by the bilinear transform.

@@ -41,7 +41,8 @@ double unwrap(double angle, double near) {
 }  // namespace
 
 Vector3d to_angles_about(const Matrix3d& axes, const Matrix3d& rotation, const Vector3d& near_rad) {
-  // In the basis of the axes the product is body-fixed X-Y-Z; a left-handed basis turns every angle's sign.
+  // In the basis of the axes the product is body-fixed X-Y-Z; a left-handed basis reverses the sign of every
+  // angle.
   const double handedness = axes.determinant() > 0.0 ? 1.0 : -1.0;
   const Matrix3d R = axes.transpose() * rotation * axes;
   const Vector3d near = handedness * near_rad;

@@ -12,18 +12,20 @@ namespace kinemark::math {
 
 /// Value and first two derivatives at one argument.
 struct FunctionValue {
-  double f = 0.0;
-  double df = 0.0;
-  double ddf = 0.0;
+  double f = 0.0;    ///< f(x)
+  double df = 0.0;   ///< f'(x)
+  double ddf = 0.0;  ///< f''(x)
 };
 
 /// A smooth function R -> R. Angles in radians, lengths in metres, as the owner defines.
 class ScalarFunction {
  public:
+  /// How the function is written down.
   enum class Kind { constant, polynomial, sine, simm_spline, natural_spline, piecewise_linear };
 
   /// The identity, x.
   ScalarFunction();
+  /// The same value everywhere.
   static ScalarFunction constant(double value);
   /// slope * x + offset.
   static ScalarFunction linear(double slope, double offset);
@@ -46,18 +48,23 @@ class ScalarFunction {
   /// Value, first and second derivative. O(1), O(log knots) for splines; allocates nothing.
   [[nodiscard]] FunctionValue operator()(double x) const;
 
-  [[nodiscard]] Kind kind() const { return kind_; }
-  [[nodiscard]] bool is_identity() const { return is_identity_; }
+  [[nodiscard]] Kind kind() const { return kind_; }                ///< how it is written down
+  [[nodiscard]] bool is_identity() const { return is_identity_; }  ///< f(x) = x, exactly
+  /// True for a polynomial of degree 0.
   [[nodiscard]] bool is_constant() const;
   /// True for a polynomial of degree one or less; then slope() and offset() hold.
   [[nodiscard]] bool is_linear() const;
+  /// f'(x) of a line.
   [[nodiscard]] double slope() const;
+  /// f(0) of a line.
   [[nodiscard]] double offset() const;
   /// Multiplier in front of everything below.
   [[nodiscard]] double factor() const { return factor_; }
   /// polynomial: coefficients from the constant upwards; sine: amplitude, omega, phase, offset.
   [[nodiscard]] const std::vector<double>& coefficients() const { return coefficients_; }
+  /// splines and piecewise lines: increasing
   [[nodiscard]] const std::vector<double>& knots_x() const { return x_; }
+  /// splines and piecewise lines: one a knot
   [[nodiscard]] const std::vector<double>& knots_y() const { return y_; }
 
  private:

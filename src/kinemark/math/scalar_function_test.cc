@@ -54,7 +54,7 @@ TEST(SimmSpline, ReproducesACubicExactlyBecauseOfItsEndConditions) {
   for (const double t : x) y.push_back(cubic(t));
   const auto f = ScalarFunction::simm_spline(x, y).value();
   for (double t = -1.0; t <= 2.0; t += 0.01) EXPECT_NEAR(f(t).f, cubic(t), 1e-13);
-  // A natural spline cannot: that is how the two are told apart.
+  // A natural spline cannot: this distinguishes the two.
   const auto natural = ScalarFunction::natural_spline(x, y).value();
   EXPECT_GT(std::abs(natural(-0.7).f - cubic(-0.7)), 1e-3);
 }

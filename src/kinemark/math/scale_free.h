@@ -7,17 +7,17 @@
 
 namespace kinemark::math {
 
-/// Four readings against four known shares of a source whose strength nobody knows: what is left to explain.
+/// Residual of four readings of a source with known shares and unknown strength; the strength is eliminated.
 ///
 /// Least squares over the strength s of |readings - s shares|^2 leaves s = shares . readings / shares .
-/// shares and a residual at right angles to the shares, told here in an orthonormal basis of that space. So
+/// shares and a residual orthogonal to the shares, given here in an orthonormal basis of that space. So
 /// its square is the misfit, its three parts are independent with the variance of a reading, and its
-/// derivative is basis * (d readings - scale * d shares), but for a term that vanishes with the misfit. Golub
-/// & Pereyra (1973), SIAM J. Numer. Anal. 10:413; Kaufman (1975), BIT 15:49.
+/// derivative is basis * (d readings - scale * d shares), except for a term that vanishes with the misfit.
+/// Golub & Pereyra (1973), SIAM J. Numer. Anal. 10:413; Kaufman (1975), BIT 15:49.
 struct ScaleFree {
-  double scale = 0.0;
-  Eigen::Matrix<double, 3, 4> basis;
-  Eigen::Vector3d residual;
+  double scale = 0.0;                 ///< s, readings per share
+  Eigen::Matrix<double, 3, 4> basis;  ///< rows: orthonormal, at right angles to the shares
+  Eigen::Vector3d residual;           ///< basis * readings
 };
 
 /// `shares` must not be zero; its first element may have any sign. O(1), allocates nothing.

@@ -30,7 +30,7 @@ EulerRates euler_rates(const Model::FreeJoint& free, const VectorXd& q) {
   return e;
 }
 
-/// dB/dt times the rates: each axis is turned back by the angles that come after its own.
+/// dB/dt times the rates: each axis is rotated back by the angles that follow its own.
 Vector3d turning_axes(const Model::FreeJoint& free, const EulerRates& e, const Vector3d& rates) {
   const Vector3d a1 = free.rotation_axes.col(1), a2 = free.rotation_axes.col(2);
   const Vector3d first =

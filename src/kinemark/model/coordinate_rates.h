@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Rates of change of the file's coordinates against the speeds of the tree: the same numbers, but for free
-// joints (Euler rates against angular velocity) and for coupled coordinates.
+// Conversion between the rates of the file's coordinates and the speeds of the tree. Both agree except for
+// free joints (Euler rates instead of angular velocity) and coupled coordinates.
 #pragma once
 
 #include <Eigen/Core>

@@ -108,8 +108,8 @@ void gravity_forces(const Model& model, Workspace& w, VectorXd& g) {
 void inverse_dynamics(const Model& model, Workspace& w, const VectorXd& vdot, VectorXd& tau) {
   body_inertias(model, w);
   const auto bodies = model.bodies();
-  // Accelerations first (they stand where the forces will), parents before children; gravity is a ground that
-  // accelerates upward.
+  // Accelerations first (stored in the place of the forces), parents before children; gravity enters as an
+  // upward acceleration of the ground.
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Spatial a =
         bodies[b].parent >= 0 ? w.force[at(bodies[b].parent)] : Spatial{Vector3d::Zero(), -model.gravity()};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// models/human.osim: what it promises, and that it is what its script writes.
+// models/human.osim: its documented properties, and that it equals the output of its script.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>

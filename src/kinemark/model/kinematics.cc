@@ -52,7 +52,7 @@ double evaluate_primitive(const Model::Primitive& primitive, int k, Workspace& w
   return f.f * g.f;
 }
 
-// R <- R * rotation(axis, angle); two columns turn when the axis is a coordinate axis.
+// R <- R * rotation(axis, angle); only two columns change when the axis is a coordinate axis.
 void rotate_by(Matrix3d& R, const Model::Primitive& primitive, double angle) {
   const double s = std::sin(angle), c = std::cos(angle);
   if (primitive.principal >= 0) {
@@ -177,9 +177,8 @@ void velocities(const Model& model, Workspace& w, const VectorXd& v) {
       a = w.body_bias[at(body.parent)];
     }
     if (body.free_joint >= 0) {
-      // The three translations are fixed in the ground; the three rotation axes turn with the body, and what
-      // turns them is everything but themselves (the cross product of the joint's own angular velocity with
-      // itself is 0).
+      // The three translations are fixed in the ground; the three rotation axes rotate with the body. The
+      // joint's own angular velocity does not contribute (its cross product with itself is 0).
       const int speed = model.free_joints()[at(body.free_joint)].speed_idx;
       Spatial turn;
       for (int i = 0; i < 3; ++i) {

@@ -111,7 +111,7 @@ TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
         M_judge(i, j) =
             full(dof_of_speed[static_cast<std::size_t>(i)], dof_of_speed[static_cast<std::size_t>(j)]);
     }
-    // MuJoCo turns every inertia to its principal axes on loading, which costs digits.
+    // MuJoCo transforms every inertia to its principal axes on loading, which costs digits.
     worst_dynamics = std::max({worst_dynamics, relative_error(M, M_judge), relative_error(b + g, force)});
     EXPECT_GT(force.norm(), 100.0);
   }

@@ -104,7 +104,8 @@ void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd&
             if (early_speed[i] >= 0 && late_speed[j] >= 0)
               subtract(early_speed[i], late_speed[j], early_slope[i] * late_slope[j] * h);
       }
-      // The primitive with itself: it turns its own push, and its value bends.
+      // The primitive with itself: its motion rotates its own force field, and its value has a second
+      // derivative.
       const double own = s.w.dot(t);
       const double bend[2] = {w.curvature[at(l)], w.second_curvature[at(l)]};
       for (int i = 0; i < 2; ++i)

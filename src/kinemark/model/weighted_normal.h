@@ -3,10 +3,10 @@
 // Least squares over markers without a Jacobian.
 //
 // J'WJ of all markers equals the mass matrix of a tree whose bodies are made of point masses w_i at the
-// markers, and J'Wr equals the generalised forces of forces w_i r_i applied there. Both follow in one sweep
-// over the tree, and so does the exact second-order term  sum_i w_i r_i . d2p_i/dv dv:  for motion fields
-// (w_c, v_c) above (w_d, v_d) it is w_c . (v_d x F + (A - tr(A) I) w_d)  with  F = sum w_i r_i,  A = sum w_i
-// p_i r_i'  over the markers moved by d.
+// markers, and J'Wr equals the generalised forces of forces w_i r_i applied there. Both are computed in one
+// sweep over the tree, and so does the exact second-order term  sum_i w_i r_i . d2p_i/dv dv:  for motion
+// fields (w_c, v_c) above (w_d, v_d) it is w_c . (v_d x F + (A - tr(A) I) w_d)  with  F = sum w_i r_i,  A =
+// sum w_i p_i r_i'  over the markers moved by d.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,8 +34,8 @@ void add_marker_forces(const Model& model, Workspace& w, const VectorXd& weight,
 /// clear_forces().
 void project_forces(const Model& model, Workspace& w, VectorXd& g);
 
-/// H -= sum over the added forces of force . d2 point / dv dv. With marker forces this turns a Gauss-Newton
-/// matrix into the exact Hessian of sum w |r|^2 / 2. After project_forces().
+/// H -= sum over the added forces of force . d2 point / dv dv. With marker forces this makes a Gauss-Newton
+/// matrix the exact Hessian of sum w |r|^2 / 2. After project_forces().
 void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd& H);
 
 }  // namespace kinemark::model

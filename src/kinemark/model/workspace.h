@@ -12,9 +12,9 @@ namespace kinemark::model {
 
 /// Rigid inertia about the world origin: mass, first moment (mass times centre), second moment.
 struct SpatialInertia {
-  double mass = 0.0;
-  Vector3d first = Vector3d::Zero();
-  Matrix3d second = Matrix3d::Zero();
+  double mass = 0.0;                   ///< kg
+  Vector3d first = Vector3d::Zero();   ///< kg m
+  Matrix3d second = Matrix3d::Zero();  ///< kg m^2
 };
 
 /// One thread's scratch for one model. Sized once; the functions below allocate nothing.
@@ -22,6 +22,7 @@ struct SpatialInertia {
 /// Which function fills what: kinematics(): q, dq, body poses, columns, marker positions. velocities(): body
 /// velocities and bias accelerations. The rest is scratch. World axes throughout.
 struct Workspace {
+  /// Sizes everything for a model.
   explicit Workspace(const Model& model);
 
   // kinematics()
@@ -38,14 +39,14 @@ struct Workspace {
   Eigen::Matrix3Xd marker;                                           ///< 3 x M, m
 
   // velocities()
-  VectorXd v;
+  VectorXd v;  ///< nv, speeds as given
   std::vector<Spatial> body_velocity,
       body_bias;  ///< fields about the world origin; bias: acceleration at zero vdot
 
   // scratch
-  std::vector<SpatialInertia> inertia, composite;
-  std::vector<Spatial> force;
-  std::vector<Matrix3d> moment;
+  std::vector<SpatialInertia> inertia, composite;  ///< of each body; scratch
+  std::vector<Spatial> force;                      ///< N m and N; scratch
+  std::vector<Matrix3d> moment;                    ///< scratch
 };
 
 }  // namespace kinemark::model

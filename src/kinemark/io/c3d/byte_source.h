@@ -18,17 +18,18 @@ namespace kinemark::io {
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
-  [[nodiscard]] virtual std::size_t size() const = 0;
-  /// What error sentences begin with: the file's name.
+  [[nodiscard]] virtual std::size_t size() const = 0;  ///< bytes in all
+  /// The file's name, with which error messages begin.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// Fill `out` from `offset`; returns how many bytes there were (fewer only at the end).
   [[nodiscard]] virtual Result<std::size_t> read_at(std::size_t offset, std::span<std::byte> out) const = 0;
 };
 
+/// An open file as a source of bytes.
 class FileSource final : public ByteSource {
  public:
-  explicit FileSource(InputFile file) : file_(std::move(file)) {}
-  [[nodiscard]] std::size_t size() const override { return file_.size(); }
+  explicit FileSource(InputFile file) : file_(std::move(file)) {}           ///< takes the file over
+  [[nodiscard]] std::size_t size() const override { return file_.size(); }  ///< bytes of the file
   [[nodiscard]] const std::string& name() const override { return file_.name(); }
   [[nodiscard]] Result<std::size_t> read_at(std::size_t offset, std::span<std::byte> out) const override {
     return file_.read_at(offset, out);
@@ -41,8 +42,9 @@ class FileSource final : public ByteSource {
 /// Bytes that the caller keeps alive.
 class MemorySource final : public ByteSource {
  public:
+  /// `name` begins messages
   MemorySource(std::span<const std::byte> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
-  [[nodiscard]] std::size_t size() const override { return bytes_.size(); }
+  [[nodiscard]] std::size_t size() const override { return bytes_.size(); }  ///< bytes given
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Result<std::size_t> read_at(std::size_t offset, std::span<std::byte> out) const override {
     const std::size_t n = offset < bytes_.size() ? std::min(out.size(), bytes_.size() - offset) : 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What tests/acceptance/c3d_ezc3d.py needs of the library, as a program:
+// The library as a program for tests/acceptance/c3d_ezc3d.py:
 //   write FILE MARKERS FRAMES CHANNELS [gapless]   a simulated C3D file, and FILE.x FILE.state FILE.residual
 //   FILE.analog beside it read FILE REPEATS THREADS                      JSON: best time, memory, checksum of
 //   the coordinates corpus FOLDER                                  small files of all kinds, to start a
@@ -99,7 +99,7 @@ int read(const fs::path& path, int repeats, int threads) {
   return 0;
 }
 
-/// All that the plates say, for comparison: nothing subtracted, nothing left out.
+/// The complete plate data, for comparison: nothing subtracted, nothing left out.
 int forces(const fs::path& path) {
   const auto read = io::read_plate_forces(path, {.contact_force_n = 0.0, .baseline = false});
   if (!read) return report(std::unexpected(read.error()));

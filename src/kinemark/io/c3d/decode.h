@@ -20,13 +20,13 @@ struct C3dFrames {
   std::span<double> analog;             ///< n x (S / F) x K
 };
 
-/// What decoding met; adds up over pieces of a file.
+/// Counts of what was decoded; they add up over pieces of a file.
 struct C3dSeen {
   std::int64_t measured = 0;      ///< samples with a residual or cameras
   std::int64_t unmeasured = 0;    ///< samples with coordinates and a fourth word of 0
   std::int64_t with_cameras = 0;  ///< samples with a camera mask
 
-  C3dSeen& operator+=(const C3dSeen& other);
+  C3dSeen& operator+=(const C3dSeen& other);  ///< adds the counts of another piece
 };
 
 /// Decode `frames` whole frames at `bytes`.

@@ -66,7 +66,7 @@ bool events_from_group(const C3dParameters& p, std::string_view group, data::Tri
   const std::size_t n = used ? internal::bounded_count(*used, there) : there;
   if (used && *used > static_cast<double>(there))
     trial.warnings.push_back(
-        fmt::format("{}:USED promises {} events, {}:TIMES holds {}", group, *used, group, there));
+        fmt::format("{}:USED states {} events, {}:TIMES holds {}", group, *used, group, there));
   if (n == 0) return false;
   const std::vector<std::string> labels = p.texts(group, "LABELS");
   const std::vector<std::string> contexts = p.texts(group, "CONTEXTS");

@@ -10,7 +10,7 @@
 namespace kinemark::io {
 
 /// Fill everything of a trial that is not samples: names (unique), clock, analog names and units, events,
-/// force plates, maker. What had to be mended is added to trial.warnings.
+/// force plates, maker. Repairs are reported in trial.warnings.
 void describe_trial(const C3dHeader& header, const C3dParameters& parameters, const C3dLayout& layout,
                     data::Trial& trial);
 

@@ -223,9 +223,8 @@ TEST(C3dFiles, WhatMakersGotWrongIsToldInAWarning) {
   EXPECT_THAT(warnings("ezc3d-testFiles/Optotrak.c3d"),
               Contains(AllOf(HasSubstr("cut short"), HasSubstr("1149 frames"), HasSubstr("29 whole ones"))));
   EXPECT_THAT(warnings("ezc3d-testFiles/C3DRotationExample.c3d"), Contains(HasSubstr("ROTATION group")));
-  EXPECT_THAT(
-      warnings("c3d-org/sample20/phasespace_sample.c3d"),
-      AllOf(Contains(HasSubstr("the header alone is believed")), Contains(HasSubstr("mm is assumed"))));
+  EXPECT_THAT(warnings("c3d-org/sample20/phasespace_sample.c3d"),
+              AllOf(Contains(HasSubstr("the header alone is used")), Contains(HasSubstr("mm is assumed"))));
   EXPECT_THAT(warnings("c3d-org/sample18/bad_parameter_section.c3d"),
               Contains(HasSubstr("parameter section is corrupt")));
   EXPECT_THAT(warnings("c3d-org/sample28/dynamic.C3D"),

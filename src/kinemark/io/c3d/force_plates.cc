@@ -13,7 +13,7 @@
 namespace kinemark::io {
 namespace {
 
-constexpr double kFar = 1000.0;  // m; a corner further away is a number gone wrong
+constexpr double kFar = 1000.0;  // m; a corner further away is an invalid number
 
 bool near(const Eigen::Vector3d& x) { return (x.array().abs() < kFar).all(); }
 
@@ -82,7 +82,7 @@ std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters, co
     if (plate.type > 0) plate.channel_idx = find_channels(channels, i, plate.type, layout.analog_channels);
     if (plate.channel_idx.empty()) {
       warnings.push_back(
-          fmt::format("force plate {} is left out: its type or its analog channels make no sense", i + 1));
+          fmt::format("force plate {} is left out: its type or its analog channels are not valid", i + 1));
       continue;
     }
     for (std::size_t c = 0; c < 4; ++c) {
@@ -93,7 +93,8 @@ std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters, co
     found.sound = found.sound && near(plate.origin_in_plate);
     read_calibration(calibrations, i, found);
     if (!found.sound)
-      warnings.push_back(fmt::format("force plate {} has corners or an origin that make no sense", i + 1));
+      warnings.push_back(
+          fmt::format("force plate {} has corners or an origin that are not plausible", i + 1));
     plates.push_back(std::move(found));
   }
   return plates;

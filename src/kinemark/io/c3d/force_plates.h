@@ -14,13 +14,13 @@ namespace kinemark::io {
 /// One plate of the group FORCE_PLATFORM.
 struct C3dForcePlate {
   int number = 1;            ///< as the file counts, from 1
-  bool sound = true;         ///< corners and origin are numbers that can be true
+  bool sound = true;         ///< corners and origin have plausible values
   int calibration_rows = 0;  ///< of CAL_MATRIX, 0 without
-  data::ForcePlate plate;
+  data::ForcePlate plate;    ///< corners and origin in metres
 };
 
-/// The plates in use whose type and analog channels make sense; the others, and geometry that cannot be true,
-/// are told in `warnings`.
+/// The plates in use whose type and analog channels are valid; the others, and implausible geometry, are
+/// reported in `warnings`.
 [[nodiscard]] std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters,
                                                            const C3dLayout& layout,
                                                            std::vector<std::string>& warnings);

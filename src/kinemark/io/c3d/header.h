@@ -22,28 +22,29 @@ inline constexpr std::string_view kC3dResidualsParameter = "RESIDUALS_GIVEN";
 
 /// An event of the header: at most 18, four letters each, in seconds after the file's first frame.
 struct C3dHeaderEvent {
-  std::string label;
-  double time_s = 0.0;
-  bool shown = true;
+  std::string label;    ///< four letters at most
+  double time_s = 0.0;  ///< after the file's first frame
+  bool shown = true;    ///< the file's own flag that the event is to be shown
 };
 
-/// The first block of a C3D file, as it is; what is true of the file is decided in layout.h.
+/// The first block of a C3D file, as stored; layout.h resolves its contradictions with the parameters.
 struct C3dHeader {
-  int parameter_block = 2;
-  int points = 0;
-  int analog_per_frame = 0;  ///< channels x samples
-  int first_frame = 1;       ///< 16 bit
-  int last_frame = 0;        ///< 16 bit
-  int max_gap_frames = 0;
-  float scale = 0.0F;  ///< < 0: numbers are float
-  int data_block = 0;
-  int samples_per_frame = 0;  ///< analog
-  float rate_hz = 0.0F;
-  std::vector<C3dHeaderEvent> events;
+  int parameter_block = 2;             ///< block at which the parameters begin
+  int points = 0;                      ///< points in a frame
+  int analog_per_frame = 0;            ///< channels x samples
+  int first_frame = 1;                 ///< 16 bit
+  int last_frame = 0;                  ///< 16 bit
+  int max_gap_frames = 0;              ///< longest gap that was interpolated, as the file says
+  float scale = 0.0F;                  ///< < 0: numbers are float
+  int data_block = 0;                  ///< block at which the samples begin
+  int samples_per_frame = 0;           ///< analog
+  float rate_hz = 0.0F;                ///< frames a second
+  std::vector<C3dHeaderEvent> events;  ///< 18 at most
 };
 
 /// True when the first two bytes can be those of a C3D file.
 [[nodiscard]] bool looks_like_c3d(std::span<const std::byte, kC3dBlock> block);
+/// Read the first block; takes every number as it is.
 [[nodiscard]] C3dHeader parse_header(std::span<const std::byte, kC3dBlock> block, Processor processor);
 /// Events past the eighteenth are left out, labels cut to four letters.
 [[nodiscard]] std::array<std::byte, kC3dBlock> encode_header(const C3dHeader& header, Processor processor);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files cut anywhere and with bytes turned into anything: an error of one sentence or a valid trial, never
+// Files cut anywhere and with random bytes changed: an error of one sentence or a valid trial, never
 // more memory than the file's size explains.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

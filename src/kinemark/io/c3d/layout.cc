@@ -31,7 +31,7 @@ std::optional<std::int64_t> count_of(const C3dParameters& p, std::string_view gr
 
 bool usable(double value) { return std::isfinite(value) && value > 0.0; }
 
-/// What a frame consists of, and how many were promised.
+/// Contents of a frame, and the stated number of frames.
 struct Shape {
   std::int64_t points = 0;
   std::int64_t channels = 0;
@@ -84,7 +84,7 @@ std::optional<std::int64_t> field(const C3dParameters& p, std::string_view name)
   return found->numbers.size() < 2 ? low : low + 65536 * as_count(found->numbers[1]);
 }
 
-/// What the file says of its number of frames, the most trustworthy first.
+/// The numbers of frames stated in the file, the most trustworthy first.
 std::vector<Claim> frame_claims(const C3dHeader& h, const C3dParameters& p) {
   std::vector<Claim> claims;
   const auto first = field(p, "ACTUAL_START_FIELD");
@@ -117,33 +117,33 @@ Result<std::int64_t> settle_frames(const std::vector<Claim>& claims, std::size_t
   for (const Claim& claim : claims) {
     if (!fills(claim.frames, frame_bytes, data_bytes)) continue;
     if (claim.frames != claims.front().frames)
-      warnings.push_back(fmt::format("{} promises {} frames, {} {}, and so many the file holds",
+      warnings.push_back(fmt::format("{} states {} frames, {} {}, and the file holds that many",
                                      claims.front().source, claims.front().frames, claim.source,
                                      claim.frames));
     const Claim& header = claims.back();
     if (header.source == kHeader && header.frames != claim.frames && claim.frames < kMaxWord)
-      warnings.push_back(fmt::format("{} promises {} frames, {} {}; the parameter is used", claim.source,
+      warnings.push_back(fmt::format("{} states {} frames, {} {}; the parameter is used", claim.source,
                                      claim.frames, header.source, header.frames));
     return claim.frames;
   }
   if (claims.empty()) {
-    warnings.push_back(
-        fmt::format("nowhere says how many frames there are; the file has room for {}", there));
+    warnings.push_back(fmt::format("does not state the number of frames; the file has room for {}", there));
     return there;
   }
   const Claim& best = claims.front();
   if (best.frames > there) {
-    warnings.push_back(fmt::format("is cut short: {} promises {} frames, {} whole ones are there",
-                                   best.source, best.frames, there));
-    return there;
-  }
-  // Sixteen bits end at 65535: a longer file that says so nowhere else is believed by its size.
-  if (there >= kMaxWord && best.frames <= kMaxWord) {
-    warnings.push_back(fmt::format("{} promises {} frames, the file holds {}, which are read", best.source,
+    warnings.push_back(fmt::format("is cut short: {} states {} frames, {} whole ones are there", best.source,
                                    best.frames, there));
     return there;
   }
-  warnings.push_back(fmt::format("has {} more bytes after the {} frames that {} promises; they are left out",
+  // Sixteen bits end at 65535: without another entry the number of frames of a longer file follows from its
+  // size.
+  if (there >= kMaxWord && best.frames <= kMaxWord) {
+    warnings.push_back(fmt::format("{} states {} frames, the file holds {}, which are read", best.source,
+                                   best.frames, there));
+    return there;
+  }
+  warnings.push_back(fmt::format("has {} more bytes after the {} frames that {} states; they are left out",
                                  data_bytes - static_cast<std::size_t>(best.frames) * frame_bytes,
                                  best.frames, best.source));
   return best.frames;
@@ -292,7 +292,7 @@ Result<C3dLayout> settle_layout(const C3dHeader& header, const C3dParameters& pa
     const bool header_wins = filled(other) && !filled(shape);
     if (header_wins || shape.frame_bytes(out.is_float) != other.frame_bytes(out.is_float))
       warnings.push_back(
-          fmt::format("the parameters promise {}, the header {}; {} believed", words(shape), words(other),
+          fmt::format("the parameters state {}, the header {}; {} used", words(shape), words(other),
                       header_wins ? "only the header's fit the file and are" : "the parameters are"));
     if (header_wins) shape = other;
   }

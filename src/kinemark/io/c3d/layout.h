@@ -15,14 +15,14 @@
 
 namespace kinemark::io {
 
-/// What a C3D file holds and where, once header, parameters and file size have been heard.
+/// Contents of a C3D file and their byte positions, derived from header, parameters and file size.
 struct C3dLayout {
-  Processor processor = Processor::intel;
-  bool is_float = true;          ///< 32-bit float samples; else 16-bit integers
-  std::int64_t points = 0;       ///< M
-  std::int64_t frames = 0;       ///< F, all of which lie in the file
-  std::int64_t first_frame = 1;  ///< the file's own number of its first frame
-  double rate_hz = 0.0;
+  Processor processor = Processor::intel;  ///< how numbers are stored
+  bool is_float = true;                    ///< 32-bit float samples; else 16-bit integers
+  std::int64_t points = 0;                 ///< M
+  std::int64_t frames = 0;                 ///< F, all of which lie in the file
+  std::int64_t first_frame = 1;            ///< the file's own number of its first frame
+  double rate_hz = 0.0;                    ///< frames a second, > 0
   double scale = 1.0;             ///< size of one integer or residual step, in units of the file, > 0
   double metres_per_unit = 1e-3;  ///< of POINT:UNITS
   std::string units;              ///< POINT:UNITS, or empty
@@ -36,12 +36,14 @@ struct C3dLayout {
   std::size_t data_offset = 0;  ///< byte of the first frame
   std::size_t frame_bytes = 0;  ///< 0 when there is neither point nor channel
 
+  /// analog numbers in a frame: channels x samples
   [[nodiscard]] std::int64_t analog_per_frame() const { return analog_channels * samples_per_frame; }
 };
 
-/// Hear header, parameters and the file's size, and settle what is true. Parameters win over the header;
-/// where they cannot be true (the frames do not fit) the header is believed, and the file's size before
-/// both. Every contradiction is one sentence in `warnings`. Nothing that makes sense: Code::bad_input.
+/// Derive the layout from header, parameters and file size. Where they disagree, parameters take precedence
+/// over the header; where the parameters cannot be right (the frames do not fit into the file) the header is
+/// used, and the file size overrides both. Each contradiction adds one sentence to `warnings`.
+/// Code::bad_input when no consistent layout is found.
 [[nodiscard]] Result<C3dLayout> settle_layout(const C3dHeader& header, const C3dParameters& parameters,
                                               Processor processor, std::size_t file_bytes,
                                               std::vector<std::string>& warnings);

@@ -55,22 +55,31 @@ static_assert(std::endian::native == std::endian::little, "number formats assume
 
 /// Number formats as compile-time policies, for loops over many samples.
 struct IntelNumbers {
-  static std::uint16_t u16(const std::byte* p) { return detail::bytes16(p); }
+  static std::uint16_t u16(const std::byte* p) { return detail::bytes16(p); }  ///< 16 bits at p
+  /// single precision at p
   static float f32(const std::byte* p) { return std::bit_cast<float>(detail::bytes32(p)); }
 };
+/// VAX words.
 struct DecNumbers {
-  static std::uint16_t u16(const std::byte* p) { return detail::bytes16(p); }
+  static std::uint16_t u16(const std::byte* p) { return detail::bytes16(p); }  ///< 16 bits at p
+  /// single precision at p
   static float f32(const std::byte* p) { return ieee_from_vax(std::rotl(detail::bytes32(p), 16)); }
 };
+/// Big-endian words.
 struct MipsNumbers {
+  /// 16 bits at p
   static std::uint16_t u16(const std::byte* p) { return detail::swap16(detail::bytes16(p)); }
+  /// single precision at p
   static float f32(const std::byte* p) { return std::bit_cast<float>(detail::swap32(detail::bytes32(p))); }
 };
 
 /// The same, chosen at run time.
 [[nodiscard]] std::uint16_t load_u16(const std::byte* p, Processor processor);
+/// Single precision at p.
 [[nodiscard]] float load_f32(const std::byte* p, Processor processor);
+/// Write 16 bits at p.
 void store_u16(std::byte* p, std::uint16_t value, Processor processor);
+/// Write single precision at p.
 void store_f32(std::byte* p, float value, Processor processor);
 
 }  // namespace kinemark::io

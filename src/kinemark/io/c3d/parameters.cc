@@ -134,7 +134,7 @@ class Parser {
     at += 2;
     if (at + dim_count > end) return;
     std::size_t values = 1;
-    const std::size_t limit = end - at;  // more values than bytes cannot be there
+    const std::size_t limit = end - at;  // more values than bytes are impossible
     for (std::size_t d = 0; d < dim_count; ++d) {
       p.dims.push_back(std::to_integer<int>(section_[at + d]));
       values = std::min(values * static_cast<std::size_t>(p.dims.back()), limit + 1);

@@ -24,27 +24,29 @@ enum class C3dType : std::int8_t { text = -1, byte = 1, int16 = 2, float32 = 4 }
 /// of each text and `texts` holds the others' product of them, trimmed. 16-bit integers are signed in
 /// `numbers`.
 struct C3dParameter {
-  std::string name;  ///< upper case
-  C3dType type = C3dType::int16;
-  std::vector<int> dims;
+  std::string name;                ///< upper case
+  C3dType type = C3dType::int16;   ///< how the file stores it
+  std::vector<int> dims;           ///< sizes, fastest first; empty: one number
   std::vector<double> numbers;     ///< empty for text
   std::vector<std::string> texts;  ///< UTF-8; empty for numbers
-  std::string description;
-  bool locked = false;
+  std::string description;         ///< the file's own words; may be empty
+  bool locked = false;             ///< the file asks that it is not changed
 };
 
+/// Parameters under one name.
 struct C3dGroup {
-  std::string name;  ///< upper case; "GROUP n" when the file names none
-  std::string description;
-  std::vector<C3dParameter> parameters;
+  std::string name;                      ///< upper case; "GROUP n" when the file names none
+  std::string description;               ///< the file's own words; may be empty
+  std::vector<C3dParameter> parameters;  ///< in the order of the file
 };
 
 /// The parameter section of a C3D file, in file order.
 struct C3dParameters {
-  std::vector<C3dGroup> groups;
+  std::vector<C3dGroup> groups;  ///< in the order of the file
 
   /// The first parameter of that name (any case), or null.
   [[nodiscard]] const C3dParameter* find(std::string_view group, std::string_view name) const;
+  /// Whether there is a group of that name, in any case of letters.
   [[nodiscard]] bool has_group(std::string_view group) const;
   /// First number of a parameter, or nothing when it is absent, text or empty.
   [[nodiscard]] std::optional<double> number(std::string_view group, std::string_view name) const;
@@ -53,14 +55,15 @@ struct C3dParameters {
   /// All numbers or texts of NAME, NAME2, NAME3, ... in a row: a C3D dimension ends at 255, so longer lists
   /// go on in numbered parameters.
   [[nodiscard]] std::vector<double> numbers(std::string_view group, std::string_view name) const;
+  /// All texts of NAME, NAME2, NAME3, ... in a row.
   [[nodiscard]] std::vector<std::string> texts(std::string_view group, std::string_view name) const;
 
   /// The group of that name, made when absent.
   C3dGroup& group(std::string_view name);
 };
 
-/// Read a parameter section, from its four-byte head to its end. Never fails: what cannot be read is left
-/// out and told in `warnings`. Entries are found by their pointers, which real files get right more often
+/// Read a parameter section, from its four-byte head to its end. Never fails: what cannot be read is left out
+/// and reported in `warnings`. Entries are found by their pointers, which real files get right more often
 /// than lengths; each holds at most the bytes up to the next one, so time and memory are bounded by the
 /// section.
 [[nodiscard]] C3dParameters parse_parameters(std::span<const std::byte> section, Processor processor,

@@ -210,9 +210,10 @@ Status plan_analog(C3dPlan& plan, const data::Trial& trial) {
   for (std::size_t i = 0; i < analog.values.size(); ++i) {
     double& scale = plan.analog_scale[i % analog.names.size()];
     if (!std::isfinite(analog.values[i]))
-      return fail(Code::bad_input,
-                  fmt::format("channel '{}' holds {}, which integer samples cannot say; write float ones",
-                              analog.names[i % analog.names.size()], analog.values[i]));
+      return fail(
+          Code::bad_input,
+          fmt::format("channel '{}' holds {}, which integer samples cannot represent; write float ones",
+                      analog.names[i % analog.names.size()], analog.values[i]));
     scale = std::max(scale, std::abs(analog.values[i]));
   }
   for (double& scale : plan.analog_scale)

@@ -11,16 +11,17 @@ namespace kinemark::io {
 
 /// Everything of a C3D file but its samples, decided before the first byte is written.
 struct C3dPlan {
-  Processor processor = Processor::intel;
-  bool integers = false;
-  double units_per_metre = 1000.0;
-  double scale = 1.0;  ///< of POINT:SCALE, in units; a float's value
-  std::int64_t samples_per_frame = 0;
-  std::vector<double> analog_scale;  ///< K; stored = value / scale
-  C3dHeader header;
-  C3dParameters parameters;  ///< POINT:DATA_START is still 0
+  Processor processor = Processor::intel;  ///< how numbers will be stored
+  bool integers = false;                   ///< 16-bit integers; false: float
+  double units_per_metre = 1000.0;         ///< 1000 for millimetres
+  double scale = 1.0;                      ///< of POINT:SCALE, in units; a float's value
+  std::int64_t samples_per_frame = 0;      ///< analog samples of a channel in a frame
+  std::vector<double> analog_scale;        ///< K; stored = value / scale
+  C3dHeader header;                        ///< first block of the file
+  C3dParameters parameters;                ///< POINT:DATA_START is still 0
 };
 
+/// Decide how a trial is written; Code::bad_input or Code::not_supported where it has no place in a C3D file.
 [[nodiscard]] Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options);
 
 }  // namespace kinemark::io

@@ -22,7 +22,7 @@ using internal::Vector6;
 constexpr double kSurelyLoaded = 100.0;  // N; noise and drift of plates stay below it
 constexpr std::int64_t kBlockNumbers = 1 << 18;
 
-/// A plate that can be computed, and what it measured.
+/// A plate with valid geometry, and its measurements.
 struct Plate {
   std::string name;
   std::vector<int> channel_idx;
@@ -70,7 +70,7 @@ std::vector<Plate> usable_plates(const C3dReader& reader, std::vector<std::strin
   std::vector<Plate> plates;
   std::vector<bool> taken(analog.names.size(), false);
   for (C3dForcePlate& found : find_force_plates(reader.parameters(), reader.layout(), warnings)) {
-    // No two plates share a wire; this also bounds what a hostile file makes of its samples.
+    // No two plates share a channel; this also bounds the work that a hostile file can cause.
     bool shared = false;
     for (const int channel : found.plate.channel_idx) {
       shared = shared || taken[static_cast<std::size_t>(channel)];
@@ -196,21 +196,22 @@ double side_of_body(const Plate& plate, const Vector3d& markers, std::vector<std
   const double height = (markers - plate.place.centre).dot(plate.place.world_from_plate.col(2));
   if (!(height > 0.0)) return -1.0;
   warnings.push_back(
-      fmt::format("{} has corners that run the wrong way round (its z axis points at the body); its axes are "
+      fmt::format("{} has corners in the opposite order (its z axis points at the body); its axes are "
                   "taken as they are",
                   plate.name));
   return 1.0;
 }
 
-/// What the plate does to the body: turn the sign where the file tells what the body does to the plate.
+/// The force of the plate on the body: the sign is reversed where the file stores the force of the body on
+/// the plate.
 void settle_sign(Plate& plate, double side, std::vector<std::string>& warnings) {
   double push = 0.0;
   for (const Vector6& w : plate.measured)
     if (std::isfinite(w[2]) && std::abs(w[2]) < 1e9) push += side * w[2] * std::abs(w[2]);
   if (push >= 0.0) return;
   for (Vector6& w : plate.measured) w = -w;
-  warnings.push_back(fmt::format(
-      "{} tells what the body does to it, not what it does to the body; turned round", plate.name));
+  warnings.push_back(
+      fmt::format("{} stores the force of the body on the plate; its sign was reversed", plate.name));
 }
 
 data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options,
@@ -226,7 +227,8 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
       force = moment = Vector3d::Zero();
     } else {
       point.setZero();
-      // A force that does not press has no centre of pressure; the centre of the plate does as well.
+      // A force that is not directed into the plate has no centre of pressure; the centre of the plate is
+      // used.
       if (along >= 1.0) {
         point = {-moment.y() / force.z(), moment.x() / force.z(), 0.0};
         moment = {0.0, 0.0, moment.z() - point.x() * force.y() + point.y() * force.x()};

@@ -13,20 +13,23 @@
 
 namespace kinemark::io {
 
+/// Options of read_plate_forces().
 struct PlateOptions {
   double contact_force_n = 20.0;  ///< a plate that pushes less than this along its normal is empty: no wrench
                                   ///< at all in that frame. 0: everything counts, also a pull.
   bool baseline = true;           ///< subtract the mean over the frames that FORCE_PLATFORM:ZERO names
 
+  /// contact_force_n is finite and not negative.
   [[nodiscard]] Status check() const;
 };
 
+/// Forces of all plates of a recording.
 struct PlateForces {
   /// One item per plate, "plate 1" and so on as the file counts, at the rate of the markers and in their
   /// axes: force on the body (N), moment about the centre of pressure (N m, along the plate's normal), centre
   /// of pressure on the plate's surface (m; NaN where the plate is empty). Bodies are left open.
   data::Wrenches wrenches;
-  std::vector<std::string> warnings;  ///< what was odd or mended, one sentence each
+  std::vector<std::string> warnings;  ///< irregularities and repairs, one sentence each
 };
 
 /// Forces of the plates of types 1, 2, 3, 4 and 7. Each frame gets the mean of the analog samples from half a
@@ -36,6 +39,7 @@ struct PlateForces {
 /// bytes per frame and plate.
 [[nodiscard]] Result<PlateForces> read_plate_forces(const C3dReader& reader,
                                                     const PlateOptions& options = {});
+/// The same of a file that is not open yet.
 [[nodiscard]] Result<PlateForces> read_plate_forces(const std::filesystem::path& path,
                                                     const PlateOptions& options = {});
 

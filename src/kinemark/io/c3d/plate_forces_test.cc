@@ -33,8 +33,8 @@ Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
 }
 
-/// A plate somewhere in a laboratory whose z points up, and what one sample of it must say. Physics written
-/// down afresh: forces of four sensors, or one force at a place, give the channels.
+/// A plate somewhere in a laboratory whose z points up, and the expected result of one sample. Independent
+/// physics: forces of four sensors, or one force at a point, give the channels.
 struct Setting {
   int type = 2;
   Vector3d centre{0.4, -1.2, 0.03};
@@ -247,7 +247,7 @@ TEST(PlateForces, AnEmptyPlateDoesNothing) {
   EXPECT_EQ(of_frame(wrench.force, 15), Vector3d::Zero());
   EXPECT_EQ(of_frame(wrench.moment, 15), Vector3d::Zero());
   EXPECT_TRUE(of_frame(wrench.point, 15).hasNaN());
-  // Below the asked number only.
+  // Only below the given threshold.
   const auto fine = through_a_file(trial, {.contact_force_n = 10.0}).value();
   EXPECT_NEAR(of_frame(fine.wrenches.items.at(0).force, 15).z(), 17.5, 1e-3);
 }
@@ -272,14 +272,14 @@ TEST(PlateForces, WhatTheBodyDoesToThePlateIsTurnedRound) {
     if (i % 7 >= 1) trial.analog.values[i] *= -1.0;
   const auto forces = through_a_file(trial).value();
   expect_truth(setting, forces.wrenches.items.at(0), 2);
-  EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 tells what the body does to it")));
+  EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 stores the force of the body")));
 }
 
 TEST(PlateForces, CornersTheWrongWayRoundAreTold) {
   Setting setting;
   setting.markers_below = true;  // all that is certain: the body is where the markers are
   const auto forces = through_a_file(setting.trial(5, [](double) { return 1.0; })).value();
-  EXPECT_THAT(forces.warnings, Contains(HasSubstr("corners that run the wrong way round")));
+  EXPECT_THAT(forces.warnings, Contains(HasSubstr("corners in the opposite order")));
   EXPECT_GT(-of_frame(forces.wrenches.items.at(0).force, 2).z(), 600.0);  // towards the markers
 }
 
@@ -374,7 +374,7 @@ TEST(PlateForces, OnlyThePlatesThatCanBeReadAreThere) {
   EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("force plate 1 is left out")));
 }
 
-/// OpenSim 4 turned this recording into force and moment about the middle of each plate, every 0.05 s.
+/// OpenSim 4 converted this recording to force and moment about the middle of each plate, every 0.05 s.
 TEST(PlateForces, WalkOfTwoPlatesIsWhatOpenSimFinds) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   const auto folder = data / "opensim-core-formats";

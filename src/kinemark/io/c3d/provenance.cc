@@ -23,7 +23,7 @@ constexpr std::int64_t kMaxLength = 65535;
 constexpr double kSmallest_m = 1e-6;
 constexpr double kStep = 1.05;
 
-/// What is told of a sample.
+/// The stored description of a sample.
 struct Told {
   std::uint8_t state = 0, method = 0, deviation = 0;
   friend bool operator==(const Told&, const Told&) = default;
@@ -70,7 +70,7 @@ bool c3d_tells_all(const data::Trajectories& t) {
          });
 }
 
-/// May a sample that C3D tells as `word` be `told`?
+/// True when a sample that C3D stores as `word` may have the state `told`.
 bool agree(SampleState word, SampleState told) {
   switch (told) {
     case SampleState::missing:
@@ -149,7 +149,8 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
   }
   if (!sound || samples != t.frames() * t.markers()) {
     trial.warnings.emplace_back(
-        "KINEMARK:RUNS does not fit the samples; what was filled how is not known beyond their residuals");
+        "KINEMARK:RUNS does not fit the samples; the provenance of the samples is known from their residuals "
+        "only");
     return;
   }
 
@@ -176,9 +177,8 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
     }
   }
   if (disagreeing > 0)
-    trial.warnings.push_back(
-        fmt::format("KINEMARK:RUNS and the residuals disagree on {} samples, and the residuals are believed",
-                    disagreeing));
+    trial.warnings.push_back(fmt::format(
+        "KINEMARK:RUNS and the residuals disagree on {} samples; the residuals are used", disagreeing));
 }
 
 }  // namespace kinemark::io

@@ -127,8 +127,7 @@ TEST(C3dProvenance, ResidualsAreBelievedBeforeTheGroup) {
   trial.markers.method.clear();
   apply_provenance(parameters, trial);
   for (const SampleState s : trial.markers.state) EXPECT_EQ(s, SampleState::measured);
-  EXPECT_THAT(trial.warnings,
-              ElementsAre(HasSubstr("disagree on 10 samples, and the residuals are believed")));
+  EXPECT_THAT(trial.warnings, ElementsAre(HasSubstr("disagree on 10 samples; the residuals are used")));
   EXPECT_TRUE(trial.markers.validate());
 }
 

@@ -19,7 +19,7 @@ namespace kinemark::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = 512UL << 10;
-// 255 blocks is what the section's head can say; the start of the data can leave it more room.
+// The section's head can state at most 255 blocks; the start of the data may allow more.
 constexpr std::size_t kMaxSectionBytes = 4096 * kC3dBlock;
 
 /// Read exactly out.size() bytes.
@@ -31,7 +31,7 @@ Status read_exactly(const ByteSource& source, std::size_t offset, std::span<std:
   return {};
 }
 
-/// The processor for which the header's numbers look like a recording's: for files that do not say.
+/// The processor for which the header's numbers are plausible: for files that do not name it.
 Processor guess_processor(std::span<const std::byte, kC3dBlock> block) {
   for (const Processor processor : {Processor::intel, Processor::dec, Processor::mips}) {
     const C3dHeader h = parse_header(block, processor);
@@ -60,7 +60,7 @@ std::span<T> room_for(Array<T>& array, std::size_t count) {
   constexpr std::uintptr_t kPage = 2UL << 20;
   const auto begin = (reinterpret_cast<std::uintptr_t>(array.data()) + kPage - 1) / kPage * kPage;
   const auto end = reinterpret_cast<std::uintptr_t>(array.data() + count) / kPage * kPage;
-  // A refusal only costs time.
+  // Failure is harmless: it only costs time.
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
   return array;
@@ -111,7 +111,7 @@ Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
   }
   if (!reader.parameters_.has_group("POINT"))
     trial.warnings.push_back(fmt::format(
-        "has no readable POINT parameters; the header alone is believed ({} numbers)", to_string(processor)));
+        "has no readable POINT parameters; the header alone is used ({} numbers)", to_string(processor)));
   auto layout = settle_layout(reader.header_, reader.parameters_, processor, size, trial.warnings);
   if (!layout) return fail_at(name, layout.error());
   reader.layout_ = std::move(*layout);
@@ -197,7 +197,7 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   if (seen->measured == 0) {
     trial.residual_m = {};
     if (seen->unmeasured > 0 && !reader.parameters().number("POINT", kC3dResidualsParameter)) {
-      // No sample has a residual, and our own mark is not there: their absence says nothing about any one.
+      // No sample has a residual, and kinemark's own mark is absent: a residual of 0 then has no meaning.
       trial.warnings.push_back("carries no residuals; its samples are taken as measured");
       for (data::SampleState& state : trial.markers.state)
         if (state == data::SampleState::interpolated) state = data::SampleState::measured;

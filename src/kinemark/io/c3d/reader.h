@@ -14,6 +14,7 @@
 
 namespace kinemark::io {
 
+/// Options of read_c3d().
 struct C3dReadOptions {
   bool points = true;     ///< coordinates and states; without them the trial has no markers
   bool residuals = true;  ///< residual_m and camera_mask
@@ -25,14 +26,15 @@ struct C3dReadOptions {
 /// piece by piece, so that hours of data need no more memory than the caller's piece.
 class C3dReader {
  public:
-  /// Read header and parameters. Not a C3D file, or nothing that makes sense: Code::bad_input; cannot be
-  /// opened: Code::io.
+  /// Read header and parameters. Code::bad_input when it is not a C3D file or its head is not valid; Code::io
+  /// when it cannot be opened.
   static Result<C3dReader> open(const std::filesystem::path& path);
+  /// Read header and parameters; Code::bad_input when it is no C3D file or makes no sense.
   static Result<C3dReader> open(std::unique_ptr<ByteSource> source);
 
-  [[nodiscard]] const C3dHeader& header() const { return header_; }
-  [[nodiscard]] const C3dParameters& parameters() const { return parameters_; }
-  [[nodiscard]] const C3dLayout& layout() const { return layout_; }
+  [[nodiscard]] const C3dHeader& header() const { return header_; }              ///< as the file says
+  [[nodiscard]] const C3dParameters& parameters() const { return parameters_; }  ///< as the file says
+  [[nodiscard]] const C3dLayout& layout() const { return layout_; }              ///< what is true of the file
   /// Everything but samples: names, clock, events, force plates, warnings. Its arrays are empty.
   [[nodiscard]] const data::Trial& description() const { return description_; }
 
@@ -53,7 +55,7 @@ class C3dReader {
 };
 
 /// The whole file, in metres. See decode_frames() for what is missing, measured or interpolated, and
-/// apply_provenance() for what our own files tell beyond that.
+/// apply_provenance() for what files of kinemark store in addition.
 /// Memory: the trial's arrays and half a megabyte per thread.
 [[nodiscard]] Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options = {});
 

@@ -185,7 +185,7 @@ TEST(C3dReader, BelievesTheFilesSizeWhenAllCountsLie) {
   bytes.put_u16(bytes.find("ACTUAL_END_FIELD", 1) + 2, 0);
   const Trial t = bytes.read().value();
   EXPECT_EQ(t.markers.frames(), 66016);
-  EXPECT_THAT(t.warnings, Contains(HasSubstr("promises 65535 frames, the file holds 66016")));
+  EXPECT_THAT(t.warnings, Contains(HasSubstr("states 65535 frames, the file holds 66016")));
 }
 
 TEST(C3dReader, AFileCutShortGivesItsWholeFrames) {
@@ -195,7 +195,7 @@ TEST(C3dReader, AFileCutShortGivesItsWholeFrames) {
   const Trial t = bytes.read().value();
   EXPECT_EQ(t.markers.frames(), 41);
   EXPECT_THAT(t.warnings,
-              Contains(HasSubstr("cut short: POINT:FRAMES promises 100 frames, 41 whole ones are there")));
+              Contains(HasSubstr("cut short: POINT:FRAMES states 100 frames, 41 whole ones are there")));
   bytes.raw().resize(layout.data_offset + 5);
   EXPECT_THAT(bytes.read().error().message, StartsWith("memory.c3d: ends before its first frame"));
 }
@@ -212,7 +212,7 @@ TEST(C3dReader, WithoutParametersTheHeaderIsEnough) {
       const bool filled = was == SampleState::model_filled || was == SampleState::upsampled;
       ASSERT_EQ(t.markers.state[i], filled ? SampleState::interpolated : was) << to_string(processor);
     }
-    EXPECT_THAT(t.warnings, Contains(HasSubstr("the header alone is believed")));
+    EXPECT_THAT(t.warnings, Contains(HasSubstr("the header alone is used")));
   }
 }
 

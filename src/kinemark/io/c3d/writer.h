@@ -11,11 +11,12 @@
 
 namespace kinemark::io {
 
+/// Options of write_c3d().
 struct C3dWriteOptions {
-  bool force = false;                 ///< replace a file that exists
-  std::string software = "kinemark";  ///< MANUFACTURER:SOFTWARE
-  std::string units = "mm";           ///< length unit in the file: "mm", "cm", "m", ...
-  Processor processor = Processor::intel;
+  bool force = false;                      ///< replace a file that exists
+  std::string software = "kinemark";       ///< MANUFACTURER:SOFTWARE
+  std::string units = "mm";                ///< length unit in the file: "mm", "cm", "m", ...
+  Processor processor = Processor::intel;  ///< how numbers are stored
   bool integers = false;  ///< 16-bit samples: half the size, rounded to 1/32000 of the largest coordinate
 };
 
@@ -27,9 +28,9 @@ struct C3dWriteOptions {
 /// of the mask. A point that would be stored as exactly (0, 0, 0) is moved by 1e-6 units (integers: one
 /// step), because readers take the origin for missing. Frames are numbered so that time keeps its zero: frame
 /// n is at (n - 1) / rate, rounded to a frame. More than 65535 frames: POINT:FRAMES says 65535, LONG_FRAMES
-/// (float), TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD (32 bits) say all. Lists longer than 255 go on in
-/// LABELS2 and so on. Which samples were filled how, and their standard deviations, go into a group of our
-/// own (add_provenance()).
+/// (float), TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD (32 bits) hold the full number. Lists longer than
+/// 255 go on in LABELS2 and so on. Which samples were filled how, and their standard deviations, go into a
+/// group of our own (add_provenance()).
 ///
 /// Code::bad_input: the trial is not valid, has no frames, or analog samples that do not fill its frames
 /// evenly; Code::not_supported: more points, channels or text than the format can count; Code::io: the disk.

@@ -17,7 +17,6 @@ namespace {
 using data::SampleState;
 using data::Trial;
 using internal::simulate_trial;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing_support::ScratchFolder;

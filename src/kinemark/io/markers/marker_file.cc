@@ -31,7 +31,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return out;
 }
 
-/// How a message calls a file with this extension.
+/// Name of the format in messages, by extension.
 std::string named(const std::string& extension) {
   return extension.empty() ? "a file without an extension" : "a " + extension + " file";
 }
@@ -80,7 +80,7 @@ Result<data::Trial> read_markers(const std::filesystem::path& path, const Marker
   }
   if (options.rate_hz != 0.0)
     return fail(Code::usage,
-                fmt::format("{}: the file tells its own rate; one is given only for Visual3D text (.v3d)",
+                fmt::format("{}: the file stores its own rate; a rate is given only for Visual3D text (.v3d)",
                             path.string()));
   if (format == ".c3d") return read_c3d(path);
   if (format == ".trc") return read_trc(path);

@@ -98,7 +98,7 @@ TEST(MarkerFile, Visual3dTextNeedsARateAndOthersRefuseOne) {
   const auto twice = read_markers(scratch / "a.trc", {.rate_hz = 100.0});
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.error().code, Code::usage);
-  EXPECT_THAT(twice.error().message, HasSubstr("the file tells its own rate"));
+  EXPECT_THAT(twice.error().message, HasSubstr("the file stores its own rate"));
 }
 
 TEST(MarkerFile, ProvenanceSurvivesEveryFormatThatCanHoldIt) {

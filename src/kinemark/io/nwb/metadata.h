@@ -17,19 +17,19 @@ struct NwbSource {
   std::string xxh3;        ///< XXH3 checksum of the content, 16 hexadecimal digits; empty when not known
 };
 
-/// What an NWB file tells beside the samples. Every field may stay as it is.
+/// Metadata of an NWB file. Every field is optional.
 struct NwbMetadata {
   std::string identifier;  ///< unique name of the recording; empty: made from everything else in this struct
-  std::string session_description = "marker trajectories";
+  std::string session_description = "marker trajectories";  ///< one sentence
   std::string session_start;  ///< ISO 8601 with time zone; empty: not known, written as 1970-01-01
   std::string created;        ///< when the file was made, likewise; empty: as session_start
-  std::string reference_frame = "laboratory frame of the source file, right-handed, metres";
+  std::string reference_frame = "laboratory frame of the source file, right-handed, metres";  ///< in words
   std::string subject_id;  ///< empty: not known
   std::string species;     ///< Latin name, "Homo sapiens"
   std::string sex;         ///< "F", "M", "U" (unknown) or "O" (other)
   std::string age;         ///< ISO 8601 duration, "P34Y"
 
-  std::string software = "kinemark";
+  std::string software = "kinemark";                         ///< what wrote the file
   std::string version;                                       ///< of the software
   std::string command;                                       ///< what made the file, as it was typed
   std::vector<NwbSource> sources;                            ///< files that went in

@@ -20,10 +20,11 @@ namespace kinemark::io {
 
 /// What one NWB file holds.
 struct NwbFile {
-  data::Trajectories trajectories;
-  std::optional<data::Derivatives> derivatives;
-  NwbMetadata metadata;
-  std::vector<std::string> warnings;  ///< what was odd about the file or could not be used, one sentence each
+  data::Trajectories trajectories;               ///< positions, m, with their provenance
+  std::optional<data::Derivatives> derivatives;  ///< where the file has them
+  NwbMetadata metadata;                          ///< who, when, how
+  std::vector<std::string>
+      warnings;  ///< irregularities of the file and parts that could not be used, one sentence each
 };
 
 /// Read marker positions and what belongs to them. Files of write_nwb() come back bit by bit. Of other files
@@ -34,6 +35,7 @@ struct NwbFile {
 /// lengths: Code::not_supported; cannot be opened: Code::io.
 [[nodiscard]] Result<NwbFile> read_nwb(const std::filesystem::path& path);
 
+/// Options of write_nwb() and NwbWriter.
 struct NwbWriteOptions {
   bool force = false;   ///< replace a file that exists
   int compression = 4;  ///< deflate level, 0 (none) to 9; bytes are shuffled and checksummed in any case
@@ -46,19 +48,24 @@ struct NwbWriteOptions {
                                const data::Derivatives* derivatives = nullptr,
                                const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
 
-/// What a file will hold, told before its samples are there.
+/// Contents of a file, declared before its samples are written.
 struct NwbOutline {
-  std::vector<std::string> names;  ///< M, unique
-  TimeBase time;
-  bool method = false;  ///< which method made a sample
-  bool covariance = false;
-  bool velocity = false, velocity_sd = false;
-  bool acceleration = false, acceleration_sd = false;
-  bool jerk = false, jerk_sd = false;
-  bool filters = false;  ///< the filter of each marker
-  enum class Offsets : std::uint8_t { none, per_marker, per_sample } offsets = Offsets::none;
+  std::vector<std::string> names;                      ///< M, unique
+  TimeBase time;                                       ///< F = time.frames
+  bool method = false;                                 ///< which method made a sample
+  bool covariance = false;                             ///< of positions
+  bool velocity = false, velocity_sd = false;          ///< which of them there are
+  bool acceleration = false, acceleration_sd = false;  ///< which of them there are
+  bool jerk = false, jerk_sd = false;                  ///< which of them there are
+  bool filters = false;                                ///< the filter of each marker
+  /// Whether samples have times of their own: none, one offset a marker, one a sample.
+  enum class Offsets : std::uint8_t {
+    none,
+    per_marker,
+    per_sample
+  } offsets = Offsets::none;  ///< of this recording
 
-  /// The outline of a recording that is there.
+  /// The outline of an existing recording.
   static NwbOutline of(const data::Trajectories& trajectories, const data::Derivatives* derivatives);
 };
 
@@ -69,12 +76,12 @@ class NwbWriter {
   /// Errors as write_nwb().
   static Result<NwbWriter> create(const std::filesystem::path& path, const NwbOutline& outline,
                                   const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
-  NwbWriter(NwbWriter&& other) noexcept;
-  NwbWriter& operator=(NwbWriter&& other) noexcept;
+  NwbWriter(NwbWriter&& other) noexcept;             ///< takes the open file over
+  NwbWriter& operator=(NwbWriter&& other) noexcept;  ///< closes its own and takes the other over
   ~NwbWriter();
 
   /// Write frames [first_frame, first_frame + piece.frames()) of the markers that `piece` names. Its arrays
-  /// and `derivatives` must hold what the outline promised and fit the outline's names and frames (else
+  /// and `derivatives` must hold what the outline declares and fit the outline's names and frames (else
   /// ContractError); its clock is not looked at. Pieces of whole multiples of 4096 frames are fastest.
   [[nodiscard]] Status write(const data::Trajectories& piece, const data::Derivatives* derivatives = nullptr,
                              std::int64_t first_frame = 0);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Files as other programs write them: no table of ours, any place, unit, clock and number of coordinates.
+// Files as other programs write them: without kinemark's table, with any path, unit, clock and number of
+// coordinates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -209,7 +210,8 @@ TEST(ForeignNwb, AFileWithoutUsablePositionsSaysWhy) {
   EXPECT_THAT(read_nwb(scratch / "empty.nwb").error().message, HasSubstr("empty.nwb: holds no positions"));
   const auto pixels = read_nwb(scratch / "pixels.nwb");
   EXPECT_EQ(pixels.error().code, Code::not_supported);
-  EXPECT_THAT(pixels.error().message, HasSubstr("/processing/pose/paw: is in 'pixels', which is no length"));
+  EXPECT_THAT(pixels.error().message,
+              HasSubstr("/processing/pose/paw: is in 'pixels', which is not a unit of length"));
   EXPECT_THAT(read_nwb(scratch / "back.nwb").error().message,
               HasSubstr("has a timestamp 5.5 after sample 2"));
   EXPECT_THAT(read_nwb(scratch / "rate.nwb").error().message, HasSubstr("runs at -1 Hz"));

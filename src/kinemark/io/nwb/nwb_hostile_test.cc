@@ -193,7 +193,7 @@ TEST(HostileNwb, ShapesAndTypesThatDoNotFit) {
   EXPECT_THAT(message([](hid_t m) { replace(m, "markers/t0_s", {4}); }),
               HasSubstr("columns of different lengths"));
   EXPECT_THAT(message([](hid_t m) { H5Ldelete(m, "markers", H5P_DEFAULT); }),
-              HasSubstr("table of markers is gone"));
+              HasSubstr("table of markers is missing"));
   EXPECT_THAT(message([](hid_t m) { replace(m, "markers/rate_hz", {5}); }), HasSubstr("rate of 0 Hz"));
   EXPECT_THAT(message([](hid_t m) { replace(m, "markers/filter_order", {2}); }),
               HasSubstr("a filter for each"));

@@ -240,7 +240,8 @@ TEST(Nwb, RefusesWhatNwbCannotSay) {
   EXPECT_THAT(refusal(good, {.sex = "female"}), HasSubstr("need F, M, U or O"));
   for (const char* date : {"yesterday", "2026-11-21", "2026-11-21T09:30:00", "2026-11-21T09:30:00+1:00",
                            "2026-11-21T09:30:00.5Zulu", "2026-11-21 09:30:00Z"})
-    EXPECT_THAT(refusal(good, {.session_start = date}), HasSubstr("is not a date as NWB wants it")) << date;
+    EXPECT_THAT(refusal(good, {.session_start = date}), HasSubstr("is not a date in the form of NWB"))
+        << date;
   EXPECT_EQ(write_nwb(scratch / "no" / "a.nwb", good).error().code, Code::io);
 }
 

@@ -115,7 +115,7 @@ void NwbWriter::Open::add_clock(Handle series, std::size_t marker, bool first) {
     }
     return;
   }
-  // Offsets of markers are known with their samples.
+  // Offsets of markers become known with their samples.
   unclocked.emplace_back(marker, std::move(series));
 }
 
@@ -311,11 +311,11 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
   check(piece.x_in_world.size() == 3 * samples && piece.state.size() == samples, "a piece has a wrong shape");
   check(!outline.covariance || piece.covariance.size() == 6 * samples, "a piece lacks its covariance");
   check(piece.method.empty() || (outline.method && piece.method.size() == samples),
-        "a piece has methods that the outline did not promise");
+        "a piece has methods that the outline does not declare");
   const std::size_t times = outline.offsets == NwbOutline::Offsets::none         ? 0
                             : outline.offsets == NwbOutline::Offsets::per_marker ? piece.names.size()
                                                                                  : samples;
-  check(piece.sample_offset_s.size() == times, "a piece's sample times are not as the outline said");
+  check(piece.sample_offset_s.size() == times, "a piece's sample times are not as the outline declares");
   std::vector<std::size_t> columns;
   for (const std::string& name : piece.names) {
     const auto found = open.index.find(name);
@@ -343,13 +343,13 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
   for (std::size_t r = 0; r < internal::kRates.size(); ++r) {
     if (open.rates[r].of_marker.empty()) continue;
     check(derivatives != nullptr && (derivatives->*internal::kRates[r].values).size() == 3 * samples,
-          "a piece lacks derivatives that the outline promised");
+          "a piece lacks derivatives that the outline declares");
     open.put(open.rates[r], H5T_NATIVE_DOUBLE, (derivatives->*internal::kRates[r].values).data(), columns,
              first_frame, frames);
   }
   if (outline.filters) {
     check(derivatives != nullptr && derivatives->filters.size() == columns.size(),
-          "a piece lacks the filters that the outline promised");
+          "a piece lacks the filters that the outline declares");
     for (std::size_t k = 0; k < columns.size(); ++k) open.filters[columns[k]] = derivatives->filters[k];
   }
   if (open.out.failed()) return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open.path));

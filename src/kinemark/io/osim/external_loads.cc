@@ -100,7 +100,7 @@ Result<Columns> find_columns(const ExternalLoads& loads, const ExternalForce& fo
           loads.source, force.name, identifier, loads.data_file.string(), found.size()));
 }
 
-/// What one row says.
+/// The values of one row.
 struct Row {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero(), point = Vector3d::Zero();
 
@@ -147,7 +147,7 @@ data::Wrench sample(const ExternalForce& force, const Source& source, const data
       const double begin = table.time_s[static_cast<std::size_t>(before)],
                    end = table.time_s[static_cast<std::size_t>(after)];
       const double later = end > begin ? std::clamp((t - begin) / (end - begin), 0.0, 1.0) : 0.0;
-      // A frame that meets a row does not ask its neighbour, which may be blank.
+      // A frame that coincides with a row does not use the next row, which may be blank.
       const Row a = source.row(table, later < 1.0 ? before : after),
                 b = later > 0.0 ? source.row(table, after) : a;
       now.force = (1.0 - later) * a.force + later * b.force;

@@ -18,27 +18,29 @@ namespace kinemark::io {
 /// One ExternalForce that is switched on, given in the ground's frame. Identifiers are what three columns'
 /// names begin with; empty: none.
 struct ExternalForce {
-  std::string name;
+  std::string name;  ///< unique
   std::string body;  ///< of the model
+  /// Beginnings of three columns' names: force in N, its point in m, moment in N m; empty: none.
   std::string force, point, torque;
 };
 
+/// An ExternalLoads file: which columns of a table act where.
 struct ExternalLoads {
-  std::string source;               ///< the file, for sentences
-  std::filesystem::path data_file;  ///< seen from the file's folder
-  std::vector<ExternalForce> forces;
+  std::string source;                 ///< the file, for sentences
+  std::filesystem::path data_file;    ///< relative to the folder of the file
+  std::vector<ExternalForce> forces;  ///< those that are switched on
 };
 
 /// Read an ExternalLoads file. Code::not_supported, one sentence: a force or point in the frame of a body, or
 /// a force without a point (which OpenSim puts at the body's origin); Code::bad_input for what is missing.
 [[nodiscard]] Result<ExternalLoads> read_external_loads(const std::filesystem::path& path);
-/// The same from memory; the data file is seen from `folder`.
+/// The same from memory; the path of the data file is relative to `folder`.
 [[nodiscard]] Result<ExternalLoads> parse_external_loads(std::string_view xml, std::string name,
                                                          const std::filesystem::path& folder = {});
 
-/// What the loads do at the frames of `time`, linear between the rows of the table (N, m, N m). NaN before
-/// its first and after its last row, beside cells that are blank, and where a force has no point. Columns
-/// that are not there: Code::bad_input.
+/// The loads at the frames of `time`, interpolated linearly between the rows of the table (N, m, N m). NaN
+/// before its first and after its last row, beside cells that are blank, and where a force has no point.
+/// Columns that are not there: Code::bad_input.
 [[nodiscard]] Result<data::Wrenches> sample_external_loads(const ExternalLoads& loads,
                                                            const data::Table& table, const TimeBase& time);
 

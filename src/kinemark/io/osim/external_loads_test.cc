@@ -90,7 +90,7 @@ TEST(ExternalLoads, NothingIsKnownOutsideTheTableOrBesideBlankCells) {
   const auto blank = sample_external_loads(loads, t, {.rate_hz = 20.0, .frames = 5}).value().items.at(0);
   EXPECT_TRUE(std::isnan(blank.force[0]));
   EXPECT_TRUE(std::isnan(blank.force[3]));
-  EXPECT_FALSE(std::isnan(blank.force[6]));  // a frame on a row does not ask its neighbours
+  EXPECT_FALSE(std::isnan(blank.force[6]));  // a frame on a row does not use its neighbours
   t = table();
   t.values[13] = kNaN;  // the point of the second row
   const auto nowhere = sample_external_loads(loads, t, {.rate_hz = 10.0, .frames = 3}).value();

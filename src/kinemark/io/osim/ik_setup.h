@@ -12,48 +12,50 @@
 
 namespace kinemark::io {
 
-/// How much one marker counts.
+/// The weight of one marker.
 struct IkMarkerTask {
-  std::string name;
+  std::string name;     ///< of the marker in the model
   double weight = 0.0;  ///< >= 0; OpenSim's default is 0
-  bool apply = true;
+  bool apply = true;    ///< false: the marker takes no part
 };
 
-/// A coordinate pulled towards a value.
+/// A coordinate task: a coordinate with a target value and a weight.
 struct IkCoordinateTask {
+  /// Where the value comes from.
   enum class Target : std::uint8_t {
     default_value,  ///< the coordinate's default in the model
     manual_value,   ///< `value`
     from_file,      ///< the column of that name in IkSetup::coordinate_file
   };
-  std::string name;
-  double weight = 0.0;  ///< >= 0
-  bool apply = true;
-  Target target = Target::default_value;
-  double value = 0.0;  ///< rad or m, for Target::manual_value
+  std::string name;                       ///< of the coordinate in the model
+  double weight = 0.0;                    ///< >= 0
+  bool apply = true;                      ///< false: the task is switched off
+  Target target = Target::default_value;  ///< where its value comes from
+  double value = 0.0;                     ///< rad or m, for Target::manual_value
 };
 
+/// Weights of an IKTaskSet.
 struct IkTasks {
-  std::vector<IkMarkerTask> markers;
-  std::vector<IkCoordinateTask> coordinates;
+  std::vector<IkMarkerTask> markers;          ///< in the order of the file
+  std::vector<IkCoordinateTask> coordinates;  ///< in the order of the file
 };
 
 /// OpenSim's setup of one inverse-kinematics run. Paths are resolved against the folder of the setup file;
 /// one that the file leaves out (or calls "Unassigned") is empty. Nothing is opened or checked to exist.
 struct IkSetup {
-  std::string name;
-  std::filesystem::path model_file;
-  std::filesystem::path marker_file;
-  std::filesystem::path coordinate_file;
-  std::filesystem::path output_motion_file;
-  std::filesystem::path results_directory;
-  double time_begin_s = -std::numeric_limits<double>::infinity();
-  double time_end_s = std::numeric_limits<double>::infinity();
+  std::string name;                          ///< of the tool; may be empty
+  std::filesystem::path model_file;          ///< seen from the setup's folder; empty: not said
+  std::filesystem::path marker_file;         ///< seen from the setup's folder; empty: not said
+  std::filesystem::path coordinate_file;     ///< seen from the setup's folder; empty: none
+  std::filesystem::path output_motion_file;  ///< seen from the setup's folder; empty: not said
+  std::filesystem::path results_directory;   ///< seen from the setup's folder; empty: not said
+  double time_begin_s = -std::numeric_limits<double>::infinity();      ///< infinite: from the first frame
+  double time_end_s = std::numeric_limits<double>::infinity();         ///< infinite: to the last frame
   double constraint_weight = std::numeric_limits<double>::infinity();  ///< infinite: closed exactly
-  double accuracy = 1e-5;
-  bool report_errors = true;
-  bool report_marker_locations = false;
-  IkTasks tasks;
+  double accuracy = 1e-5;                                              ///< OpenSim's stopping tolerance
+  bool report_errors = true;             ///< OpenSim's switch for a table of errors
+  bool report_marker_locations = false;  ///< OpenSim's switch for a table of marker positions
+  IkTasks tasks;                         ///< weights of markers and coordinates
 };
 
 /// Read an InverseKinematicsTool file, or an IKTool file of before 2.3 (its first trial), with the tasks

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Documents that are wrong, or made to hurt: one sentence with the place each, quickly.
+// Invalid and malicious documents: each is refused quickly with one sentence that names the position.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -176,7 +176,7 @@ TEST(OsimHostile, FramesThatDoNotExistOrChaseTheirTails) {
   EXPECT_THAT(
       marker("/bodyset/tail"),
       HasSubstr("Marker 'M': refers to the body or frame '/bodyset/tail', which the model does not have"));
-  EXPECT_THAT(marker(""), HasSubstr("does not say on which body it sits"));
+  EXPECT_THAT(marker(""), HasSubstr("does not name its body"));
   const std::string circle =
       R"(<components><PhysicalOffsetFrame name="a"><socket_parent>/b</socket_parent></PhysicalOffsetFrame>
     <PhysicalOffsetFrame name="b"><socket_parent>/a</socket_parent></PhysicalOffsetFrame></components>)";

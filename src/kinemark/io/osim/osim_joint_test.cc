@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "kinemark/io/osim/internal/joint_types.h"
-#include "kinemark/io/osim/internal/place_bodies_for_test.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/testing/place_bodies.h"
 #include "kinemark/math/euler.h"
 
 namespace kinemark::io {

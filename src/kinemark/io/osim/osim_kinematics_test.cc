@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "kinemark/io/osim/ik_setup.h"
-#include "kinemark/io/osim/internal/place_bodies_for_test.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/testing/place_bodies.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/io/text/trc.h"
 #include "support/test_data.h"
@@ -173,7 +173,7 @@ TEST(OsimKinematics, TheScapulothoracicJointClosesTheShoulderLoop) {
 }
 
 // Whole runs as their setup files name them. 22.0 mm is published beside the data; 19.1 mm is what
-// OpenSim 4.6 itself gives for its poses (its marker places and ours differ by less than 1 um).
+// OpenSim 4.6 itself gives for its poses (its marker positions and ours differ by less than 1 um).
 TEST(OsimKinematics, ReferenceAnswersFitTheirTrials) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   struct Case {

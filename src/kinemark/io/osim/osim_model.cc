@@ -87,7 +87,7 @@ void read_markers(XmlFile& file, osim::FrameTable& frames, pugi::xml_node model,
     std::optional<osim::Attachment> frame;
     for (const char* socket : {"parent_frame", "reference_frame", "body"})
       if (!frame) frame = frames.socket(node, socket);
-    if (!frame) return file.note(node, "does not say on which body it sits");
+    if (!frame) return file.note(node, "does not name its body");
     description.markers.push_back({.name = osim::name_of(node),
                                    .body_idx = frame->body_idx,
                                    .x_in_body = frame->body_from_frame * file.vector3(node, "location")});

@@ -163,7 +163,7 @@ TEST(OsimModel, SetsInOtherFilesAreRead) {
   ASSERT_TRUE(model) << model.error().message;
   ASSERT_EQ(model->markers.size(), 1U);
   EXPECT_EQ(model->markers[0].x_in_body, Eigen::Vector3d(1, 2, 3));
-  EXPECT_THAT(parse_osim(xml, "m.osim").error().message, HasSubstr("'markers.xml', which is not at hand"));
+  EXPECT_THAT(parse_osim(xml, "m.osim").error().message, HasSubstr("'markers.xml', which is not available"));
 }
 
 }  // namespace

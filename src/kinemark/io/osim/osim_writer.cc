@@ -39,7 +39,7 @@ Status write_coupling(pugi::xml_node objects, const ModelDescription& descriptio
   if (coupling.function.kind() == math::ScalarFunction::Kind::natural_spline)
     return fail(
         Code::not_supported,
-        fmt::format("coupling '{}' is a natural spline, which OpenSim has no form for", coupling.name));
+        fmt::format("coupling '{}' is a natural spline, which OpenSim cannot represent", coupling.name));
   const pugi::xml_node node = osim::append_named(objects, "CoordinateCouplerConstraint", coupling.name);
   osim::append_flag(node, "isEnforced", true);
   osim::write_function(node, "coupled_coordinates_function", coupling.function);

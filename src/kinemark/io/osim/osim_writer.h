@@ -24,6 +24,7 @@ namespace kinemark::io {
 /// that drives several joints or none, a natural spline.
 [[nodiscard]] Result<std::string> format_osim(const data::ModelDescription& description);
 
+/// Options of write_osim().
 struct WriteOsimOptions {
   bool force = false;  ///< replace a file that exists
 };

@@ -10,8 +10,8 @@
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/osim/internal/joint_types.h"
-#include "kinemark/io/osim/internal/place_bodies_for_test.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/testing/place_bodies.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
 

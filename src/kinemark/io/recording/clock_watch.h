@@ -7,14 +7,15 @@
 
 namespace kinemark::io {
 
-/// Compares the time between messages with what their numbers and the nominal rate say: a clock that runs
-/// backwards or leaps does not fit. Loss alone does: the number steps with the clock.
+/// Compares the time between messages with the time that their sequence numbers and the nominal rate predict.
+/// A clock that jumps or runs backwards is reported; lost messages are not, because number and clock advance
+/// together.
 class ClockWatch {
  public:
   /// @param rate_hz  messages per second; 0 when unknown, then only running backwards is noticed.
   explicit ClockWatch(double rate_hz) : rate_hz_(rate_hz > 0.0 ? rate_hz : 0.0) {}
 
-  /// How far the clock jumped since the last message, s, when that is more than half a period.
+  /// Jump of the clock since the last message, s, where it exceeds half a period.
   std::optional<double> observe(std::uint32_t sequence, std::uint64_t log_time_ns);
 
  private:

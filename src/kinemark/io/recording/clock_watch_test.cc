@@ -37,7 +37,7 @@ TEST(ClockWatch, TellsHowFarTheClockRanBackOrLeapt) {
   const auto back = watch.observe(1, 4000 * kMs);
   ASSERT_TRUE(back);
   EXPECT_NEAR(*back, -1.01, 1e-9);
-  EXPECT_FALSE(watch.observe(2, 4010 * kMs));  // told once
+  EXPECT_FALSE(watch.observe(2, 4010 * kMs));  // reported once
   const auto leap = watch.observe(3, 4520 * kMs);
   ASSERT_TRUE(leap);
   EXPECT_NEAR(*leap, 0.5, 1e-9);

@@ -43,7 +43,7 @@ RecordingMessage encode_frame(const CountsFrame& frame, double epoch_s, Bytes& b
   put_all(bytes, frame.counts);
   put_all(bytes, frame.dark);
   put_all(bytes, frame.flags);
-  // A clock that runs back beyond its epoch stands still there: the frame is kept, the jump is seen.
+  // A clock that runs back beyond its epoch is clamped there: the frame is kept and the jump is reported.
   const double ns = std::clamp(1e9 * (frame.time_s - epoch_s), 0.0, 9e18);
   RecordingMessage message;
   message.sequence = static_cast<std::uint32_t>(frame.frame);
@@ -72,7 +72,7 @@ class Assembly {
         sightings_(counts_.leds.size() * counts_.cameras.size()),
         dark_size_(counts_.dark_time_s.size()),
         message_bytes_(frame_bytes(counts_)),
-        // A message number that lies must not cost more memory than its file can explain.
+        // A wrong message number must not claim more memory than the file size justifies.
         frames_allowed_(static_cast<std::int64_t>((16 * file_bytes + (64U << 20)) / message_bytes_)) {
     // As many as fit into the file: growing step by step costs several times the memory and the time.
     const std::size_t frames = file_bytes / (message_bytes_ + kFrameOverheadBytes);
@@ -87,7 +87,7 @@ class Assembly {
     const std::int64_t frame = counts_.time.frames + steps_between(next_, message.sequence);
     if (frame < counts_.time.frames) return ++repeated_, true;
     if (frame >= frames_allowed_) {
-      warnings_.push_back(fmt::format("frame {} follows frame {}: too far to be true; the rest was left out",
+      warnings_.push_back(fmt::format("frame {} follows frame {}: an implausible step; the rest was left out",
                                       frame, counts_.time.frames - 1));
       return false;
     }

@@ -19,10 +19,10 @@ namespace kinemark::io {
 
 /// Counts with what is known about them (rig, scenario, truth file: named texts).
 struct CountsRecording {
-  data::Counts counts;
-  std::vector<RecordingMetadata> metadata;
-  RecordingEnd end = RecordingEnd::closed;
-  /// What is odd, one sentence each: not closed, cut, damaged, frames lost, clock jumps.
+  data::Counts counts;                      ///< F x L x C x 4 with times and flags
+  std::vector<RecordingMetadata> metadata;  ///< in the order of the file
+  RecordingEnd end = RecordingEnd::closed;  ///< how the file ends
+  /// Irregularities, one sentence each: not closed, cut, damaged, frames lost, clock jumps.
   std::vector<std::string> warnings;
 };
 
@@ -33,9 +33,10 @@ struct CountsRecording {
                                   std::span<const RecordingMetadata> metadata, bool force);
 
 /// Everything that can be kept of a recording of counts, closed or not, damaged or not. Frames that are
-/// missing in between are flagged kCountLost; every oddity is a warning. Code::bad_input when the file is no
-/// recording of counts. Memory: the counts, and at most 16 times the file for frames that are lost.
+/// missing in between are flagged kCountLost; every irregularity is a warning. Code::bad_input when the file
+/// is no recording of counts. Memory: the counts, and at most 16 times the file for frames that are lost.
 [[nodiscard]] Result<CountsRecording> read_counts(const std::filesystem::path& path);
+/// The same of a recording that is open already and of which nothing was read.
 [[nodiscard]] Result<CountsRecording> read_counts(RecordingReader reader);
 
 /// True for a channel that read_counts() reads.
@@ -59,9 +60,13 @@ class CountsWriter {
                                      const RecordingOptions& options = {});
   /// Returns once the frame is acknowledged. Shapes are a contract; frame in [0, 2^32).
   [[nodiscard]] Status push(const CountsFrame& frame);
+  /// Bring what was pushed to the disk; Code::io when that fails.
   [[nodiscard]] Status sync() { return writer_.sync(); }
+  /// End the recording with its summary; nothing may be pushed after it.
   [[nodiscard]] Status close() { return writer_.close(); }
+  /// frames that a stop of this program cannot lose
   [[nodiscard]] std::int64_t acknowledged() const { return writer_.acknowledged(); }
+  /// frames that a loss of power cannot lose
   [[nodiscard]] std::int64_t on_disk() const { return writer_.on_disk(); }
 
  private:

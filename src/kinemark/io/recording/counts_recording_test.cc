@@ -254,7 +254,7 @@ TEST(CountsLayout, AFrameNumberThatLiesCostsNoMemory) {
   ASSERT_TRUE(read);
   EXPECT_EQ(read->counts.frames(), 1);
   EXPECT_THAT(read->warnings,
-              ElementsAre("frame 2000000000 follows frame 0: too far to be true; the rest was left out"));
+              ElementsAre("frame 2000000000 follows frame 0: an implausible step; the rest was left out"));
 }
 
 TEST(CountsLayout, ARecordingOfSomethingElseIsSaidToBe) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a recording that is cut, flipped, or lies. Every byte of a small one is tried.
+// Recordings that are cut, have flipped bits or false contents. Every byte of a small one is tested.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/recording/internal/mcap.h"
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 
 namespace kinemark::io {
 namespace {
@@ -152,7 +152,7 @@ TEST(LyingRecording, ClaimedLengthsCostNothing) {
   }
 }
 
-// Beginnings of check records everywhere: a search must not look at the rest of the file for each of them.
+// Beginnings of check records everywhere: a search must not scan the rest of the file for each of them.
 TEST(LyingRecording, AFileOfFalseChecksIsGivenUp) {
   Bytes bytes = make_small_recording(1, false).bytes;
   const std::size_t begin = bytes.size();

@@ -12,7 +12,7 @@
 
 namespace kinemark::io {
 
-/// Turns channels, metadata and messages into the bytes of a recording; knows nothing of files. The bytes of
+/// Encodes channels, metadata and messages as the bytes of a recording; does not access files. The bytes of
 /// all calls, in order, are the recording; every call but finish() makes one group: records, then a check
 /// record that covers them and follows from the check before.
 class RecordingEncoder {
@@ -21,13 +21,14 @@ class RecordingEncoder {
   void begin(Bytes& out);
   /// Declare a channel; its index. Up to 65535 channels with a topic each. Code::usage otherwise.
   [[nodiscard]] Result<std::uint16_t> add_channel(const RecordingChannel& channel, Bytes& out);
+  /// Note names and values, at any place among the messages.
   [[nodiscard]] Status add_metadata(const RecordingMetadata& metadata, Bytes& out);
   /// One or more messages that a reader gets all or none of. Code::usage when they do not fit kMaxGroupBytes.
   [[nodiscard]] Status add_messages(std::span<const RecordingMessage> messages, Bytes& out);
   /// Summary, its index and the end: the last call. O(channels + metadata).
   void finish(Bytes& out);
 
-  [[nodiscard]] std::int64_t messages() const { return messages_; }
+  [[nodiscard]] std::int64_t messages() const { return messages_; }  ///< messages encoded so far
 
  private:
   struct ChannelCount {

@@ -6,7 +6,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/io/recording/internal/mcap.h"
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 
 namespace kinemark::io {
 namespace {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/io/recording/internal/mcap.h"
 
 namespace kinemark::io {
@@ -25,17 +26,8 @@ std::string_view text_of(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::string_view to_string(RecordingEnd end) {
-  switch (end) {
-    case RecordingEnd::closed:
-      return "closed";
-    case RecordingEnd::open:
-      return "open";
-    case RecordingEnd::cut:
-      return "cut";
-    case RecordingEnd::damaged:
-      return "damaged";
-  }
-  return "damaged";
+  static constexpr EnumNames<RecordingEnd::damaged> kNames{"closed", "open", "cut", "damaged"};
+  return kNames[end];
 }
 
 RecordingReader::RecordingReader(std::unique_ptr<ByteSource> source, const RecordingReadOptions& options)
@@ -82,7 +74,7 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<ByteSource> source
               fmt::format("{}: does not begin as a recording does (MCAP); nothing was read", reader.name()));
 }
 
-/// Bytes [offset, offset + bytes), which the caller knows to be there; valid until the next call.
+/// Bytes [offset, offset + bytes), which must lie in the file; valid until the next call.
 Result<std::span<const std::byte>> RecordingReader::view(std::uint64_t offset, std::size_t bytes) {
   if (offset < window_offset_ || offset + bytes > window_offset_ + window_.size()) [[unlikely]] {
     const std::uint64_t begin = offset - std::min<std::uint64_t>(offset, kMarginBytes);
@@ -116,7 +108,7 @@ Result<RecordingReader::Group> RecordingReader::scan_group(std::uint64_t begin, 
     if (op == 0 || op == kFooter || op == kDataEnd || length > kMaxGroupBytes ||
         at + length - begin > kMaxGroupBytes + kRecordHead) {
       group.what =
-          fmt::format("a record of type {:#04x} and {} bytes has no place at byte {}", op, length, at);
+          fmt::format("a record of type {:#04x} and {} bytes is not valid at byte {}", op, length, at);
       return group;
     }
     if (at + kRecordHead + length > size)
@@ -181,7 +173,7 @@ Status RecordingReader::read_group() {
   return {};
 }
 
-/// The empty string, or what makes no sense.
+/// The empty string, or a description of the error.
 std::string RecordingReader::take_records(std::span<const std::byte> records) {
   while (!records.empty()) {
     Cursor head(records);
@@ -265,7 +257,7 @@ std::string RecordingReader::take_message(std::span<const std::byte> content) {
   return {};
 }
 
-/// From DataEnd on: all there, and as its checksum says.
+/// From DataEnd on: complete, and matching its checksum.
 Status RecordingReader::read_summary() {
   const std::uint64_t size = source_->size();
   const std::uint64_t begin = group_ + kDataEndBytes;

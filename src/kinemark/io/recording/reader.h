@@ -20,26 +20,28 @@ namespace kinemark::io {
 /// How a recording ends.
 enum class RecordingEnd : std::uint8_t {
   closed,   ///< by close(), summary intact
-  open,     ///< after a whole group: the recorder was stopped, or records still
+  open,     ///< after a whole group: the recorder was stopped, or is still recording
   cut,      ///< within a record
   damaged,  ///< by bytes that do not match their checksum or make no sense
 };
-[[nodiscard]] std::string_view to_string(RecordingEnd end);
+[[nodiscard]] std::string_view to_string(RecordingEnd end);  ///< "closed", "open", "cut", "damaged"
 
 /// A stretch of the file that was not used.
 struct RecordingDamage {
   std::uint64_t offset = 0;  ///< of its first byte
-  std::uint64_t bytes = 0;
-  std::string what;
+  std::uint64_t bytes = 0;   ///< of the damaged piece
+  std::string what;          ///< one sentence
 };
 
+/// Options of RecordingReader.
 struct RecordingReadOptions {
   /// Go on after damage where the chain of checksums can be taken up again; else stop before it.
   bool skip_damage = false;
 };
 
 /// Reads a recording message by message. Every message handed out has passed its checksum. Damage is not an
-/// error but an end: end() and damage() tell. Memory: at most about 40 MB, and never more than the file is
+/// error: reading ends there, and end() and damage() report it. Memory: at most about 40 MB, and never more
+/// than the file is
 /// long, whatever the file claims.
 class RecordingReader {
  public:
@@ -47,6 +49,7 @@ class RecordingReader {
   /// damaged; Code::not_supported for MCAP files of other programs.
   static Result<RecordingReader> open(const std::filesystem::path& path,
                                       const RecordingReadOptions& options = {});
+  /// The same from any bytes.
   static Result<RecordingReader> open(std::unique_ptr<ByteSource> source,
                                       const RecordingReadOptions& options = {});
 
@@ -58,12 +61,13 @@ class RecordingReader {
 
   /// Channels and metadata met so far; complete after the last message.
   [[nodiscard]] const std::vector<RecordingChannel>& channels() const { return channels_; }
-  [[nodiscard]] const std::vector<RecordingMetadata>& metadata() const { return metadata_; }
-  [[nodiscard]] const std::string& name() const { return source_->name(); }
-  [[nodiscard]] std::uint64_t size() const { return source_->size(); }
-  [[nodiscard]] std::int64_t messages() const { return messages_; }  ///< handed out so far
+  [[nodiscard]] const std::vector<RecordingMetadata>& metadata() const { return metadata_; }  ///< met so far
+  [[nodiscard]] const std::string& name() const { return source_->name(); }  ///< of the file, for messages
+  [[nodiscard]] std::uint64_t size() const { return source_->size(); }       ///< bytes of the file
+  [[nodiscard]] std::int64_t messages() const { return messages_; }          ///< handed out so far
   /// What follows is valid once next() has returned false.
   [[nodiscard]] RecordingEnd end() const { return end_; }
+  /// empty without skip_damage, but for the last
   [[nodiscard]] const std::vector<RecordingDamage>& damage() const { return damage_; }
   /// Bytes from the beginning up to where reading ended.
   [[nodiscard]] std::uint64_t kept_until() const { return group_; }
@@ -77,7 +81,7 @@ class RecordingReader {
   struct Group {
     Found found = Found::damaged;
     std::size_t bytes = 0;    ///< of the group's records, check record left out
-    std::uint64_t check = 0;  ///< what the check record says
+    std::uint64_t check = 0;  ///< checksum in the check record
     std::string what;
   };
 

@@ -7,14 +7,13 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/recording/internal/mcap.h"
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 #include "support/scratch.h"
 
 namespace kinemark::io {
 namespace {
 
 using namespace internal;
-using testing::HasSubstr;
 
 std::string error_of(std::string_view bytes) {
   return read_everything(std::as_bytes(std::span(bytes))).error;
@@ -124,7 +123,7 @@ TEST(RecordingReader, ReadsTheSameFromAFileOnTheDisk) {
   EXPECT_EQ(reader->size(), small.bytes.size());
 }
 
-// Groups whose checksum is right and whose content is not: not of our making, but never believed.
+// Groups with a valid checksum and invalid content: never written by kinemark, and never accepted.
 TEST(RecordingReader, StopsAtRecordsThatMakeNoSense) {
   const Bytes good = make_small_recording(2, false).bytes;
   const auto what = [&](const std::function<void(Bytes&)>& put) {

@@ -20,7 +20,7 @@ using namespace kinemark;
 
 constexpr std::int64_t kLeds = 8, kCameras = 2;
 
-/// Counts by which a frame is known: every one depends on the frame's number.
+/// Counts that identify a frame: each depends on the frame's number.
 data::Counts one_frame(std::int64_t frame) {
   data::Counts counts = data::Counts::zeros({"1", "2", "3", "4", "5", "6", "7", "8"}, {"A", "B"},
                                             {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1}, false);

@@ -34,7 +34,7 @@ Bytes sealed(std::span<const std::byte> bytes) {
   return out;
 }
 
-/// Nothing is handed out that the file does not hold, and every byte is either used or told as left out.
+/// Nothing is returned that is not in the file, and every byte is either used or reported as left out.
 void read_all(std::span<const std::byte> bytes, bool skip_damage) {
   const auto open = [&] {
     return RecordingReader::open(std::make_unique<MemorySource>(bytes, "fuzz.mcap"),

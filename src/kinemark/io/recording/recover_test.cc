@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "kinemark/io/file.h"
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 #include "support/scratch.h"
 
 namespace kinemark::io {

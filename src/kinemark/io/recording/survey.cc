@@ -52,7 +52,8 @@ void describe_channels(RecordingSurvey& survey) {
 std::vector<std::string> describe_end(const RecordingReader& reader) {
   std::vector<std::string> out;
   if (reader.end() == RecordingEnd::open)
-    out.push_back("was not closed: the recorder was stopped, or records still; all that is there was kept");
+    out.push_back(
+        "was not closed: the recorder was stopped, or is still recording; all that is there was kept");
   std::uint64_t bytes = 0;
   for (const RecordingDamage& damage : reader.damage()) {
     bytes += damage.bytes;

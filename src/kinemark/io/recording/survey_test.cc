@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "kinemark/io/recording/internal/small_recording_for_test.h"
+#include "kinemark/io/recording/testing/small_recording.h"
 
 namespace kinemark::io {
 namespace {
@@ -63,7 +63,8 @@ TEST(Survey, TellsThatTheRecorderWasStopped) {
   const RecordingSurvey survey = survey_of(make_small_recording(3, false).bytes);
   EXPECT_THAT(
       survey.warnings,
-      ElementsAre("was not closed: the recorder was stopped, or records still; all that is there was kept"));
+      ElementsAre(
+          "was not closed: the recorder was stopped, or is still recording; all that is there was kept"));
 }
 
 TEST(Survey, TellsLossAndDamageWithTheirPlaces) {

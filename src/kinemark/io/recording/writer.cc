@@ -64,7 +64,7 @@ struct RecordingWriter::State {
     const std::int64_t messages = acknowledged.load();
     while (::fdatasync(fd) != 0)
       if (errno != EINTR) return errno;
-    // on_disk only grows: another thread may have been faster with more.
+    // on_disk only grows: another thread may already have synchronised more.
     std::int64_t before = on_disk.load();
     while (before < messages && !on_disk.compare_exchange_weak(before, messages)) {
     }
@@ -125,7 +125,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path& pat
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     return fail(Code::io, fmt::format("{}: is a folder; need a file name", path.string()));
-  // A new file under the old name: whoever reads the old recording keeps it.
+  // A new file under the old name: processes that read the old recording keep it.
   if (options.force) std::filesystem::remove(path, ignored);
   auto state = std::make_unique<State>();
   state->name = path.string();
@@ -143,7 +143,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path& pat
   if (options.sync != SyncPolicy::never) {
     if (const int error = state->force_to_disk(); error != 0)
       return std::unexpected(state->failed(error, "cannot be forced to the disk").error());
-    // The name, too, has to survive a power cut.
+    // The directory entry, too, must survive a power cut.
     const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     if (const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); fd >= 0) {
       ::fsync(fd);

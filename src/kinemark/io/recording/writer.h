@@ -20,11 +20,13 @@ enum class SyncPolicy : std::uint8_t {
   always,      ///< before append() returns; costs milliseconds to tens of milliseconds each
 };
 
+/// Options of RecordingWriter.
 struct RecordingOptions {
-  bool force = false;  ///< replace a file that exists
-  SyncPolicy sync = SyncPolicy::background;
-  double sync_interval_s = 1.0;  ///< of the background thread; 0.01 to 3600
+  bool force = false;                        ///< replace a file that exists
+  SyncPolicy sync = SyncPolicy::background;  ///< when bytes are forced to the disk
+  double sync_interval_s = 1.0;              ///< of the background thread; 0.01 to 3600
 
+  /// Ranges hold.
   [[nodiscard]] Status check() const;
 };
 
@@ -32,24 +34,26 @@ struct RecordingOptions {
 ///
 /// append() returns once the whole group is with the operating system: acknowledged. A program killed at any
 /// moment leaves every acknowledged message readable; at most the one being written is torn, and readers see
-/// that. A failure (disk full, file too large) takes the torn bytes back, is told once by append(), and ends
-/// the recording: what was acknowledged before stays. Not for two threads at once.
+/// that. A failure (disk full, file too large) takes the torn bytes back, is reported once by append(), and
+/// ends the recording: what was acknowledged before stays. Not for two threads at once.
 class RecordingWriter {
  public:
   /// The file appears at once, with its header; Code::io when it exists already (unless options.force) or
   /// cannot be made, Code::usage for options out of range.
   static Result<RecordingWriter> create(const std::filesystem::path& path,
                                         const RecordingOptions& options = {});
-  RecordingWriter(RecordingWriter&&) noexcept;
+  RecordingWriter(RecordingWriter&&) noexcept;  ///< takes the open recording over
   RecordingWriter& operator=(RecordingWriter&&) = delete;
   /// Without close() the file stays as after a kill: readable, marked as not closed.
   ~RecordingWriter();
 
   /// Index of the new channel, from 0.
   [[nodiscard]] Result<std::uint16_t> add_channel(const RecordingChannel& channel);
+  /// Note names and values, at any place among the messages.
   [[nodiscard]] Status add_metadata(const RecordingMetadata& metadata);
   /// All messages or none, in one write().
   [[nodiscard]] Status append(std::span<const RecordingMessage> messages);
+  /// one message
   [[nodiscard]] Status append(const RecordingMessage& message) { return append({&message, 1}); }
   /// Wait until everything acknowledged is on the disk.
   [[nodiscard]] Status sync();

@@ -143,7 +143,7 @@ TEST(RigFile, FailuresNameThePlace) {
   EXPECT_THAT(message("format = \"kinemark-rig\"\nversion = 1"), "rig.toml: the rig has no camera");
   EXPECT_THAT(message("format = \"kinemark-rig\"\nversion = 1\ncamera = 3"), HasSubstr("[[camera]]"));
   EXPECT_THAT(message(spoilt("focal", "focl")), "rig.toml: camera 'A': focal is missing; need a number");
-  EXPECT_THAT(message(spoilt("aspect", "aspct")), "rig.toml: camera 'A': nobody knows the key 'aspct'");
+  EXPECT_THAT(message(spoilt("aspect", "aspct")), "rig.toml: camera 'A': unknown key 'aspct'");
   EXPECT_THAT(message(spoilt("bits = 11", "bits = 11.5")), HasSubstr("electronics: bits must be an integer"));
   EXPECT_THAT(message(spoilt("dark_slot = true", "dark_slot = 1")),
               HasSubstr("timing: dark_slot must be true or"));

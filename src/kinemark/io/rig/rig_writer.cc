@@ -51,7 +51,7 @@ class TomlText {
   void add(double value) {
     const std::size_t begin = out_.size();
     out_.append(fmt::format("{}", value));
-    // TOML tells floats from integers by a point or an exponent.
+    // TOML distinguishes floats from integers by a point or an exponent.
     if (out_.find_first_of(".enai", begin) == std::string::npos) out_.append(".0");
   }
   template <class Numbers>

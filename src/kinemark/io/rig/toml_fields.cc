@@ -147,8 +147,7 @@ Status TomlFields::finish() const {
   if (!status_) return status_;
   for (const auto& [key, value] : table_)
     if (std::ranges::find(asked_, key.str()) == asked_.end())
-      return fail(Code::bad_input,
-                  fmt::format("{}: nobody knows the key '{}'", where_, key.str().substr(0, 60)));
+      return fail(Code::bad_input, fmt::format("{}: unknown key '{}'", where_, key.str().substr(0, 60)));
   return {};
 }
 

@@ -18,18 +18,22 @@ struct Keypoints {
   std::vector<std::string> names;  ///< M, each unique
   std::vector<double> image;       ///< F x M x 2, px, x right and y down; NaN where not seen
 
+  /// F
   [[nodiscard]] std::int64_t frames() const {
     return names.empty() ? 0 : static_cast<std::int64_t>(image.size() / (2 * names.size()));
   }
+  /// A point in a frame, px; NaN where not seen.
   [[nodiscard]] Eigen::Vector2d at(std::int64_t frame, std::size_t point) const {
     return Eigen::Map<const Eigen::Vector2d>(image.data() +
                                              2 * (static_cast<std::size_t>(frame) * names.size() + point));
   }
 };
 
+/// Options of read_keypoints_csv().
 struct KeypointsOptions {
   double min_likelihood = 0.6;  ///< 0 to 1: points less likely are not seen
 
+  /// min_likelihood lies in [0, 1].
   [[nodiscard]] Status check() const;
 };
 

@@ -14,8 +14,9 @@ namespace kinemark::io {
 /// nColumns, inDegrees) and version 3 (DataType=double, or VecN whose cells "1,2,3" become the columns
 /// name_1, name_2, name_3), and tables that begin with the line of labels (warning).
 ///
-/// Values are as written; blank and NaN cells are NaN. Labels and rows are believed when the header counts
-/// them differently (warning). A row that repeats the time of the row before is left out (warning). A blank
+/// Values are as written; blank and NaN cells are NaN. Where the header's counts differ from the labels and
+/// rows, the labels and rows are used (warning). A row that repeats the time of the row before is left out
+/// (warning). A blank
 /// line ends the data. The first column is time, in any case of letters.
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a row with too few or too many
@@ -27,10 +28,11 @@ namespace kinemark::io {
 /// The same from memory; `name` stands for the file in messages.
 [[nodiscard]] Result<data::Table> parse_table(std::string_view text, std::string_view name);
 
-/// Whether rotational columns are in degrees: what the file says, else the habit of its kind: degrees under a
-/// SIMM header (datacolumns or datarows), radians elsewhere.
+/// Whether rotational columns are in degrees: as stated in the file, else the convention of its kind: degrees
+/// under a SIMM header (datacolumns or datarows), radians elsewhere.
 [[nodiscard]] bool angles_are_degrees(const data::Table& table);
 
+/// Options of write_table().
 struct TableWriteOptions {
   bool force = false;  ///< replace a file that exists
   int version = 1;     ///< 1 (read by every OpenSim) or 3
@@ -38,8 +40,9 @@ struct TableWriteOptions {
 };
 
 /// Write a table as OpenSim reads it. Header lines that the table carries are kept, except those that count
-/// or version; inDegrees is written as angles_are_degrees(), and left out where it is no and nobody stated
-/// it. An empty name becomes the file's. Code::bad_input when the table is invalid or a name holds a tab or
+/// or version; inDegrees is written as angles_are_degrees(), and left out where it is no and the input did
+/// not state it. An empty name becomes the file's. Code::bad_input when the table is invalid or a name holds
+/// a tab or
 /// line end; Code::io as OutputFile.
 [[nodiscard]] Status write_table(const std::filesystem::path& path, const data::Table& table,
                                  const TableWriteOptions& options = {});

@@ -115,7 +115,7 @@ Result<data::Table> parse_table(std::string_view text) {
 
   if (header->rows && *header->rows != static_cast<double>(rows))
     table.warnings.push_back(
-        fmt::format("header says {} rows, {} are there; the rows are believed", *header->rows, rows));
+        fmt::format("header says {} rows, {} are there; the rows are used", *header->rows, rows));
   if (repeated > 0)
     table.warnings.push_back(
         fmt::format("{} rows repeat the time of the row before and are left out", repeated));

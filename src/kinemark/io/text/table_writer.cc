@@ -19,7 +19,7 @@ constexpr std::size_t kFlushBytes = 1 << 20;
 
 bool fits_a_line(std::string_view text) { return text.find_first_of("\r\n") == std::string_view::npos; }
 
-/// What makes a text that no reader takes apart as it was meant.
+/// Characters that would break the format.
 Status check_texts(const data::Table& table) {
   if (!fits_a_line(table.name)) return fail(Code::bad_input, "the table's name holds a line end");
   for (const auto& [key, value] : table.header)
@@ -36,7 +36,7 @@ std::string header_text(const std::filesystem::path& path, const data::Table& ta
   std::string out = (table.name.empty() ? path.stem().string() : table.name) + "\n";
   if (version == 1)
     out += fmt::format("version=1\nnRows={}\nnColumns={}\n", table.rows(), table.columns.size() + 1);
-  // A SIMM header that says nothing means degrees; without it the new file would mean radians.
+  // A SIMM header without a statement means degrees; without the header the new file would mean radians.
   if (table.degrees_stated || angles_are_degrees(table))
     out += angles_are_degrees(table) ? "inDegrees=yes\n" : "inDegrees=no\n";
   for (const auto& [key, value] : table.header) {

@@ -151,7 +151,7 @@ class Parser {
     auto& methods = trial_.markers.methods;
     auto at = std::ranges::find(methods, cells_[*column_[method]]);
     if (at == methods.end()) {
-      if (methods.size() == 255) return wrong("is made by a method more; 255 can be told apart");
+      if (methods.size() == 255) return wrong("uses one method more than the 255 that are supported");
       at = methods.insert(methods.end(), cells_[*column_[method]]);
     }
     s.method = static_cast<std::uint8_t>(at - methods.begin() + 1);
@@ -191,13 +191,13 @@ Status Parser::finish() {
   data::Trajectories& t = trial_.markers;
   if (time_column.size() == 1) {
     t.time = {.rate_hz = 1.0, .t0_s = time_column[0], .frames = 1};
-    trial_.warnings.emplace_back("a single frame does not tell a rate; 1 Hz is taken");
+    trial_.warnings.emplace_back("a single frame does not determine a rate; 1 Hz is assumed");
   } else {
     std::vector<std::string> told;
     auto time = internal::even_time(time_column, 0.0, {}, told);
     if (!time) return fail(Code::bad_input, "the column time_s does not increase from frame to frame");
     t.time = *time;
-    // A CSV never states a rate; only an uneven clock is news.
+    // A CSV never states a rate; only an uneven clock is worth a warning.
     for (std::string& warning : told)
       if (warning.find("uneven") != std::string::npos) trial_.warnings.push_back(std::move(warning));
   }

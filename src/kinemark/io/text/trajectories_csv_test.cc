@@ -97,7 +97,7 @@ TEST(TrajectoriesCsv, ASingleFrameHasNoRate) {
   const auto trial =
       parse_trajectories_csv("frame,time_s,marker,x_m,y_m,z_m\n1,2.5,A,1,2,3\n", "a.csv").value();
   EXPECT_EQ(trial.markers.time, (TimeBase{.rate_hz = 1.0, .t0_s = 2.5, .frames = 1}));
-  EXPECT_THAT(trial.warnings, ElementsAre(HasSubstr("does not tell a rate")));
+  EXPECT_THAT(trial.warnings, ElementsAre(HasSubstr("does not determine a rate")));
 }
 
 TEST(TrajectoriesCsv, BadFilesGetOneSentenceWithTheLine) {

@@ -21,8 +21,8 @@ namespace kinemark::io {
 /// So is an exact (0, 0, 0), which programs write that know no blank, except where the marker passes through
 /// the origin: the frames just before and after the run of zeros (one of them suffices at an end of the
 /// trial) hold the marker within 5 mm of the origin. Markers without any sample stay, all missing. Zeros and
-/// such markers are told in the warnings, and so is a header whose NumFrames or NumMarkers contradict the
-/// rows and names, which are believed. A blank line ends the data.
+/// such markers are reported in the warnings, and so is a header whose NumFrames or NumMarkers contradict the
+/// rows and names; the rows and names are then used. A blank line ends the data.
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a marker name that occurs twice,
 /// an unknown unit, a file that ends inside its header or holds no row. Code::io when it cannot be read.
@@ -33,18 +33,20 @@ namespace kinemark::io {
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
 [[nodiscard]] Result<data::Trial> parse_trc(std::string_view text, std::string_view name);
 
+/// Unit of the coordinates in a file.
 enum class LengthUnit : std::uint8_t { millimetre, metre };
 
+/// Options of write_trc().
 struct TrcWriteOptions {
-  bool force = false;  ///< replace a file that exists
-  LengthUnit units = LengthUnit::millimetre;
+  bool force = false;                         ///< replace a file that exists
+  LengthUnit units = LengthUnit::millimetre;  ///< of the coordinates
   int decimals =
       -1;  ///< digits after the point of coordinates, 0 to 17; -1: the shortest that read back exactly
 };
 
 /// Write the markers of a trial as OpenSim reads them: missing and rejected samples are NaN, never 0 0 0, and
-/// every row has 3 M + 2 cells. Analog data, events and states other than "not there" have no place in a TRC.
-/// Code::bad_input when a marker name holds a tab or line end, or the trial is invalid; Code::io as
+/// every row has 3 M + 2 cells. Analog data, events and states other than missing cannot be stored in a TRC
+/// file. Code::bad_input when a marker name holds a tab or line end, or the trial is invalid; Code::io as
 /// OutputFile.
 [[nodiscard]] Status write_trc(const std::filesystem::path& path, const data::Trial& trial,
                                const TrcWriteOptions& options = {});

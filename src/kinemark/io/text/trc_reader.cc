@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/time_column.h"
@@ -29,7 +30,7 @@ constexpr std::size_t kNamesInWarning = 8;
 constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
 constexpr std::size_t kSamplesAlways = 1'000'000;
 
-/// What the rows told beside their numbers.
+/// Properties of the rows besides their numbers.
 struct Tally {
   std::vector<double> time_s;
   double resolution_s = std::numeric_limits<double>::infinity();  ///< of the time column
@@ -71,7 +72,7 @@ Status read_row_start(Cells& cells, std::int64_t line, data::Trial& trial, Tally
   if (cells.next(number) != Cell::number || !std::isfinite(number))
     return bad_cell(line, 2, "the time", cells.text());
   tally.time_s.push_back(number);
-  // Zero is written in short by programs that write the other times in full.
+  // Programs may write zero with fewer digits than the other times.
   if (number != 0.0) tally.resolution_s = std::min(tally.resolution_s, internal::resolution_of(cells.text()));
   return {};
 }
@@ -150,11 +151,9 @@ std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m) {
 
 /// "'A', 'B' and 3 more"
 std::string list(const std::vector<std::string_view>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), kNamesInWarning); ++i)
-    out += fmt::format("{}'{}'", i == 0 ? "" : ", ", excerpt(names[i]));
-  if (names.size() > kNamesInWarning) out += fmt::format(" and {} more", names.size() - kNamesInWarning);
-  return out;
+  std::vector<std::string> quoted;
+  for (const auto name : names) quoted.push_back(fmt::format("'{}'", excerpt(name)));
+  return join_some(quoted, kNamesInWarning);
 }
 
 /// Zeros out, and the warnings about markers.
@@ -194,8 +193,7 @@ void judge_rows(data::Trial& trial, const TrcHeader& header, const Tally& tally,
   const std::int64_t rows = trial.markers.frames();
   const auto warn = [&](std::string sentence) { trial.warnings.push_back(std::move(sentence)); };
   if (header.frames && *header.frames != static_cast<double>(rows))
-    warn(
-        fmt::format("header says {} frames, {} rows are there; the rows are believed", *header.frames, rows));
+    warn(fmt::format("header says {} frames, {} rows are there; the rows are used", *header.frames, rows));
   if (next_text_line > 0)
     warn(fmt::format("a blank line ends the data; line {} and what follows is not read", next_text_line));
   if (tally.frame_jumps > 0)

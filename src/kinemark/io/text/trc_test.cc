@@ -222,7 +222,7 @@ TEST(ParseTrc, SaysLineAndColumnOfWhatIsWrong) {
               HasSubstr("line 2: found 'Rate?CameraRate"));
   EXPECT_THAT(bad(replace(text_with(kRows), "Frame#", "Label")), HasSubstr("line 4: found 'Label"));
   EXPECT_THAT(bad(text_with("1\t0\t1\t2\t3\t4\t5\t6\n", "A\t\t\tB", "0\t0\t1\t2\tmm")),
-              HasSubstr("a single row does not tell"));
+              HasSubstr("a single row does not determine"));
 }
 
 TEST(ParseTrc, EveryCutOffHeaderIsOneSentence) {

@@ -17,26 +17,29 @@
 namespace kinemark::io {
 
 /// Signals of three angles through time, F frames and S signals, read as orientations of segments in the
-/// laboratory: turn about x, then about the new y, then about the new z (intrinsic X-Y-Z Cardan angles).
+/// laboratory: rotation about x, then about the new y, then about the new z (intrinsic X-Y-Z Cardan angles).
 struct SegmentOrientations {
   std::vector<std::string> names;  ///< S, the file's signal names
   std::int64_t frames = 0;         ///< F
   Array<double> angles_rad;        ///< F x S x 3; NaN where a cell is missing
 
   [[nodiscard]] std::int64_t find(std::string_view name) const;  ///< index, or -1
+  /// The three angles of a signal in a frame, rad; NaN where missing.
   [[nodiscard]] Eigen::Map<const Eigen::Vector3d> angles(std::int64_t frame, std::int64_t signal) const;
   /// Takes directions of the segment to the laboratory; NaN where an angle is missing.
   [[nodiscard]] Eigen::Matrix3d world_from_segment(std::int64_t frame, std::int64_t signal) const;
 };
 
+/// What a Visual3D text holds.
 struct V3dFile {
   data::Trial trial;                 ///< signals of type LANDMARK and TARGET, in metres
   SegmentOrientations orientations;  ///< signals of type LINK_MODEL_BASED
   std::string recorded_as;           ///< the source file that row 1 names, in UTF-8
 };
 
+/// Options of read_v3d().
 struct V3dReadOptions {
-  double rate_hz = 0.0;  ///< of the rows, which the file does not tell; must be given, > 0
+  double rate_hz = 0.0;  ///< of the rows, which the file does not store; must be given, > 0
 };
 
 /// Read a Visual3D text export.
@@ -48,9 +51,9 @@ struct V3dReadOptions {
 /// first, are not read (warning). A sample is missing when one of its three cells is blank, NaN or infinite
 /// or its row ends before it. Zeros are zeros. A blank line ends the data.
 ///
-/// LINK_MODEL_BASED is whatever the model of the file computed. That its angles are orientations of segments
-/// in the laboratory must be known or tested: they then turn the vectors between landmarks of one segment
-/// into constants.
+/// LINK_MODEL_BASED signals are whatever the model of the file computed. That their angles are orientations
+/// of segments in the laboratory must be known or tested: rotated into the segment, the vectors between
+/// landmarks of one segment are then constant.
 ///
 /// Code::usage without a positive rate; Code::bad_input, with line and column, for anything else that does
 /// not fit; Code::io when it cannot be read. O(bytes); memory at most 16 times the text + 125 MB.

@@ -28,7 +28,7 @@ using Kind = V3dHeader::Slot::Kind;
 constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
 constexpr std::size_t kSamplesAlways = 1'000'000;
 
-/// What the rows told beside their numbers.
+/// Properties of the rows besides their numbers.
 struct Tally {
   std::int64_t part_blank = 0, short_rows = 0, extra_rows = 0, jumps = 0;
 };
@@ -179,7 +179,7 @@ Eigen::Matrix3d SegmentOrientations::world_from_segment(std::int64_t frame, std:
 Result<V3dFile> parse_v3d(std::string_view text, std::string_view name, const V3dReadOptions& options) {
   if (!(options.rate_hz > 0.0) || !std::isfinite(options.rate_hz))
     return fail(Code::usage,
-                fmt::format("{}: a Visual3D text export tells no rate; give the rate of its rows "
+                fmt::format("{}: a Visual3D text export stores no rate; give the rate of its rows "
                             "in Hz (--rate)",
                             name));
   auto file = parse(text, options.rate_hz);

@@ -17,7 +17,6 @@
 namespace kinemark::io {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -77,7 +76,7 @@ TEST(ParseV3d, AnglesTurnAboutXThenTheNewYThenTheNewZ) {
     return good(text.join()).orientations.world_from_segment(0, 0);
   };
   using Eigen::Vector3d;
-  // A quarter about x takes the segment's y up; the next turn, about the new z, is about the world's -y.
+  // A quarter about x takes the segment's y up; the next rotation, about the new z, is about the world's -y.
   EXPECT_LT((turn(90, 0, 0) * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 1e-12);
   EXPECT_LT((turn(90, 0, 90) * Vector3d::UnitX() - Vector3d::UnitZ()).norm(), 1e-12);
   EXPECT_LT((turn(90, 90, 0) * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-12);
@@ -212,7 +211,7 @@ TEST(ParseV3d, WithoutARateItAsksForOne) {
     const auto file = parse_v3d(Text{}.join(), "t.v3d", {.rate_hz = rate});
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error().code, Code::usage);
-    EXPECT_THAT(file.error().message, HasSubstr("t.v3d: a Visual3D text export tells no rate"));
+    EXPECT_THAT(file.error().message, HasSubstr("t.v3d: a Visual3D text export stores no rate"));
   }
 }
 

@@ -48,7 +48,7 @@ class Builder {
     for (int b = 0; b < 10; ++b) {
       data::BodyDescription body;
       body.name = "body" + std::to_string(b);
-      body.mass = b == 1 ? 0.0 : random_.uniform(0.2, 3.0);  // the welded body may be weightless
+      body.mass = b == 1 ? 0.0 : random_.uniform(0.2, 3.0);  // the welded body may be massless
       body.com_in_body = vector(0.1);
       Matrix3d root;
       for (int i = 0; i < 3; ++i) root.col(i) = vector(0.2);

@@ -2,25 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/clean/clean_job.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <iterator>
 #include <utility>
 
-#include "kinemark/io/file.h"
-#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
-#include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/files/staging.h"
-#include "kinemark/pipeline/motion/motion_job.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
-#include "kinemark/stages/trajectory/screening/real_samples.h"
-#include "kinemark/stages/trajectory/screening/screen.h"
-#include "kinemark/stages/trajectory/screening/upsampling.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 
 namespace kinemark::pipeline {
@@ -28,57 +18,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> kRecorderMade = {"keep", "mark", "missing", "decimate"};
+/// The files of a run. Those that are not asked for are empty.
+struct CleanFiles {
+  fs::path recording, summary, derivatives, page;
 
-/// Analog samples and residuals belong to the old frames.
-void change_frames(data::Trial& trial, data::Trajectories markers, std::vector<std::string>& notes) {
-  trial.residual_m.clear();
-  trial.camera_mask.clear();
-  trial.first_frame = 1;
-  if (!trial.analog.names.empty()) {
-    notes.push_back(fmt::format("{} analog channels were left out: they cannot be told by frames of {:g} Hz",
-                                trial.analog.names.size(), markers.time.rate_hz));
-    trial.analog = {};
-    trial.force_plates.clear();
+  explicit CleanFiles(const CleanJob& job)
+      : recording(job.output), summary(beside(job.output, "_report.json")), page(job.report) {
+    if (job.derivatives && !internal::is_nwb(job.output))
+      derivatives = beside(job.output, "_derivatives.sto");
   }
-  trial.markers = std::move(markers);
-}
+  [[nodiscard]] std::vector<fs::path> all() const {
+    std::vector<fs::path> files{recording, summary};
+    for (const auto* more : {&derivatives, &page})
+      if (!more->empty()) files.push_back(*more);
+    return files;
+  }
+};
 
 /// Look for what the recorder did, and do about it what the job says.
-Status screen_trial(const CleanJob& job, data::Trial& trial, CleanOutcome& outcome) {
+Status screen_trial(const CleanJob& job, CleanOutcome& outcome) {
+  auto screening = screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
+                                                  .reject_defects = job.reject_defects,
+                                                  .sure = internal::kRejectConfidence});
+  if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
-  auto defects = trajectory::screen(trial.markers);
-  if (!defects) return std::unexpected(defects.error());
-  account.defects = std::move(*defects);
+  account.names = outcome.trial.markers.names;
+  account.defects = std::move(screening->defects);
   internal::settle_defects(job.reject_defects, account.defects);
-  auto upsampling = trajectory::detect_upsampling(trial.markers);
-  if (!upsampling) return std::unexpected(upsampling.error());
-  account.upsampling = std::move(*upsampling);
+  account.upsampling = std::move(*screening->upsampling);
   internal::settle_upsampling(job.recorder_made, account.upsampling);
-  if (job.reject_defects) {
-    auto rest = trajectory::reject_defects(trial.markers, account.defects, internal::kRejectConfidence);
-    if (!rest) return std::unexpected(rest.error());
-    trial.markers = std::move(*rest);
-  }
-  if (job.recorder_made == RecorderMade::keep || account.upsampling.factor() == 1) return {};
-  const auto made = job.recorder_made == RecorderMade::mark      ? trajectory::MadeSamples::mark
-                    : job.recorder_made == RecorderMade::missing ? trajectory::MadeSamples::missing
-                                                                 : trajectory::MadeSamples::decimate;
-  auto real = trajectory::keep_real_samples(trial.markers, account.upsampling, made);
-  if (!real) return std::unexpected(real.error());
-  if (real->frames() == trial.markers.frames())
-    trial.markers = std::move(*real);
-  else
-    change_frames(trial, std::move(*real), outcome.notes);
+  outcome.warnings = std::move(screening->warnings);
   return {};
 }
 
 /// Smooth marker by marker, each into the report and to the output as soon as it is done.
 Status smooth_trial(const CleanJob& job, const data::Trajectories& before, const data::Trial& trial,
-                    internal::CleanOutput& output, report::CleanReport& report, const Progress& progress) {
+                    internal::CleanOutput& output, report::CleanReport& report) {
   auto options = job.filter;
   options.threads = job.threads;
-  options.progress = progress;
+  options.progress = job.progress;
   return trajectory::smooth_each(trial.markers, options, [&](trajectory::MarkerResult&& result) -> Status {
     const auto m = result.marker;
     data::MarkerAccount account = result.account;
@@ -106,71 +84,51 @@ Status fill_trial(const CleanJob& job, data::Trial& trial, report::CleanReport& 
   return {};
 }
 
-Result<data::Trial> read_input(const CleanJob& job, report::CleanRun& run) {
-  auto trial = io::read_markers(job.input);
-  if (!trial) return std::unexpected(trial.error());
-  if (trial->markers.markers() == 0 || trial->markers.frames() == 0)
-    return fail(Code::bad_input,
-                fmt::format("{}: holds {} markers and {} frames; need at least one of each",
-                            job.input.string(), trial->markers.markers(), trial->markers.frames()));
-  const auto hash = hash_file(job.input);
-  if (!hash) return std::unexpected(hash.error());
-  run = internal::describe_run(job, *trial);
-  run.inputs.push_back({"markers", job.input.string(), hash->bytes, hash->hex, "XXH3-64"});
-  return trial;
+/// Recording and derivatives were put as they came; the account of it all follows.
+std::vector<ResultFile> list_files(const CleanFiles& files, internal::CleanOutput& output,
+                                   CleanOutcome& outcome, const Staging& staging) {
+  std::vector<ResultFile> list;
+  list.push_back({files.recording, [&](const fs::path&) {
+                    return output.finish(outcome.trial, files.derivatives.empty()
+                                                            ? fs::path()
+                                                            : staging.path_of(files.derivatives));
+                  }});
+  list.push_back(
+      text_file(files.summary, [&] { return report::clean_summary_json(outcome.report).dump(2) + "\n"; }));
+  if (!files.page.empty())
+    list.push_back(text_file(files.page, [&] { return report::clean_report_html(outcome.report); }));
+  return list;
 }
 
 }  // namespace
 
-std::string_view to_string(RecorderMade made) { return kRecorderMade[static_cast<std::size_t>(made)]; }
-
-Result<RecorderMade> parse_recorder_made(std::string_view name) {
-  const auto at = std::ranges::find(kRecorderMade, name);
-  if (at == kRecorderMade.end())
-    return fail(Code::usage,
-                fmt::format("'{}' is not a choice for samples that the recorder made; use keep, mark, "
-                            "missing or decimate",
-                            name));
-  return static_cast<RecorderMade>(at - kRecorderMade.begin());
-}
-
-Result<CleanOutcome> run_clean(const CleanJob& job, const Progress& progress) {
-  const fs::path summary = beside(job.output, "_report.json");
-  const fs::path table = beside(job.output, "_derivatives.sto");
-  const bool with_table = job.derivatives && !internal::is_nwb(job.output);
-  std::vector<fs::path> targets{job.output, summary};
-  if (with_table) targets.push_back(table);
-  if (!job.report.empty()) targets.push_back(job.report);
-  auto staging = Staging::create(targets, job.force);
+Result<CleanOutcome> run_clean(const CleanJob& job) {
+  // Prepare: where results go, markers, and what the recorder did to them.
+  const CleanFiles files(job);
+  auto staging = Staging::create(files.all(), job.force);
   if (!staging) return std::unexpected(staging.error());
-
+  auto input = read_marker_input({.path = job.input, .needs_samples = true, .record = true});
+  if (!input) return std::unexpected(input.error());
   CleanOutcome outcome;
-  report::CleanReport& report = outcome.report;
-  auto read = read_input(job, report.run);
-  if (!read) return std::unexpected(read.error());
-  data::Trial& trial = outcome.trial = std::move(*read);
+  auto& report = outcome.report;
+  auto& trial = outcome.trial = std::move(input->trial);
+  report.run = internal::describe_run(job, trial);
+  report.run.inputs.push_back(std::move(input->file));
   const auto start = std::chrono::steady_clock::now();
-  report.account.names = trial.markers.names;
-  if (auto s = screen_trial(job, trial, outcome); !s) return fail_at(job.input.string(), s.error());
+  if (auto s = screen_trial(job, outcome); !s) return fail_at(job.input.string(), s.error());
+  // Fill and smooth: each marker goes into the output as soon as it is done.
   const data::Trajectories before = trial.markers;
   if (auto s = fill_trial(job, trial, report); !s) return fail_at(job.input.string(), s.error());
   report.time = trial.markers.time;
-  auto output = internal::CleanOutput::create(job, staging->path(0), trial, report.run);
+  auto output = internal::CleanOutput::create(job, staging->path_of(files.recording), trial, report.run);
   if (!output) return staging->failure(output.error());
-  if (auto s = smooth_trial(job, before, trial, *output, report, progress); !s)
+  if (auto s = smooth_trial(job, before, trial, *output, report); !s)
     return s.error().code == Code::io ? staging->failure(s.error()) : fail_at(job.input.string(), s.error());
   report.run.clean_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-  const auto write = [&]() -> Status {
-    if (auto s = output->finish(trial, staging->path(with_table ? 2 : 0)); !s) return s;
-    const std::string json = report::clean_summary_json(report).dump(2) + "\n";
-    if (auto s = io::write_text(staging->path(1), json, false); !s) return s;
-    if (job.report.empty()) return {};
-    return io::write_text(staging->path(targets.size() - 1), report::clean_report_html(report), false);
-  };
-  if (auto s = write(); !s) return staging->failure(s.error());
-  if (auto s = staging->commit(); !s) return std::unexpected(s.error());
-  outcome.written = targets;
+  // Write.
+  auto written = write_results(*staging, list_files(files, *output, outcome, *staging), {}, "cleaning");
+  if (!written) return std::unexpected(written.error());
+  outcome.written = std::move(*written);
   return outcome;
 }
 

@@ -174,15 +174,9 @@ TEST_F(RunClean, FailuresLeaveNothingBehind) {
   j = job("out.xyz");
   EXPECT_FALSE(run_clean(j));
   j = job("out.c3d");
-  EXPECT_EQ(run_clean(j, [](std::int64_t, std::int64_t) { return false; }).error().code, Code::cancelled);
+  j.progress = [](std::int64_t, std::int64_t) { return false; };
+  EXPECT_EQ(run_clean(j).error().code, Code::cancelled);
   EXPECT_EQ(scratch_.count_files(), 1) << "only in.c3d";
-}
-
-TEST(RecorderMadeNames, ComeBack) {
-  for (const auto made :
-       {RecorderMade::keep, RecorderMade::mark, RecorderMade::missing, RecorderMade::decimate})
-    EXPECT_EQ(parse_recorder_made(to_string(made)).value(), made);
-  EXPECT_THAT(parse_recorder_made("drop").error().message, HasSubstr("keep, mark, missing or decimate"));
 }
 
 }  // namespace

@@ -4,25 +4,18 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cctype>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/marker_input.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string ending_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 enum class Kind { markers, table, model };
 
@@ -37,44 +30,61 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
   if (ending == ".c3d") return notes;
   if (!trial.analog.names.empty())
     notes.push_back(
-        fmt::format("{} analog channels have no place in a {} file", trial.analog.names.size(), ending));
+        fmt::format("{} analog channels cannot be stored in a {} file", trial.analog.names.size(), ending));
   if (!trial.force_plates.empty())
     notes.push_back(
-        fmt::format("{} force plates have no place in a {} file", trial.force_plates.size(), ending));
+        fmt::format("{} force plates cannot be stored in a {} file", trial.force_plates.size(), ending));
   if (!trial.events.empty())
-    notes.push_back(fmt::format("{} events have no place in a {} file", trial.events.size(), ending));
+    notes.push_back(fmt::format("{} events cannot be stored in a {} file", trial.events.size(), ending));
   return notes;
+}
+
+Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
+  auto model = io::read_osim(job.in);
+  if (!model) return std::unexpected(model.error());
+  if (auto s = io::write_osim(job.out, *model, {.force = job.force}); !s) return std::unexpected(s.error());
+  return std::move(model->warnings);
+}
+
+Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
+  auto table = io::read_table(job.in);
+  if (!table) return std::unexpected(table.error());
+  if (auto s = io::write_table(job.out, *table, {.force = job.force}); !s) return std::unexpected(s.error());
+  return std::move(table->warnings);
+}
+
+Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const std::string& ending) {
+  const auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
+  if (!input) return std::unexpected(input.error());
+  if (auto s = io::write_markers(job.out, input->trial, job.force); !s) return std::unexpected(s.error());
+  return losses(input->trial, ending);
 }
 
 }  // namespace
 
-Result<std::vector<std::string>> convert_file(const fs::path& in, const fs::path& out, bool force,
-                                              double rate_hz) {
-  const std::string from = ending_of(in), to = ending_of(out);
+Result<ConvertOutcome> run_convert(const ConvertJob& job) {
+  const std::string from = ending_of(job.in), to = ending_of(job.out);
   if (kind_of(from) != kind_of(to))
     return fail(Code::usage,
                 fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
-                            in.string(), out.string()));
+                            job.in.string(), job.out.string()));
+  Result<std::vector<std::string>> warnings;
   switch (kind_of(from)) {
-    case Kind::model: {
-      const auto model = io::read_osim(in);
-      if (!model) return std::unexpected(model.error());
-      if (auto s = io::write_osim(out, *model, {.force = force}); !s) return std::unexpected(s.error());
-      return model->warnings;
-    }
-    case Kind::table: {
-      const auto table = io::read_table(in);
-      if (!table) return std::unexpected(table.error());
-      if (auto s = io::write_table(out, *table, {.force = force}); !s) return std::unexpected(s.error());
-      return table->warnings;
-    }
+    case Kind::model:
+      warnings = convert_model(job);
+      break;
+    case Kind::table:
+      warnings = convert_table(job);
+      break;
     case Kind::markers:
+      warnings = convert_markers(job, to);
       break;
   }
-  const auto trial = io::read_markers(in, {.rate_hz = rate_hz});
-  if (!trial) return std::unexpected(trial.error());
-  if (auto s = io::write_markers(out, *trial, force); !s) return std::unexpected(s.error());
-  return losses(*trial, to);
+  if (!warnings) return std::unexpected(warnings.error());
+  ConvertOutcome out;
+  out.warnings = std::move(*warnings);
+  out.written = {job.out};
+  return out;
 }
 
 }  // namespace kinemark::pipeline

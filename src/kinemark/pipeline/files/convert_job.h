@@ -3,18 +3,24 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
+/// What `kinemark convert` is asked to do.
+struct ConvertJob : JobSettings {
+  std::filesystem::path in;   ///< file to convert
+  std::filesystem::path out;  ///< its ending names the format
+  double rate_hz = 0.0;       ///< of marker files that tell none (.v3d); 0: not given
+};
+
+/// Warnings: what was odd about the input and what the new format cannot hold.
+struct ConvertOutcome : JobOutcome {};
+
 /// Read one file and write it in the format that `out` ends in; both must be of one kind (markers, tables or
-/// models). Returns what was odd about the input and what the new format cannot hold, one sentence each.
-/// rate_hz: of marker files that tell none (.v3d), else 0.
-[[nodiscard]] Result<std::vector<std::string>> convert_file(const std::filesystem::path& in,
-                                                            const std::filesystem::path& out, bool force,
-                                                            double rate_hz = 0.0);
+/// models), else Code::usage. Fails as reader and writer of the formats.
+[[nodiscard]] Result<ConvertOutcome> run_convert(const ConvertJob& job);
 
 }  // namespace kinemark::pipeline

@@ -15,6 +15,7 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -26,14 +27,24 @@ class ConvertFile : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete scratch_; }
   static std::filesystem::path at(const std::string& name) { return *scratch_ / name; }
+  static Result<ConvertOutcome> convert(const std::filesystem::path& in, const std::filesystem::path& out,
+                                        bool force, double rate_hz = 0.0) {
+    ConvertJob job;
+    job.in = in;
+    job.out = out;
+    job.force = force;
+    job.rate_hz = rate_hz;
+    return run_convert(job);
+  }
   static testing_support::ScratchFolder* scratch_;
 };
 testing_support::ScratchFolder* ConvertFile::scratch_ = nullptr;
 
 TEST_F(ConvertFile, MarkersKeepPlacesAndGapsFromC3dToTrc) {
-  const auto notes = convert_file(at("in/markers.c3d"), at("out.trc"), false);
+  const auto notes = convert(at("in/markers.c3d"), at("out.trc"), false);
   ASSERT_TRUE(notes) << notes.error().message;
-  EXPECT_THAT(*notes, IsEmpty());
+  EXPECT_THAT(notes->warnings, IsEmpty());
+  EXPECT_THAT(notes->written, ElementsAre(at("out.trc")));
   const auto before = io::read_markers(at("in/markers.c3d")).value().markers;
   const auto after = io::read_markers(at("out.trc")).value().markers;
   ASSERT_EQ(after.names, before.names);
@@ -53,22 +64,22 @@ TEST_F(ConvertFile, WhatTheNewFormatCannotHoldIsSaid) {
   trial.analog = {.names = {"EMG"}, .units = {"V"}, .rate_hz = 60.0, .samples = trial.markers.frames()};
   trial.analog.values.assign(static_cast<std::size_t>(trial.analog.samples), 0.25);
   ASSERT_TRUE(io::write_markers(at("rich.c3d"), trial, false));
-  const auto notes = convert_file(at("rich.c3d"), at("poor.trc"), false).value();
-  EXPECT_THAT(notes, Contains("1 analog channels have no place in a .trc file"));
-  EXPECT_THAT(notes, Contains("1 events have no place in a .trc file"));
-  const auto kept = convert_file(at("rich.c3d"), at("rich2.c3d"), false).value();
-  EXPECT_THAT(kept, Not(Contains(HasSubstr("no place"))));
+  const auto notes = convert(at("rich.c3d"), at("poor.trc"), false).value().warnings;
+  EXPECT_THAT(notes, Contains("1 analog channels cannot be stored in a .trc file"));
+  EXPECT_THAT(notes, Contains("1 events cannot be stored in a .trc file"));
+  const auto kept = convert(at("rich.c3d"), at("rich2.c3d"), false).value().warnings;
+  EXPECT_THAT(kept, Not(Contains(HasSubstr("cannot be stored"))));
   EXPECT_EQ(io::read_markers(at("rich2.c3d")).value().events.size(), 1U);
 }
 
 TEST_F(ConvertFile, TablesAndModelsComeThroughUnchanged) {
-  ASSERT_TRUE(convert_file(at("in/truth.mot"), at("truth.sto"), false));
+  ASSERT_TRUE(convert(at("in/truth.mot"), at("truth.sto"), false));
   const auto before = io::read_table(at("in/truth.mot")).value();
   const auto after = io::read_table(at("truth.sto")).value();
   EXPECT_EQ(after.columns, before.columns);
   EXPECT_EQ(after.values, before.values);
   EXPECT_EQ(io::angles_are_degrees(after), io::angles_are_degrees(before));
-  ASSERT_TRUE(convert_file(at("in/model.osim"), at("copy.OSIM"), false)) << "capital letters are fine";
+  ASSERT_TRUE(convert(at("in/model.osim"), at("copy.OSIM"), false)) << "capital letters are fine";
   EXPECT_EQ(io::read_osim(at("copy.OSIM")).value().coordinates.size(),
             io::read_osim(at("in/model.osim")).value().coordinates.size());
 }
@@ -78,11 +89,11 @@ TEST_F(ConvertFile, DifferentKindsAreAMisuse) {
                              "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
                              "ITEM\tX\tY\tZ\n1\t1\t2\t3\n2\t1\t2\t3\n",
                              false));
-  const auto no_rate = convert_file(at("a.v3d"), at("a.trc"), false);
+  const auto no_rate = convert(at("a.v3d"), at("a.trc"), false);
   ASSERT_FALSE(no_rate);
   EXPECT_EQ(no_rate.error().code, Code::usage);
-  EXPECT_TRUE(convert_file(at("a.v3d"), at("a.trc"), false, 179.0));
-  const auto mixed = convert_file(at("in/markers.c3d"), at("x.mot"), false);
+  EXPECT_TRUE(convert(at("a.v3d"), at("a.trc"), false, 179.0));
+  const auto mixed = convert(at("in/markers.c3d"), at("x.mot"), false);
   ASSERT_FALSE(mixed);
   EXPECT_EQ(mixed.error().code, Code::usage);
   EXPECT_THAT(mixed.error().message, HasSubstr("different kinds of file"));
@@ -91,15 +102,15 @@ TEST_F(ConvertFile, DifferentKindsAreAMisuse) {
 
 TEST_F(ConvertFile, NeverReplacesAFileUnasked) {
   ASSERT_TRUE(io::write_text(at("mine.trc"), "mine", false));
-  EXPECT_EQ(convert_file(at("in/markers.c3d"), at("mine.trc"), false).error().code, Code::io);
+  EXPECT_EQ(convert(at("in/markers.c3d"), at("mine.trc"), false).error().code, Code::io);
   EXPECT_EQ(io::read_text(at("mine.trc")).value(), "mine");
-  EXPECT_TRUE(convert_file(at("in/markers.c3d"), at("mine.trc"), true));
+  EXPECT_TRUE(convert(at("in/markers.c3d"), at("mine.trc"), true));
   EXPECT_GT(io::read_text(at("mine.trc")).value().size(), 1000U);
 }
 
 TEST_F(ConvertFile, ABadInputLeavesNoOutput) {
   ASSERT_TRUE(io::write_text(at("bad.c3d"), "not a C3D file at all", false));
-  EXPECT_EQ(convert_file(at("bad.c3d"), at("never.trc"), false).error().code, Code::bad_input);
+  EXPECT_EQ(convert(at("bad.c3d"), at("never.trc"), false).error().code, Code::bad_input);
   EXPECT_FALSE(std::filesystem::exists(at("never.trc")));
 }
 

@@ -30,4 +30,11 @@ Result<FileHash> hash_file(const std::filesystem::path& path) {
   return hash;
 }
 
+Result<data::InputFile> record_input(const std::string& role, const std::filesystem::path& path) {
+  const auto hash = hash_file(path);
+  if (!hash) return std::unexpected(hash.error());
+  return data::InputFile{
+      .role = role, .path = path.string(), .bytes = hash->bytes, .hash = hash->hex, .hash_kind = "XXH3-64"};
+}
+
 }  // namespace kinemark::pipeline

@@ -7,15 +7,22 @@
 #include <string>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
 
 namespace kinemark::pipeline {
 
+/// Size and checksum of a file.
 struct FileHash {
-  std::int64_t bytes = 0;
-  std::string hex;  ///< XXH3, 64 bits, 16 lower-case digits
+  std::int64_t bytes = 0;  ///< size
+  std::string hex;         ///< XXH3, 64 bits, 16 lower-case digits
 };
 
 /// Size and checksum of a file, read once in blocks.
 [[nodiscard]] Result<FileHash> hash_file(const std::filesystem::path& path);
+
+/// The same as a run's record has it.
+/// @param role  "markers", "model", "setup", ...
+[[nodiscard]] Result<data::InputFile> record_input(const std::string& role,
+                                                   const std::filesystem::path& path);
 
 }  // namespace kinemark::pipeline

@@ -21,6 +21,7 @@ namespace kinemark::pipeline {
 /// Generalised forces, one column per coordinate ("knee_moment" in N m, "pelvis_tx_force" in N), and one
 /// standard deviation of each.
 [[nodiscard]] data::Table torques_table(const data::JointMotion& motion);
+/// The standard deviations in a table of the same shape; NaN where not known.
 [[nodiscard]] data::Table torque_deviations_table(const data::JointMotion& motion);
 
 /// Distance between measured and model marker in metres: columns rms, max, then one per marker; NaN where not
@@ -28,9 +29,10 @@ namespace kinemark::pipeline {
 [[nodiscard]] data::Table marker_errors_table(const data::JointMotion& motion);
 
 /// A motion from a table of coordinates and, when given, of deviations and marker errors. `rotations` holds
-/// the names of the coordinates that turn; radians and metres come out. The marker error gets its length in x
-/// and 0 in y and z; with both tables each frame has a status (frames that did not converge cannot be told
-/// from the tables).
+/// the names of the rotational coordinates; the result is in radians and metres. The marker error gets its
+/// length in x
+/// and 0 in y and z; with both tables each frame has a status (the tables do not show which frames did not
+/// converge).
 [[nodiscard]] Result<data::JointMotion> motion_from_tables(const data::Table& coordinates,
                                                            const data::Table* deviations,
                                                            const data::Table* marker_errors,

@@ -2,24 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/files/recover_job.h"
 
+#include <fmt/core.h>
+
+#include <utility>
+
 #include "kinemark/io/recording/recover.h"
 
 namespace kinemark::pipeline {
 
-Result<nlohmann::ordered_json> recover_file(const std::filesystem::path& in, const std::filesystem::path& out,
-                                            bool force) {
-  const auto report = io::recover_recording(in, out, force);
+Result<RecoverOutcome> run_recover(const RecoverJob& job) {
+  auto report = io::recover_recording(job.in, job.out, job.force);
   if (!report) return std::unexpected(report.error());
-  auto damage = nlohmann::ordered_json::array();
-  for (const auto& one : report->damage)
-    damage.push_back({{"offset", one.offset}, {"bytes", one.bytes}, {"what", one.what}});
-  return nlohmann::ordered_json{{"original", in.string()},
-                                {"written", {out.string()}},
-                                {"messages", report->messages},
-                                {"end", io::to_string(report->end)},
-                                {"bytes_left_out", report->bytes_left_out},
-                                {"damage", damage},
-                                {"warnings", report->warnings}};
+  RecoverOutcome out;
+  out.original = job.in;
+  out.messages = report->messages;
+  out.end = report->end;
+  out.bytes_left_out = report->bytes_left_out;
+  out.damage = std::move(report->damage);
+  out.warnings = std::move(report->warnings);
+  out.written = {job.out};
+  out.gates.push_back({.name = "bytes_left_out",
+                       .passed = out.bytes_left_out == 0,
+                       .value = static_cast<double>(out.bytes_left_out),
+                       .bound = 0.0,
+                       .unit = "bytes",
+                       .sentence = fmt::format("{} bytes could not be recovered.", out.bytes_left_out)});
+  return out;
 }
 
 }  // namespace kinemark::pipeline

@@ -7,7 +7,8 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/recording/counts_recording.h"
-#include "kinemark/pipeline/files/file_facts.h"
+#include "kinemark/pipeline/files/info_json.h"
+#include "kinemark/pipeline/files/outcome_json.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -15,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class RecoverJob : public testing::Test {
+class RecoverJobTest : public testing::Test {
  protected:
   void SetUp() override {
     data::Counts counts = data::Counts::zeros({"hand", "wrist"}, {"A", "B"},
@@ -33,32 +34,64 @@ class RecoverJob : public testing::Test {
     ASSERT_TRUE(io::write_text(cut_, text, true));
   }
 
+  static Result<RecoverOutcome> recover(const std::filesystem::path& in, const std::filesystem::path& out,
+                                        bool force = false) {
+    RecoverJob job;
+    job.in = in;
+    job.out = out;
+    job.force = force;
+    return run_recover(job);
+  }
+  static Result<nlohmann::ordered_json> facts_of(const std::filesystem::path& file) {
+    InfoJob job;
+    job.file = file;
+    const auto found = run_info(job);
+    if (!found) return std::unexpected(found.error());
+    return info_json(*found);
+  }
+
   testing_support::ScratchFolder scratch_;
   std::filesystem::path whole_ = scratch_ / "whole.mcap", cut_ = scratch_ / "cut.mcap",
                         out_ = scratch_ / "out.mcap";
 };
 
-TEST_F(RecoverJob, TellsWhatWasKeptAndWhatWasNot) {
+TEST_F(RecoverJobTest, TellsWhatWasKeptAndWhatWasNot) {
   cut(2000);
-  const auto done = recover_file(cut_, out_, false);
+  const auto done = recover(cut_, out_);
   ASSERT_TRUE(done) << done.error().message;
-  EXPECT_EQ(done->at("end"), "cut");
-  EXPECT_EQ(done->at("written").at(0), out_.string());
-  EXPECT_GT(done->at("messages").get<int>(), 10);
-  EXPECT_LT(done->at("messages").get<int>(), 50);
-  EXPECT_EQ(done->at("damage").size(), 1U);
-  EXPECT_EQ(done->at("damage").at(0).at("bytes"), done->at("bytes_left_out"));
-  EXPECT_THAT(done->at("warnings").at(0).get<std::string>(), HasSubstr("ends within a record"));
-  EXPECT_EQ(io::read_counts(out_)->counts.frames(), done->at("messages").get<int>());
+  EXPECT_EQ(done->end, io::RecordingEnd::cut);
+  EXPECT_GT(done->messages, 10);
+  EXPECT_LT(done->messages, 50);
+  ASSERT_EQ(done->damage.size(), 1U);
+  EXPECT_EQ(done->damage[0].bytes, done->bytes_left_out);
+  EXPECT_THAT(done->warnings.at(0), HasSubstr("ends within a record"));
+  EXPECT_EQ(io::read_counts(out_)->counts.frames(), done->messages);
+  EXPECT_EQ(done->exit_status(), 1) << "bytes had to be left out";
+  const auto json = recover_json(*done);
+  EXPECT_EQ(json["original"], cut_.string());
+  EXPECT_EQ(json["written"], nlohmann::json({out_.string()}));
+  EXPECT_EQ(json["end"], "cut");
+  EXPECT_EQ(json["messages"], done->messages);
+  EXPECT_EQ(json["damage"][0]["bytes"], json["bytes_left_out"]);
 }
 
-TEST_F(RecoverJob, PassesFailuresOn) {
-  EXPECT_EQ(recover_file(scratch_ / "absent.mcap", out_, false).error().code, Code::io);
-  EXPECT_EQ(recover_file(whole_, whole_, true).error().code, Code::usage);
+TEST_F(RecoverJobTest, AWholeRecordingPassesItsGate) {
+  const auto done = recover(whole_, out_);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(done->exit_status(), 0);
+  EXPECT_EQ(done->messages, 50);
+  EXPECT_TRUE(done->warnings.empty());
+  EXPECT_EQ(recover(whole_, out_).error().code, Code::io) << "nothing is replaced unasked";
+  EXPECT_TRUE(recover(whole_, out_, true));
 }
 
-TEST_F(RecoverJob, FactsOfARecordingOfCounts) {
-  const auto facts = describe_file(whole_);
+TEST_F(RecoverJobTest, PassesFailuresOn) {
+  EXPECT_EQ(recover(scratch_ / "absent.mcap", out_).error().code, Code::io);
+  EXPECT_EQ(recover(whole_, whole_, true).error().code, Code::usage);
+}
+
+TEST_F(RecoverJobTest, FactsOfARecordingOfCounts) {
+  const auto facts = facts_of(whole_);
   ASSERT_TRUE(facts) << facts.error().message;
   EXPECT_EQ(facts->at("kind"), "recording");
   EXPECT_EQ(facts->at("end"), "closed");
@@ -75,12 +108,14 @@ TEST_F(RecoverJob, FactsOfARecordingOfCounts) {
   EXPECT_EQ(facts->at("lost"), 0);
   EXPECT_TRUE(facts->at("dark_slot").get<bool>());
   EXPECT_TRUE(facts->at("warnings").empty());
-  EXPECT_THAT(facts_text(*facts), HasSubstr("cameras           A B\n"));
+  InfoJob job;
+  job.file = whole_;
+  EXPECT_THAT(info_text(run_info(job).value()), HasSubstr("cameras           A B\n"));
 }
 
-TEST_F(RecoverJob, FactsOfACutRecordingWarn) {
+TEST_F(RecoverJobTest, FactsOfACutRecordingWarn) {
   cut(2000);
-  const auto facts = describe_file(cut_);
+  const auto facts = facts_of(cut_);
   ASSERT_TRUE(facts);
   EXPECT_EQ(facts->at("end"), "cut");
   EXPECT_EQ(facts->at("warnings").size(), 1U);

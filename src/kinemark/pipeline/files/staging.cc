@@ -4,10 +4,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <system_error>
 #include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/pipeline/internal/new_folder.h"
 
 namespace kinemark::pipeline {
 
@@ -46,8 +50,24 @@ Result<Staging> Staging::create(std::vector<fs::path> targets, bool force) {
   return staging;
 }
 
+Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names,
+                                   bool force) {
+  auto made = std::make_unique<NewFolder>(folder);
+  if (made->error())
+    return fail(Code::io, fmt::format("{}: cannot be made ({})", folder.string(), made->error().message()));
+  std::vector<fs::path> targets;
+  for (const auto& name : names) targets.push_back(folder / name);
+  auto staging = create(std::move(targets), force);
+  if (staging) staging->made_ = std::move(made);
+  return staging;
+}
+
+Staging::Staging() = default;
+
 Staging::Staging(Staging&& other) noexcept
-    : folders_(std::exchange(other.folders_, {})), targets_(std::move(other.targets_)) {}
+    : made_(std::move(other.made_)),
+      folders_(std::exchange(other.folders_, {})),
+      targets_(std::move(other.targets_)) {}
 
 Staging::~Staging() {
   std::error_code ignored;
@@ -56,6 +76,19 @@ Staging::~Staging() {
 
 fs::path Staging::path(std::size_t i) const {
   return folders_.at(parent_of(targets_.at(i))) / fmt::format("{}-{}", i, targets_.at(i).filename().string());
+}
+
+fs::path Staging::path_of(const fs::path& target) const {
+  const auto found = std::ranges::find(targets_, target);
+  check(found != targets_.end(), "path_of() needs a target of the staging");
+  return path(static_cast<std::size_t>(found - targets_.begin()));
+}
+
+std::vector<fs::path> Staging::written() const {
+  std::vector<fs::path> out;
+  for (std::size_t i = 0; i < targets_.size(); ++i)
+    if (fs::exists(path(i))) out.push_back(targets_[i]);
+  return out;
 }
 
 std::unexpected<Error> Staging::failure(Error error) const {

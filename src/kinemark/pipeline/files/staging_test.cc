@@ -79,5 +79,68 @@ TEST(Staging, TargetsInSeveralFoldersAreStagedBesideEach) {
   EXPECT_EQ(io::read_text(scratch / "sub" / "b").value(), "B");
 }
 
+TEST(StagingInFolder, MakesTheFolderAndItStaysWithTheFiles) {
+  const testing_support::ScratchFolder scratch;
+  {
+    auto staging = Staging::create_in(scratch / "new/deeper", {"a", "b"}, false).value();
+    EXPECT_TRUE(fs::is_directory(scratch / "new/deeper"));
+    ASSERT_TRUE(io::write_text(staging.path_of(scratch / "new/deeper/b"), "B", false));
+    EXPECT_EQ(staging.written(), std::vector<fs::path>{scratch / "new/deeper/b"});
+    ASSERT_TRUE(staging.commit());
+  }
+  EXPECT_EQ(io::read_text(scratch / "new/deeper/b").value(), "B");
+  EXPECT_EQ(scratch.count_files(), 1);
+}
+
+TEST(StagingInFolder, WithoutFilesTheFolderGoesAgain) {
+  const testing_support::ScratchFolder scratch;
+  {
+    auto staging = Staging::create_in(scratch / "new/deeper", {"a"}, false).value();
+    ASSERT_TRUE(io::write_text(staging.path(0), "A", false));
+  }
+  EXPECT_FALSE(fs::exists(scratch / "new"));
+  fs::create_directory(scratch / "there");
+  ASSERT_TRUE(Staging::create_in(scratch / "there", {"a"}, false));
+  EXPECT_TRUE(fs::exists(scratch / "there")) << "it was there before";
+}
+
+TEST(StagingInFolder, SaysWhichFolderCannotBeMade) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "file", "mine", false));
+  const auto refused = Staging::create_in(scratch / "file/new", {"a"}, false);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::io);
+  EXPECT_THAT(refused.error().message, HasSubstr("file/new: cannot be made"));
+  const auto taken = Staging::create_in(scratch / "file", {"a"}, false);
+  ASSERT_FALSE(taken) << "a file is no folder";
+  EXPECT_EQ(taken.error().code, Code::io);
+  EXPECT_EQ(io::read_text(scratch / "file").value(), "mine");
+}
+
+TEST(StagingErrors, AFolderOrAFileInTheWayIsNamed) {
+  const testing_support::ScratchFolder scratch;
+  fs::create_directory(scratch / "folder");
+  EXPECT_THAT(Staging::create({scratch / "folder"}, true).error().message,
+              HasSubstr("is a folder; need a file"));
+  EXPECT_THAT(Staging::create({scratch / "none/a"}, false).error().message,
+              HasSubstr("none/a: cannot be written"));
+  ASSERT_TRUE(io::write_text(scratch / "old", "old", false));
+  const auto exists = Staging::create({scratch / "new", scratch / "old"}, false);
+  EXPECT_EQ(exists.error().code, Code::io);
+  EXPECT_THAT(exists.error().message, HasSubstr("old: exists already; use --force"));
+  const auto twice = Staging::create({scratch / "a", scratch / "x/../a"}, false);
+  EXPECT_EQ(twice.error().code, Code::usage);
+  EXPECT_THAT(twice.error().message, HasSubstr("would be written twice"));
+  EXPECT_EQ(scratch.count_files(), 1);
+}
+
+TEST(StagingErrors, AFailureIsToldOfTheTarget) {
+  const testing_support::ScratchFolder scratch;
+  const auto staging = Staging::create({scratch / "a", scratch / "b"}, false).value();
+  const Error error{Code::io, staging.path(1).string() + ": no space left"};
+  EXPECT_EQ(staging.failure(error).error().message, (scratch / "b").string() + ": no space left");
+  EXPECT_EQ(staging.failure({Code::io, "elsewhere: odd"}).error().message, "elsewhere: odd");
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

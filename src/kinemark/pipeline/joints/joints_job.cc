@@ -7,77 +7,67 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
-#include "kinemark/core/version.h"
-#include "kinemark/io/file.h"
-#include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/joints/joints_json.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
-#include "kinemark/stages/trajectory/screening/real_samples.h"
-#include "kinemark/stages/trajectory/screening/screen.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSureDefect = 0.8;
 /// Screening looks for breaks of paths. Where so large a share of samples breaks them there are no paths: the
 /// frames are poses of their own.
 constexpr double kMostDefects = 0.05;
 constexpr std::size_t kDefectsTold = 5;
 
-Status check_method(const std::string& method) {
-  if (method == "articulated") return {};
-  if (const auto known = skeleton::parse_functional_method(method); !known)
+Status check_options(const JointsJob& job) {
+  const bool articulated = job.method == "articulated";
+  if (!articulated && !skeleton::parse_functional_method(job.method))
     return fail(Code::usage,
                 fmt::format("'{}' is not a method; use articulated, score, sara, gamage, gamage-plain, "
                             "cylinder or constant-distance",
-                            method));
+                            job.method));
+  if (!(job.noise_sd_m >= 0.0) || !std::isfinite(job.noise_sd_m))
+    return fail(Code::usage, fmt::format("marker noise of {} mm; need 0 or more", 1e3 * job.noise_sd_m));
+  if (job.soft_tissue && !articulated)
+    return fail(Code::usage,
+                fmt::format("soft tissue is a term of the articulated method; '{}' has none", job.method));
   return {};
 }
 
-/// Leave out what screening is sure of, and say so.
-Status reject_defects(data::Trajectories& markers, JointsOutcome& outcome) {
-  const auto findings = trajectory::screen(markers);
-  if (!findings) return std::unexpected(findings.error());
-  std::vector<data::Defect> sure;
-  double samples = 0.0;
-  for (const auto& finding : *findings) {
-    if (finding.confidence < kSureDefect || finding.kind == data::DefectKind::clock_jump) continue;
-    sure.push_back(finding);
-    samples += static_cast<double>(finding.last_frame - finding.first_frame + 1);
-  }
+/// Only what was really seen, without what screening is sure of, unless the job says otherwise; and a
+/// sentence on each.
+Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& outcome) {
+  const auto screening = screen_markers(trial, {.find_upsampling = !job.keep_upsampled,
+                                                .recorder_made = RecorderMade::missing,
+                                                .find_defects = !job.keep_defects,
+                                                .reject_defects = true,
+                                                .most_rejected = kMostDefects,
+                                                .made_first = true});
+  if (!screening) return std::unexpected(screening.error());
+  auto& warnings = outcome.warnings;
+  if (screening->made_left_out > 0)
+    warnings.push_back(
+        fmt::format("{} samples that the recorder interpolated were left out.", screening->made_left_out));
+  const auto& sure = screening->sure;
   if (sure.empty()) return {};
-  if (samples > kMostDefects * static_cast<double>(markers.state.size())) {
-    outcome.notes.push_back(
+  if (!screening->rejected) {
+    warnings.push_back(
         fmt::format("{:.0f} % of the samples break their paths: frames are taken as poses of their own, and "
                     "nothing was rejected.",
-                    100.0 * samples / static_cast<double>(markers.state.size())));
+                    100.0 * screening->sure_share));
     return {};
   }
   for (std::size_t i = 0; i < sure.size() && i < kDefectsTold; ++i)
-    outcome.notes.push_back("Left out: " + sure[i].sentence);
+    warnings.push_back("Left out: " + sure[i].sentence);
   if (sure.size() > kDefectsTold)
-    outcome.notes.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsTold));
-  auto rest = trajectory::reject_defects(markers, sure, kSureDefect);
-  if (!rest) return std::unexpected(rest.error());
-  markers = std::move(*rest);
-  return {};
-}
-
-/// Only what was really seen, unless the job says otherwise.
-Status keep_real(data::Trajectories& markers, JointsOutcome& outcome) {
-  const auto upsampling = trajectory::detect_upsampling(markers);
-  if (!upsampling) return std::unexpected(upsampling.error());
-  auto real = trajectory::keep_real_samples(markers, *upsampling, trajectory::MadeSamples::missing);
-  if (!real) return std::unexpected(real.error());
-  const auto lost = real->count_missing() - markers.count_missing();
-  if (lost == 0) return {};
-  outcome.notes.push_back(fmt::format("{} samples that the recorder interpolated were left out.", lost));
-  markers = std::move(*real);
+    warnings.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsTold));
   return {};
 }
 
@@ -93,20 +83,21 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
   options.noise_sd_m = job.noise_sd_m;
   auto topology = skeleton::find_topology(markers, options);
   if (!topology) return std::unexpected(topology.error());
-  outcome.notes.push_back(fmt::format("Found in the data: {} segments, {} joints.",
-                                      topology->layout.segments.size(), topology->layout.joints.size()));
+  outcome.warnings.push_back(fmt::format("Found in the data: {} segments, {} joints.",
+                                         topology->layout.segments.size(), topology->layout.joints.size()));
   if (topology->layout.segments.size() < 2)
     return fail(Code::bad_input,
                 fmt::format("all {} markers keep their distances: they are on one segment, or "
-                            "nothing moved, so no joint can be seen",
+                            "nothing moved, so no joint can be found",
                             markers.markers()));
-  outcome.notes.insert(outcome.notes.end(), topology->warnings.begin(), topology->warnings.end());
+  outcome.warnings.insert(outcome.warnings.end(), topology->warnings.begin(), topology->warnings.end());
   outcome.topology = std::move(*topology);
   return outcome.topology->layout;
 }
 
 /// What the likelihood of a chain can be asked about: the largest tree of segments with two markers or more.
-Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout, std::vector<std::string>& notes) {
+Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout,
+                                         std::vector<std::string>& warnings) {
   const auto S = layout.segments.size();
   const auto usable = [&](int s) { return layout.segments[static_cast<std::size_t>(s)].markers.size() >= 2; };
   std::vector<int> tree(S);
@@ -143,14 +134,13 @@ Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout, std:
                             "which the articulated method needs; name the segments in a file, or use another "
                             "method",
                             layout.joints.size()));
-  notes.push_back(fmt::format(
+  warnings.push_back(fmt::format(
       "Left out, as the articulated method needs two markers on a segment and one tree of them: {}.", left));
   return out;
 }
 
 Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& markers,
-                                const data::SegmentLayout& layout, JointsOutcome& outcome,
-                                const Progress& progress) {
+                                JointsOutcome& outcome) {
   if (job.method == "articulated") {
     skeleton::ArticulatedOptions options;
     options.noise_sd_m = job.noise_sd_m;
@@ -158,7 +148,7 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.soft_tissue = job.soft_tissue;
     options.joint = job.kind;
     options.threads = job.threads;
-    auto fit = skeleton::fit_articulated(markers, layout, options, progress);
+    auto fit = skeleton::fit_articulated(markers, outcome.layout, options, job.progress);
     if (!fit) return std::unexpected(fit.error());
     if (job.soft_tissue) outcome.marker_noise_sd_m = std::move(fit->marker_noise_sd_m);
     return std::move(fit->skeleton);
@@ -168,42 +158,10 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
   options.sides = job.sides;
   options.kind = job.kind;
   options.noise_sd_m = job.noise_sd_m;
-  return skeleton::find_joints(markers, layout, options);
+  return skeleton::find_joints(markers, outcome.layout, options);
 }
 
-void describe(const JointsJob& job, JointsOutcome& outcome, const std::string& hash) {
-  auto& json = outcome.json;
-  json = skeleton_json(outcome.skeleton);
-  json["version"] = kVersion;
-  json["command"] = job.command_line;
-  json["input"] = {{"path", job.input.string()}, {"xxh3_64", hash}};
-  json["method"] = job.method;
-  json["notes"] = outcome.notes;
-  json["slips"] = nlohmann::ordered_json::array();
-  for (const auto& slip : outcome.slips)
-    json["slips"].push_back(
-        {{"words", slip.sentence}, {"shift_m", slip.shift_m}, {"sd_m", slip.sd_m}, {"frame", slip.frame}});
-  for (std::size_t m = 0; m < outcome.marker_noise_sd_m.size(); ++m)
-    if (std::isfinite(outcome.marker_noise_sd_m[m]))
-      json["marker_noise"].push_back(
-          {{"name", outcome.skeleton.markers[m]}, {"sd_m", outcome.marker_noise_sd_m[m]}});
-  if (!outcome.topology) return;
-  auto& topology = json["topology"];
-  for (std::size_t m = 0; m < outcome.topology->markers.size(); ++m)
-    topology["markers"].push_back({{"name", outcome.skeleton.markers[m]},
-                                   {"nats", outcome.topology->markers[m].nats},
-                                   {"doubtful", outcome.topology->markers[m].doubtful}});
-  for (std::size_t j = 0; j < outcome.topology->joints.size(); ++j) {
-    const auto& joint = outcome.topology->joints[j];
-    topology["joints"].push_back(
-        {{"name", outcome.topology->layout.joints[j].name},
-         {"residual_m", joint.residual_m},
-         {"margin", std::isfinite(joint.margin) ? nlohmann::ordered_json(joint.margin)
-                                                : nlohmann::ordered_json(nullptr)},
-         {"doubtful", joint.doubtful}});
-  }
-}
-
+/// A gate for each joint that was placed in no frame.
 void judge(JointsOutcome& outcome) {
   const auto& skeleton = outcome.skeleton;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -212,111 +170,119 @@ void judge(JointsOutcome& outcome) {
       placed =
           skeleton.state[skeleton.index(f, static_cast<std::int64_t>(j))] != data::CentreState::undetermined;
     if (placed) continue;
-    outcome.exit_status = 1;
-    outcome.notes.push_back(fmt::format("Joint '{}' was placed in no frame.", skeleton.joints[j].name));
+    outcome.gates.push_back(
+        {.name = "placed",
+         .passed = false,
+         .value = 0.0,
+         .bound = 1.0,
+         .unit = "frames",
+         .sentence = fmt::format("Joint '{}' was placed in no frame.", skeleton.joints[j].name)});
+    outcome.warnings.push_back(outcome.gates.back().sentence);
   }
+}
+
+/// The segments of the job's file, or those that the data show, in which case all failures are the
+/// recording's.
+Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
+  auto layout = find_layout(job, markers, outcome);
+  if (layout && job.method == "articulated" && outcome.topology)
+    layout = largest_tree(*layout, outcome.warnings);
+  if (!layout)
+    return job.segments.empty() ? fail_at(job.input.string(), layout.error())
+                                : std::unexpected(layout.error());
+  outcome.layout = std::move(*layout);
+  return {};
+}
+
+/// Centres and axes, and markers that moved on their segment.
+Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
+  auto found = estimate(job, markers, outcome);
+  if (!found) return std::unexpected(found.error());
+  outcome.skeleton = std::move(*found);
+  auto slips = skeleton::find_slips(markers, outcome.layout);
+  if (!slips) return std::unexpected(slips.error());
+  outcome.slips = std::move(*slips);
+  // The articulated fit itself reports markers that moved on their segment.
+  for (const auto& slip : outcome.slips)
+    if (job.method != "articulated" || slip.marker < 0)
+      outcome.warnings.push_back(slip.sentence + (slip.sentence.ends_with('?') ? "" : "."));
+  return {};
 }
 
 bool into_folder(const fs::path& output) { return !output.has_extension() || fs::is_directory(output); }
 
-std::vector<fs::path> list_targets(const fs::path& output) {
-  if (output.empty()) return {};
-  if (!into_folder(output))
-    return {output, output.parent_path() / (output.stem().string() + "_skeleton.json")};
-  return {output / "centres.csv", output / "skeleton.json", output / "centres.c3d", output / "segments.toml"};
+Result<Staging> stage(const JointsJob& job) {
+  const auto& output = job.output;
+  if (output.empty()) return Staging::create({}, job.force);
+  if (!into_folder(output)) return Staging::create({output, beside(output, "_skeleton.json")}, job.force);
+  return Staging::create_in(output, {"centres.csv", "skeleton.json", "centres.c3d", "segments.toml"},
+                            job.force);
 }
 
-/// A folder made for results, and taken away again unless they came.
-class NewFolder {
- public:
-  Status make(const fs::path& path) {
-    std::error_code error;
-    if (fs::create_directories(path, error)) made_ = path;
-    if (error) return fail(Code::io, fmt::format("{}: cannot be made: {}", path.string(), error.message()));
-    return {};
-  }
-  void keep() { made_.clear(); }
-  NewFolder() = default;
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-  ~NewFolder() {
-    std::error_code ignored;
-    if (!made_.empty()) fs::remove(made_, ignored);
-  }
-
- private:
-  fs::path made_;
-};
-
-Status write_outputs(const JointsOutcome& outcome, const data::Trial& trial,
-                     const data::SegmentLayout& layout, Staging& staging) {
-  data::Trial centres;
-  centres.source = trial.source;
-  centres.first_frame = trial.first_frame;
-  centres.markers = centre_trajectories(outcome.skeleton);
-  const auto& targets = staging.targets();
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const std::string ending = targets[i].extension().string();
-    const Status s = ending == ".json" ? io::write_text(staging.path(i), outcome.json.dump(2) + "\n", false)
-                     : ending == ".toml"
-                         ? io::write_text(staging.path(i), segments_text(layout, trial.markers.names), false)
-                         : io::write_markers(staging.path(i), centres, false);
-    if (!s) return staging.failure(s.error());
-  }
-  return staging.commit();
+std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& outcome,
+                                   const data::Trial& centres, const std::vector<fs::path>& targets) {
+  std::vector<ResultFile> files;
+  for (const auto& target : targets)
+    files.push_back(target.extension() == ".json"
+                        ? text_file(target, [&] { return joints_json(job, outcome).dump(2) + "\n"; })
+                    : target.extension() == ".toml"
+                        ? text_file(target, [&] { return segments_text(outcome.layout, outcome.markers); })
+                        : marker_file(target, centres));
+  return files;
 }
 
 }  // namespace
 
-Result<JointsOutcome> run_joints(const JointsJob& job, const Progress& progress) {
-  if (auto s = check_method(job.method); !s) return std::unexpected(s.error());
-  if (!(job.noise_sd_m >= 0.0) || !std::isfinite(job.noise_sd_m))
-    return fail(Code::usage, fmt::format("marker noise of {} mm; need 0 or more", 1e3 * job.noise_sd_m));
-  if (job.soft_tissue && job.method != "articulated")
-    return fail(Code::usage,
-                fmt::format("soft tissue is a term of the articulated method; '{}' has none", job.method));
-  auto trial = io::read_markers(job.input, {.rate_hz = io::needs_rate(job.input) ? job.rate_hz : 0.0});
-  if (!trial) return std::unexpected(trial.error());
-  const auto hash = hash_file(job.input);
-  if (!hash) return std::unexpected(hash.error());
-  const std::string name = job.input.string();
-  if (trial->markers.markers() == 0 || trial->markers.frames() == 0)
-    return fail(Code::bad_input, fmt::format("{}: holds {} markers and {} frames; need at least one of each",
-                                             name, trial->markers.markers(), trial->markers.frames()));
+Result<JointsOutcome> run_joints(const JointsJob& job) {
+  // Prepare: markers, without what is not to be trusted; segments; where results go.
+  if (auto s = check_options(job); !s) return std::unexpected(s.error());
+  auto input = read_marker_input({.path = job.input,
+                                  .rate_hz = job.rate_hz,
+                                  .rate = RateRule::where_needed,
+                                  .needs_samples = true,
+                                  .record = true});
+  if (!input) return std::unexpected(input.error());
+  auto& trial = input->trial;
   JointsOutcome outcome;
-  auto& markers = trial->markers;
-  if (!job.keep_upsampled)
-    if (auto s = keep_real(markers, outcome); !s) return fail_at(name, s.error());
-  if (!job.keep_defects)
-    if (auto s = reject_defects(markers, outcome); !s) return fail_at(name, s.error());
-  auto layout = find_layout(job, markers, outcome);
-  if (!layout) return job.segments.empty() ? fail_at(name, layout.error()) : std::unexpected(layout.error());
-  if (job.method == "articulated" && outcome.topology) {
-    layout = largest_tree(*layout, outcome.notes);
-    if (!layout) return fail_at(name, layout.error());
-  }
-  NewFolder folder;
-  if (!job.output.empty() && into_folder(job.output))
-    if (auto s = folder.make(job.output); !s) return std::unexpected(s.error());
-  const auto targets = list_targets(job.output);
-  auto staging = Staging::create(targets, job.force);
+  outcome.input = std::move(input->file);
+  outcome.markers = trial.markers.names;
+  const std::string name = job.input.string();
+  if (auto s = screen_trial(job, trial, outcome); !s) return fail_at(name, s.error());
+  if (auto s = lay_out(job, trial.markers, outcome); !s) return std::unexpected(s.error());
+  auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());
-  auto found = estimate(job, markers, *layout, outcome, progress);
-  if (!found) return fail_at(name, found.error());
-  outcome.skeleton = std::move(*found);
-  auto slips = skeleton::find_slips(markers, *layout);
-  if (!slips) return fail_at(name, slips.error());
-  outcome.slips = std::move(*slips);
-  // The articulated fit tells itself which markers moved on their segment.
-  for (const auto& slip : outcome.slips)
-    if (job.method != "articulated" || slip.marker < 0)
-      outcome.notes.push_back(slip.sentence + (slip.sentence.ends_with('?') ? "" : "."));
+  // Solve and judge.
+  if (auto s = solve(job, trial.markers, outcome); !s) return fail_at(name, s.error());
   judge(outcome);
-  describe(job, outcome, hash->hex);
-  if (auto s = write_outputs(outcome, *trial, *layout, *staging); !s) return std::unexpected(s.error());
-  outcome.written = targets;
-  folder.keep();
+  // Write.
+  data::Trial centres;
+  centres.source = trial.source;
+  centres.first_frame = trial.first_frame;
+  centres.markers = centre_trajectories(outcome.skeleton);
+  auto written = write_results(*staging, list_files(job, outcome, centres, staging->targets()), {},
+                               "the search for joints");
+  if (!written) return std::unexpected(written.error());
+  outcome.written = std::move(*written);
   return outcome;
+}
+
+data::Trajectories centre_trajectories(const data::Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const auto& joint : skeleton.joints) names.push_back(joint.name);
+  auto out = data::Trajectories::all_missing(std::move(names), skeleton.time);
+  out.covariance = skeleton.covariance;
+  for (std::int64_t f = 0; f < out.frames(); ++f)
+    for (std::int64_t j = 0; j < out.markers(); ++j) {
+      const auto state = skeleton.state[skeleton.index(f, j)];
+      if (state == data::CentreState::undetermined) continue;
+      out.x(f, j) = skeleton.centre(f, j);
+      out.state[out.index(f, j)] = state == data::CentreState::bridged ? data::SampleState::interpolated
+                                                                       : data::SampleState::model_filled;
+      out.set_method(
+          f, j,
+          fmt::format("{}: {}", skeleton.joints[static_cast<std::size_t>(j)].method, data::to_string(state)));
+    }
+  return out;
 }
 
 }  // namespace kinemark::pipeline

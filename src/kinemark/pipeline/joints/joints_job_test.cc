@@ -11,6 +11,7 @@
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/joints/joints_json.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/simulation/limb.h"
 #include "support/scratch.h"
@@ -60,7 +61,7 @@ TEST_F(JointsJobTest, WritesAFolderThatReadsBack) {
   job.output = scratch / "out";
   const auto outcome = run_joints(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->exit_status(), 0);
   EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5);
   EXPECT_EQ(outcome->written.size(), 4U);
   const auto centres = io::read_markers(job.output / "centres.csv");
@@ -95,7 +96,7 @@ TEST_F(JointsJobTest, FindsSegmentsItself) {
   EXPECT_LT(rms_mm(outcome->skeleton, 0), 3.0);
   EXPECT_LT(rms_mm(outcome->skeleton, 1), 3.0);
   EXPECT_EQ(outcome->written.back().filename(), "centres_skeleton.json");
-  EXPECT_EQ(outcome->json["topology"]["markers"].size(), 12U);
+  EXPECT_EQ(joints_json(job, *outcome)["topology"]["markers"].size(), 12U);
 }
 
 TEST_F(JointsJobTest, EveryMethodRuns) {
@@ -106,7 +107,7 @@ TEST_F(JointsJobTest, EveryMethodRuns) {
     job.method = method;
     const auto outcome = run_joints(job);
     ASSERT_TRUE(outcome) << method << ": " << outcome.error().message;
-    EXPECT_EQ(outcome->json["method"], method);
+    EXPECT_EQ(joints_json(job, *outcome)["method"], method);
     EXPECT_EQ(skeleton_words(outcome->skeleton).size(), 1U);
     if (method != "sara" && method != "cylinder" && method != "constant-distance") {
       EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5) << method;
@@ -129,9 +130,9 @@ TEST_F(JointsJobTest, ASlipIsToldInNotesAndJson) {
   ASSERT_TRUE(outcome);
   ASSERT_FALSE(outcome->slips.empty());
   EXPECT_EQ(outcome->slips[0].marker, 0);
-  EXPECT_EQ(outcome->json["slips"].size(), outcome->slips.size());
+  EXPECT_EQ(joints_json(job, *outcome)["slips"].size(), outcome->slips.size());
   EXPECT_TRUE(
-      std::ranges::any_of(outcome->notes, [](const std::string& n) { return n.starts_with("Marker '"); }));
+      std::ranges::any_of(outcome->warnings, [](const std::string& n) { return n.starts_with("Marker '"); }));
 }
 
 TEST_F(JointsJobTest, SoftTissueTellsEveryMarkersNoise) {
@@ -149,13 +150,13 @@ TEST_F(JointsJobTest, SoftTissueTellsEveryMarkersNoise) {
   const auto outcome = run_joints(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->marker_noise_sd_m.size(), 10U);
-  const auto& told = outcome->json["marker_noise"];
+  const auto told = joints_json(job, *outcome)["marker_noise"];
   ASSERT_EQ(told.size(), 10U);
   EXPECT_EQ(told[2]["name"], recording.markers.names[2]);
   EXPECT_NEAR(told[2]["sd_m"].get<double>(), 0.006, 0.002);
   EXPECT_LT(told[3]["sd_m"].get<double>(), 0.001);
   job.soft_tissue = false;
-  EXPECT_FALSE(run_joints(job)->json.contains("marker_noise"));
+  EXPECT_FALSE(joints_json(job, run_joints(job).value()).contains("marker_noise"));
 }
 
 TEST_F(JointsJobTest, OneSentenceForWhatCannotBe) {

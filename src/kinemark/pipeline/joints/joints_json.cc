@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/joints/joints_json.h"
+
 #include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
-#include "kinemark/pipeline/joints/joints_job.h"
+#include "kinemark/core/version.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -87,28 +90,46 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
   return out;
 }
 
-}  // namespace
-
-data::Trajectories centre_trajectories(const data::Skeleton& skeleton) {
-  std::vector<std::string> names;
-  for (const auto& joint : skeleton.joints) names.push_back(joint.name);
-  auto out = data::Trajectories::all_missing(std::move(names), skeleton.time);
-  out.covariance = skeleton.covariance;
-  for (std::int64_t f = 0; f < out.frames(); ++f)
-    for (std::int64_t j = 0; j < out.markers(); ++j) {
-      const auto state = skeleton.state[skeleton.index(f, j)];
-      if (state == data::CentreState::undetermined) continue;
-      out.x(f, j) = skeleton.centre(f, j);
-      out.state[out.index(f, j)] = state == data::CentreState::bridged ? data::SampleState::interpolated
-                                                                       : data::SampleState::model_filled;
-      out.set_method(
-          f, j,
-          fmt::format("{}: {}", skeleton.joints[static_cast<std::size_t>(j)].method, data::to_string(state)));
-    }
+/// How well the data tell the segments and the joints between them.
+Json topology_json(const JointsOutcome& outcome) {
+  const auto& topology = *outcome.topology;
+  Json out;
+  for (std::size_t m = 0; m < topology.markers.size(); ++m)
+    out["markers"].push_back({{"name", outcome.skeleton.markers[m]},
+                              {"nats", topology.markers[m].nats},
+                              {"doubtful", topology.markers[m].doubtful}});
+  for (std::size_t j = 0; j < topology.joints.size(); ++j) {
+    const auto& joint = topology.joints[j];
+    out["joints"].push_back({{"name", topology.layout.joints[j].name},
+                             {"residual_m", joint.residual_m},
+                             {"margin", number(joint.margin)},
+                             {"doubtful", joint.doubtful}});
+  }
   return out;
 }
 
-nlohmann::ordered_json skeleton_json(const data::Skeleton& skeleton) {
+}  // namespace
+
+Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
+  Json json = skeleton_json(outcome.skeleton);
+  json["version"] = kVersion;
+  json["command"] = job.command_line;
+  json["input"] = {{"path", outcome.input.path}, {"xxh3_64", outcome.input.hash}};
+  json["method"] = job.method;
+  json["notes"] = outcome.warnings;
+  json["slips"] = Json::array();
+  for (const auto& slip : outcome.slips)
+    json["slips"].push_back(
+        {{"words", slip.sentence}, {"shift_m", slip.shift_m}, {"sd_m", slip.sd_m}, {"frame", slip.frame}});
+  for (std::size_t m = 0; m < outcome.marker_noise_sd_m.size(); ++m)
+    if (std::isfinite(outcome.marker_noise_sd_m[m]))
+      json["marker_noise"].push_back(
+          {{"name", outcome.skeleton.markers[m]}, {"sd_m", outcome.marker_noise_sd_m[m]}});
+  if (outcome.topology) json["topology"] = topology_json(outcome);
+  return json;
+}
+
+Json skeleton_json(const data::Skeleton& skeleton) {
   Json out;
   out["schema"] = "kinemark.skeleton";
   out["frames"] = skeleton.frames();

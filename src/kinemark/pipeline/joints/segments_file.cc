@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "kinemark/data/name_index.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/rig/toml_fields.h"
 
@@ -17,22 +18,8 @@ using Need = io::TomlFields::Need;
 
 constexpr std::size_t kMostBytes = 16UL << 20;
 
-/// Index of a marker by its name or by what follows a prefix; -1: none, -2: several.
-int find_marker(const std::vector<std::string>& markers, std::string_view name) {
-  const auto exact = std::ranges::find(markers, name);
-  if (exact != markers.end()) return static_cast<int>(exact - markers.begin());
-  int found = -1;
-  for (std::size_t m = 0; m < markers.size(); ++m) {
-    const auto colon = markers[m].rfind(':');
-    if (colon == std::string::npos || std::string_view(markers[m]).substr(colon + 1) != name) continue;
-    if (found >= 0) return -2;
-    found = static_cast<int>(m);
-  }
-  return found;
-}
-
 Result<data::SegmentLayout::Segment> read_segment(const toml::table& table, const std::string& where,
-                                                  const std::vector<std::string>& markers) {
+                                                  const data::NameIndex& markers) {
   data::SegmentLayout::Segment segment;
   const auto* list = table["markers"].as_array();
   if (list == nullptr || list->empty())
@@ -47,12 +34,13 @@ Result<data::SegmentLayout::Segment> read_segment(const toml::table& table, cons
     const auto name = item.value<std::string>();
     if (!name)
       return fail(Code::bad_input, fmt::format("{}: markers of '{}' must be names", where, segment.name));
-    const int m = find_marker(markers, *name);
+    const auto m = markers.find(*name);
     if (m < 0)
       return fail(Code::bad_input,
-                  fmt::format("{}: segment '{}': {} in the recording is called '{}'", where, segment.name,
-                              m == -1 ? "no marker" : "more than one marker", *name));
-    segment.markers.push_back(m);
+                  fmt::format("{}: segment '{}': {} in the recording is called '{}'; it has {}", where,
+                              segment.name, markers.ambiguous(*name) ? "more than one marker" : "no marker",
+                              *name, markers.instead_of(*name)));
+    segment.markers.push_back(static_cast<int>(m));
   }
   return segment;
 }
@@ -80,6 +68,10 @@ Result<data::SegmentLayout::Joint> read_joint(const toml::table& table, const st
 std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+      out += fmt::format("\\u{:04X}", static_cast<int>(c));  // a line of TOML holds no line's end
+      continue;
+    }
     if (c == '"' || c == '\\') out += '\\';
     out += c;
   }
@@ -102,11 +94,12 @@ Result<data::SegmentLayout> parse_segments(std::string_view text, const std::str
       return fail(Code::bad_input,
                   fmt::format("{}: '{}': only [[segment]] and [[joint]] tables are read", name, key.str()));
   data::SegmentLayout layout;
+  const data::NameIndex index(markers);
   const auto* segments = root["segment"].as_array();
   if (segments == nullptr) return fail(Code::bad_input, name + ": holds no [[segment]]");
   int n = 0;
   for (const auto& item : *segments) {
-    auto segment = read_segment(*item.as_table(), fmt::format("{}: segment {}", name, ++n), markers);
+    auto segment = read_segment(*item.as_table(), fmt::format("{}: segment {}", name, ++n), index);
     if (!segment) return std::unexpected(segment.error());
     layout.segments.push_back(std::move(*segment));
   }

@@ -7,8 +7,8 @@
 namespace kinemark::pipeline {
 namespace {
 
-const std::vector<std::string> kMarkers = {"Ann:WRA", "Ann:WRB", "Ann:ELB", "SHO",
-                                           "UPA",     "Bob:UPA", "a\"b\\c"};
+const std::vector<std::string> kMarkers = {"Ann:WRA", "Ann:WRB", "Ann:ELB", "SHO",    "UPA",
+                                           "Bob:UPA", "a\"b\\c", "Ann:FIN", "Bob:FIN"};
 
 constexpr const char* kArm = R"(
 [[segment]]
@@ -70,11 +70,24 @@ TEST(SegmentsFile, OneSentenceForWhatIsWrong) {
   expect_refused("[[segment]]\nname = \"a\"\nmarkers = [\"SHO\"]\ncolour = 1", "'colour'");
   expect_refused("[[segment]]\nname = \"a\"\nmarkers = [7]", "must be names");
   expect_refused("[[segment]]\nname = \"a\"\nmarkers = [\"KNE\"]",
-                 "no marker in the recording is called 'KNE'");
+                 "no marker in the recording is called 'KNE'; it has Ann:WRA, Ann:WRB");
+  expect_refused("[[segment]]\nname = \"a\"\nmarkers = [\"FIN\"]",
+                 "more than one marker in the recording is called 'FIN'; it has Ann:FIN, Bob:FIN (");
   expect_refused("[[segment]]\nname = \"a\"\nmarkers = [\"SHO\", \"SHO\"]", "on 'a' and on another");
   expect_refused(arm + "[[joint]]\nparent = \"fore\"\nchild = \"hand\"\n", "no segment is called 'hand'");
   expect_refused(arm + "[[joint]]\nparent = \"fore\"\n", "child");
   expect_refused(arm + "[[joint]]\nparent = \"fore\"\nchild = \"fore\"\n", "circle");
+}
+
+TEST(SegmentsFile, NamesWithLineEndsAndOtherControlCharactersAreReadBack) {
+  const std::vector<std::string> markers = {"a\tb", "c"};
+  const auto layout =
+      parse_segments("[[segment]]\nname = \"one\\ntwo\\u007F\"\nmarkers = [\"a\\tb\"]\n", "x.toml", markers);
+  ASSERT_TRUE(layout) << layout.error().message;
+  const auto back = parse_segments(segments_text(*layout, markers), "x.toml", markers);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->segments[0].name, "one\ntwo\x7F");
+  EXPECT_EQ(back->segments[0].markers, std::vector<int>{0});
 }
 
 }  // namespace

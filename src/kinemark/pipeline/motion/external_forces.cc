@@ -118,7 +118,7 @@ Result<ExternalForces> read_external_forces(const std::filesystem::path& path, c
   return fail(
       Code::usage,
       fmt::format("{}: forces are read from the plates of a .c3d file or from an OpenSim ExternalLoads .xml, "
-                  "which says what the columns of a .mot or .sto push",
+                  "which assigns the columns of a .mot or .sto to bodies",
                   path.string()));
 }
 

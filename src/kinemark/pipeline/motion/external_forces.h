@@ -12,14 +12,15 @@
 
 namespace kinemark::pipeline {
 
+/// Forces that act on the body besides gravity, and the files they come from.
 struct ExternalForces {
-  data::Wrenches wrenches;
+  data::Wrenches wrenches;                   ///< on the recording's clock
   std::vector<std::filesystem::path> files;  ///< all that were read, the named one first
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;         ///< one sentence each
 };
 
 /// Forces on the body at the frames of `time`: the plates of a .c3d file, or an OpenSim ExternalLoads .xml
-/// with its table. NaN where the file knows nothing. Another kind of file: Code::usage.
+/// with its table. NaN where the file has no data. Another kind of file: Code::usage.
 [[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
                                                           const TimeBase& time, double contact_force_n);
 

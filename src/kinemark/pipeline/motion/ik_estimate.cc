@@ -13,16 +13,7 @@ namespace {
 motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
   motion::IkResult result;
   result.motion = std::move(smooth.motion);
-  result.first_frame = smooth.first_frame;
-  result.markers = std::move(smooth.markers);
-  result.model_markers_without_data = std::move(smooth.model_markers_without_data);
-  result.data_markers_without_model = std::move(smooth.data_markers_without_model);
-  result.excluded_markers = std::move(smooth.excluded_markers);
-  result.warnings = std::move(smooth.warnings);
-  result.rms_marker_error_m = smooth.rms_marker_error_m;
-  result.max_marker_error_m = smooth.max_marker_error_m;
-  result.mean_marker_error_m = smooth.mean_marker_error_m;
-  result.max_loop_gap_m = smooth.max_loop_gap_m;
+  result.fit = std::move(smooth.fit);
   result.iterations = smooth.iterations;
   result.solve_seconds = smooth.start_seconds + smooth.solve_seconds;
   return result;
@@ -31,21 +22,20 @@ motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
 }  // namespace
 
 Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
-                                       const data::Trajectories& markers, const Progress& progress,
-                                       const data::ImageTracks* images) {
+                                       const data::Trajectories& markers, const data::ImageTracks* images) {
   MotionEstimate estimate;
   motion::RateErrors errors;
   if (job.estimator == Estimator::smoother) {
     const motion::SmootherOptions options{.ik = job.options, .error_bars = job.options.error_bars};
-    auto smooth = images == nullptr ? motion::smooth_motion(model, markers, options, progress)
-                                    : motion::smooth_images(model, *images, markers, options, progress);
+    auto smooth = images == nullptr ? motion::smooth_motion(model, markers, options, job.progress)
+                                    : motion::smooth_images(model, *images, markers, options, job.progress);
     if (!smooth) return fail_at(job.markers.string(), smooth.error());
     errors = std::move(smooth->errors);
     estimate.ik = in_terms_of_ik(std::move(*smooth));
   } else {
     if (images != nullptr)
       return fail(Code::usage, "least squares cannot use images; give --estimator smoother");
-    auto solved = motion::solve_ik(model, markers, job.options, progress);
+    auto solved = motion::solve_ik(model, markers, job.options, job.progress);
     if (!solved) return fail_at(job.markers.string(), solved.error());
     estimate.ik = std::move(*solved);
   }

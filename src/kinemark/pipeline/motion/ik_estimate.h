@@ -3,7 +3,6 @@
 // What `kinemark ik` computes: coordinates by the estimator that the job names, torques when asked.
 #pragma once
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
 #include "kinemark/data/image_tracks.h"
 #include "kinemark/data/trajectories.h"
@@ -13,18 +12,17 @@
 
 namespace kinemark::pipeline {
 
+/// Joint angles by either estimator, with torques where asked for.
 struct MotionEstimate {
-  motion::IkResult ik;
+  motion::IkResult ik;    ///< motion and fit
   TorqueAccount torques;  ///< empty unless they were asked for
 };
 
-/// Least squares or the whole-trajectory smoother, told in the terms of the former; with torques (and, for
-/// least squares, estimated rates) in the motion when the job asks for them. Failures name the file. With
-/// images the smoother takes its evidence from them and its start from the markers; least squares cannot use
-/// them.
+/// Least squares or the whole-trajectory smoother, both with the result type of the former; with torques
+/// (and, for least squares, estimated rates) in the motion when the job asks for them. Failures name the
+/// file. With images the smoother fits these, started from the markers; least squares cannot use images.
 [[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
                                                      const data::Trajectories& markers,
-                                                     const Progress& progress,
                                                      const data::ImageTracks* images = nullptr);
 
 }  // namespace kinemark::pipeline

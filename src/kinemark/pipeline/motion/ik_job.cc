@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
@@ -18,10 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How the recording lies to the model when they do not meet, in one sentence.
+/// One sentence on the offset between recording and model when they do not coincide.
 std::string offset_sentence(const motion::IkResult& result, const IkJob& job, const model::Model& model,
                             const data::Trajectories& markers) {
-  const auto& mean = result.mean_marker_error_m;
+  const auto& mean = result.fit.mean_error_m;
+  if (!mean.allFinite()) return "No marker is seen in the time range.";
   if (mean.norm() <= job.max_offset_m)
     return fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
   const auto offset = motion::find_common_offset(model, markers, job.options);
@@ -31,37 +33,34 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
       "would fit with "
       "{:.1f} mm RMS instead of {:.1f} mm. Check that recording and model share origin, axes and unit.",
       shift.norm(), shift.x(), shift.y(), shift.z(), 1e3 * (offset ? offset->rms_after_m : 0.0),
-      1e3 * result.rms_marker_error_m);
+      1e3 * result.fit.rms_error_m);
 }
 
 void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInputs& inputs,
                const motion::IkResult& result) {
-  internal::add_marker_gates(run, job, result.mean_marker_error_m.norm(),
+  internal::add_marker_gates(run, job, result.fit.mean_error_m.norm(),
                              offset_sentence(result, job, inputs.model, inputs.trial.markers),
-                             result.rms_marker_error_m);
+                             result.fit.rms_error_m);
   std::int64_t failed = 0;
   for (const auto status : result.motion.status) failed += status == data::FrameStatus::not_converged;
   internal::add_gate(run, "not_converged", static_cast<double>(failed), 0.0, "frames",
                      fmt::format("{} of {} frames did not converge.", failed, result.motion.frames()));
-  if (!std::isnan(result.max_loop_gap_m) && result.max_loop_gap_m > 0.0)
+  if (!std::isnan(result.fit.max_loop_gap_m) && result.fit.max_loop_gap_m > 0.0)
     internal::add_gate(
-        run, "loop_gap", 1e3 * result.max_loop_gap_m, 1e-3, "mm",
+        run, "loop_gap", 1e3 * result.fit.max_loop_gap_m, 1e-3, "mm",
         fmt::format("The widest gap of a closed loop is {:.2g} mm; at most 0.001 mm is accepted.",
-                    1e3 * result.max_loop_gap_m));
+                    1e3 * result.fit.max_loop_gap_m));
 }
 
 Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInputs& inputs,
-                                   const motion::IkResult& result) {
+                                   const motion::IkResult& result, const TorqueAccount& torques) {
   auto run = internal::begin_run(job, inputs);
-  if (!run) return run;
-  if (auto s = internal::add_input(*run, "setup", job.setup); !s) return std::unexpected(s.error());
-  if (auto s = internal::add_input(*run, "tasks", job.tasks); !s) return std::unexpected(s.error());
+  if (auto s = internal::add_input(run, "setup", job.setup); !s) return std::unexpected(s.error());
+  if (auto s = internal::add_input(run, "tasks", job.tasks); !s) return std::unexpected(s.error());
   const auto& o = job.options;
-  run->method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
-  run->seed = o.seed;
-  run->threads = o.threads;
+  run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
   const char* losses[] = {"square", "huber", "cauchy"};
-  run->options = {
+  run.options = {
       {"loss", losses[static_cast<int>(o.loss)]},
       {"loss scale", fmt::format("{} m", o.loss_scale_m)},
       {"limits of clamped coordinates", o.limits ? "kept" : "ignored"},
@@ -69,66 +68,75 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
                                                  : "estimated from the residuals, per marker and segment"},
       {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
       {"starts of the first frame", std::to_string(o.starts)}};
-  if (job.images.any()) run->options.emplace_back("images in place of markers", images_in_words(job.images));
-  internal::add_estimate(*run, result, "given the weight 0");
-  add_gates(*run, job, inputs, result);
+  if (job.images.any()) run.options.emplace_back("images in place of markers", images_in_words(job.images));
+  run.solve_s = result.solve_seconds;
+  internal::add_fit(run, result.fit, result.motion.time);
+  add_gates(run, job, inputs, result);
+  if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
   return run;
 }
 
 /// The used markers on the frames that were solved, under the model's names.
 data::Trajectories solved_markers(const data::Trajectories& recorded, const motion::IkResult& result) {
   std::vector<std::string> names;
-  for (const auto& marker : result.markers) names.push_back(marker.name);
-  auto solved = data::Trajectories::all_missing(names, result.motion.time);
-  for (std::size_t m = 0; m < result.markers.size(); ++m) {
-    const auto from = recorded.find(result.markers[m].name_in_data);
-    for (std::int64_t f = 0; f < solved.frames(); ++f) {
-      const auto to = static_cast<std::int64_t>(m);
-      solved.x(f, to) = recorded.x(result.first_frame + f, from);
-      solved.state[solved.index(f, to)] = recorded.state[recorded.index(result.first_frame + f, from)];
-    }
+  std::vector<std::int64_t> from;
+  for (const auto& marker : result.fit.markers) {
+    names.push_back(marker.name);
+    from.push_back(recorded.find(marker.name_in_data));
   }
-  return solved;
+  return select_markers(recorded, from, std::move(names), result.fit.first_frame, result.motion.time);
 }
 
-}  // namespace
-
-Result<IkOutcome> run_ik(IkJob job, const Progress& progress) {
-  if (auto s = apply_setup(job); !s) return std::unexpected(s.error());
-  if (auto s = internal::check_named(job, " or a --setup that names one"); !s)
-    return std::unexpected(s.error());
+/// Fill in what a setup names and what options follow from others, and check that it is enough.
+Status complete(IkJob& job) {
+  if (auto s = apply_setup(job); !s) return s;
+  if (auto s = internal::check_named(job, " or a --setup that names one"); !s) return s;
   if (job.images.any() && job.estimator != Estimator::smoother)
     return fail(Code::usage, "least squares cannot use images; give --estimator smoother");
-  const auto inputs = internal::read_inputs(job);
-  if (!inputs) return std::unexpected(inputs.error());
-  const auto& [model, trial, images] = *inputs;
-  if (auto s = apply_tasks(job, model, trial.markers); !s) return std::unexpected(s.error());
-
+  job.options.threads = job.threads;
+  job.options.seed = job.seed;
   job.torques = job.torques || !job.forces.empty();
+  return {};
+}
+
+Result<Staging> stage_files(const IkJob& job) {
   std::vector<fs::path> further;
   if (!job.report.empty()) further.push_back(job.report);
   if (job.torques) further.push_back(beside(job.output, "_tau.sto"));
   if (job.torques && job.options.error_bars) further.push_back(beside(job.output, "_tau_sd.sto"));
-  auto staging = internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further);
-  if (!staging) return std::unexpected(staging.error());
+  return internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further);
+}
 
-  IkOutcome outcome;
-  auto estimate = estimate_motion(job, model, trial.markers, progress, images ? &*images : nullptr);
+}  // namespace
+
+Result<IkOutcome> run_ik(IkJob job) {
+  // Prepare: options, model and markers, tasks, where results go.
+  if (auto s = complete(job); !s) return std::unexpected(s.error());
+  const auto inputs = internal::read_inputs(job);
+  if (!inputs) return std::unexpected(inputs.error());
+  const auto& [model, trial, images, read] = *inputs;
+  if (auto s = apply_tasks(job, model, trial.markers); !s) return std::unexpected(s.error());
+  auto staging = stage_files(job);
+  if (!staging) return std::unexpected(staging.error());
+  // Solve.
+  auto estimate = estimate_motion(job, model, trial.markers, images ? &*images : nullptr);
   if (!estimate) return std::unexpected(estimate.error());
+  // Judge.
+  IkOutcome outcome;
   outcome.result = std::move(estimate->ik);
-  auto run = describe_run(job, *inputs, outcome.result);
-  if (!run) return std::unexpected(run.error());
-  if (auto s = internal::add_torque_account(*run, estimate->torques); !s) return std::unexpected(s.error());
   const auto& motion = outcome.result.motion;
   const data::Trajectories solved = solved_markers(trial.markers, outcome.result);
-  if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, &solved, outcome); !s)
+  auto run = describe_run(job, *inputs, outcome.result, estimate->torques);
+  if (!run) return std::unexpected(run.error());
+  if (auto s = internal::judge(std::move(*run), motion, &solved, outcome); !s)
     return std::unexpected(s.error());
-  if (!job.report.empty()) {
-    const std::string page =
-        report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &solved});
-    if (auto s = internal::put(*staging, job.report, page); !s) return std::unexpected(s.error());
-  }
-  if (auto s = internal::reveal(*staging, progress, "inverse kinematics", outcome); !s)
+  // Write.
+  auto files = internal::motion_files(job, motion, outcome.summary);
+  if (!job.report.empty())
+    files.push_back(text_file(job.report, [&] {
+      return report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &solved});
+    }));
+  if (auto s = internal::write(job, *staging, files, "inverse kinematics", outcome); !s)
     return std::unexpected(s.error());
   return outcome;
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/motion/ik.h"
 
@@ -19,18 +18,20 @@ enum class Estimator : std::uint8_t { least_squares, smoother };
 struct IkJob : MotionJob {
   std::filesystem::path
       setup;  ///< OpenSim InverseKinematicsTool file; fills what the other fields leave open
-  std::filesystem::path tasks;   ///< OpenSim IKTaskSet file
-  std::filesystem::path report;  ///< page to write as well
-  motion::IkOptions options;
-  Estimator estimator = Estimator::least_squares;
+  std::filesystem::path tasks;                     ///< OpenSim IKTaskSet file
+  std::filesystem::path report;                    ///< page to write as well
+  motion::IkOptions options;                       ///< of the least squares
+  Estimator estimator = Estimator::least_squares;  ///< which estimator
   bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
 };
 
+/// What `kinemark ik` did.
 struct IkOutcome : MotionOutcome {
-  motion::IkResult result;
+  motion::IkResult result;  ///< motion and fit
 };
 
-/// Read, solve, check and write. Either all files appear or, on a failure, none.
-[[nodiscard]] Result<IkOutcome> run_ik(IkJob job, const Progress& progress = {});
+/// Read, solve, judge and write. Either all files appear or, on a failure, none. Threads and seed of the
+/// options are the job's. Progress counts frames.
+[[nodiscard]] Result<IkOutcome> run_ik(IkJob job);
 
 }  // namespace kinemark::pipeline

@@ -9,7 +9,6 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/motion/report_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
 namespace kinemark::pipeline {
@@ -23,7 +22,7 @@ using RunIk = testing::RecordedTest<IkJob>;
 TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
   const auto outcome = run_ik(job("Q.mot"));
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->exit_status(), 0);
   EXPECT_EQ(outcome->written.size(), 4U);
   const auto q = io::read_table(at("Q.mot")).value();
   const auto sd = io::read_table(at("Q_sd.sto")).value();
@@ -92,36 +91,14 @@ TEST_F(RunIk, ForcesOfAFileAreInTheTorquesAndInTheAccount) {
   EXPECT_FALSE(fs::exists(at("none.mot")));
 }
 
-TEST_F(RunIk, AReportMadeLaterIsTheReportMadeAtOnce) {
-  auto with_page = job("R.mot");
-  with_page.report = at("at_once.html");
-  ASSERT_TRUE(run_ik(with_page));
-  ASSERT_TRUE(write_report(at("R.mot"), at("later.html"), false));
-  ASSERT_TRUE(write_report(at("R_report.json"), at("from_json.html"), false));
-  EXPECT_EQ(io::read_text(at("later.html")).value(), io::read_text(at("from_json.html")).value());
-  const auto once = io::read_text(at("at_once.html")).value(),
-             later = io::read_text(at("later.html")).value();
-  EXPECT_NEAR(static_cast<double>(once.size()), static_cast<double>(later.size()),
-              0.05 * static_cast<double>(once.size()));
-  EXPECT_EQ(once.find("http://"), later.find("http://"));
-  EXPECT_EQ(write_report(at("R.mot"), at("later.html"), false).error().code, Code::io) << "exists already";
-}
-
-TEST_F(RunIk, AReportOfMissingOrForeignFilesIsOneSentence) {
-  EXPECT_EQ(write_report(at("nothing.mot"), at("n.html"), false).error().code, Code::io);
-  ASSERT_TRUE(io::write_text(at("X_report.json"), "{ not json", false));
-  EXPECT_THAT(write_report(at("X.mot"), at("n.html"), false).error().message, HasSubstr("is not JSON"));
-  EXPECT_FALSE(fs::exists(at("n.html")));
-}
-
 TEST_F(RunIk, AMissedGateStillWritesAndEndsWithOne) {
   auto strict = job("strict.mot");
   strict.max_rms_m = 1e-5;
   const auto outcome = run_ik(strict).value();
-  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_EQ(outcome.exit_status(), 1);
   EXPECT_TRUE(fs::exists(at("strict.mot")));
   std::string told;
-  for (const auto& finding : outcome.summary.findings) told += finding.text;
+  for (const auto& notice : outcome.summary.notices) told += notice.text;
   EXPECT_THAT(told, HasSubstr("at most 0.0 mm is accepted"));
 }
 
@@ -151,7 +128,9 @@ TEST_F(RunIk, NothingIsWrittenWhenItFailsOrIsStopped) {
   auto early = job("gone.mot");
   early.options.first_time_s = 100.0;
   EXPECT_THAT(run_ik(early).error().message, HasSubstr("markers.c3d"));
-  const auto stopped = run_ik(job("gone.mot"), [](std::int64_t, std::int64_t) { return false; });
+  auto stop = job("gone.mot");
+  stop.progress = [](std::int64_t, std::int64_t) { return false; };
+  const auto stopped = run_ik(stop);
   EXPECT_EQ(stopped.error().code, Code::cancelled);
   for (const char* file : {"gone.mot", "gone_sd.sto", "gone_report.json"}) EXPECT_FALSE(fs::exists(at(file)));
 }

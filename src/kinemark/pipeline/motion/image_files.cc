@@ -36,7 +36,8 @@ Result<data::Camera> pinhole_camera(const data::Rig& rig, const ImageFiles& file
 Status ImageFiles::check() const {
   if (!any()) return {};
   if (rig.empty()) return fail(Code::usage, "images need the rig of their cameras; give --rig");
-  if (cameras.empty()) return fail(Code::usage, "a rig alone says nothing; give --images CAMERA=FILE");
+  if (cameras.empty())
+    return fail(Code::usage, "a rig without images has no effect; give --images CAMERA=FILE");
   std::set<std::string> names;
   for (const auto& [camera, points] : cameras)
     if (!names.insert(camera).second)

@@ -13,21 +13,23 @@ namespace kinemark::pipeline {
 
 /// Labelled points in the images of calibrated cameras: a rig, and for each camera in use a file of points.
 struct ImageFiles {
+  /// The points of one camera.
   struct OfCamera {
-    std::string camera;  ///< name in the rig
-    std::filesystem::path points;
+    std::string camera;            ///< name in the rig
+    std::filesystem::path points;  ///< CSV of labelled points
   };
-  std::filesystem::path rig;
+  std::filesystem::path rig;      ///< rig.toml
   std::vector<OfCamera> cameras;  ///< none: no images
   double noise_sd_px = 1.0;       ///< of a point, per axis; > 0
   double min_likelihood = 0.6;    ///< 0 to 1: less likely points are not seen
 
+  /// Whether images are to be used.
   [[nodiscard]] bool any() const { return !cameras.empty() || !rig.empty(); }
   /// Both a rig and cameras, each once; numbers in range.
   [[nodiscard]] Status check() const;
 };
 
-/// "2 cameras, 1 px", for the record.
+/// "2 cameras, 1 px", for the provenance record.
 [[nodiscard]] std::string images_in_words(const ImageFiles& files);
 
 /// The images as tracks: points of all files, in the order in which they are named first, at the frames of

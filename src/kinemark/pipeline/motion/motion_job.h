@@ -1,36 +1,31 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What all commands share that turn markers into a motion of the model: `ik` and `track`.
+// Inputs and outcome common to the commands that estimate a motion of the model from markers: `ik` and
+// `track`.
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/motion/image_files.h"
 #include "kinemark/stages/report/ik_summary.h"
 
 namespace kinemark::pipeline {
 
-struct MotionJob {
-  std::filesystem::path model, markers;
-  std::filesystem::path output;  ///< Q.mot; all other results go beside it
-  std::filesystem::path forces;  ///< what pushed the body, for torques: .c3d, or ExternalLoads .xml
+/// What `kinemark ik` and `track` are asked alike.
+struct MotionJob : JobSettings {
+  std::filesystem::path model, markers;  ///< .osim; and any marker file
+  std::filesystem::path output;          ///< Q.mot; all other results go beside it
+  std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   ImageFiles images;             ///< seen besides the markers; none: nothing
-  double rate_hz = 0.0;          ///< of a marker file that tells none (.v3d); 0: not given
+  double rate_hz = 0.0;          ///< for a marker file that stores none (.v3d); 0: not given
   double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;    ///< quality gate: length of the mean distance vector
-  bool force = false;
-  std::string command_line;  ///< for the record
 };
 
-struct MotionOutcome {
-  report::IkSummary summary;  ///< gates and findings included
-  std::vector<std::filesystem::path> written;
-  int exit_status = 0;  ///< 0, or 1 when a gate failed
+/// What `kinemark ik` and `track` answer alike.
+struct MotionOutcome : JobOutcome {
+  report::IkSummary summary;  ///< findings included
 };
-
-/// Files that go beside Q.mot: "Q_sd.sto" and so on.
-[[nodiscard]] std::filesystem::path beside(const std::filesystem::path& output, const std::string& suffix);
 
 }  // namespace kinemark::pipeline

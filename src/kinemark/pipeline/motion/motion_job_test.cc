@@ -10,7 +10,6 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/simulate/human_model.h"
-#include "kinemark/stages/motion/ik.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -19,12 +18,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-namespace fs = std::filesystem;
-
-TEST(Beside, KeepsFolderAndStem) {
-  EXPECT_EQ(beside("a/b/Q.mot", "_sd.sto"), fs::path("a/b/Q_sd.sto"));
-  EXPECT_EQ(beside("Q.v2.mot", "_x"), fs::path("Q.v2_x"));
-}
 
 TEST(MotionRun, AsksForTheFirstFileThatIsNotNamed) {
   MotionJob job;
@@ -63,69 +56,100 @@ TEST(MotionRun, AGateFailsAboveItsBoundAndOnWhatIsNotANumber) {
   EXPECT_EQ(run.exit_status, 1) << "a gate that passes later does not take back a failure";
 }
 
-TEST(MotionRun, EveryMarkerThatTookNoPartSaysWhy) {
-  motion::IkResult result;
-  result.markers = {{.name = "A", .weight = 2.0, .noise_sd_m = 0.003, .common_sd_m = 0.004}};
-  result.excluded_markers = {{.name = "B", .seen = true}, {.name = "C", .seen = false}};
-  result.model_markers_without_data = {"D"};
-  result.data_markers_without_model = {"E"};
+TEST(MotionRun, WarningsOfTheFitJoinThoseOfTheRunOnce) {
   report::IkRun run;
   run.warnings = {"first"};
-  result.warnings = {"second"};
-  internal::add_estimate(run, result, "light");
-  std::vector<std::string> why;
-  for (const auto& marker : run.markers) why.push_back(marker.name + ": " + marker.why_excluded);
-  EXPECT_THAT(why, ElementsAre("A: ", "B: light", "C: never seen", "D: in the model, not in the recording",
-                               "E: in the recording, not in the model"));
-  EXPECT_DOUBLE_EQ(run.markers[0].noise_sd_m, 0.005);
-  EXPECT_EQ(run.markers[1].weight, 0.0);
-  EXPECT_THAT(run.warnings, ElementsAre("first", "second"));
+  internal::add_fit(run,
+                    {.markers = {{.name = "A"}},
+                     .warnings = {"second"},
+                     .findings = {{.kind = data::FindingKind::flagged, .size = 3}}},
+                    {.rate_hz = 100.0, .frames = 8});
+  EXPECT_THAT(run.warnings, ElementsAre("first", "second", "3 of 8 frames are flagged"));
+  EXPECT_THAT(run.fit.warnings, IsEmpty());
+  EXPECT_EQ(run.fit.markers.at(0).name, "A");
 }
 
-class MotionFiles : public ::testing::Test {
- protected:
-  MotionJob job_of(const char* output) const {
-    MotionJob job;
-    job.output = folder_ / output;
-    return job;
-  }
-  testing_support::ScratchFolder folder_;
-};
-
-TEST_F(MotionFiles, OnlyWhatWasPutAppearsAndIsTold) {
-  const auto job = job_of("Q.mot");
-  auto staging = internal::stage(job, {"_a.txt", "_b.txt"}, {folder_ / "page.html"}).value();
-  ASSERT_TRUE(internal::put(staging, beside(job.output, "_b.txt"), std::string("b")));
-  ASSERT_TRUE(internal::put(staging, folder_ / "page.html", std::string("page")));
-  EXPECT_FALSE(fs::exists(folder_ / "Q_b.txt")) << "not before the end";
-  MotionOutcome outcome;
-  ASSERT_TRUE(internal::reveal(staging, {}, "work", outcome));
-  EXPECT_THAT(outcome.written, ElementsAre(folder_ / "Q_b.txt", folder_ / "page.html"));
-  EXPECT_EQ(io::read_text(folder_ / "Q_b.txt").value(), "b");
-  EXPECT_FALSE(fs::exists(folder_ / "Q_a.txt"));
-}
-
-TEST_F(MotionFiles, WhatExistsIsRefusedEvenIfItMightNotBeWritten) {
-  ASSERT_TRUE(io::write_text(folder_ / "Q_sd.sto", "old", false));
-  auto job = job_of("Q.mot");
+TEST(MotionRun, WhatExistsIsRefusedEvenIfItMightNotBeWritten) {
+  const testing_support::ScratchFolder folder;
+  ASSERT_TRUE(io::write_text(folder / "Q_sd.sto", "old", false));
+  MotionJob job;
+  job.output = folder / "Q.mot";
   EXPECT_EQ(internal::stage(job, {"_sd.sto"}).error().code, Code::io);
   job.force = true;
   EXPECT_TRUE(internal::stage(job, {"_sd.sto"}));
 }
 
-TEST_F(MotionFiles, StoppedInTheLastMomentNothingAppears) {
-  const auto job = job_of("Q.mot");
+data::JointMotion one_angle() {
+  data::JointMotion motion;
+  motion.coordinates = {"knee"};
+  motion.is_rotation = {true};
+  motion.markers = {"A"};
+  motion.time = {.rate_hz = 100.0, .t0_s = 0.0, .frames = 2};
+  motion.q.assign({0.5, 0.6});
+  motion.determined.assign({1, 1});
+  motion.marker_error.assign({0.003, 0.004, 0.0, 0.0, 0.0, 0.0});
+  motion.status.assign(2, data::FrameStatus::converged);
+  return motion;
+}
+
+TEST(MotionRun, JudgingFillsTheOutcomeFromTheRun) {
+  report::IkRun run;
+  run.warnings = {"odd"};
+  internal::add_gate(run, "g", 2.0, 1.0, "mm", "too far");
+  MotionOutcome outcome;
+  const auto motion = one_angle();
+  ASSERT_TRUE(internal::judge(run, motion, nullptr, outcome));
+  EXPECT_THAT(outcome.warnings, ElementsAre("odd"));
+  ASSERT_EQ(outcome.gates.size(), 1U);
+  EXPECT_EQ(outcome.exit_status(), 1);
+  EXPECT_EQ(outcome.summary.time.frames, 2);
+}
+
+TEST(MotionRun, FilesAreThoseOfWhatTheMotionHolds) {
+  MotionJob job;
+  job.output = "a/Q.mot";
+  auto motion = one_angle();
+  const auto names = [&] {
+    std::vector<std::string> list;
+    for (const auto& file : internal::motion_files(job, motion, {})) list.push_back(file.target.string());
+    return list;
+  };
+  EXPECT_THAT(names(), ElementsAre("a/Q.mot", "a/Q_marker_errors.sto", "a/Q_report.json"));
+  motion.q_sd.assign({0.1, 0.1});
+  motion.tau.assign({1.0, 2.0});
+  EXPECT_THAT(names(), ElementsAre("a/Q.mot", "a/Q_sd.sto", "a/Q_tau.sto", "a/Q_marker_errors.sto",
+                                   "a/Q_report.json"));
+}
+
+TEST(MotionRun, StoppedInTheLastMomentNothingAppears) {
+  const testing_support::ScratchFolder folder;
+  MotionJob job;
+  job.output = folder / "Q.mot";
+  std::int64_t told = -1;
+  job.progress = [&](std::int64_t done, std::int64_t total) {
+    told = done == total ? total : -1;
+    return false;
+  };
+  const auto motion = one_angle();
+  MotionOutcome outcome;
+  ASSERT_TRUE(internal::judge({}, motion, nullptr, outcome));
   {
-    auto staging = internal::stage(job, {}).value();
-    ASSERT_TRUE(internal::put(staging, job.output, std::string("q")));
-    MotionOutcome outcome;
-    const auto stopped =
-        internal::reveal(staging, [](std::int64_t, std::int64_t) { return false; }, "the work", outcome);
+    auto staging = internal::stage(job, {"_marker_errors.sto", "_report.json"}).value();
+    const auto stopped = internal::write(job, staging, internal::motion_files(job, motion, outcome.summary),
+                                         "the work", outcome);
+    ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().code, Code::cancelled);
     EXPECT_EQ(stopped.error().message, "the work was stopped");
-    EXPECT_THAT(outcome.written, IsEmpty());
   }
-  EXPECT_TRUE(fs::is_empty(folder_ / ""));
+  EXPECT_EQ(told, 2) << "all frames are done by then";
+  EXPECT_THAT(outcome.written, IsEmpty());
+  EXPECT_EQ(folder.count_files(), 0);
+  job.progress = {};
+  auto staging = internal::stage(job, {"_marker_errors.sto", "_report.json", "_sd.sto"}).value();
+  ASSERT_TRUE(internal::write(job, staging, internal::motion_files(job, motion, outcome.summary), "the work",
+                              outcome));
+  EXPECT_EQ(outcome.written.size(), 3U) << "the deviations were not there to write";
+  EXPECT_EQ(folder.count_files(), 3);
 }
 
 }  // namespace

@@ -4,13 +4,15 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "kinemark/io/file.h"
-#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
-#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -27,7 +29,7 @@ Result<Json> read_json(const fs::path& path) {
   return json;
 }
 
-/// Names of the coordinates that turn, as summary_json() tells them.
+/// Names of the rotational coordinates, as written by summary_json().
 std::vector<std::string> rotations(const Json& json) {
   std::vector<std::string> names;
   if (!json.contains("coordinates") || !json["coordinates"].is_array()) return names;
@@ -40,31 +42,25 @@ std::vector<std::string> rotations(const Json& json) {
 std::optional<data::Trajectories> recorded_states(const report::IkRun& run, const data::JointMotion& motion) {
   for (const auto& input : run.inputs) {
     if (input.role != "markers") continue;
-    const auto trial = io::read_markers(input.path);
-    if (!trial) return std::nullopt;
-    const auto& recorded = trial->markers;
+    const auto markers = read_marker_input({.path = input.path});
+    if (!markers) return std::nullopt;
+    const auto& recorded = markers->trial.markers;
     const auto first = recorded.time.nearest_frame(motion.time.t0_s);
     if (first < 0 || first + motion.frames() > recorded.frames()) return std::nullopt;
-    auto states = data::Trajectories::all_missing(motion.markers, motion.time);
-    for (std::int64_t m = 0; m < states.markers(); ++m) {
-      const auto from = recorded.find(motion.markers[static_cast<std::size_t>(m)]);
-      if (from < 0) return std::nullopt;
-      for (std::int64_t f = 0; f < states.frames(); ++f) {
-        states.x(f, m) = recorded.x(first + f, from);
-        states.state[states.index(f, m)] = recorded.state[recorded.index(first + f, from)];
-      }
-    }
-    return states;
+    std::vector<std::int64_t> from;
+    for (const auto& name : motion.markers) from.push_back(recorded.find(name));
+    if (std::ranges::find(from, -1) != from.end()) return std::nullopt;
+    return select_markers(recorded, from, motion.markers, first, motion.time);
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-Status write_report(const fs::path& solved, const fs::path& page, bool force) {
-  std::string stem = solved.stem().string();
-  if (solved.extension() == ".json" && stem.ends_with("_report")) stem.resize(stem.size() - 7);
-  const fs::path base = solved.parent_path() / (stem + ".mot");
+Result<ReportOutcome> run_report(const ReportJob& job) {
+  std::string stem = job.solved.stem().string();
+  if (job.solved.extension() == ".json" && stem.ends_with("_report")) stem.resize(stem.size() - 7);
+  const fs::path base = job.solved.parent_path() / (stem + ".mot");
   const auto json = read_json(beside(base, "_report.json"));
   if (!json) return std::unexpected(json.error());
   auto run = report::run_from_json(*json);
@@ -83,7 +79,10 @@ Status write_report(const fs::path& solved, const fs::path& page, bool force) {
   if (!summary) return fail_at(base.string(), summary.error());
   const std::string html =
       report::report_html({.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
-  return io::write_text(page, html, force);
+  if (auto s = io::write_text(job.page, html, job.force); !s) return std::unexpected(s.error());
+  ReportOutcome out;
+  out.written = {job.page};
+  return out;
 }
 
 }  // namespace kinemark::pipeline

@@ -5,13 +5,22 @@
 #include <filesystem>
 
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
-/// Make the page of a solved trial from the files that `kinemark ik` wrote: Q.mot (or Q_report.json) and what
-/// lies beside it. The gap map shows the states of the recording when the file named in Q_report.json is
-/// still there.
-[[nodiscard]] Status write_report(const std::filesystem::path& solved, const std::filesystem::path& page,
-                                  bool force);
+/// What `kinemark report` is asked to do.
+struct ReportJob : JobSettings {
+  std::filesystem::path
+      solved;  ///< Q.mot (or Q_report.json) as `kinemark ik` wrote it; the rest lies beside it
+  std::filesystem::path page;  ///< to write, .html
+};
+
+struct ReportOutcome : JobOutcome {};
+
+/// Make the page of a solved trial from its files. The gap map shows the states of the recording when the
+/// file named in Q_report.json is still there. Code::io for a file that is missing or a page that exists,
+/// Code::bad_input for files that do not fit.
+[[nodiscard]] Result<ReportOutcome> run_report(const ReportJob& job);
 
 }  // namespace kinemark::pipeline

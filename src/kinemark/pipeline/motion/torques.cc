@@ -54,14 +54,14 @@ void tell_forces(const data::Wrenches& wrenches, const motion::DynamicsSummary& 
   account.facts.emplace_back("forces not known for", length(unknown, wrenches.time));
 }
 
-/// Plates push the body up; when they do not, recording and model have different axes.
+/// Plates push the body upwards; otherwise recording and model have different axes.
 void check_vertical(const data::Wrenches& wrenches, const model::Model& model, TorqueAccount& account) {
   Vector3d sum = Vector3d::Zero();
   for (const auto& wrench : wrenches.items)
     for (std::int64_t f = 0; f < wrenches.frames(); ++f)
       if (known(wrench, f)) sum += Eigen::Map<const Vector3d>(wrench.force.data() + 3 * f);
   const Vector3d up = -model.gravity().normalized();
-  const double most = 1e3 * static_cast<double>(wrenches.frames());  // N, as far as people push
+  const double most = 1e3 * static_cast<double>(wrenches.frames());  // N, largest force of a person
   if (!(sum.norm() > 1e-2 * most) || !up.allFinite() || sum.normalized().dot(up) > 0.7) return;
   const Vector3d mean = sum.normalized();
   account.warnings.push_back(fmt::format(
@@ -79,14 +79,14 @@ void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, Torqu
       account.warnings.push_back(
           fmt::format("torques are without force plates: '{}' is carried by {}, so that the torques of limbs "
                       "on the ground lack "
-                      "what the ground does",
+                      "the ground reaction",
                       root.body, carried));
     else if (root.force_rms_n > 0.1 * dynamics.body_weight_n)
-      account.warnings.push_back(
-          fmt::format("with the given forces '{}' still needs {}: ground that no plate measures, or a misfit "
-                      "of model, motion "
-                      "and plates",
-                      root.body, carried));
+      account.warnings.push_back(fmt::format(
+          "with the given forces '{}' has a residual of {}: contact that no plate measures, or a misfit "
+          "of model, motion "
+          "and plates",
+          root.body, carried));
   }
 }
 

@@ -14,13 +14,13 @@
 
 namespace kinemark::pipeline {
 
-/// What there is to tell of the torques of a motion.
+/// Facts about the torques of a motion, for the report.
 struct TorqueAccount {
   std::vector<std::filesystem::path> files;  ///< of forces, as read
   std::vector<std::pair<std::string, std::string>>
-      facts;  ///< which plate acted on which body and when; how
-              ///< long nothing is known; what is left to the root
-  std::vector<std::string> warnings;
+      facts;  ///< which plate acted on which body and when; how long forces are unknown; the residual of the
+              ///< root
+  std::vector<std::string> warnings;  ///< one sentence each
 };
 
 /// Fill tau (and tau_sd) of a motion by inverse dynamics, with the forces of a file unless `forces` is empty.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A person of one piece stands on force plates: what the files say must carry the weight to the newton.
+// A rigid person stands on force plates: the forces of the files must carry the weight to the newton.
 #include "kinemark/pipeline/motion/torques.h"
 
 #include <gmock/gmock.h>
@@ -116,7 +116,7 @@ TEST(Torques, WhatNoPlateMeasuresIsSaid) {
   EXPECT_TRUE(std::isnan(motion.tau[6 * 80 + 5]));
   EXPECT_THAT(account.facts, Contains(Pair("forces not known for", "0.300 s (30 of 100 frames)")));
   EXPECT_THAT(account.warnings, Contains(HasSubstr("30 of 100 frames have no torques")));
-  EXPECT_THAT(account.warnings, Contains(HasSubstr("with the given forces 'foot' still needs 5")));
+  EXPECT_THAT(account.warnings, Contains(HasSubstr("with the given forces 'foot' has a residual of 5")));
 }
 
 TEST(Torques, WithoutAFileTheRootCarriesTheWeight) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/core/text.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
@@ -14,11 +15,7 @@
 namespace kinemark::pipeline {
 namespace {
 
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
+std::string list(const std::vector<std::string>& names) { return names.empty() ? "none" : join(names); }
 
 std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob& job,
                                                                   const motion::TrackResult& result) {
@@ -42,29 +39,28 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
 }
 
 Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionInputs& inputs,
-                                   const motion::TrackResult& result) {
+                                   const motion::TrackResult& result, const TorqueAccount& torques) {
   auto run = internal::begin_run(job, inputs);
-  if (!run) return run;
-  run->method = "direct marker control";
-  run->seed = job.options.seed;
-  run->threads = job.options.threads;
-  run->options = describe_options(job, result);
-  internal::add_estimate(*run, result, "in no level, or given the weight 0");
-  run->locked_coordinates.insert(run->locked_coordinates.end(), result.locked_coordinates.begin(),
-                                 result.locked_coordinates.end());
-  const double offset_m = result.mean_marker_error_m.norm();
-  internal::add_marker_gates(*run, job, offset_m,
+  run.method = "direct marker control";
+  run.options = describe_options(job, result);
+  run.solve_s = result.solve_seconds;
+  internal::add_fit(run, result.fit, result.motion.time);
+  run.locked_coordinates.insert(run.locked_coordinates.end(), result.locked_coordinates.begin(),
+                                result.locked_coordinates.end());
+  const double offset_m = result.fit.mean_error_m.norm();
+  internal::add_marker_gates(run, job, offset_m,
                              fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
-                             result.rms_marker_error_m);
+                             result.fit.rms_error_m);
   internal::add_gate(
-      *run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
+      run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
       fmt::format("{} of {} frames are flagged: goals out of reach, or a body that ran away ({} "
                   "times started anew).",
                   result.flagged_frames, result.motion.frames(), result.restarts));
+  if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
   return run;
 }
 
-/// What the levels fix together, frame by frame.
+/// Rank of all levels, frame by frame.
 data::Table rank_table(const motion::TrackResult& result) {
   data::Table table;
   table.name = "Rank of the tasks";
@@ -78,15 +74,16 @@ data::Table rank_table(const motion::TrackResult& result) {
   return table;
 }
 
-/// Standard deviations of the torques: those of the inverse dynamics of the motion as it came out. Where that
-/// cannot be done (closed loops, a few frames) they stay away, and a warning says why.
+/// Standard deviations of the torques, from inverse dynamics of the resulting motion. Where that is not
+/// possible (closed loops, few frames) they are absent, with a warning.
 void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
   auto motion = result.motion;
   const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
   if (dynamics)
     result.motion.tau_sd = std::move(motion.tau_sd);
   else
-    result.warnings.push_back("standard deviations of torques are not known: " + dynamics.error().message);
+    result.fit.warnings.push_back("standard deviations of torques are not known: " +
+                                  dynamics.error().message);
 }
 
 /// The images join the lowest level.
@@ -101,48 +98,58 @@ Status add_images(const internal::MotionInputs& inputs, motion::TrackOptions& op
   return {};
 }
 
+/// What the controller pushes with knows nothing of the ground: with forces the torques are made anew, from
+/// the motion and the forces.
+Result<TorqueAccount> add_torques(const TrackJob& job, const model::Model& model,
+                                  motion::TrackResult& result) {
+  if (!job.forces.empty())
+    return pipeline::add_torques(model, result.motion, job.forces,
+                                 {.error_bars = job.options.error_bars, .threads = job.options.threads});
+  if (job.options.error_bars) add_torque_deviations(model, job, result);
+  return TorqueAccount{};
+}
+
+Result<Staging> stage_files(const TrackJob& job) {
+  std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
+  if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
+  files.push_back("_report.json");
+  return internal::stage(job, files);
+}
+
 }  // namespace
 
-Result<TrackOutcome> run_track(const TrackJob& job, const Progress& progress) {
+Result<TrackOutcome> run_track(TrackJob job) {
+  // Prepare: options, model and markers, where results go.
+  job.options.threads = job.threads;
+  job.options.seed = job.seed;
   if (auto s = internal::check_named(job); !s) return std::unexpected(s.error());
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
-  std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
-  if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
-  files.push_back("_report.json");
-  auto staging = internal::stage(job, files);
+  auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
-
-  TrackOutcome outcome;
   auto options = job.options;
   if (auto s = add_images(*inputs, options); !s) return std::unexpected(s.error());
-  auto result = motion::track_markers(inputs->model, inputs->trial.markers, options, progress);
+  // Solve.
+  auto result = motion::track_markers(inputs->model, inputs->trial.markers, options, job.progress);
   if (!result) {
     if (result.error().code == Code::usage) return std::unexpected(result.error());
     return fail_at(job.markers.string(), result.error());
   }
+  TrackOutcome outcome;
   outcome.result = std::move(*result);
-  TorqueAccount account;
-  if (!job.forces.empty()) {
-    // What the controller pushes with knows nothing of the ground: torques anew, from the motion and the
-    // forces.
-    auto torques = add_torques(inputs->model, outcome.result.motion, job.forces,
-                               {.error_bars = job.options.error_bars, .threads = job.options.threads});
-    if (!torques) return std::unexpected(torques.error());
-    account = std::move(*torques);
-  } else if (job.options.error_bars) {
-    add_torque_deviations(inputs->model, job, outcome.result);
-  }
-  auto run = describe_run(job, *inputs, outcome.result);
+  const auto torques = add_torques(job, inputs->model, outcome.result);
+  if (!torques) return std::unexpected(torques.error());
+  // Judge.
+  auto run = describe_run(job, *inputs, outcome.result, *torques);
   if (!run) return std::unexpected(run.error());
-  if (auto s = internal::add_torque_account(*run, account); !s) return std::unexpected(s.error());
   const auto& motion = outcome.result.motion;
-  if (auto s = internal::write_motion(job, *staging, std::move(*run), motion, nullptr, outcome); !s)
+  if (auto s = internal::judge(std::move(*run), motion, nullptr, outcome); !s)
     return std::unexpected(s.error());
-  if (auto s = internal::put(*staging, beside(job.output, "_rank.sto"), rank_table(outcome.result)); !s)
-    return std::unexpected(s.error());
-  if (auto s = internal::reveal(*staging, progress, "direct marker control", outcome); !s)
+  // Write.
+  auto files = internal::motion_files(job, motion, outcome.summary);
+  files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
+  if (auto s = internal::write(job, *staging, files, "direct marker control", outcome); !s)
     return std::unexpected(s.error());
   return outcome;
 }

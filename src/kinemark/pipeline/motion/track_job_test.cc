@@ -25,7 +25,7 @@ class RunTrack : public testing::RecordedTest<TrackJob> {
 TEST_F(RunTrack, WritesAnglesTorquesBoundsAndTheAccount) {
   const auto outcome = run_track(job("Q.mot"));
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->exit_status(), 0);
   EXPECT_EQ(outcome->written.size(), 8U);
   for (const auto& path : outcome->written) EXPECT_TRUE(fs::exists(path)) << path;
   const auto q = io::read_table(at("Q.mot")).value();
@@ -145,14 +145,16 @@ TEST_F(RunTrack, AMissedGateIsAnExitStatusAndTheFilesAreThere) {
   j.options.error_bars = false;
   const auto outcome = run_track(j);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->exit_status, 1);
+  EXPECT_EQ(outcome->exit_status(), 1);
   EXPECT_EQ(outcome->written.size(), 5U);
   EXPECT_TRUE(fs::exists(at("gate.mot")));
   EXPECT_FALSE(fs::exists(at("gate_bound.sto")));
 }
 
 TEST_F(RunTrack, StopsWhenAsked) {
-  const auto outcome = run_track(job("stopped.mot"), [](std::int64_t, std::int64_t) { return false; });
+  auto stop = job("stopped.mot");
+  stop.progress = [](std::int64_t, std::int64_t) { return false; };
+  const auto outcome = run_track(stop);
   ASSERT_FALSE(outcome);
   EXPECT_EQ(outcome.error().code, Code::cancelled);
   EXPECT_FALSE(fs::exists(at("stopped.mot")));

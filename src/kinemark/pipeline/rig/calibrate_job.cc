@@ -8,11 +8,12 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
-#include "kinemark/stages/calibration/alignment.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/scan.h"
 #include "kinemark/stages/calibration/still_poses.h"
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A recording with what it says of the thing it shows.
+/// A recording with its description of the known object.
 struct Known {
   fs::path path;
   io::CountsRecording recording;
@@ -37,7 +38,7 @@ struct Known {
     const auto at = values.find(key);
     std::vector<double> out;
     if (at == values.end())
-      return fail(Code::bad_input, fmt::format("{}: does not say '{}' of what it shows", path.string(), key));
+      return fail(Code::bad_input, fmt::format("{}: its description lacks '{}'", path.string(), key));
     for (std::size_t from = 0; from < at->second.size();) {
       const auto to = std::min(at->second.find_first_of(" \n", from), at->second.size());
       if (to > from) {
@@ -105,7 +106,7 @@ Result<calibration::StillPoses> scan_of(const Known& known, const data::Rig& rig
     if (!*numbers) return std::unexpected(numbers->error());
   if (places->size() % 3 != 0)
     return fail(Code::bad_input,
-                fmt::format("{}: 'places_m' has {} numbers; three for each place were expected",
+                fmt::format("{}: 'places_m' has {} numbers; three for each position were expected",
                             known.path.string(), places->size()));
   calibration::ScanPlaces scan;
   scan.frames_per_place = static_cast<int>(std::clamp(frames->front(), 0.0, 1e6));
@@ -116,115 +117,136 @@ Result<calibration::StillPoses> scan_of(const Known& known, const data::Rig& rig
   return seen;
 }
 
-nlohmann::ordered_json told_of(const calibration::Alignment& alignment) {
-  nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
-  const auto list = [](const Eigen::Vector3d& v, double unit) {
-    return nlohmann::ordered_json::array({unit * v.x(), unit * v.y(), unit * v.z()});
-  };
-  for (const auto& c : alignment.cameras)
-    cameras.push_back({{"camera", c.camera},
-                       {"right_down_forward_mm", list(c.shift_m, 1e3)},
-                       {"right_down_forward_sd_mm", list(c.shift_sd_m, 1e3)},
-                       {"tilt_pan_roll_deg", list(c.turn_deg, 1.0)},
-                       {"tilt_pan_roll_sd_deg", list(c.turn_sd_deg, 1.0)}});
-  return {{"cameras", std::move(cameras)}, {"aligned", alignment.aligned}, {"next", alignment.next}};
-}
-
 int camera_of(const Known& known, const data::Rig& rig) {
   if (known.recording.counts.cameras.size() != 1) return -1;
   const auto at = std::ranges::find(rig.cameras, known.recording.counts.cameras.front(), &data::Camera::name);
   return at == rig.cameras.end() ? -1 : static_cast<int>(at - rig.cameras.begin());
 }
 
-}  // namespace
-
-Result<nlohmann::ordered_json> calibrate_rig_file(const CalibrateJob& job, const Progress& progress) {
-  const auto nominal = io::read_rig(job.nominal);
-  if (!nominal) return std::unexpected(nominal.error());
+/// What the recordings show, sorted.
+struct Evidence {
   std::optional<calibration::StillPoses> tree, scan;
-  std::vector<std::optional<calibration::GridSightings>> seen(nominal->cameras.size());
-  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  std::vector<calibration::GridSightings> grids;  ///< of every camera, or none
+};
+
+Result<calibration::GridSightings> grid_of(const Known& known, const data::Rig& rig,
+                                           std::vector<std::optional<calibration::GridSightings>>& seen) {
+  const int camera = camera_of(known, rig);
+  if (camera < 0)
+    return fail(Code::bad_input,
+                fmt::format("{}: a grid is recorded by one camera of the rig; this recording has {}",
+                            known.path.string(), known.recording.counts.cameras.size()));
+  auto grid = grid_of(known, rig, camera);
+  if (grid) seen[static_cast<std::size_t>(camera)] = *grid;
+  return grid;
+}
+
+Result<Evidence> read_evidence(const CalibrateJob& job, const data::Rig& nominal,
+                               std::vector<std::string>& warnings) {
+  Evidence out;
+  std::vector<std::optional<calibration::GridSightings>> seen(nominal.cameras.size());
   for (const auto& path : job.inputs) {
     const auto known = read(path);
     if (!known) return std::unexpected(known.error());
     for (const auto& warning : known->recording.warnings)
       warnings.push_back(fmt::format("{}: {}", path.string(), warning));
     if (known->kind() == "grid") {
-      const int camera = camera_of(*known, *nominal);
-      if (camera < 0)
-        return fail(Code::bad_input,
-                    fmt::format("{}: a grid is recorded by one camera of the rig; this recording has {}",
-                                path.string(), known->recording.counts.cameras.size()));
-      auto grid = grid_of(*known, *nominal, camera);
-      if (!grid) return std::unexpected(grid.error());
-      seen[static_cast<std::size_t>(camera)] = std::move(*grid);
+      if (const auto grid = grid_of(*known, nominal, seen); !grid) return std::unexpected(grid.error());
     } else if (known->kind() == "tree" ||
                (known->kind().empty() && !job.sides_m.empty() && job.frames_per_pose > 0)) {
-      auto poses = tree_of(*known, *nominal, job);
+      auto poses = tree_of(*known, nominal, job);
       if (!poses) return std::unexpected(poses.error());
-      tree = std::move(*poses);
+      out.tree = std::move(*poses);
     } else if (known->kind() == "scan") {
-      auto places = scan_of(*known, *nominal);
+      auto places = scan_of(*known, nominal);
       if (!places) return std::unexpected(places.error());
-      scan = std::move(*places);
+      out.scan = std::move(*places);
     } else {
       return fail(Code::bad_input,
                   fmt::format("{}: shows '{}'; a recording of a tree, a grid or a scan was expected",
                               path.string(), known->kind().empty() ? "nothing known" : known->kind()));
     }
   }
-  std::vector<calibration::GridSightings> grids;
-  for (const auto& grid : seen)
-    if (grid) grids.push_back(*grid);
-  if (!grids.empty() && grids.size() != seen.size())
+  for (auto& grid : seen)
+    if (grid) out.grids.push_back(std::move(*grid));
+  if (!out.grids.empty() && out.grids.size() != seen.size())
     return fail(Code::usage, fmt::format("a grid for {} of {} cameras; one each was expected, or none",
-                                         grids.size(), seen.size()));
+                                         out.grids.size(), seen.size()));
+  return out;
+}
 
-  nlohmann::ordered_json told;
-  data::Rig rig = *nominal;
-  if (!grids.empty()) {
-    auto with_tables = calibration::calibrate_grid_lut(*nominal, grids);
-    if (!with_tables) return std::unexpected(with_tables.error());
-    rig = std::move(*with_tables);
-  } else if (job.method == CalibrateJob::Method::grid_lut) {
+/// Tables of the 1986 method, where the grid was recorded.
+Result<data::Rig> with_tables(const CalibrateJob& job, const data::Rig& nominal, const Evidence& evidence) {
+  if (!evidence.grids.empty()) return calibration::calibrate_grid_lut(nominal, evidence.grids);
+  if (job.method == CalibrateJob::Method::grid_lut)
     return fail(Code::usage, "the method grid-lut needs a recording of the grid before each camera");
-  }
-  constexpr std::array<const char*, 3> kNames{"bundle", "grid-lut", "scan"};
-  told["method"] = kNames[static_cast<std::size_t>(job.method)];
-  if (job.method != CalibrateJob::Method::grid_lut) {
-    const auto& shown = job.method == CalibrateJob::Method::scan ? scan : tree;
-    if (!shown)
-      return fail(Code::usage,
-                  fmt::format("the method {} needs a recording of the {}", told["method"].get<std::string>(),
-                              job.method == CalibrateJob::Method::scan ? "scan" : "tree"));
-    if (job.align_only) {
-      const auto alignment = calibration::align_by_tree(*nominal, *shown);
-      if (!alignment) return std::unexpected(alignment.error());
-      told["alignment"] = told_of(*alignment);
-      told["warnings"] = std::move(warnings);
-      return told;
-    }
-    auto found = calibration::calibrate_bundle(rig, *shown, grids, job.bundle, progress);
-    if (!found) return std::unexpected(found.error());
-    const auto& r = found->report;
-    told["chi2_per_dof"] = r.chi2_per_dof;
-    told["warp_degree"] = r.warp_degree;
-    told["crosstalk"] = r.crosstalk;
-    told["iterations"] = r.iterations;
-    told["poses"] = r.poses;
-    told["sightings"] = r.sightings;
-    told["outliers"] = r.outliers;
-    told["side_rms_mm"] = 1e3 * r.side_rms_m;
-    rig = std::move(found->rig);
-    rig.method = told["method"].get<std::string>();
-    const auto alignment = calibration::compare_alignment(*nominal, rig);
+  return nominal;
+}
+
+/// Bundle adjustment of the tree or the scan; `rig` becomes the calibrated one.
+Status adjust(const CalibrateJob& job, const data::Rig& nominal, const Evidence& evidence, data::Rig& rig,
+              CalibrateOutcome& out) {
+  const bool by_scan = job.method == CalibrateJob::Method::scan;
+  const auto& shown = by_scan ? evidence.scan : evidence.tree;
+  if (!shown)
+    return fail(Code::usage, fmt::format("the method {} needs a recording of the {}", method_name(job.method),
+                                         by_scan ? "scan" : "tree"));
+  if (job.align_only) {
+    auto alignment = calibration::align_by_tree(nominal, *shown);
     if (!alignment) return std::unexpected(alignment.error());
-    told["alignment"] = told_of(*alignment);
+    out.alignment = std::move(*alignment);
+    return {};
   }
-  if (auto s = io::write_rig(job.output, rig, job.force); !s) return std::unexpected(s.error());
-  told["written"] = job.output.string();
-  told["warnings"] = std::move(warnings);
-  return told;
+  auto found = calibration::calibrate_bundle(rig, *shown, evidence.grids, job.bundle, job.progress);
+  if (!found) return std::unexpected(found.error());
+  out.bundle = std::move(found->report);
+  rig = std::move(found->rig);
+  rig.method = method_name(job.method);
+  auto alignment = calibration::compare_alignment(nominal, rig);
+  if (!alignment) return std::unexpected(alignment.error());
+  out.alignment = std::move(*alignment);
+  return {};
+}
+
+/// A model that the counts contradict is a quality gate that was missed, not a bad file.
+bool refused(const Error& error) { return error.message.starts_with("calibration refused"); }
+
+void add_gate(const CalibrateJob& job, std::string sentence, CalibrateOutcome& out) {
+  const bool passed = out.bundle.has_value();
+  out.gates.push_back({.name = "chi2_per_dof",
+                       .passed = passed,
+                       .value = passed ? out.bundle->chi2_per_dof : kNaN,
+                       .bound = job.bundle.refuse_above,
+                       .unit = "",
+                       .sentence = std::move(sentence)});
+}
+
+}  // namespace
+
+std::string_view method_name(CalibrateJob::Method method) {
+  constexpr std::array<std::string_view, 3> kNames{"bundle", "grid-lut", "scan"};
+  return kNames[static_cast<std::size_t>(method)];
+}
+
+Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
+  const auto nominal = io::read_rig(job.nominal);
+  if (!nominal) return std::unexpected(nominal.error());
+  CalibrateOutcome out;
+  out.method = job.method;
+  const auto evidence = read_evidence(job, *nominal, out.warnings);
+  if (!evidence) return std::unexpected(evidence.error());
+  auto rig = with_tables(job, *nominal, *evidence);
+  if (!rig) return std::unexpected(rig.error());
+  if (job.method != CalibrateJob::Method::grid_lut) {
+    const auto adjusted = adjust(job, *nominal, *evidence, *rig, out);
+    if (!adjusted && !refused(adjusted.error())) return std::unexpected(adjusted.error());
+    if (!adjusted) add_gate(job, adjusted.error().message, out);
+    if (!adjusted || job.align_only) return out;
+    add_gate(job, fmt::format("chi2 per degree of freedom is {:.2f}.", out.bundle->chi2_per_dof), out);
+  }
+  if (auto s = io::write_rig(job.output, *rig, job.force); !s) return std::unexpected(s.error());
+  out.written = {job.output};
+  return out;
 }
 
 }  // namespace kinemark::pipeline

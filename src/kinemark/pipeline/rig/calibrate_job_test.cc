@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // The chain from files to files: recordings of known things to a rig, counts and rig to markers.
-#include "kinemark/pipeline/rig/calibrate_job.h"
+#include "kinemark/pipeline/rig/calibrate_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,12 +24,12 @@ class CalibrateJobTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     scratch_ = new testing_support::ScratchFolder;
-    RigJob job;
+    SimulateRigJob job;
     job.folder = *scratch_ / "lab";
     job.scene = RigSceneKind::tree;
     job.duration_s = 0.3;
     job.grid = job.tree_poses = job.scan = true;
-    simulate_rig(job).value();
+    run_simulate_rig(job).value();
   }
   static void TearDownTestSuite() {
     delete scratch_;
@@ -53,11 +53,18 @@ class CalibrateJobTest : public ::testing::Test {
 };
 
 TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
-  const auto told = calibrate_rig_file(bundle("rig.toml"));
+  const auto told = run_calibrate(bundle("rig.toml"));
   ASSERT_TRUE(told) << told.error().message;
-  EXPECT_LT(told->at("chi2_per_dof").get<double>(), 1.2);
-  EXPECT_EQ(told->at("poses").get<int>(), 300);
-  EXPECT_EQ(told->at("alignment").at("cameras").size(), 2U);
+  EXPECT_LT(told->bundle->chi2_per_dof, 1.2);
+  EXPECT_EQ(told->bundle->poses, 300);
+  EXPECT_EQ(told->alignment->cameras.size(), 2U);
+  EXPECT_EQ(told->exit_status(), 0);
+  const auto json = calibrate_json(*told);
+  EXPECT_EQ(json["method"], "bundle");
+  EXPECT_EQ(json["poses"], 300);
+  EXPECT_EQ(json["alignment"]["cameras"][1]["right_down_forward_mm"][2].get<double>(),
+            1e3 * told->alignment->cameras[1].shift_m.z());
+  EXPECT_EQ(json["written"], fresh("rig.toml").string());
   const auto rig = io::read_rig(fresh("rig.toml")).value();
   EXPECT_EQ(rig.method, "bundle");
   EXPECT_GT(rig.covariance.rows(), 100);
@@ -67,9 +74,9 @@ TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
   job.rig = fresh("rig.toml");
   job.output = fresh("points.csv");
   job.method = ReconstructJob::Method::frames;
-  const auto made = reconstruct_file(job);
+  const auto made = run_reconstruct(job);
   ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->at("leds").at(0).at("located").get<int>(), 30);
+  EXPECT_EQ(made->leds.at(0).located, 30);
   const auto markers = io::read_markers(fresh("points.csv")).value().markers;
   const auto truth = io::read_markers(lab("truth.trc")).value().markers;
   double side = 0.0;
@@ -77,22 +84,22 @@ TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
   EXPECT_NEAR(side, (truth.x(0, 0) - truth.x(0, 1)).norm(), 0.6e-3);
   job.output = fresh("points.c3d");
   job.method = ReconstructJob::Method::smoother;
-  ASSERT_TRUE(reconstruct_file(job));
+  ASSERT_TRUE(run_reconstruct(job));
   job.method = ReconstructJob::Method::classic;
   job.output = fresh("classic.trc");
-  EXPECT_TRUE(reconstruct_file(job)) << "the grid left tables in the rig";
+  EXPECT_TRUE(run_reconstruct(job)) << "the grid left tables in the rig";
 }
 
 TEST_F(CalibrateJobTest, GridLutAndScan) {
   auto job = bundle("lut.toml");
   job.method = CalibrateJob::Method::grid_lut;
   job.inputs.erase(job.inputs.begin());
-  ASSERT_TRUE(calibrate_rig_file(job));
+  ASSERT_TRUE(run_calibrate(job));
   EXPECT_EQ(io::read_rig(job.output)->cameras[1].table.nodes, 15);
   job = bundle("scan.toml");
   job.method = CalibrateJob::Method::scan;
   job.inputs = {lab("scan.mcap")};
-  const auto told = calibrate_rig_file(job);
+  const auto told = run_calibrate(job);
   ASSERT_TRUE(told) << told.error().message;
   EXPECT_EQ(io::read_rig(job.output)->method, "scan");
 }
@@ -101,30 +108,49 @@ TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
   auto job = bundle("none.toml");
   job.align_only = true;
   job.inputs = {lab("tree_poses.mcap")};
-  const auto told = calibrate_rig_file(job);
+  const auto told = run_calibrate(job);
   ASSERT_TRUE(told) << told.error().message;
-  EXPECT_FALSE(told->at("alignment").at("next").get<std::string>().empty());
+  EXPECT_FALSE(told->alignment->next.empty());
   EXPECT_FALSE(fs::exists(fresh("none.toml")));
+  EXPECT_TRUE(told->written.empty());
+  const auto json = calibrate_json(*told);
+  EXPECT_FALSE(json.contains("written"));
+  EXPECT_FALSE(json.contains("chi2_per_dof"));
+}
+
+TEST_F(CalibrateJobTest, AModelThatTheCountsContradictIsAMissedGate) {
+  auto job = bundle("poor.toml");
+  job.bundle.warp_degree = 2;
+  job.bundle.escalate = false;
+  const auto refused = run_calibrate(job);
+  ASSERT_TRUE(refused) << refused.error().message;
+  EXPECT_EQ(refused->exit_status(), 1);
+  ASSERT_EQ(refused->gates.size(), 1U);
+  EXPECT_EQ(refused->gates[0].name, "chi2_per_dof");
+  EXPECT_THAT(refused->gates[0].sentence, HasSubstr("calibration refused"));
+  EXPECT_FALSE(refused->bundle);
+  EXPECT_TRUE(refused->written.empty());
+  EXPECT_FALSE(fs::exists(job.output));
 }
 
 TEST_F(CalibrateJobTest, RefusesWhatIsMissingOrWrong) {
   auto job = bundle("wrong.toml");
   job.inputs = {lab("recording.mcap")};
-  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("a tree, a grid or a scan was expected"));
+  EXPECT_THAT(run_calibrate(job).error().message, HasSubstr("a tree, a grid or a scan was expected"));
   job.inputs = {lab("grid_A.mcap")};
-  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("a grid for 1 of 2 cameras"));
+  EXPECT_THAT(run_calibrate(job).error().message, HasSubstr("a grid for 1 of 2 cameras"));
   job.inputs = {lab("grid_A.mcap"), lab("grid_B.mcap")};
-  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("needs a recording of the tree"));
+  EXPECT_THAT(run_calibrate(job).error().message, HasSubstr("needs a recording of the tree"));
   job = bundle("wrong.toml");
   job.sides_m = {0.31, 0.533, 0.31};
-  EXPECT_THAT(calibrate_rig_file(job).error().message, HasSubstr("sides do not match"));
+  EXPECT_THAT(run_calibrate(job).error().message, HasSubstr("sides do not match"));
   EXPECT_FALSE(fs::exists(fresh("wrong.toml")));
   ReconstructJob classic;
   classic.recording = lab("recording.mcap");
   classic.rig = lab("rig_nominal.toml");
   classic.output = fresh("x.trc");
   classic.method = ReconstructJob::Method::classic;
-  EXPECT_THAT(reconstruct_file(classic).error().message, HasSubstr("no look-up table"));
+  EXPECT_THAT(run_reconstruct(classic).error().message, HasSubstr("no look-up table"));
 }
 
 }  // namespace

@@ -2,31 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark reconstruct` is asked to do.
-struct ReconstructJob {
+struct ReconstructJob : JobSettings {
+  /// How points come from counts.
   enum class Method : std::uint8_t { smoother, frames, classic };
 
-  std::filesystem::path recording;  ///< of counts
-  std::filesystem::path rig;        ///< rig.toml
-  std::filesystem::path output;     ///< markers: .c3d, .trc or .csv
-  Method method = Method::smoother;
-  reconstruction::ReconstructOptions frames;
-  trajectory::SmoothCountsOptions smoother;
-  bool force = false;
+  std::filesystem::path recording;            ///< of counts
+  std::filesystem::path rig;                  ///< rig.toml
+  std::filesystem::path output;               ///< markers: .c3d, .trc or .csv
+  Method method = Method::smoother;           ///< how points come from counts
+  reconstruction::ReconstructOptions frames;  ///< for Method::frames
+  trajectory::SmoothCountsOptions smoother;   ///< for Method::smoother
 };
 
-/// Points of a recording of counts as markers. Returns method, frames, written, warnings and for each LED
-/// what became of its frames, and by the smoother how it was smoothed.
-[[nodiscard]] Result<nlohmann::ordered_json> reconstruct_file(const ReconstructJob& job);
+[[nodiscard]] std::string_view method_name(ReconstructJob::Method method);  ///< "smoother", "frames", "classic"
+
+/// What `kinemark reconstruct` made.
+struct ReconstructOutcome : JobOutcome {
+  ReconstructJob::Method method = ReconstructJob::Method::smoother;  ///< as asked
+  std::int64_t frames = 0;                                           ///< F
+  std::vector<reconstruction::LedSummary> leds;                      ///< what became of each LED's frames
+  std::vector<trajectory::LedFit> fits;  ///< how each was smoothed; empty without the smoother
+};
+
+/// Points of a recording of counts as markers. Fails as the readers, reconstruct() and smooth_counts().
+[[nodiscard]] Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job);
 
 }  // namespace kinemark::pipeline

@@ -9,14 +9,12 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/io/file.h"
-#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
-#include "kinemark/pipeline/files/staging.h"
-#include "kinemark/pipeline/motion/ik_job.h"
-#include "kinemark/pipeline/scale/scale_report.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/scale/scale_json.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/masses.h"
@@ -30,7 +28,10 @@ using Eigen::Vector3d;
 /// One run, step by step; every step moves outcome.model on.
 class ScaleRun {
  public:
-  ScaleRun(ScaleJob job, const Progress& progress) : job_(std::move(job)), progress_(progress) {}
+  explicit ScaleRun(ScaleJob job) : job_(std::move(job)) {
+    job_.adapt.threads = job_.threads;
+    job_.adapt.ik.seed = job_.seed;
+  }
 
   Status read_setup() {
     if (job_.setup.empty()) return {};
@@ -108,7 +109,7 @@ class ScaleRun {
     return place(trial, *options_of_placer);
   }
 
-  /// Sizes as well as one pose tells them, then the markers where they are.
+  /// Sizes as far as one pose determines them, then the marker positions.
   Status scale_by_static_trial() {
     if (job_.static_trial.empty() || setup_) return {};
     data::Trajectories trial;
@@ -143,30 +144,38 @@ class ScaleRun {
     return s ? s : Status(fail_at(job_.model.string(), s.error()));
   }
 
+  Status judge() {
+    const double rms = out_.from_motion ? out_.from_motion->rms_after_m
+                       : out_.placed    ? out_.placed->rms_m
+                                        : 0.0;
+    out_.gates.push_back(
+        {.name = "marker_rms",
+         .passed = rms <= job_.max_rms_m,
+         .value = 1e3 * rms,
+         .bound = 1e3 * job_.max_rms_m,
+         .unit = "mm",
+         .sentence = fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most "
+                                 "{:.1f} mm is accepted.",
+                                 1e3 * rms, 1e3 * job_.max_rms_m)});
+    if (!out_.gates.back().passed) out_.warnings.push_back(out_.gates.back().sentence);
+    return {};
+  }
+
   Result<ScaleOutcome> write() {
     const fs::path report = beside(job_.output, "_report.json");
     auto staging = Staging::create({job_.output, report}, job_.force);
     if (!staging) return std::unexpected(staging.error());
-    const double rms = out_.from_motion ? out_.from_motion->rms_after_m
-                       : out_.placed    ? out_.placed->rms_m
-                                        : 0.0;
-    if (!(rms <= job_.max_rms_m)) {
-      out_.exit_status = 1;
-      out_.notes.push_back(
-          fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most "
-                      "{:.1f} mm is accepted.",
-                      1e3 * rms, 1e3 * job_.max_rms_m));
-    }
-    out_.report = scale_report(job_, out_);
-    if (auto s = io::write_osim(staging->path(0), out_.model); !s) return staging->failure(s.error());
-    if (auto s = io::write_text(staging->path(1), out_.report + "\n", false); !s)
-      return staging->failure(s.error());
-    if (auto s = staging->commit(); !s) return std::unexpected(s.error());
-    out_.written = staging->targets();
+    auto written =
+        write_results(*staging,
+                      {model_file(job_.output, out_.model),
+                       text_file(report, [this] { return scale_json(job_, out_).dump(2) + "\n"; })},
+                      {}, "scaling");
+    if (!written) return std::unexpected(written.error());
+    out_.written = std::move(*written);
     return std::move(out_);
   }
 
-  /// Targets can be written: said before anything long is done.
+  /// Checks that the targets can be written before any long computation.
   Status check_targets() const {
     const auto staging = Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force);
     if (!staging) return std::unexpected(staging.error());
@@ -174,15 +183,15 @@ class ScaleRun {
   }
 
  private:
-  /// --static wins over the file that the setup names itself.
+  /// --static takes precedence over the file named by the setup.
   Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
                     bool by_setup = false) const {
     const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;
     if (path.empty())
       return fail(Code::usage, fmt::format("{} needs a marker file; give --static or name it there", what));
-    auto trial = io::read_markers(path, {.rate_hz = io::needs_rate(path) ? job_.rate_hz : 0.0});
-    if (!trial) return std::unexpected(trial.error());
-    out = std::move(trial->markers);
+    auto input = read_marker_input({.path = path, .rate_hz = job_.rate_hz, .rate = RateRule::where_needed});
+    if (!input) return std::unexpected(input.error());
+    out = std::move(input->trial.markers);
     return {};
   }
 
@@ -198,11 +207,11 @@ class ScaleRun {
   Status take_overall_size(const data::Trajectories& trial) {
     double measured = 0.0, modelled = 0.0;
     const auto& markers = out_.model.markers;
+    const data::NameIndex index(trial.names);
     for (std::size_t i = 0; i < markers.size(); ++i)
       for (std::size_t j = i + 1; j < markers.size(); ++j) {
         if (markers[i].body_idx != markers[j].body_idx) continue;
-        const auto a = motion::find_recorded(trial, markers[i].name),
-                   b = motion::find_recorded(trial, markers[j].name);
+        const auto a = index.find(markers[i].name), b = index.find(markers[j].name);
         if (a < 0 || b < 0) continue;
         double sum = 0.0, count = 0.0;
         for (std::int64_t f = 0; f < trial.frames(); f += 1 + trial.frames() / 500) {
@@ -236,7 +245,7 @@ class ScaleRun {
     const auto places = motion::marker_parameters(out_.model, {}, job_.place_prior_sd_m);
     if (!places) return std::unexpected(places.error());
     parameters->insert(parameters->end(), places->begin(), places->end());
-    auto adapted = motion::adapt_model(out_.model, trial, *parameters, options, progress_);
+    auto adapted = motion::adapt_model(out_.model, trial, *parameters, options, job_.progress);
     if (!adapted) return adapted;
     // The bodies' own sizes carry their mass centres and inertias along; masses follow the volume.
     std::vector<Vector3d> factors(out_.model.bodies.size(), Vector3d::Ones());
@@ -256,7 +265,6 @@ class ScaleRun {
   }
 
   ScaleJob job_;
-  const Progress& progress_;
   std::optional<io::ScaleSetup> setup_;
   std::vector<io::MarkerOfSet> marker_set_;
   ScaleOutcome out_;
@@ -264,10 +272,11 @@ class ScaleRun {
 
 }  // namespace
 
-Result<ScaleOutcome> run_scale(ScaleJob job, const Progress& progress) {
-  ScaleRun run(std::move(job), progress);
-  for (const auto step : {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
-                          &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh}) {
+Result<ScaleOutcome> run_scale(ScaleJob job) {
+  ScaleRun run(std::move(job));
+  for (const auto step :
+       {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
+        &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh, &ScaleRun::judge}) {
     if (auto s = (run.*step)(); !s) return std::unexpected(s.error());
     if (step != &ScaleRun::read_setup) continue;
     if (auto s = run.check(); !s) return std::unexpected(s.error());

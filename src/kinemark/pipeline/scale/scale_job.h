@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
 #include "kinemark/stages/motion/scaling/place.h"
 #include "kinemark/stages/motion/scaling/scale.h"
@@ -16,41 +16,37 @@
 namespace kinemark::pipeline {
 
 /// What `kinemark scale` is asked to do. Paths that are empty are not used.
-struct ScaleJob {
-  std::filesystem::path model;
+struct ScaleJob : JobSettings {
+  std::filesystem::path model;         ///< .osim to scale
   std::filesystem::path setup;         ///< OpenSim ScaleTool file; fills what the other fields leave open
   std::filesystem::path static_trial;  ///< marker file of a static trial
-  std::filesystem::path markers;       ///< marker file of a motion: sizes and places are adapted to it
+  std::filesystem::path markers;       ///< marker file of a motion: sizes and positions are adapted to it
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
-  double rate_hz = 0.0;                ///< of marker files that tell none (.v3d); 0: not given
+  double rate_hz = 0.0;                ///< for marker files that store none (.v3d); 0: not given
   double mass_kg = 0.0;                ///< 0: the setup's, or as the factors make it
   bool dempster = false;               ///< distribute the mass by Dempster's fractions
   bool clavicles = false;              ///< set shoulders free first
   bool symmetric = false;              ///< one size for both sides
   double size_prior_sd = 0.1;          ///< of a segment's size against the model so far, share
-  double place_prior_sd_m = 0.01;      ///< per axis; of a marker's place against the model so far
-  motion::AdaptOptions adapt;
-  double max_rms_m = 0.05;  ///< quality gate: RMS distance of measured and model markers
-  bool force = false;
-  std::string command_line;  ///< for the record
+  double place_prior_sd_m = 0.01;      ///< per axis; of a marker's position against the model so far
+  motion::AdaptOptions adapt;          ///< of the fit of sizes to a motion
+  double max_rms_m = 0.05;             ///< quality gate: RMS distance of measured and model markers
 };
 
-struct ScaleOutcome {
-  data::ModelDescription model;
+/// Gate: marker_rms.
+struct ScaleOutcome : JobOutcome {
+  data::ModelDescription model;                    ///< scaled, markers placed
   std::optional<motion::ScaleResult> scaled;       ///< measured or set by hand, with a setup
   std::optional<motion::PlaceResult> placed;       ///< markers put where the static trial shows them
   std::optional<motion::AdaptResult> from_static;  ///< sizes from a static trial without a setup
-  std::optional<motion::AdaptResult> from_motion;  ///< sizes and places from the motion
+  std::optional<motion::AdaptResult> from_motion;  ///< sizes and positions from the motion
   std::vector<data::BodyFactors> factors;          ///< of every body, all steps together
   std::vector<std::string> clavicles;              ///< set free
-  std::vector<std::string> notes;                  ///< sentences for the user
-  std::vector<std::filesystem::path> written;
-  std::string report;   ///< JSON
-  int exit_status = 0;  ///< 0, or 1 when the gate failed
 };
 
 /// Scale, place, adapt, weigh and write, in this order; each step only where its input is given. Without a
 /// setup the model first gets the subject's overall size from distances between markers of one segment.
-[[nodiscard]] Result<ScaleOutcome> run_scale(ScaleJob job, const Progress& progress = {});
+/// Progress counts steps.
+[[nodiscard]] Result<ScaleOutcome> run_scale(ScaleJob job);
 
 }  // namespace kinemark::pipeline

@@ -11,7 +11,7 @@
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
-#include "kinemark/pipeline/simulate/simulate_job.h"
+#include "kinemark/pipeline/simulate/simulate_subject_job.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
 
@@ -27,10 +27,11 @@ class RunScale : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     scratch_ = new testing_support::ScratchFolder;
-    SubjectJob subject{.folder = *scratch_ / "in"};
+    SimulateSubjectJob subject;
+    subject.folder = *scratch_ / "in";
     subject.options.duration_s = 3.0;
     subject.options.rate_hz = 60.0;
-    simulate_subject(subject).value();
+    run_simulate_subject(subject).value();
     auto model = io::read_osim(at("in/model.osim")).value();
     const std::vector<Eigen::Vector3d> factors(model.bodies.size(), Eigen::Vector3d::Constant(0.93));
     motion::apply_factors(model, factors, true);
@@ -81,7 +82,7 @@ TEST_F(RunScale, finds_the_size_from_motion_and_writes_model_and_report) {
   j.mass_kg = 60.0;
   const auto outcome = run_scale(j);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->exit_status, 0);
+  EXPECT_EQ(outcome->exit_status(), 0);
   ASSERT_TRUE(outcome->from_motion);
   EXPECT_LT(outcome->from_motion->rms_after_m, 0.003);
   for (std::size_t b = 0; b < outcome->model.bodies.size(); ++b) {
@@ -150,9 +151,9 @@ TEST_F(RunScale, a_poor_fit_is_written_and_said) {
   j.max_rms_m = 1e-5;
   const auto outcome = run_scale(j);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->exit_status, 1);
-  ASSERT_EQ(outcome->notes.size(), 1U);
-  EXPECT_THAT(outcome->notes[0], HasSubstr("is accepted"));
+  EXPECT_EQ(outcome->exit_status(), 1);
+  ASSERT_EQ(outcome->warnings.size(), 1U);
+  EXPECT_THAT(outcome->warnings[0], HasSubstr("is accepted"));
 }
 
 TEST_F(RunScale, says_what_is_missing_or_wrong) {

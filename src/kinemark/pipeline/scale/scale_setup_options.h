@@ -9,9 +9,9 @@
 
 namespace kinemark::pipeline {
 
-/// What a ScaleTool file asks of place_markers(). `fixed`: markers of its set that stay. Tasks of markers
-/// that the model lacks are passed over, as OpenSim does; tasks of unknown coordinates, and values that the
-/// coordinate file does not hold, are errors.
+/// The options of place_markers() that a ScaleTool file sets. `fixed`: markers of its set that stay. Tasks of
+/// markers that the model lacks are passed over, as OpenSim does; tasks of unknown coordinates, and values
+/// that the coordinate file does not hold, are errors.
 [[nodiscard]] Result<motion::PlaceOptions> place_options(const io::ScaleSetup& setup,
                                                          const std::vector<io::MarkerOfSet>& set,
                                                          const data::ModelDescription& model);

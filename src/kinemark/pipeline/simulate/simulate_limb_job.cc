@@ -5,16 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
-#include "kinemark/io/file.h"
-#include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/new_folder.h"
-#include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/files/result_files.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A basic string of TOML; names of simulated limbs need no more.
 std::string quoted(const std::string& text) {
@@ -43,13 +39,6 @@ data::Trajectories truth_of(const simulation::LimbRecording& limb) {
   return out;
 }
 
-Status write_text(const fs::path& path, const std::string& text) {
-  auto file = io::OutputFile::create(path, false);
-  if (!file) return std::unexpected(file.error());
-  if (auto s = file->write(text); !s) return s;
-  return file->commit();
-}
-
 }  // namespace
 
 std::string segment_layout_toml(const data::SegmentLayout& layout, const std::vector<std::string>& markers) {
@@ -70,44 +59,40 @@ std::string segment_layout_toml(const data::SegmentLayout& layout, const std::ve
   return out;
 }
 
-Result<LimbJobOutcome> simulate_limb(const LimbJob& job, const Progress& progress) {
-  const auto limb = job.scene == LimbScene::arm ? simulation::simulate_chain(job.arm)
-                                                : simulation::simulate_sleeve(job.macaque);
+Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
+  auto arm = job.arm;
+  auto macaque = job.macaque;
+  arm.seed = macaque.seed = job.seed;
+  const auto limb =
+      job.scene == LimbScene::arm ? simulation::simulate_chain(arm) : simulation::simulate_sleeve(macaque);
   if (!limb) return std::unexpected(limb.error());
   auto recorded = simulation::upsample(limb->markers, job.upsample);
   if (!recorded) return std::unexpected(recorded.error());
-  LimbJobOutcome out;
+  SimulateLimbOutcome out;
   const double samples = static_cast<double>(limb->markers.state.size());
-  out.notes.push_back(
+  out.warnings.push_back(
       fmt::format("{} markers, {} frames at {:.6g} Hz, {:.0f} % of the samples seen", limb->markers.markers(),
                   limb->markers.frames(), limb->markers.time.rate_hz,
                   100.0 * (1.0 - static_cast<double>(limb->markers.count_missing()) / samples)));
   if (job.upsample.factor > 1)
-    out.notes.push_back(fmt::format("the recorder makes {} frames at {:.6g} Hz of them", recorded->frames(),
-                                    recorded->time.rate_hz));
+    out.warnings.push_back(fmt::format("the recorder makes {} frames at {:.6g} Hz of them",
+                                       recorded->frames(), recorded->time.rate_hz));
 
-  const internal::NewFolder folder(job.folder);
-  if (folder.error())
-    return fail(Code::io,
-                fmt::format("{}: cannot be made ({})", job.folder.string(), folder.error().message()));
-  auto staging = Staging::create({job.folder / "markers.c3d", job.folder / "markers.trc",
-                                  job.folder / "truth.csv", job.folder / "segments.toml"},
-                                 job.force);
+  auto staging =
+      Staging::create_in(job.folder, {"markers.c3d", "markers.trc", "truth.csv", "segments.toml"}, job.force);
   if (!staging) return std::unexpected(staging.error());
   data::Trial stream, truth;
   stream.source = truth.source = "simulated";
   stream.markers = std::move(*recorded);
   truth.markers = truth_of(*limb);
-  const auto files = static_cast<std::int64_t>(staging->targets().size());
-  for (std::int64_t i = 0; i < files; ++i) {
-    const auto path = staging->path(static_cast<std::size_t>(i));
-    const Status written = i == 3 ? write_text(path, segment_layout_toml(limb->layout, limb->markers.names))
-                                  : io::write_markers(path, i == 2 ? truth : stream, false);
-    if (!written) return staging->failure(written.error());
-    if (progress && !progress(i + 1, files)) return fail(Code::cancelled, "the simulation was stopped");
-  }
-  if (auto s = staging->commit(); !s) return std::unexpected(s.error());
-  out.written = staging->targets();
+  const auto& targets = staging->targets();
+  auto written = write_results(
+      *staging,
+      {marker_file(targets[0], stream), marker_file(targets[1], stream), marker_file(targets[2], truth),
+       text_file(targets[3], [&] { return segment_layout_toml(limb->layout, limb->markers.names); })},
+      job.progress, "the simulation");
+  if (!written) return std::unexpected(written.error());
+  out.written = std::move(*written);
   return out;
 }
 

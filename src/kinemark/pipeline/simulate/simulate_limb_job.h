@@ -7,34 +7,33 @@
 #include <string>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/skeleton.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/simulation/limb.h"
 #include "kinemark/stages/simulation/upsample.h"
 
 namespace kinemark::pipeline {
 
+/// Which limb is simulated.
 enum class LimbScene : std::uint8_t { arm, macaque };
 
 /// What `kinemark simulate arm` and `kinemark simulate macaque` are asked to do.
-struct LimbJob {
-  std::filesystem::path folder;  ///< made when absent
-  LimbScene scene = LimbScene::arm;
+struct SimulateLimbJob : JobSettings {
+  std::filesystem::path folder;                       ///< made when absent
+  LimbScene scene = LimbScene::arm;                   ///< which limb
   simulation::ChainOptions arm;                       ///< for LimbScene::arm
   simulation::SleeveOptions macaque;                  ///< for LimbScene::macaque
   simulation::UpsampleOptions upsample{.factor = 1};  ///< what the recorder makes of it
-  bool force = false;
 };
 
-struct LimbJobOutcome {
-  std::vector<std::filesystem::path> written;
-  std::vector<std::string> notes;  ///< frames, markers, and how much of them is seen
-};
+/// Warnings: frames, markers, and how much of them is seen.
+struct SimulateLimbOutcome : JobOutcome {};
 
 /// Write markers.c3d and markers.trc (what the recorder hands on), truth.csv (joint centres and then all
 /// markers without noise, every frame of the cameras) and segments.toml (segment_layout_toml()). Either all
-/// files appear or none, nor the folder. `progress` counts files.
-[[nodiscard]] Result<LimbJobOutcome> simulate_limb(const LimbJob& job, const Progress& progress = {});
+/// files appear or none, nor the folder. Progress counts files.
+[[nodiscard]] Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job);
 
 /// The layout as `kinemark joints --segments` reads it: [[segment]] with name and markers, [[joint]] with
 /// name, parent and child. markers: names of the recording's.

@@ -16,15 +16,15 @@ using ::testing::HasSubstr;
 
 TEST(SimulateLimb, TheFilesAgreeWithTheStage) {
   const testing_support::ScratchFolder scratch;
-  LimbJob job;
+  SimulateLimbJob job;
   job.folder = scratch / "arm";
   job.arm.frames = 40;
   job.arm.missing = 0.3;
-  job.arm.seed = 4;
-  const auto outcome = simulate_limb(job);
+  job.seed = job.arm.seed = 4;
+  const auto outcome = run_simulate_limb(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->written.size(), 4U);
-  EXPECT_THAT(outcome->notes.at(0), HasSubstr("6 markers, 40 frames at 60 Hz"));
+  EXPECT_THAT(outcome->warnings.at(0), HasSubstr("6 markers, 40 frames at 60 Hz"));
   const auto limb = simulation::simulate_chain(job.arm).value();
   for (const char* name : {"arm/markers.c3d", "arm/markers.trc"}) {
     const auto read = io::read_markers(scratch / name).value().markers;
@@ -48,26 +48,26 @@ TEST(SimulateLimb, TheFilesAgreeWithTheStage) {
 
 TEST(SimulateLimb, TheRecorderUpsamples) {
   const testing_support::ScratchFolder scratch;
-  LimbJob job;
+  SimulateLimbJob job;
   job.folder = scratch / "macaque";
   job.scene = LimbScene::macaque;
   job.macaque.duration_s = 1.0;
   job.upsample.factor = 4;
-  const auto outcome = simulate_limb(job);
+  const auto outcome = run_simulate_limb(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->notes.at(1), HasSubstr("237 frames at 240 Hz"));
+  EXPECT_THAT(outcome->warnings.at(1), HasSubstr("237 frames at 240 Hz"));
   EXPECT_EQ(io::read_markers(scratch / "macaque/markers.c3d").value().markers.frames(), 237);
   EXPECT_EQ(io::read_markers(scratch / "macaque/truth.csv").value().markers.frames(), 60);
 }
 
 TEST(SimulateLimb, SaysWhichMarkersRideWhere) {
   const testing_support::ScratchFolder scratch;
-  LimbJob job;
+  SimulateLimbJob job;
   job.folder = scratch.path();
   job.scene = LimbScene::macaque;
   job.macaque.duration_s = 0.1;
   job.macaque.leds_per_segment = 2;
-  ASSERT_TRUE(simulate_limb(job));
+  ASSERT_TRUE(run_simulate_limb(job));
   EXPECT_EQ(io::read_text(scratch / "segments.toml").value(),
             "[[segment]]\nname = \"upper_arm\"\nmarkers = [\"u0\", \"u1\"]\n\n"
             "[[segment]]\nname = \"forearm\"\nmarkers = [\"f0\", \"f1\"]\n\n"
@@ -78,21 +78,22 @@ TEST(SimulateLimb, SaysWhichMarkersRideWhere) {
 
 TEST(SimulateLimb, WritesAllOrNothing) {
   const testing_support::ScratchFolder scratch;
-  LimbJob job;
+  SimulateLimbJob job;
   job.folder = scratch / "arm";
   job.arm.missing = 2.0;
-  EXPECT_EQ(simulate_limb(job).error().code, Code::usage);
+  EXPECT_EQ(run_simulate_limb(job).error().code, Code::usage);
   job.arm.missing = 0.0;
-  EXPECT_EQ(simulate_limb(job, [](std::int64_t, std::int64_t) { return false; }).error().code,
-            Code::cancelled);
+  job.progress = [](std::int64_t, std::int64_t) { return false; };
+  EXPECT_EQ(run_simulate_limb(job).error().code, Code::cancelled);
+  job.progress = {};
   EXPECT_EQ(scratch.count_files(), 0);
   job.upsample.factor = 1000;
-  EXPECT_EQ(simulate_limb(job).error().code, Code::usage);
+  EXPECT_EQ(run_simulate_limb(job).error().code, Code::usage);
   job.upsample.factor = 1;
-  ASSERT_TRUE(simulate_limb(job));
-  EXPECT_EQ(simulate_limb(job).error().code, Code::io);  // they exist
+  ASSERT_TRUE(run_simulate_limb(job));
+  EXPECT_EQ(run_simulate_limb(job).error().code, Code::io);  // they exist
   job.force = true;
-  EXPECT_TRUE(simulate_limb(job));
+  EXPECT_TRUE(run_simulate_limb(job));
 }
 
 }  // namespace

@@ -5,17 +5,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <functional>
+#include <utility>
 
-#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/core/enum_names.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
-#include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/new_folder.h"
-#include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/simulation/rig_calibration.h"
 
 namespace kinemark::pipeline {
@@ -23,30 +22,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<std::string_view, RigSceneKind>, 4> kScenes{
-    {{"tree", RigSceneKind::tree},
-     {"wheel", RigSceneKind::wheel},
-     {"sign", RigSceneKind::sign},
-     {"markers", RigSceneKind::markers}}};
+constexpr EnumNames<RigSceneKind::markers> kScenes{"tree", "wheel", "sign", "markers"};
 
-/// A scene, how long it lasts unless told, and the stream of its noise.
+/// A scene, its default duration, and the stream of its noise.
 struct Staged {
   simulation::RigScene scene;
   double duration_s = 0.0;
   std::uint64_t stream = 0;
 };
 
-Result<Staged> stage_markers(const RigJob& job) {
+Result<Staged> stage_markers(const SimulateRigJob& job) {
   if (job.markers.empty()) return fail(Code::usage, "the scene 'markers' needs a marker file");
-  const auto trial = io::read_markers(job.markers);
-  if (!trial) return std::unexpected(trial.error());
-  auto scene = simulation::markers_as_leds(trial->markers, job.marker_options);
+  const auto input = read_marker_input({.path = job.markers});
+  if (!input) return std::unexpected(input.error());
+  const auto& markers = input->trial.markers;
+  auto scene = simulation::markers_as_leds(markers, job.marker_options);
   if (!scene) return fail_at(job.markers.string(), scene.error());
-  const auto& time = trial->markers.time;
+  const auto& time = markers.time;
   return Staged{std::move(*scene), static_cast<double>(time.frames - 1) / time.rate_hz, 440};
 }
 
-Result<Staged> stage(const RigJob& job) {
+Result<Staged> stage(const SimulateRigJob& job) {
   switch (job.scene) {
     case RigSceneKind::tree: {
       const auto& poses = simulation::tree_test_poses();
@@ -75,9 +71,7 @@ Result<int> find_name(const std::vector<std::string>& names, std::string_view wa
   if (wanted == "all") return -1;
   const auto at = std::ranges::find(names, wanted);
   if (at != names.end()) return static_cast<int>(at - names.begin());
-  std::string known;
-  for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-  return fail(Code::usage, fmt::format("there is no {} '{}'; there are {}", what, wanted, known));
+  return fail(Code::usage, fmt::format("there is no {} '{}'; there are {}", what, wanted, join(names)));
 }
 
 bool parse_frame(std::string_view text, std::int64_t& out) {
@@ -114,7 +108,7 @@ Status add_occlusion(std::string_view text, const data::Rig& rig, simulation::Ri
   return {};
 }
 
-Result<simulation::RigRecordingOptions> recording_options(const RigJob& job, const data::Rig& rig,
+Result<simulation::RigRecordingOptions> recording_options(const SimulateRigJob& job, const data::Rig& rig,
                                                           const Staged& staged) {
   auto out = job.recording;
   out.stream = staged.stream;
@@ -184,25 +178,20 @@ std::vector<std::string> notes_on(const simulation::RigRecording& recorded) {
   return out;
 }
 
-/// A file to write: its name, and how.
-struct Output {
-  std::string name;
-  std::function<Status(const fs::path&)> write;
-};
-
-io::RecordingMetadata about(const RigJob& job, std::string scene) {
-  return {"simulation", {{"scene", std::move(scene)}, {"seed", std::to_string(job.rig.seed)}}};
+io::RecordingMetadata about(const SimulateRigJob& job, std::string scene) {
+  return {"simulation", {{"scene", std::move(scene)}, {"seed", std::to_string(job.seed)}}};
 }
 
-Output counts_file(std::string name, data::Counts counts, std::vector<io::RecordingMetadata> metadata) {
-  return {std::move(name),
+ResultFile counts_file(fs::path target, data::Counts counts, std::vector<io::RecordingMetadata> metadata) {
+  return {std::move(target),
           [counts = std::move(counts), metadata = std::move(metadata)](const fs::path& path) {
             return io::write_counts(path, counts, metadata, false);
           }};
 }
 
 /// Recordings of known things: what a calibration has to know of them travels in the recording.
-Status add_calibration(const RigJob& job, const simulation::PhysicalRig& rig, std::vector<Output>& out) {
+Status add_calibration(const SimulateRigJob& job, const simulation::PhysicalRig& rig,
+                       std::vector<ResultFile>& out) {
   const auto known = [](std::map<std::string, std::string> values) {
     return io::RecordingMetadata{"calibration", std::move(values)};
   };
@@ -211,7 +200,7 @@ Status add_calibration(const RigJob& job, const simulation::PhysicalRig& rig, st
     if (!grid) return std::unexpected(grid.error());
     for (auto& counts : grid->counts)
       out.push_back(
-          counts_file("grid_" + counts.cameras.front() + ".mcap", counts,
+          counts_file(job.folder / ("grid_" + counts.cameras.front() + ".mcap"), counts,
                       {about(job, "grid"), known({{"kind", "grid"},
                                                   {"nodes", std::to_string(grid->nodes)},
                                                   {"spacing_m", fmt::format("{}", grid->spacing_m)},
@@ -225,7 +214,7 @@ Status add_calibration(const RigJob& job, const simulation::PhysicalRig& rig, st
     auto poses = simulation::record_tree_poses(rig, {.recording = recording});
     if (!poses) return std::unexpected(poses.error());
     const auto sides = simulation::tree_sides_m();
-    out.push_back(counts_file("tree_poses.mcap", std::move(poses->counts),
+    out.push_back(counts_file(job.folder / "tree_poses.mcap", std::move(poses->counts),
                               {about(job, "tree poses"),
                                known({{"kind", "tree"},
                                       {"frames_per_pose", std::to_string(poses->frames_per_pose)},
@@ -237,42 +226,20 @@ Status add_calibration(const RigJob& job, const simulation::PhysicalRig& rig, st
   std::string places;
   for (const auto x : scan->x_in_stage.colwise()) places += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
   out.push_back(
-      counts_file("scan.mcap", std::move(scan->counts),
+      counts_file(job.folder / "scan.mcap", std::move(scan->counts),
                   {about(job, "scan"), known({{"kind", "scan"},
                                               {"frames_per_place", std::to_string(scan->frames_per_place)},
                                               {"places_m", std::move(places)}})}));
   return {};
 }
 
-Result<std::vector<fs::path>> write_all(const RigJob& job, const std::vector<Output>& outputs,
-                                        const Progress& progress) {
-  const internal::NewFolder folder(job.folder);
-  if (folder.error())
-    return fail(Code::io,
-                fmt::format("{}: cannot be made ({})", job.folder.string(), folder.error().message()));
-  std::vector<fs::path> targets;
-  for (const auto& output : outputs) targets.push_back(job.folder / output.name);
-  auto staging = Staging::create(targets, job.force);
-  if (!staging) return std::unexpected(staging.error());
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (auto s = outputs[i].write(staging->path(i)); !s) return staging->failure(s.error());
-    if (progress && !progress(static_cast<std::int64_t>(i + 1), static_cast<std::int64_t>(outputs.size())))
-      return fail(Code::cancelled, "the simulation was stopped");
-  }
-  if (auto s = staging->commit(); !s) return std::unexpected(s.error());
-  return staging->targets();
-}
-
 }  // namespace
 
-Result<RigSceneKind> parse_rig_scene(std::string_view name) {
-  for (const auto& [known, kind] : kScenes)
-    if (known == name) return kind;
-  return fail(Code::usage,
-              fmt::format("there is no scene '{}'; there are tree, wheel, sign and markers", name));
-}
+Result<RigSceneKind> parse_rig_scene(std::string_view name) { return kScenes.parse(name, "scene"); }
 
-Result<RigJobOutcome> simulate_rig(const RigJob& job, const Progress& progress) {
+Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
+  job.rig.seed = job.recording.seed = job.seed;
+  job.recording.threads = job.threads;
   const auto rig = simulation::draw_rig(job.rig);
   if (!rig) return std::unexpected(rig.error());
   auto staged = stage(job);
@@ -284,27 +251,32 @@ Result<RigJobOutcome> simulate_rig(const RigJob& job, const Progress& progress) 
   const auto recorded = simulation::record(*rig, staged->scene, *options);
   if (!recorded) return std::unexpected(recorded.error());
 
-  std::string scene;
-  for (const auto& [name, kind] : kScenes)
-    if (kind == job.scene) scene = name;
+  const std::string scene(kScenes[job.scene]);
   data::Trial truth;
   truth.source = "simulated";
   truth.markers = recorded->truth;
-  std::vector<Output> outputs;
-  outputs.push_back(counts_file("recording.mcap", recorded->counts, {about(job, scene)}));
-  outputs.push_back(
-      {"truth.trc", [&](const fs::path& path) { return io::write_markers(path, truth, false); }});
-  outputs.push_back({"truth_derivatives.sto", [&](const fs::path& path) {
-                       return io::write_table(path, derivatives_table(*recorded), {});
-                     }});
-  outputs.push_back(
-      {"rig_true.toml", [&](const fs::path& path) { return io::write_rig(path, rig->rig, false); }});
-  outputs.push_back(
-      {"rig_nominal.toml", [&](const fs::path& path) { return io::write_rig(path, rig->nominal, false); }});
-  if (auto s = add_calibration(job, *rig, outputs); !s) return std::unexpected(s.error());
-  auto written = write_all(job, outputs, progress);
+  const fs::path& folder = job.folder;
+  const auto rig_file = [&](const char* name, const data::Rig& which) {
+    return ResultFile{folder / name,
+                      [&which](const fs::path& path) { return io::write_rig(path, which, false); }};
+  };
+  std::vector<ResultFile> files;
+  files.push_back(counts_file(folder / "recording.mcap", recorded->counts, {about(job, scene)}));
+  files.push_back(marker_file(folder / "truth.trc", truth));
+  files.push_back(table_file(folder / "truth_derivatives.sto", [&] { return derivatives_table(*recorded); }));
+  files.push_back(rig_file("rig_true.toml", rig->rig));
+  files.push_back(rig_file("rig_nominal.toml", rig->nominal));
+  if (auto s = add_calibration(job, *rig, files); !s) return std::unexpected(s.error());
+  std::vector<std::string> names;
+  for (const auto& file : files) names.push_back(file.target.filename().string());
+  auto staging = Staging::create_in(folder, names, job.force);
+  if (!staging) return std::unexpected(staging.error());
+  auto written = write_results(*staging, files, job.progress, "the simulation");
   if (!written) return std::unexpected(written.error());
-  return RigJobOutcome{std::move(*written), notes_on(*recorded)};
+  SimulateRigOutcome out;
+  out.written = std::move(*written);
+  out.warnings = notes_on(*recorded);
+  return out;
 }
 
 }  // namespace kinemark::pipeline

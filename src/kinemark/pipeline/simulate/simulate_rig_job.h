@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/simulation/rig_markers.h"
 #include "kinemark/stages/simulation/rig_physics.h"
 #include "kinemark/stages/simulation/rig_recording.h"
@@ -18,38 +18,36 @@
 
 namespace kinemark::pipeline {
 
+/// What moves before the rig.
 enum class RigSceneKind : std::uint8_t { tree, wheel, sign, markers };
 [[nodiscard]] Result<RigSceneKind> parse_rig_scene(std::string_view name);  ///< "tree", "wheel", ...
 
 /// What `kinemark simulate rig` is asked to do.
-struct RigJob {
-  std::filesystem::path folder;  ///< made when absent
-  RigSceneKind scene = RigSceneKind::sign;
-  int tree_pose = 0;  ///< 0 to 9
-  simulation::WheelOptions wheel;
-  std::filesystem::path markers;  ///< for RigSceneKind::markers
-  simulation::MarkerSceneOptions marker_options;
-  simulation::RigDrawOptions rig;
-  simulation::RigRecordingOptions recording;  ///< frames, stream and intensity are set here
-  bool highest_rate = false;                  ///< the most frames per second that the slots leave room for
+struct SimulateRigJob : JobSettings {
+  std::filesystem::path folder;                   ///< made when absent
+  RigSceneKind scene = RigSceneKind::sign;        ///< what moves
+  int tree_pose = 0;                              ///< 0 to 9
+  simulation::WheelOptions wheel;                 ///< for RigSceneKind::wheel
+  std::filesystem::path markers;                  ///< for RigSceneKind::markers
+  simulation::MarkerSceneOptions marker_options;  ///< for RigSceneKind::markers
+  simulation::RigDrawOptions rig;                 ///< how it was drawn
+  simulation::RigRecordingOptions recording;      ///< frames, stream and intensity are set here
+  bool highest_rate = false;                      ///< the highest frame rate that the time slots allow
   double duration_s = 0.0;  ///< 0: tree 1 s, wheel 2.2 s, sign 4 s, markers as long as they are
   /// Intensity of an LED by name; an empty name means all of them.
   std::vector<std::pair<std::string, double>> intensity;
   /// More occlusions: "LED:CAMERA:FIRST-LAST", frames from 0; LED or camera may be "all".
   std::vector<std::string> occlusions;
   bool grid = false, tree_poses = false, scan = false;  ///< also record these for calibration
-  bool force = false;
 };
 
-struct RigJobOutcome {
-  std::vector<std::filesystem::path> written;
-  std::vector<std::string> notes;  ///< rate and time in use; LEDs beside the sheet or too bright
-};
+/// Warnings: rate and time in use; LEDs beside the sheet or too bright.
+struct SimulateRigOutcome : JobOutcome {};
 
 /// Write recording.mcap (counts), truth.trc (LEDs at the time of each frame, world of the rig),
 /// truth_derivatives.sto (m/s, m/s^2), rig_true.toml, rig_nominal.toml and, where asked for, grid_A.mcap,
-/// grid_B.mcap, tree_poses.mcap and scan.mcap. Either all files appear or none, nor the folder.
-/// `progress` counts files.
-[[nodiscard]] Result<RigJobOutcome> simulate_rig(const RigJob& job, const Progress& progress = {});
+/// grid_B.mcap, tree_poses.mcap and scan.mcap. Either all files appear or none, nor the folder. The seed
+/// draws the rig and its noise. Progress counts files.
+[[nodiscard]] Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job);
 
 }  // namespace kinemark::pipeline

@@ -18,24 +18,24 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-RigJob job(const fs::path& folder, RigSceneKind scene = RigSceneKind::sign) {
-  RigJob out;
+SimulateRigJob job(const fs::path& folder, RigSceneKind scene = RigSceneKind::sign) {
+  SimulateRigJob out;
   out.folder = folder;
   out.scene = scene;
   out.duration_s = 0.3;
   return out;
 }
 
-std::string refusal(const RigJob& job) {
-  const auto outcome = simulate_rig(job);
+std::string refusal(const SimulateRigJob& job) {
+  const auto outcome = run_simulate_rig(job);
   return outcome ? "written" : outcome.error().message;
 }
 
 TEST(SimulateRig, TheFilesAgreeWithTheStage) {
   const testing_support::ScratchFolder scratch;
   auto asked = job(scratch / "sign");
-  asked.rig.seed = asked.recording.seed = 3;
-  const auto outcome = simulate_rig(asked);
+  asked.seed = 3;
+  const auto outcome = run_simulate_rig(asked);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->written.size(), 5U);
   const auto rig = simulation::draw_rig({.seed = 3}).value();
@@ -59,7 +59,7 @@ TEST(SimulateRig, CalibrationRecordingsTellWhatIsKnown) {
   const testing_support::ScratchFolder scratch;
   auto asked = job(scratch / "tree", RigSceneKind::tree);
   asked.grid = asked.tree_poses = asked.scan = true;
-  const auto outcome = simulate_rig(asked);
+  const auto outcome = run_simulate_rig(asked);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->written.size(), 9U);
   const auto values = [&scratch](const char* file) {
@@ -76,13 +76,13 @@ TEST(SimulateRig, CalibrationRecordingsTellWhatIsKnown) {
 
 TEST(SimulateRig, MarkersOfAFileBecomeLeds) {
   const testing_support::ScratchFolder scratch;
-  ASSERT_TRUE(simulate_rig(job(scratch / "wheel", RigSceneKind::wheel)));
+  ASSERT_TRUE(run_simulate_rig(job(scratch / "wheel", RigSceneKind::wheel)));
   auto again = job(scratch / "again", RigSceneKind::markers);
   again.markers = scratch / "wheel/truth.trc";
   again.duration_s = 0.0;
-  const auto outcome = simulate_rig(again);
+  const auto outcome = run_simulate_rig(again);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->notes[0], HasSubstr("1 LED, 100 frames per second, 29 frames"));
+  EXPECT_THAT(outcome->warnings[0], HasSubstr("1 LED, 100 frames per second, 29 frames"));
   again.marker_options.markers = {"hub"};
   again.folder = scratch / "none";
   EXPECT_THAT(refusal(again), HasSubstr("truth.trc: there is no marker 'hub'"));
@@ -93,9 +93,9 @@ TEST(SimulateRig, OcclusionsAndIntensitiesGoByName) {
   auto asked = job(scratch / "sign");
   asked.occlusions = {"hand:B:3-5", "all:A:9-9"};
   asked.intensity = {{"", 0.5}, {"elbow", 20.0}};
-  const auto outcome = simulate_rig(asked);
+  const auto outcome = run_simulate_rig(asked);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->notes,
+  EXPECT_THAT(outcome->warnings,
               ::testing::Contains(HasSubstr("LED 'elbow' saturates camera A in 29 of 30 frames")));
   const auto counts = io::read_counts(scratch / "sign/recording.mcap").value().counts;
   EXPECT_LT(counts.at(3, 3, 1).sum(), 60.0);
@@ -110,25 +110,27 @@ TEST(SimulateRig, WhatIsWrongIsOneSentenceAndLeavesNothing) {
     spoil(asked);
     return refusal(asked);
   };
-  EXPECT_THAT(with([](RigJob& j) { j.recording.rate_hz = 300.0; }),
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.recording.rate_hz = 300.0; }),
               HasSubstr("276.5 frames per second at most"));
-  EXPECT_THAT(with([](RigJob& j) { j.tree_pose = 10; }, RigSceneKind::tree), HasSubstr("tree pose 10"));
-  EXPECT_THAT(with([](RigJob& j) { j.wheel.turned_deg = NAN; }, RigSceneKind::wheel),
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.tree_pose = 10; }, RigSceneKind::tree),
+              HasSubstr("tree pose 10"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.wheel.turned_deg = NAN; }, RigSceneKind::wheel),
               HasSubstr("turned by nan"));
-  EXPECT_THAT(with([](RigJob&) {}, RigSceneKind::markers), HasSubstr("needs a marker file"));
-  EXPECT_THAT(with([](RigJob& j) { j.occlusions = {"thumb:A:1-2"}; }),
+  EXPECT_THAT(with([](SimulateRigJob&) {}, RigSceneKind::markers), HasSubstr("needs a marker file"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.occlusions = {"thumb:A:1-2"}; }),
               HasSubstr("there are shoulder, elbow"));
-  EXPECT_THAT(with([](RigJob& j) { j.occlusions = {"hand:C:1-2"}; }),
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.occlusions = {"hand:C:1-2"}; }),
               HasSubstr("no camera 'C'; there are A, B"));
   for (const char* text :
        {"hand", "hand:A", "hand:A:5", "hand:A:5-4", "hand:A:x-9", ":", "::", "hand:A:-1-4"})
-    EXPECT_THAT(with([&](RigJob& j) { j.occlusions = {text}; }), HasSubstr("is not LED:CAMERA:FIRST-LAST"))
+    EXPECT_THAT(with([&](SimulateRigJob& j) { j.occlusions = {text}; }),
+                HasSubstr("is not LED:CAMERA:FIRST-LAST"))
         << text;
-  EXPECT_THAT(with([](RigJob& j) { j.intensity = {{"thumb", 1.0}}; }), HasSubstr("no LED 'thumb'"));
-  EXPECT_THAT(with([](RigJob& j) { j.intensity = {{"", -1.0}}; }), HasSubstr("intensity -1"));
-  EXPECT_THAT(with([](RigJob& j) { j.duration_s = -1.0; }), HasSubstr("need positive numbers"));
-  EXPECT_THAT(with([](RigJob& j) { j.duration_s = 1e300; }), HasSubstr("10 million"));
-  EXPECT_THAT(with([](RigJob& j) { j.rig.crosstalk = 2.0; }), HasSubstr("crosstalk"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.intensity = {{"thumb", 1.0}}; }), HasSubstr("no LED 'thumb'"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.intensity = {{"", -1.0}}; }), HasSubstr("intensity -1"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.duration_s = -1.0; }), HasSubstr("need positive numbers"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.duration_s = 1e300; }), HasSubstr("10 million"));
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.rig.crosstalk = 2.0; }), HasSubstr("crosstalk"));
   EXPECT_EQ(scratch.count_files(), 0);
   EXPECT_FALSE(fs::exists(scratch / "deep"));
   EXPECT_THAT(parse_rig_scene("dance").error().message, HasSubstr("there are tree, wheel, sign and markers"));
@@ -140,9 +142,9 @@ TEST(SimulateRig, TheHighestRateIsUsedWhenAskedFor) {
   asked.wheel.leds = 8;
   asked.highest_rate = true;
   asked.rig.dark_slot = true;
-  const auto outcome = simulate_rig(asked);
+  const auto outcome = run_simulate_rig(asked);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->notes[0], HasSubstr("8 LEDs, 122.911 frames per second"));
+  EXPECT_THAT(outcome->warnings[0], HasSubstr("8 LEDs, 122.911 frames per second"));
   EXPECT_TRUE(io::read_counts(scratch / "wheel/recording.mcap").value().counts.has_dark_slot());
 }
 

@@ -4,19 +4,20 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
-#include "kinemark/pipeline/simulate/simulate_job.h"
+#include "kinemark/pipeline/simulate/simulate_subject_job.h"
 
 namespace kinemark::pipeline::testing {
 
 /// markers.c3d, markers.trc, model.osim, truth.mot, truth.trc of half a second of our human, 20 % gaps.
 inline std::vector<std::filesystem::path> simulate_into(const std::filesystem::path& folder) {
-  SubjectJob job;
+  SimulateSubjectJob job;
   job.folder = folder;
   job.options.duration_s = 0.5;
   job.options.rate_hz = 60.0;
   job.options.dropout_random = 0.2;
-  return simulate_subject(job).value();
+  return run_simulate_subject(job).value().written;
 }
 
 }  // namespace kinemark::pipeline::testing

@@ -4,13 +4,13 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "kinemark/core/units.h"
 #include "kinemark/math/euler.h"
+#include "kinemark/math/rotation_fit.h"
 #include "kinemark/stages/calibration/bundle.h"
 
 namespace kinemark::calibration {
@@ -44,7 +44,7 @@ void add_deviations(const data::Rig& found, int camera, const Matrix3d& cam_from
                       .cwiseSqrt();
 }
 
-/// The worst deviation of all cameras in words.
+/// Description of the worst deviation of all cameras.
 void say_next(const AlignmentOptions& options, Alignment& out) {
   using Words = std::array<const char*, 2>;  // for a positive and a negative deviation
   constexpr std::array<Words, 3> kMove{
@@ -54,7 +54,7 @@ void say_next(const AlignmentOptions& options, Alignment& out) {
                                         {"roll it clockwise", "roll it counter-clockwise"}}};
   double worst = 1.0;
   out.aligned = true;
-  out.next = "nothing: all cameras stand within tolerance";
+  out.next = "nothing: all cameras are within tolerance";
   for (const auto& c : out.cameras)
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<Eigen::Index>(a);
@@ -86,8 +86,7 @@ Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& fo
   if (wanted.camera_count() != found.camera_count() || wanted.camera_count() == 0)
     return fail(Code::bad_input, fmt::format("{} cameras are wanted and {} were found", wanted.camera_count(),
                                              found.camera_count()));
-  const Eigen::Matrix4d motion = Eigen::umeyama(marks(found), marks(wanted), false);
-  const math::SE3 wanted_from_found{motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
+  const math::SE3 wanted_from_found = math::fit_rigid(marks(found), marks(wanted)).target_from_source;
   Alignment out;
   for (int c = 0; c < wanted.camera_count(); ++c) {
     const auto at = static_cast<std::size_t>(c);
@@ -96,7 +95,7 @@ Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& fo
     CameraAlignment one;
     one.camera = wanted.cameras[at].name;
     one.shift_m = should.rotation * (is.inverse().translation - should.inverse().translation);
-    // What lies on the wanted axis appears to the right of a camera that looks too far left: it has to pan
+    // A point on the nominal axis appears to the right in a camera that points too far left: it has to pan
     // right.
     one.turn_deg = kDegPerRad * math::log_so3(is.rotation * should.rotation.transpose());
     add_deviations(found, c, found.cameras[at].cam_from_world.rotation, one);

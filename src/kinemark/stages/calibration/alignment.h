@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// How far cameras stand from where they should, and what to turn next.
+// Deviation of the cameras from their nominal poses, and the next adjustment to make.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,37 +13,40 @@
 
 namespace kinemark::calibration {
 
+/// Options of compare_alignment() and align_by_tree(): how far a camera may stand from its wanted pose.
 struct AlignmentOptions {
-  double shift_tolerance_m = 2e-3;
-  double turn_tolerance_deg = 0.1;
+  double shift_tolerance_m = 2e-3;  ///< > 0, of the lens, each axis
+  double turn_tolerance_deg = 0.1;  ///< > 0, about each axis
 
+  /// Tolerances are positive.
   [[nodiscard]] Status check() const;
 };
 
 /// One camera against the wanted pose, in the axes of the wanted camera: right, down, forward.
 struct CameraAlignment {
-  std::string camera;
-  Eigen::Vector3d shift_m;  ///< lens, from the wanted place
+  std::string camera;       ///< its name
+  Eigen::Vector3d shift_m;  ///< lens, from the wanted position
   Eigen::Vector3d
-      turn_deg;  ///< what is missing: tilt up, pan to the right, roll clockwise as seen from behind
+      turn_deg;  ///< rotation still needed: tilt up, pan to the right, roll clockwise as seen from behind
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero(),
                   turn_sd_deg = Eigen::Vector3d::Zero();  ///< 0: unknown
 };
 
+/// All cameras of a rig against their wanted poses.
 struct Alignment {
-  std::vector<CameraAlignment> cameras;
-  bool aligned = false;  ///< everything is within tolerance
-  std::string next;      ///< one thing to do: the worst, by its tolerance
+  std::vector<CameraAlignment> cameras;  ///< in the order of the rig
+  bool aligned = false;                  ///< everything is within tolerance
+  std::string next;  ///< the next adjustment: the largest deviation relative to its tolerance
 };
 
-/// Compare two rigs of the same cameras. The world of `found` is laid on that of `wanted` first, by lenses
-/// and lines of sight: only where cameras stand to each other matters. Standard deviations are those of
+/// Compare two rigs of the same cameras. The world of `found` is first aligned with that of `wanted` by
+/// lenses and optical axes: only the relative poses of the cameras matter. Standard deviations are those of
 /// found.covariance.
 [[nodiscard]] Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& found,
                                                   const AlignmentOptions& options = {});
 
 /// The same from sightings of the tree, by calibrate_bundle() without its grid: four poses will do, some
-/// hundred tell turns to a tenth of a degree. Fails as calibrate_bundle(), but never refuses a misfit.
+/// hundred give rotations to a tenth of a degree. Fails as calibrate_bundle(), but never refuses a misfit.
 [[nodiscard]] Result<Alignment> align_by_tree(const data::Rig& wanted, const StillPoses& tree,
                                               const AlignmentOptions& options = {});
 

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "kinemark/core/units.h"
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-/// The ideal rig with its second camera turned (rad, about its own right, down, forward) and shifted (m, its
+/// The ideal rig with its second camera rotated (rad, about its own right, down, forward) and shifted (m, its
 /// axes).
 data::Rig moved_b(const Vector3d& turn, const Vector3d& shift) {
   auto rig = ts::ideal_rig();

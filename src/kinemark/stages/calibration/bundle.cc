@@ -4,12 +4,13 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "kinemark/camera/parameters.h"
+#include "kinemark/math/rotation_fit.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/calibration/internal/bundle_problem.h"
 #include "kinemark/stages/calibration/internal/gauge.h"
 #include "kinemark/stages/calibration/internal/rays.h"
@@ -20,10 +21,10 @@ namespace {
 using internal::BundleProblem;
 using internal::BundleState;
 
-constexpr int kManyLeds = 12;               // so many places fix the cameras without moving the object
-constexpr double kLargestSideError = 0.06;  // of a side, with cameras as the operator believes them to stand
+constexpr int kManyLeds = 12;  // with so many points one pose of the object determines the cameras
+constexpr double kLargestSideError = 0.06;  // of a side, with the cameras at their nominal poses
 
-/// Where the LEDs of one pose are, by rays alone; NaN where fewer than two cameras see one.
+/// Positions of the LEDs of one pose by intersection of rays; NaN where fewer than two cameras see one.
 std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree, int pose) {
   std::vector<Eigen::Vector3d> out;
   for (int led = 0; led < tree.leds(); ++led) {
@@ -40,7 +41,7 @@ std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree
 
 bool located(const Eigen::Vector3d& place) { return place.allFinite(); }
 
-/// Rigid motion that takes the tree to those of these places that were located.
+/// Rigid motion that maps the tree onto the located points.
 math::SE3 fit_tree(const StillPoses& tree, const std::vector<Eigen::Vector3d>& at) {
   const auto count = std::ranges::count_if(at, located);
   Eigen::Matrix3Xd from(3, count), to(3, count);
@@ -50,8 +51,7 @@ math::SE3 fit_tree(const StillPoses& tree, const std::vector<Eigen::Vector3d>& a
     from.col(column) = tree.tree[led];
     to.col(column++) = at[led];
   }
-  const Eigen::Matrix4d motion = Eigen::umeyama(from, to, false);
-  return {motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
+  return math::fit_rigid(from, to).target_from_source;
 }
 
 struct Start {
@@ -99,18 +99,17 @@ Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vec
   out.rms_m = std::sqrt(squares / std::max(count, 1));
   for (int a = 0; a < tree.leds(); ++a)
     for (int b = a + 1; b < tree.leds(); ++b) {
-      auto& sides = found[static_cast<std::size_t>(a * tree.leds() + b)];
+      const auto& sides = found[static_cast<std::size_t>(a * tree.leds() + b)];
       if (sides.empty()) continue;
-      const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-      std::nth_element(sides.begin(), middle, sides.end());
+      const double side = math::upper_median(sides);
       const double given =
           (tree.tree[static_cast<std::size_t>(a)] - tree.tree[static_cast<std::size_t>(b)]).norm();
-      const double share = std::abs(*middle - given) / given;
+      const double share = std::abs(side - given) / given;
       if (share <= out.worst_share) continue;
       out.worst_share = share;
       out.sentence =
           fmt::format("LEDs {} and {} are {:.1f} mm apart on the tree and {:.1f} mm in the recording", a + 1,
-                      b + 1, 1e3 * given, 1e3 * *middle);
+                      b + 1, 1e3 * given, 1e3 * side);
     }
   return out;
 }
@@ -154,7 +153,7 @@ struct Progressing {
   }
 };
 
-/// Gauss-Newton with step halving until a step promises next to nothing.
+/// Gauss-Newton with step halving until the predicted gain of a step is negligible.
 Status converge(BundleProblem& problem, BundleState& state, const BundleOptions& options,
                 Progressing& progress) {
   constexpr double kDone = 0.05;  // of chi2: a quarter of one standard deviation along the worst direction
@@ -217,7 +216,7 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
   if (!grids.empty()) state.grid_shift.assign(grids.front().sightings.size(), Eigen::Vector2d::Zero());
 
   Progressing steps{progress, 0, 2 * options.max_iterations};
-  // A fifth of a long recording brings the cameras near; then all of it starts from there.
+  // A fifth of a long recording gives a starting point for the adjustment of all of it.
   constexpr std::size_t kFew = 60;
   if (first.usable.size() > 2 * kFew) {
     std::vector<int> few;

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "kinemark/stages/calibration/internal/rays.h"
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -92,7 +92,7 @@ TEST(Bundle, HoldsOutliersDown) {
   for (const std::size_t i : {10U, 77U, 200U, 301U}) tree.sightings[i].counts[2] += 60.0;
   const auto result = calibrate_bundle(ts::ideal_rig(), tree, {}, small());
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_GE(result->report.outliers, 4);  // a pulled pose may take another sighting along
+  EXPECT_GE(result->report.outliers, 4);  // a distorted pose may make another sighting an outlier
   EXPECT_LE(result->report.outliers, 10);
   EXPECT_LT(result->report.chi2_per_dof, 1.3);
   EXPECT_LT(distance_error(result->rig, truth), 0.5e-3);

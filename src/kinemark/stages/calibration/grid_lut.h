@@ -14,9 +14,9 @@ namespace kinemark::calibration {
 
 /// The grid as it was built and hung.
 struct GridGeometry {
-  int nodes = 15;  ///< along each side, 3 or more
-  double spacing_m = 1.0 / 14.0;
-  double distance_m = 3.0;  ///< from the lens
+  int nodes = 15;                 ///< along each side, 3 or more
+  double spacing_m = 1.0 / 14.0;  ///< between neighbours, > 0
+  double distance_m = 3.0;        ///< from the lens
 };
 
 /// Means of the counts of every LED of a grid before camera `camera` of the rig.

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-/// A grid of 15 x 15 LEDs before camera A, 20 samples; `place` may turn or mirror it.
+/// A grid of 15 x 15 LEDs before camera A, 20 samples; `place` may rotate or mirror it.
 template <class Place>
 data::Counts record(const data::Rig& rig, const Place& place) {
   data::Rig one = rig;

@@ -22,11 +22,11 @@ Result<StillPoses> scan_sightings(const data::Counts& counts, const data::Rig& r
                 fmt::format("a scan has one LED; this recording has {}", counts.led_count()));
   const auto count = places.x_in_stage.cols();
   if (count < kFewest || count > kMost || !places.x_in_stage.allFinite())
-    return fail(Code::bad_input, fmt::format("a scan of {} places; {} to {} finite ones were expected", count,
-                                             kFewest, kMost));
+    return fail(Code::bad_input, fmt::format("a scan of {} positions; {} to {} finite ones were expected",
+                                             count, kFewest, kMost));
   if (places.frames_per_place < 1 || counts.frames() != count * places.frames_per_place)
-    return fail(Code::bad_input, fmt::format("{} frames do not fit {} places of {} frames", counts.frames(),
-                                             count, places.frames_per_place));
+    return fail(Code::bad_input, fmt::format("{} frames do not fit {} positions of {} frames",
+                                             counts.frames(), count, places.frames_per_place));
   StillPoses out{.tree = {}, .cameras = rig.camera_count(), .sightings = {}};
   for (Eigen::Index place = 0; place < count; ++place) {
     out.tree.emplace_back(places.x_in_stage.col(place));

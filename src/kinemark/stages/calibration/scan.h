@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// One LED on a motor stage that visits known places: a calibration without a hand.
+// One LED on a motor stage that visits known positions: automatic calibration.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,15 +13,16 @@
 
 namespace kinemark::calibration {
 
-/// Where the stage held the LED.
+/// Positions at which the stage held the LED.
 struct ScanPlaces {
-  Eigen::Matrix3Xd x_in_stage;  ///< m; a column per place, twelve or more
-  int frames_per_place = 10;
+  Eigen::Matrix3Xd x_in_stage;  ///< m; a column per position, twelve or more
+  int frames_per_place = 10;    ///< recorded at each position, >= 1
 };
 
-/// The places as one rigid object of as many LEDs, seen in one pose: what calibrate_bundle() takes. Places
-/// that a camera did not see, or that moved, are left out for that camera. Fails when the recording has more
-/// than one LED, or its frames do not fit the places.
+/// The positions as one rigid object with as many LEDs in a single pose, the input of calibrate_bundle().
+/// Positions that a camera did not see, or where the LED moved, are left out for that camera. Fails when the
+/// recording has more
+/// than one LED, or its frames do not fit the positions.
 [[nodiscard]] Result<StillPoses> scan_sightings(const data::Counts& counts, const data::Rig& rig,
                                                 const ScanPlaces& places, const StillOptions& options = {});
 

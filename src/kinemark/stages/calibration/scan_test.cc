@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-/// A lattice of 5 x 5 x 4 places, three frames each, the stage turned and shifted a little.
+/// A lattice of 5 x 5 x 4 positions, three frames each, the stage slightly rotated and shifted.
 struct Scan {
   ScanPlaces places;
   math::SE3 world_from_stage;
@@ -68,9 +68,9 @@ TEST(Scan, RefusesWhatDoesNotFit) {
   auto places = scan.places;
   places.frames_per_place = 4;
   EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message,
-              HasSubstr("300 frames do not fit 100 places"));
+              HasSubstr("300 frames do not fit 100 positions"));
   places.x_in_stage = places.x_in_stage.leftCols(5).eval();
-  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message, HasSubstr("a scan of 5 places"));
+  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message, HasSubstr("a scan of 5 positions"));
   scan.counts.leds.emplace_back("second");
   EXPECT_FALSE(scan_sightings(scan.counts, rig, scan.places));
 }

@@ -13,7 +13,7 @@
 namespace kinemark::calibration {
 namespace {
 
-/// What is left of a flicker's amplitude in the mean of conversions at these times: |mean of exp(i omega t)|.
+/// Remaining amplitude of a flicker in the mean of conversions at these times: |mean of exp(i omega t)|.
 double left_of_flicker(const data::Counts& counts, const FrameRange& frames, double offset_s, double hz) {
   std::complex<double> sum = 0.0;
   for (std::int64_t f = 0; f < frames.count; ++f)
@@ -27,7 +27,7 @@ StillSighting still_sighting(const data::Counts& counts, const data::Electronics
                              const FrameRange& frames, std::int64_t led, std::int64_t camera,
                              const StillOptions& options) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
-  constexpr double kDark = 100.0;  // counts of all four channels: what offsets and stray light alone can make
+  constexpr double kDark = 100.0;  // counts of all four channels: reached by offsets and stray light alone
   Eigen::Vector4d mean = Eigen::Vector4d::Zero(), square = Eigen::Vector4d::Zero();
   const auto count = static_cast<double>(frames.count);
   for (std::int64_t f = frames.first; f < frames.first + frames.count; ++f) {

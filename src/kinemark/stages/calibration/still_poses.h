@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Still sightings: what a recording of something that does not move comes down to.
+// Still sightings: mean counts of a recording of an object at rest.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,21 +16,23 @@ namespace kinemark::calibration {
 
 /// Mean of the counts that one camera made of one LED while nothing moved.
 struct StillSighting {
-  Eigen::Vector4d counts = Eigen::Vector4d::Zero();
-  double variance = 0.0;  ///< of each mean, counts^2; 0: not seen
-  [[nodiscard]] bool seen() const { return variance > 0.0; }
+  Eigen::Vector4d counts = Eigen::Vector4d::Zero();           ///< of channels +x, -x, +y, -y
+  double variance = 0.0;                                      ///< of each mean, counts^2; 0: not seen
+  [[nodiscard]] bool seen() const { return variance > 0.0; }  ///< whether there is a mean
 };
 
-/// An object of L LEDs, held still in P places.
+/// An object of L LEDs, held still in P poses.
 struct StillPoses {
-  std::vector<Eigen::Vector3d> tree;     ///< L places of its LEDs in its own frame, m
+  std::vector<Eigen::Vector3d> tree;     ///< L positions of its LEDs in its own frame, m
   int cameras = 0;                       ///< C
   std::vector<StillSighting> sightings;  ///< P x L x C
 
-  [[nodiscard]] int leds() const { return static_cast<int>(tree.size()); }
+  [[nodiscard]] int leds() const { return static_cast<int>(tree.size()); }  ///< L
+  /// P
   [[nodiscard]] int poses() const {
     return tree.empty() || cameras == 0 ? 0 : static_cast<int>(sightings.size()) / (leds() * cameras);
   }
+  /// One sighting of one pose.
   [[nodiscard]] const StillSighting& at(int pose, int led, int camera) const {
     return sightings[static_cast<std::size_t>((pose * leds() + led) * cameras + camera)];
   }
@@ -38,29 +40,31 @@ struct StillPoses {
 
 /// A plane grid of nodes x nodes LEDs before one camera, square to its axis.
 struct GridSightings {
-  int nodes = 15;
-  double spacing_m = 1.0 / 14.0;
-  double distance_m = 3.0;
+  int nodes = 15;                        ///< along each side
+  double spacing_m = 1.0 / 14.0;         ///< between neighbours
+  double distance_m = 3.0;               ///< from the lens, along the axis
   std::vector<StillSighting> sightings;  ///< node (i, j), i to the right, j down, at i * nodes + j
 
+  /// Place of a node on the grid, m from its middle.
   [[nodiscard]] Eigen::Vector2d place_m(int i, int j) const {
     const double middle = 0.5 * (nodes - 1);
     return spacing_m * Eigen::Vector2d(i - middle, j - middle);
   }
 };
 
+/// Options of averaging over frames in which nothing moves.
 struct StillOptions {
   double flicker_counts = 1.0;  ///< amplitude of light that flickers at flicker_hz, as far as it is unknown
-  double flicker_hz = 120.0;
+  double flicker_hz = 120.0;    ///< of the room's lamps
 };
 
 /// Frames [first, first + count).
 struct FrameRange {
-  std::int64_t first = 0, count = 0;
+  std::int64_t first = 0, count = 0;  ///< first of them, and how many
 };
 
-/// Mean of an LED's counts over some frames, with its variance: noise of the conversions and what averaging
-/// leaves of the flicker. Not seen when the LED was occluded, lost, saturated or dark in one of them, or
+/// Mean of an LED's counts over some frames, with its variance: noise of the conversions and the residual
+/// flicker after averaging. Not seen when the LED was occluded, lost, saturated or dark in one of them, or
 /// moved: the scatter of its counts is beyond chance.
 [[nodiscard]] StillSighting still_sighting(const data::Counts& counts, const data::Electronics& electronics,
                                            const FrameRange& frames, std::int64_t led, std::int64_t camera,

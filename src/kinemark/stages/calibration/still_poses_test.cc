@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "kinemark/stages/calibration/test_recordings.h"
+#include "kinemark/stages/calibration/testing/recordings.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-/// Three LEDs that jump to another place every ten frames.
+/// Three LEDs that jump to another position every ten frames.
 data::Counts recording(const data::Rig& rig) {
   const auto tree = test_tree();
   return ts::count_paths(

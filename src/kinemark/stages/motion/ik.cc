@@ -11,8 +11,9 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
+#include "kinemark/stages/motion/internal/marker_account.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/internal/start.h"
 
@@ -124,7 +125,7 @@ class Tracker {
         for (int axis = 0; axis < 3; ++axis)
           result_.motion.marker_error[at((f * M + m) * 3 + axis)] = solver_.residual()(axis, m);
     result_.motion.status[at(f)] = converged ? FrameStatus::converged : FrameStatus::not_converged;
-    result_.max_loop_gap_m = std::max(result_.max_loop_gap_m, solver_.loop_gap());
+    result_.fit.max_loop_gap_m = std::max(result_.fit.max_loop_gap_m, solver_.loop_gap());
     double sum = 0.0;
     for (Eigen::Index m = 0; m < M; ++m) sum += weight_[m] * solver_.residual().col(m).squaredNorm();
     sum /= weight_.sum();
@@ -164,50 +165,8 @@ void add_pull_costs(const Problem& problem, IkResult& result) {
     }
 }
 
-void summarise(const Problem& problem, const data::Trajectories& markers, const MarkerVariances* variances,
-               IkResult& result) {
-  const auto M = static_cast<std::int64_t>(problem.data_marker.size());
-  double squares = 0.0;
-  std::int64_t count = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::int64_t m = 0; m < M; ++m) {
-    const int body = problem.model.markers()[at(m)].body;
-    MarkerSummary summary;
-    summary.name = result.motion.markers[at(m)];
-    summary.name_in_data = markers.names[at(problem.data_marker[at(m)])];
-    summary.body =
-        body < 0
-            ? "ground"
-            : problem.model.description().bodies[at(problem.model.bodies()[at(body)].description_idx)].name;
-    summary.weight = problem.weight[m];
-    std::int64_t seen = 0;
-    double own = 0.0;
-    for (std::int64_t f = 0; f < problem.frames; ++f) {
-      const Eigen::Map<const Eigen::Vector3d> error(result.motion.marker_error.data() + (f * M + m) * 3);
-      if (std::isnan(error.x())) continue;
-      ++seen;
-      own += error.squaredNorm();
-      mean += error;
-      summary.max_m = std::max(summary.max_m, error.norm());
-    }
-    squares += own;
-    count += seen;
-    summary.seen = static_cast<double>(seen) / static_cast<double>(problem.frames);
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    summary.rms_m = seen > 0 ? std::sqrt(own / static_cast<double>(seen)) : nan;
-    summary.noise_sd_m = variances ? std::sqrt(variances->own[m]) : nan;
-    summary.common_sd_m = variances && body >= 0 ? std::sqrt(variances->common[body]) : nan;
-    result.max_marker_error_m = std::max(result.max_marker_error_m, summary.max_m);
-    result.markers.push_back(std::move(summary));
-  }
-  if (count > 0) {
-    result.rms_marker_error_m = std::sqrt(squares / static_cast<double>(count));
-    result.mean_marker_error_m = mean / static_cast<double>(count);
-  }
-}
-
 /// A coordinate that leans on its limit most of the time says that model and subject disagree.
-void warn_of_limits(const Problem& problem, IkResult& result) {
+void note_limits(const Problem& problem, IkResult& result) {
   const auto coordinates = problem.model.coordinates();
   for (std::size_t c = 0; c < coordinates.size(); ++c) {
     const int speed = coordinates[c].speed_idx;
@@ -218,10 +177,10 @@ void warn_of_limits(const Problem& problem, IkResult& result) {
       leaning += q <= problem.lower[speed] + 1e-9 || q >= problem.upper[speed] - 1e-9;
     }
     if (10 * leaning > problem.frames)
-      result.warnings.push_back(
-          fmt::format("coordinate '{}' rests at a limit of its range in {:.0f} % of the frames",
-                      result.motion.coordinates[c],
-                      100.0 * static_cast<double>(leaning) / static_cast<double>(problem.frames)));
+      result.fit.findings.push_back(
+          {.kind = data::FindingKind::at_limit,
+           .subject = result.motion.coordinates[c],
+           .size = static_cast<double>(leaning) / static_cast<double>(problem.frames)});
   }
 }
 
@@ -241,11 +200,8 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   auto problem = internal::make_problem(model, markers, options);
   if (!problem) return std::unexpected(problem.error());
   IkResult result;
-  result.model_markers_without_data = problem->model_only;
-  result.data_markers_without_model = problem->data_only;
-  result.excluded_markers = problem->excluded;
-  result.warnings = problem->warnings;
-  result.first_frame = problem->first_frame;
+  result.fit = problem->fit;
+  result.fit.max_loop_gap_m = 0.0;
   auto& motion = result.motion;
   for (const auto& coordinate : model.description().coordinates) {
     motion.coordinates.push_back(coordinate.name);
@@ -262,7 +218,7 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fill_coordinates(*problem, tracker.states(), motion);
   add_pull_costs(*problem, result);
-  warn_of_limits(*problem, result);
+  note_limits(*problem, result);
 
   if (options.error_bars) {
     MarkerVariances variances;
@@ -275,10 +231,9 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
     }
     compute_error_bars(*problem, markers, tracker.states(), variances, options.threads, motion);
     flag_underdetermined(motion);
-    summarise(*problem, markers, &variances, result);
-  } else {
-    summarise(*problem, markers, nullptr, result);
+    internal::add_marker_noise(problem->model, variances, result.fit);
   }
+  internal::add_marker_errors(motion, result.fit);
   return result;
 }
 

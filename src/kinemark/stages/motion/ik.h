@@ -5,51 +5,24 @@
 // markers fix it. Theory: docs/theory/inverse-kinematics.md and docs/theory/error-bars.md
 #pragma once
 
-#include <string>
-#include <vector>
+#include <cstdint>
 
 #include "kinemark/core/progress.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik_options.h"
 
 namespace kinemark::motion {
 
-/// What one used marker contributed.
-struct MarkerSummary {
-  std::string name;          ///< in the model
-  std::string name_in_data;  ///< in the recording (may carry a subject prefix)
-  std::string body;
-  double weight = 1.0;
-  double seen = 0.0;   ///< share of the solved frames, 0 to 1
-  double rms_m = 0.0;  ///< distance measured to model, NaN when never seen
-  double max_m = 0.0;
-  double noise_sd_m = 0.0;  ///< per axis: part of its own, as used for the error bars; NaN when not estimated
-  double common_sd_m = 0.0;  ///< per axis: part shared by the markers of its segment
-};
-
-/// A marker that model and recording share and that took no part.
-struct ExcludedMarker {
-  std::string name;  ///< in the model
-  bool seen = true;  ///< false: never seen in the recording; true: its weight is 0
-};
-
+/// What solve_ik() found: the motion, and how well it fits the markers.
 struct IkResult {
-  data::JointMotion motion;      ///< solved frames only
-  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
-  std::vector<MarkerSummary> markers;
-  std::vector<std::string> model_markers_without_data, data_markers_without_model;
-  std::vector<ExcludedMarker> excluded_markers;
-  std::vector<std::string> warnings;
-  double cost = 0.0;                ///< sum over frames of the cost in IkOptions (square loss), m^2
-  double rms_marker_error_m = 0.0;  ///< over all marker frames used, unweighted
-  double max_marker_error_m = 0.0;
-  Eigen::Vector3d mean_marker_error_m =
-      Eigen::Vector3d::Zero();  ///< measured minus model: large when frames disagree
-  double max_loop_gap_m = 0.0;  ///< largest point-constraint gap
-  std::int64_t iterations = 0;
-  double solve_seconds = 0.0;  ///< wall time of the frame loop alone, without error bars
+  data::JointMotion motion;     ///< solved frames only
+  data::MarkerFit fit;          ///< markers used and left out, and how well they fit
+  double cost = 0.0;            ///< sum over frames of the cost in IkOptions (square loss), m^2
+  std::int64_t iterations = 0;  ///< of all frames together
+  double solve_seconds = 0.0;   ///< wall time of the frame loop alone, without error bars
 };
 
 /// Solve every frame of the time range.
@@ -67,9 +40,10 @@ struct IkResult {
 /// The shift (m) that must be added to all measured markers so that the model fits them best, found on up to
 /// 10 frames; and the RMS marker error that would remain. Tells a recording in another place from a bad fit.
 struct CommonOffset {
-  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
-  double rms_before_m = 0.0, rms_after_m = 0.0;
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  ///< in the world
+  double rms_before_m = 0.0, rms_after_m = 0.0;       ///< RMS marker error as it is, and with the shift
 };
+/// Fails as solve_ik() does.
 [[nodiscard]] Result<CommonOffset> find_common_offset(const model::Model& model,
                                                       const data::Trajectories& markers,
                                                       const IkOptions& options = {});

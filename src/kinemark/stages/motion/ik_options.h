@@ -10,20 +10,21 @@
 
 namespace kinemark::motion {
 
-/// A pull of one coordinate towards a value.
+/// A target value with a weight for one coordinate.
 struct CoordinateTask {
-  std::string coordinate;
+  std::string coordinate;      ///< name in the model
   double weight = 1.0;         ///< >= 0; see IkOptions for what it weighs against
   double value = 0.0;          ///< rad or m, used when `values` is empty
   std::vector<double> values;  ///< one per solved frame, or empty
 };
 
+/// The weight of one marker.
 struct MarkerWeight {
-  std::string marker;
+  std::string marker;   ///< name in the model
   double weight = 1.0;  ///< >= 0; 0 leaves the marker out
 };
 
-/// How large residuals are weighed. huber: linear beyond the scale; cauchy: logarithmic.
+/// Weighting of large residuals. huber: linear beyond the scale; cauchy: logarithmic.
 enum class Loss : std::uint8_t { square, huber, cauchy };
 
 /// Share of a frame by which a time range may be missed: times are written with few digits.
@@ -36,20 +37,20 @@ inline constexpr double kTimeSlack = 0.1;
 /// over the markers seen in that frame. Coordinate weights are therefore in m^2 per rad^2 of the mean squared
 /// marker error.
 struct IkOptions {
-  std::vector<MarkerWeight> marker_weights;  ///< markers not listed have default_marker_weight
-  double default_marker_weight = 1.0;
-  std::vector<CoordinateTask> coordinate_tasks;
-  Loss loss = Loss::square;
-  double loss_scale_m = 0.02;      ///< > 0; where huber and cauchy begin to bend
+  std::vector<MarkerWeight> marker_weights;      ///< markers not listed have default_marker_weight
+  double default_marker_weight = 1.0;            ///< >= 0
+  std::vector<CoordinateTask> coordinate_tasks;  ///< coordinates held near a value besides
+  Loss loss = Loss::square;                      ///< how large residuals are weighed
+  double loss_scale_m = 0.02;                    ///< > 0; threshold of huber, scale of cauchy
   bool limits = true;              ///< clamped coordinates stay in their range (free roots excepted)
   double marker_noise_sd_m = 0.0;  ///< per axis; 0: estimated from the residuals as variance components
   bool error_bars = true;          ///< compute q_sd and determined
   int max_iterations = 100;        ///< per frame, >= 1
   double first_time_s = -1e300;    ///< solve only frames in [first_time_s, last_time_s]
-  double last_time_s = 1e300;
-  std::uint64_t seed = 1;  ///< of the random starts of the first frame
-  int starts = 60;         ///< poses tried on the first frame at most; three equal finds end the search
-  int threads = 1;         ///< for the error bars; 0: all cores. Any number gives the same bits.
+  double last_time_s = 1e300;      ///< both ends included
+  std::uint64_t seed = 1;          ///< of the random starts of the first frame
+  int starts = 60;  ///< poses tried on the first frame at most; three equal finds end the search
+  int threads = 1;  ///< for the error bars; 0: all cores. Any number gives the same bits.
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;

@@ -5,13 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 #include "support/allocations.h"
 
 namespace kinemark::motion {
@@ -27,7 +28,7 @@ model::Model body() { return model::Model::compile(description()).value(); }
 double largest_error(const model::Model& model, const IkResult& result) {
   double worst = 0.0;
   for (std::int64_t f = 0; f < result.motion.frames(); ++f) {
-    const Eigen::VectorXd truth = coordinates(model, result.first_frame + f);
+    const Eigen::VectorXd truth = coordinates(model, result.fit.first_frame + f);
     for (int c = 0; c < truth.size(); ++c)
       if (result.motion.determined.empty() || result.motion.determined[result.motion.index(f, c)])
         worst = std::max(worst, std::abs(result.motion.q[result.motion.index(f, c)] - truth[c]));
@@ -39,7 +40,7 @@ TEST(SolveIk, RecoversEveryCoordinateFromPerfectMarkers) {
   const auto model = body();
   const auto result = solve_ik(model, record(model, 200)).value();
   EXPECT_LT(largest_error(model, result), 1e-9);
-  EXPECT_LT(result.max_marker_error_m, 1e-10);
+  EXPECT_LT(result.fit.max_error_m, 1e-10);
   for (const auto status : result.motion.status) EXPECT_EQ(status, FrameStatus::converged);
   EXPECT_LE(result.iterations, 12 * 40 + 200 * 4) << "a few Newton steps a frame";
 }
@@ -52,7 +53,7 @@ TEST(SolveIk, FindsTheFirstFrameFromAnyStartingPose) {
       moved.coordinates[c].default_value = c >= 3 && c < 6 ? random.uniform(-3, 3) : random.uniform(-2, 2);
     const auto model = model::Model::compile(moved).value();
     const auto result = solve_ik(model, record(model, 3)).value();
-    EXPECT_LT(result.max_marker_error_m, 1e-8) << trial;
+    EXPECT_LT(result.fit.max_error_m, 1e-8) << trial;
   }
 }
 
@@ -171,7 +172,10 @@ TEST(SolveIk, LimitsHoldAndLockedCoordinatesStay) {
     EXPECT_EQ(result.motion.q_sd[result.motion.index(f, 10)], 0.0);
   }
   EXPECT_NEAR(highest, 0.4, 1e-12);
-  EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("'elbow' rests at a limit")));
+  const auto leaning = std::ranges::find(result.fit.findings, "elbow", &data::Finding::subject);
+  ASSERT_NE(leaning, result.fit.findings.end());
+  EXPECT_EQ(leaning->kind, data::FindingKind::at_limit);
+  EXPECT_GT(leaning->size, 0.1);
   IkOptions free;
   free.limits = false;
   const auto beyond = solve_ik(model, markers, free).value();
@@ -192,7 +196,7 @@ TEST(SolveIk, TheRootPassesThroughNinetyDegreesWithoutASingularity) {
     for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m) = w.marker.col(m);
   }
   const auto result = solve_ik(model, markers).value();
-  EXPECT_LT(result.max_marker_error_m, 1e-9);
+  EXPECT_LT(result.fit.max_error_m, 1e-9);
   for (std::int64_t f = 0; f < 100; ++f)
     EXPECT_NEAR(result.motion.q[result.motion.index(f, 1)], 0.03 * static_cast<double>(f), 1e-7);
 }
@@ -237,8 +241,8 @@ TEST(SolveIk, ClosedLoopsClose) {
   const auto model = model::Model::compile(looped).value();
   const auto markers = record(open_model, 30);  // the recording does not hold on: the loop must win
   const auto result = solve_ik(model, markers).value();
-  EXPECT_LT(result.max_loop_gap_m, 1e-9);
-  EXPECT_GT(result.max_marker_error_m, 1e-3);
+  EXPECT_LT(result.fit.max_loop_gap_m, 1e-9);
+  EXPECT_GT(result.fit.max_error_m, 1e-3);
   for (const auto status : result.motion.status) EXPECT_EQ(status, FrameStatus::converged);
 }
 
@@ -261,9 +265,9 @@ TEST(SolveIk, MatchesNamesBehindASubjectPrefixAndListsWhatIsLeftOver) {
   for (auto& name : markers.names) name = "Ann:" + name;
   markers.names[0] = "Ann:other";
   const auto result = solve_ik(model, markers).value();
-  EXPECT_EQ(result.markers.front().name_in_data, "Ann:T2");
-  EXPECT_THAT(result.model_markers_without_data, ElementsAre("T1"));
-  EXPECT_THAT(result.data_markers_without_model, ElementsAre("Ann:other"));
+  EXPECT_EQ(result.fit.markers.front().name_in_data, "Ann:T2");
+  EXPECT_THAT(result.fit.excluded_as(data::kNotInRecording), ElementsAre("T1"));
+  EXPECT_THAT(result.fit.excluded_as(data::kNotInModel), ElementsAre("Ann:other"));
   EXPECT_LT(largest_error(model, result), 1e-9);
 }
 
@@ -272,9 +276,8 @@ TEST(SolveIk, AMarkerThatIsNeverSeenIsLeftOutAndSaid) {
   auto markers = record(model, 5);
   for (std::int64_t f = 0; f < 5; ++f) markers.set_missing(f, 2);
   const auto result = solve_ik(model, markers).value();
-  ASSERT_EQ(result.excluded_markers.size(), 1u);
-  EXPECT_EQ(result.excluded_markers.front().name, "T3");
-  EXPECT_FALSE(result.excluded_markers.front().seen);
+  EXPECT_EQ(result.fit.excluded.size(), 1U);
+  EXPECT_THAT(result.fit.excluded_as(data::kNeverSeen), ElementsAre("T3"));
 }
 
 TEST(SolveIk, AnUnseenMarkerOfWeightZeroIsCalledUnseenAndASeenOneIsNot) {
@@ -284,9 +287,9 @@ TEST(SolveIk, AnUnseenMarkerOfWeightZeroIsCalledUnseenAndASeenOneIsNot) {
   IkOptions options;
   options.marker_weights = {{"T2", 0.0}, {"T3", 0.0}};
   const auto result = solve_ik(model, markers, options).value();
-  ASSERT_EQ(result.excluded_markers.size(), 2u);
-  EXPECT_TRUE(result.excluded_markers[0].seen) << result.excluded_markers[0].name;
-  EXPECT_FALSE(result.excluded_markers[1].seen) << result.excluded_markers[1].name;
+  EXPECT_EQ(result.fit.excluded.size(), 2U);
+  EXPECT_THAT(result.fit.excluded_as(data::kNoWeight), ElementsAre("T2"));
+  EXPECT_THAT(result.fit.excluded_as(data::kNeverSeen), ElementsAre("T3"));
 }
 
 std::string sentence(const data::Trajectories& markers, const IkOptions& options = {}) {
@@ -332,7 +335,7 @@ TEST(SolveIk, TheCallerCanStopIt) {
 TEST(SolveIk, TheTimeRangeSelectsFrames) {
   const auto model = body();
   const auto result = solve_ik(model, record(model, 100), {.first_time_s = 0.2, .last_time_s = 0.5}).value();
-  EXPECT_EQ(result.first_frame, 20);
+  EXPECT_EQ(result.fit.first_frame, 20);
   EXPECT_EQ(result.motion.frames(), 31);
   EXPECT_DOUBLE_EQ(result.motion.time.t0_s, 0.2);
 }

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -31,9 +31,24 @@ TEST(Problem, KeepsTheMarkersThatBothSidesHaveInTheModelsOrder) {
   EXPECT_EQ(problem.model.marker_count(), 13);
   EXPECT_EQ(problem.data_marker[0], 5) << "T1 lies where U2 was";
   EXPECT_EQ(problem.data_marker[5], 0);
-  EXPECT_THAT(problem.model_only, ElementsAre("F2"));
-  EXPECT_THAT(problem.data_only, ElementsAre("stranger"));
-  EXPECT_TRUE(problem.excluded.empty());
+  EXPECT_THAT(problem.fit.excluded_as(data::kNotInRecording), ElementsAre("F2"));
+  EXPECT_THAT(problem.fit.excluded_as(data::kNotInModel), ElementsAre("stranger"));
+  EXPECT_EQ(problem.fit.excluded.size(), 2U);
+  EXPECT_EQ(problem.fit.markers.size(), 13U);
+  EXPECT_EQ(problem.fit.markers[0].body, "trunk");
+}
+
+TEST(Problem, AMarkerOfSeveralSubjectsIsNotGuessed) {
+  auto markers = record(body(), 4);
+  markers.names[0] = "Ann:T1";
+  markers.names[7] = "Bob:T1";  // was F2
+  const auto problem = make_problem(body(), markers, {}).value();
+  EXPECT_THAT(problem.fit.excluded_as(data::kAmbiguous), ElementsAre("T1"));
+  EXPECT_THAT(problem.fit.excluded_as(data::kNotInRecording), ElementsAre("F2"));
+  EXPECT_THAT(problem.fit.excluded_as(data::kNotInModel), ElementsAre("Ann:T1", "Bob:T1"));
+  IkOptions options;
+  options.marker_weights = {{"Bob:T1", 1.0}};
+  EXPECT_TRUE(make_problem(body(), markers, options)) << "the recording has it";
 }
 
 TEST(Problem, WeightsAreTheGivenOnesOrTheDefault) {
@@ -44,9 +59,9 @@ TEST(Problem, WeightsAreTheGivenOnesOrTheDefault) {
   EXPECT_EQ(problem.weight[0], 2.0);
   EXPECT_EQ(problem.weight[1], 7.0);
   EXPECT_EQ(problem.weight.size(), 13) << "T4 takes no part";
-  ASSERT_EQ(problem.excluded.size(), 1U);
-  EXPECT_EQ(problem.excluded[0].name, "T4");
-  EXPECT_TRUE(problem.excluded[0].seen);
+  EXPECT_EQ(problem.fit.markers[1].weight, 7.0);
+  EXPECT_EQ(problem.fit.excluded.size(), 1U);
+  EXPECT_THAT(problem.fit.excluded_as(data::kNoWeight), ElementsAre("T4"));
 }
 
 TEST(Problem, AWeightForAMarkerOfNeitherSideIsAMistake) {

@@ -50,7 +50,8 @@ std::optional<Located> locate(const data::Rig& rig, std::span<const CountSightin
   for (int i = 0; i < kSteps; ++i) {
     const Normal at = linearise(rig, sightings, x);
     if (!at.in_front || !at.h.allFinite()) return std::nullopt;
-    // A ridge of 1 / (100 m)^2: nothing where there is a view, no division by zero where there is none.
+    // A ridge of 1 / (100 m)^2: negligible where cameras see the point, and no division by zero where none
+    // does.
     Eigen::Vector3d step = -(at.h + 1e-4 * Eigen::Matrix3d::Identity()).ldlt().solve(at.g);
     if (!step.allFinite()) return std::nullopt;
     const double length = step.norm();
@@ -115,7 +116,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> by_parameters(const data::Rig& rig,
     const data::ParameterLayout layout(camera);
     by_camera.resize(4, layout.count);
     const auto response = camera::respond(camera, x_in_world, by_camera);
-    // An offset is a count more: strength * phi + offset.
+    // Derivative by the offset, from counts = strength * phi + offset.
     by_camera.middleCols<4>(layout.offset) = Eigen::Matrix4d::Identity() / strength[at];
     const auto free = math::eliminate_scale(response.phi, response.phi);
     const Eigen::Matrix<double, 3, 3> j = free.basis * response.d_point;

@@ -11,23 +11,23 @@
 
 namespace kinemark::reconstruction {
 
-/// What one camera saw of a point.
+/// One camera's observation of a point.
 struct CountSighting {
   int camera = 0;          ///< index in the rig
   Eigen::Vector4d counts;  ///< as converted, offset included
   double variance = 0.0;   ///< of each count, > 0
 };
 
-/// A point and how well it is known.
+/// A point and its uncertainty.
 struct Located {
-  Eigen::Vector3d x_in_world;
+  Eigen::Vector3d x_in_world;   ///< m
   Eigen::Matrix3d information;  ///< inverse covariance from the noise of the counts, m^-2
   double chi2 = 0.0;            ///< misfit; 3 (sightings - 1) degrees of freedom
   double farthest_spot = 0.0;   ///< of its spots: larger of |x|, |y|, half-sides
 };
 
-/// Maximum likelihood with each camera's light strength eliminated; never ratios, which throw away a factor
-/// of 1.7 off the middle of the field. Gauss-Newton from `start`.
+/// Maximum likelihood with each camera's light strength eliminated. Ratios of counts are not used: away from
+/// the middle of the field they are less precise by a factor of 1.7. Gauss-Newton from `start`.
 ///
 /// No value with fewer than two sightings, when the point runs behind a camera, or when 30 steps do not
 /// settle it. Some 2 us from a start nearby, 8 us from afar.
@@ -44,7 +44,7 @@ struct Located {
 [[nodiscard]] Eigen::Matrix3d cramer_rao(const data::Rig& rig, const Eigen::Vector3d& x_in_world,
                                          std::span<const double> strength);
 
-/// How the estimate of a point moves with the rig's parameters: 3 x Rig::parameter_count(), m per unit.
+/// Derivative of the estimate of a point by the rig's parameters: 3 x Rig::parameter_count(), m per unit.
 /// @param weight  per camera: (strength / standard deviation of a count)^2; 0 where it is not seen
 [[nodiscard]] Eigen::Matrix<double, 3, Eigen::Dynamic> by_parameters(const data::Rig& rig,
                                                                      const Eigen::Vector3d& x_in_world,

@@ -14,6 +14,7 @@
 
 namespace kinemark::reconstruction {
 
+/// Options of reconstruct().
 struct ReconstructOptions {
   double dim_share = 0.3;  ///< light below this share of the LED's median (each camera's own): not used
   double largest_chi2 =
@@ -21,29 +22,31 @@ struct ReconstructOptions {
   double edge = 0.96;  ///< half-sides; farther out a point is flagged: precision falls to a fifth there
   double flicker_counts = 1.0;    ///< amplitude of the room's flicker, which adds to the noise of each count
   bool calibration_error = true;  ///< add what the rig's own covariance contributes
-  int threads = 0;
+  int threads = 0;                ///< 0: all cores. Any number gives the same bits
 
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
-/// What became of one LED's frames.
+/// Counts of one LED's frames by outcome.
 struct LedSummary {
-  std::string name;
-  std::int64_t frames = 0;
-  std::int64_t located = 0;
+  std::string name;               ///< of the LED
+  std::int64_t frames = 0;        ///< F
+  std::int64_t located = 0;       ///< frames with a point
   std::int64_t occluded = 0;      ///< a camera was dim, dark or lost, so fewer than two were left
   std::int64_t saturated = 0;     ///< a camera stood at its highest code, so fewer than two were left
   std::int64_t inconsistent = 0;  ///< rejected: the cameras contradict each other
   std::int64_t near_edge = 0;     ///< located, but beyond ReconstructOptions::edge
 };
 
+/// Points of all LEDs, what they stand on, and what became of the rest.
 struct Reconstruction {
   /// One marker per LED at the time of its light (sample_offset_s); rejected where inconsistent, missing
   /// elsewhere. Covariance: noise of the counts and, when asked and known, error of the calibration.
   data::Trajectories points;
   Array<std::uint8_t> used;       ///< F x L x C: 1 where the sighting served
   Array<std::uint8_t> near_edge;  ///< F x L: 1 where a spot lay beyond the edge
-  std::vector<LedSummary> leds;
+  std::vector<LedSummary> leds;   ///< L
 };
 
 /// Points of a recording, frame by frame, from all four currents of every camera.
@@ -54,12 +57,12 @@ struct Reconstruction {
 [[nodiscard]] Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& rig,
                                                  const ReconstructOptions& options = {});
 
-/// The 1986 way: ratios, look-up tables, midpoint of two rays; nothing is rejected but what is dark, no
-/// covariance. Fails as above, and when a camera has no table.
+/// The method of 1986: ratios, look-up tables, midpoint of two rays; only dark frames are rejected, and there
+/// is no covariance. Fails as above, and when a camera has no table.
 [[nodiscard]] Result<Reconstruction> reconstruct_classic(const data::Counts& counts, const data::Rig& rig,
                                                          const ReconstructOptions& options = {});
 
-/// Names, numbers and ids of a recording fit a rig of lateral-effect cameras.
+/// Checks that names, numbers and ids of a recording fit a rig of lateral-effect cameras.
 [[nodiscard]] Status check_fit(const data::Counts& counts, const data::Rig& rig);
 
 /// F x L x C: 1 where a sighting has enough light, is complete and not saturated. Fails when no LED ever has.

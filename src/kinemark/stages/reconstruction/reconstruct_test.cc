@@ -62,7 +62,7 @@ TEST(Reconstruct, SaysWhyFramesAreNotThere) {
   set(counts, 3, 0, 1, 10);  // dim
   counts.flags[counts.index(4, 0, 0)] |= data::kCountSaturated;
   counts.flags[counts.index(5, 1, 0)] |= data::kCountLost;
-  counts.counts[4 * counts.index(6, 1, 0)] += 120;  // one channel lies
+  counts.counts[4 * counts.index(6, 1, 0)] += 120;  // one channel is wrong
   const auto r = reconstruct(counts, rig).value();
   EXPECT_EQ(r.points.state[r.points.index(3, 0)], data::SampleState::missing);
   EXPECT_EQ(r.points.state[r.points.index(6, 1)], data::SampleState::rejected);

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Which sightings of a recording can serve.
+// Selects the usable sightings of a recording.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 
 namespace kinemark::reconstruction {
@@ -34,7 +35,7 @@ Status check_fit(const data::Counts& counts, const data::Rig& rig) {
 
 Result<Array<std::uint8_t>> usable_sightings(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
-  constexpr double kDark = 60.0;  // counts of all four channels: what offsets and stray light alone can make
+  constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
   Array<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<std::int64_t> of_camera(counts.cameras.size(), 0);
   std::vector<double> light;
@@ -45,9 +46,7 @@ Result<Array<std::uint8_t>> usable_sightings(const data::Counts& counts, double 
         if ((counts.flags[counts.index(f, led, c)] & (data::kCountOccluded | data::kCountLost)) == 0)
           light.push_back(counts.at(f, led, c).sum());
       if (light.empty()) continue;
-      const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
-      std::nth_element(light.begin(), middle, light.end());
-      const double least = std::max(dim_share * *middle, kDark);
+      const double least = std::max(dim_share * math::upper_median(light), kDark);
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         const auto i = counts.index(f, led, c);
         out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > least;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/text.h"
 #include "kinemark/stages/report/clean_report.h"
 #include "kinemark/stages/report/internal/clean_words.h"
 
@@ -19,33 +20,22 @@ namespace {
 
 using internal::length_s;
 
-constexpr double kLargeSdM = 0.010;     ///< a fill beyond this is of no use for joint angles
-constexpr double kSure = 0.8;           ///< confidence from which a defect counts as there
-constexpr double kHighCutoff = 0.4;     ///< of the rate: above this a filter takes next to nothing away
+constexpr double kLargeSdM = 0.010;  ///< a fill beyond this is of no use for joint angles
+constexpr double kSure = 0.8;        ///< confidence from which a defect counts as there
+constexpr double kHighCutoff = 0.4;  ///< of the rate: above this a filter takes next to nothing away
+constexpr std::size_t kNamesTold = 6;
 constexpr double kCyclesAtLeast = 2.0;  ///< a cut-off with fewer cycles in the recording leaves only drift
 
 std::string in_words(std::int64_t n, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-/// "A", "A and B", "A, B, C and 4 more".
-std::string list_names(const std::vector<std::string>& names, std::size_t most = 6) {
-  if (names.empty()) return "";
-  if (names.size() == 1) return names.front();
-  if (names.size() > most) {
-    const std::vector<std::string> some(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
-    return fmt::format("{} and {} more", fmt::join(some, ", "), names.size() - most);
-  }
-  const std::vector<std::string> but_last(names.begin(), names.end() - 1);
-  return fmt::format("{} and {}", fmt::join(but_last, ", "), names.back());
-}
-
-void add(std::vector<Finding>& out, Verdict level, std::string about, std::string subject, std::string text,
+void add(std::vector<Notice>& out, Verdict level, std::string about, std::string subject, std::string text,
          double time_s = kNaN) {
   out.push_back({level, std::move(about), std::move(subject), std::move(text), time_s});
 }
 
-void add_gates(const CleanReport& r, std::vector<Finding>& out) {
+void add_gates(const CleanReport& r, std::vector<Notice>& out) {
   for (const Gate& gate : r.run.gates)
     if (!gate.passed) add(out, Verdict::attention, "gate", gate.name, gate.sentence);
   if (r.run.exit_status != 0 && out.empty())
@@ -61,7 +51,7 @@ struct DefectGroup {
   std::vector<std::string> markers;
 };
 
-void add_defects(const CleanReport& r, std::vector<Finding>& out) {
+void add_defects(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<DefectGroup> groups;
   for (const data::Defect& d : r.account.defects) {
     const bool sure = !(d.confidence < kSure);  // unknown: whoever found it did not doubt it
@@ -80,14 +70,15 @@ void add_defects(const CleanReport& r, std::vector<Finding>& out) {
     const std::string end = d.done.empty() ? "" : fmt::format(" What was done: {}.", d.done);
     const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
     const std::string text =
-        g.number == 1 ? d.sentence
-                      : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
-                                    to_string(d.kind), g.number, list_names(g.markers), d.sentence);
+        g.number == 1
+            ? d.sentence
+            : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}", to_string(d.kind),
+                          g.number, join_in_words(g.markers, kNamesTold), d.sentence);
     add(out, level, "marker", r.account.name_of(d.marker), text + unsure + end, r.time.time_s(d.first_frame));
   }
 }
 
-void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
+void add_upsampling(const CleanReport& r, std::vector<Notice>& out) {
   const data::UpsamplingAccount& up = r.account.upsampling;
   const std::string end = up.done.empty() ? "" : fmt::format(" What was done: {}.", up.done);
   const Verdict level = up.handled ? Verdict::good : Verdict::attention;
@@ -103,11 +94,11 @@ void add_upsampling(const CleanReport& r, std::vector<Finding>& out) {
   if (names.empty()) return;
   add(out, level, "upsampling", names.front(),
       fmt::format("The recorder interpolated {} ({}).{}", in_words(std::ssize(names), "marker", "markers"),
-                  list_names(names), end));
+                  join_in_words(names, kNamesTold), end));
 }
 
 /// One line for each marker that has fills nobody should rely on.
-void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
+void add_uncertain_fills(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<std::pair<const data::GapAccount*, std::int64_t>> worst;  // of a marker, and how many there are
   for (const data::GapAccount& g : r.account.gaps) {
     if (!g.filled || !(g.max_sd_m > kLargeSdM)) continue;
@@ -127,7 +118,7 @@ void add_uncertain_fills(const CleanReport& r, std::vector<Finding>& out) {
   }
 }
 
-void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
+void add_open_gaps(const CleanReport& r, std::vector<Notice>& out) {
   const data::GapAccount* longest = nullptr;
   std::int64_t number = 0;
   double sum_s = 0.0;
@@ -145,24 +136,24 @@ void add_open_gaps(const CleanReport& r, std::vector<Finding>& out) {
   const std::string marker = r.account.name_of(longest->marker);
   add(out, Verdict::good, "gap", marker,
       fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
-                  in_words(number, "gap was", "gaps were"), sum_s, list_names(names),
+                  in_words(number, "gap was", "gaps were"), sum_s, join_in_words(names, kNamesTold),
                   length_s(*longest, r.time), marker, why),
       r.time.time_s(longest->first_frame));
 }
 
 /// One line for all markers of which something holds.
-void add_of_markers(const CleanReport& r, std::vector<Finding>& out,
+void add_of_markers(const CleanReport& r, std::vector<Notice>& out,
                     const std::function<bool(std::size_t)>& holds, std::string_view text) {
   std::vector<std::string> names;
   for (std::size_t m = 0; m < r.account.markers.size(); ++m)
     if (holds(m)) names.push_back(r.account.markers[m].name);
   if (names.empty()) return;
   add(out, Verdict::good, "marker", names.front(),
-      fmt::format("{} ({} of {}): {}", list_names(names), names.size(),
+      fmt::format("{} ({} of {}): {}", join_in_words(names, kNamesTold), names.size(),
                   in_words(std::ssize(r.account.markers), "marker", "markers"), text));
 }
 
-void add_filters(const CleanReport& r, std::vector<Finding>& out) {
+void add_filters(const CleanReport& r, std::vector<Notice>& out) {
   const double seconds = static_cast<double>(r.time.frames) / r.time.rate_hz;
   const auto& markers = r.account.markers;
   const auto chosen = [&](std::size_t m) { return !markers[m].criterion_name.empty(); };
@@ -188,9 +179,9 @@ void add_filters(const CleanReport& r, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> clean_findings(const CleanReport& report) {
+std::vector<Notice> clean_findings(const CleanReport& report) {
   check(report.counts.size() == report.account.markers.size(), "add_marker() counts a marker's samples");
-  std::vector<Finding> out;
+  std::vector<Notice> out;
   add_gates(report, out);
   add_defects(report, out);
   add_upsampling(report, out);
@@ -205,10 +196,10 @@ std::vector<Finding> clean_findings(const CleanReport& report) {
   add_open_gaps(report, out);
   add_filters(report, out);
   for (const std::string& warning : report.run.warnings) add(out, Verdict::good, "warning", "", warning);
-  // In order, but what is serious before what is not.
-  std::vector<Finding> sorted;
+  // Stable order, serious findings first.
+  std::vector<Notice> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
-    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Notice& f) { return f.level == level; });
   return sorted;
 }
 

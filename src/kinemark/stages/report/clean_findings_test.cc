@@ -58,8 +58,8 @@ TEST(CleanFindings, NothingToSayOfAFaultlessRecording) {
 TEST(CleanFindings, TheExampleHasAllOfThemWithTheSeriousOnesFirst) {
   const auto findings = clean_findings(example_clean(1200).finished());
   ASSERT_THAT(findings, SizeIs(7));
-  EXPECT_TRUE(std::ranges::is_sorted(findings, std::ranges::greater{}, &Finding::level));
-  EXPECT_EQ(std::ranges::count(findings, Verdict::attention, &Finding::level), 2);
+  EXPECT_TRUE(std::ranges::is_sorted(findings, std::ranges::greater{}, &Notice::level));
+  EXPECT_EQ(std::ranges::count(findings, Verdict::attention, &Notice::level), 2);
   EXPECT_THAT(findings[0].text, HasSubstr("sit in each other's place"));
   EXPECT_DOUBLE_EQ(findings[0].time_s, 8.0);
   EXPECT_THAT(findings[1].text, HasSubstr("14.2 mm, in a gap of 1.1 s"));

@@ -27,28 +27,29 @@ struct CleanRun {
   std::string filter_method;  ///< as asked: "none", "auto", "kalman", ...
   std::string version;        ///< of the program
   std::string command_line;   ///< as typed
-  std::uint64_t seed = 0;
-  int threads = 1;
-  int exit_status = 0;
-  double clean_s = kNaN;  ///< wall-clock seconds without reading and writing
-  std::vector<std::pair<std::string, std::string>> options;
-  std::vector<InputFile> inputs;
-  std::vector<Gate> gates;
-  std::vector<std::string> warnings;  ///< one sentence each
+  std::uint64_t seed = 0;     ///< of artificial gaps
+  int threads = 1;            ///< as asked for
+  int exit_status = 0;        ///< of the program
+  double clean_s = kNaN;      ///< wall-clock seconds without reading and writing
+  std::vector<std::pair<std::string, std::string>> options;  ///< name and value, as they were used
+  std::vector<InputFile> inputs;                             ///< files that were read
+  std::vector<Gate> gates;                                   ///< bounds that decide the exit status
+  std::vector<std::string> warnings;                         ///< one sentence each
 };
 
 /// Samples of one marker by data::SampleState. Made by add_marker().
 struct CleanCounts {
-  std::array<std::int64_t, 6> before{};
-  std::array<std::int64_t, 6> after{};  ///< of the result
+  std::array<std::int64_t, 6> before{};  ///< of the recording
+  std::array<std::int64_t, 6> after{};   ///< of the result
 };
 
 /// What the plots of one marker show, on the points of the page. Made by add_marker().
 struct CleanSeries {
-  std::int64_t points = 0;
+  std::int64_t points = 0;      ///< on the page
   std::int64_t frame_step = 1;  ///< frames per point
   /// Per axis: m, m/s, m/s^2; a vector is empty when the result has no such number.
   std::array<std::vector<float>, 3> raw, position, velocity, acceleration;
+  /// one standard deviation, likewise
   std::array<std::vector<float>, 3> position_sd, velocity_sd, acceleration_sd;
   std::array<std::vector<float>, 3> change;  ///< raw - position where both are present, m
   std::vector<std::uint8_t> before, after;   ///< data::SampleState as ranked in README.md
@@ -57,9 +58,9 @@ struct CleanSeries {
 /// The report of a cleaned recording. Plain data: fill `run`, `time` and all of `account` but its markers,
 /// and add these one by one, from the first to the last, with add_marker().
 struct CleanReport {
-  CleanRun run;
-  TimeBase time;  ///< of the result
-  data::CleanAccount account;
+  CleanRun run;                     ///< who ran what
+  TimeBase time;                    ///< of the result
+  data::CleanAccount account;       ///< what was done and why
   std::vector<CleanCounts> counts;  ///< one per marker of the account
   std::vector<CleanSeries> series;  ///< one per marker of the account
 };
@@ -67,10 +68,10 @@ struct CleanReport {
 /// The arrays of one marker, borrowed for the call. A result that comes marker by marker is handed over as
 /// trajectories and derivatives of one marker.
 struct MarkerArrays {
-  const data::Trajectories* before = nullptr;  ///< the whole recording, on the clock of the result
-  std::int64_t before_marker = 0;
-  const data::Trajectories* after = nullptr;
-  std::int64_t after_marker = 0;
+  const data::Trajectories* before = nullptr;      ///< the whole recording, on the clock of the result
+  std::int64_t before_marker = 0;                  ///< its index there
+  const data::Trajectories* after = nullptr;       ///< the result
+  std::int64_t after_marker = 0;                   ///< its index there
   const data::Derivatives* derivatives = nullptr;  ///< of `after`; nullptr: not known
 };
 
@@ -83,7 +84,7 @@ void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerAr
 /// What needs attention, the serious ones first: defects that were found but not handled, samples that the
 /// recorder made, fills with a large standard deviation, failed gates; and in notes: gaps left open,
 /// residuals that are not white, filters at the end of their range, warnings.
-[[nodiscard]] std::vector<Finding> clean_findings(const CleanReport& report);
+[[nodiscard]] std::vector<Notice> clean_findings(const CleanReport& report);
 
 /// `kinemark.clean_report`, version 1: the whole account without the arrays. Lengths in mm, times in s,
 /// unknown numbers null.

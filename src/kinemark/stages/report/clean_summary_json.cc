@@ -179,9 +179,9 @@ nlohmann::ordered_json clean_summary_json(const CleanReport& report) {
   check(account.validate().has_value(), "a report needs an account that validates");
   const CleanRun& run = report.run;
   const data::UpsamplingAccount& up = account.upsampling;
-  const std::vector<Finding> findings = clean_findings(report);
+  const std::vector<Notice> findings = clean_findings(report);
   const bool serious =
-      std::ranges::any_of(findings, [](const Finding& f) { return f.level == Verdict::attention; });
+      std::ranges::any_of(findings, [](const Notice& f) { return f.level == Verdict::attention; });
   Json gaps = Json::array(), defects = Json::array();
   for (const data::GapAccount& g : account.gaps) gaps.push_back(gap_json(report, g));
   for (const data::Defect& d : account.defects) defects.push_back(defect_json(report, d));

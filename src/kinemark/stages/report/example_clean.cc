@@ -96,7 +96,7 @@ void fill_samples(ExampleClean& e, std::uint64_t seed) {
   }
 }
 
-/// Nothing is known of a sample that is not there.
+/// A missing sample has no standard deviation.
 void forget(ExampleClean& e, std::int64_t frame, std::int64_t marker, SampleState why) {
   e.after.set_missing(frame, marker, why);
   const std::size_t i = e.after.index(frame, marker);

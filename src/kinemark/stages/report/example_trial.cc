@@ -65,7 +65,7 @@ void fill_coordinates(ExampleTrial& t) {
       const bool locked = j == kLocked;
       const double shape = std::sin(turn + w.phase) + 0.35 * std::sin(2.0 * turn + 1.7 * w.phase);
       m.q[i] = locked ? 0.0 : unit * (w.mean + w.amplitude * shape);
-      // A hidden wrist hurts its neighbours before it leaves nothing to go by.
+      // The error grows around the time in which the wrist is hidden.
       const bool near = wrist_hidden(f + 12) || wrist_hidden(f - 12);
       m.determined[i] = locked || !(wrist_hidden(f) && j >= kForearm);
       m.q_sd[i] = locked ? kNaN : unit * w.sd * (1.0 + 0.3 * std::cos(turn)) * (near && j >= 17 ? 2.6 : 1.0);
@@ -103,7 +103,10 @@ void fill_markers(ExampleTrial& t, std::uint64_t seed) {
       }
     }
     m.markers.emplace_back(kMarkers[k]);
-    t.run.markers.push_back({std::string(kMarkers[k]), k < 3 ? 10.0 : 1.0, noise_m + 0.4 * skin_m, ""});
+    t.run.fit.markers.push_back({.name = std::string(kMarkers[k]),
+                                 .weight = k < 3 ? 10.0 : 1.0,
+                                 .noise_sd_m = noise_m + 0.4 * skin_m,
+                                 .common_sd_m = 0.0});
   }
 }
 
@@ -127,7 +130,7 @@ void fill_run(ExampleTrial& t) {
        "0.5 % of the frames did not converge; the bound is 0.1 %. Look at the frames listed below."}};
   run.exit_status = 1;
   run.locked_coordinates = {std::string(kWaves[kLocked].name)};
-  run.markers.push_back({"L.Bicep", 0.0, kNaN, "it is at the origin in every frame."});
+  run.fit.excluded.push_back({"L.Bicep", "it is at the origin in every frame."});
   run.warnings = {"walk_03.trc: the header says 612 frames; 600 are there."};
 }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/text.h"
+
 #include "kinemark/stages/report/internal/findings.h"
 
 namespace kinemark::report::internal {
@@ -34,9 +36,9 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
 }
 
 /// One line for each reason, with all markers that have it, in the order in which they come.
-void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
+void add_left_out(const IkSummary& s, std::vector<Notice>& out) {
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-  for (const MarkerSummary& m : s.markers) {
+  for (const MarkerRow& m : s.markers) {
     if (m.why_excluded.empty()) continue;
     auto at = std::ranges::find(reasons, m.why_excluded, [](const auto& reason) { return reason.first; });
     if (at == reasons.end()) at = reasons.insert(at, {m.why_excluded, {}});
@@ -47,16 +49,15 @@ void add_left_out(const IkSummary& s, std::vector<Finding>& out) {
       out.push_back({Verdict::good, "marker", names.front(),
                      fmt::format("Marker {} was left out: {}", names.front(), why), kNaN});
     else
-      out.push_back(
-          {Verdict::good, "marker", "",
-           fmt::format("{} markers were left out: {}: {}", names.size(), why, fmt::join(names, ", ")), kNaN});
+      out.push_back({Verdict::good, "marker", "",
+                     fmt::format("{} markers were left out: {}: {}", names.size(), why, join(names)), kNaN});
   }
 }
 
 }  // namespace
 
-std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& motion) {
-  std::vector<Finding> out;
+std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& motion) {
+  std::vector<Notice> out;
   for (const Gate& gate : s.run.gates)
     if (!gate.passed) out.push_back({Verdict::attention, "gate", gate.name, gate.sentence, kNaN});
   if (s.run.exit_status != 0 && out.empty())
@@ -92,17 +93,17 @@ std::vector<Finding> find_findings(const IkSummary& s, const data::JointMotion& 
            from_s});
   }
   add_left_out(s, out);
-  for (const MarkerSummary& m : s.markers) {
+  for (const MarkerRow& m : s.markers) {
     if (m.why_excluded.empty() && m.used && m.seen_frames == 0 && !motion.marker_error.empty())
       out.push_back({Verdict::good, "marker", m.name, fmt::format("Marker {} is never seen.", m.name), kNaN});
   }
   for (const std::string& warning : s.run.warnings)
     out.push_back({Verdict::good, "warning", "", warning, kNaN});
 
-  // In order, but what is serious before what is not.
-  std::vector<Finding> sorted;
+  // Stable order, serious findings first.
+  std::vector<Notice> sorted;
   for (const Verdict level : {Verdict::attention, Verdict::good})
-    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Finding& f) { return f.level == level; });
+    std::ranges::copy_if(out, std::back_inserter(sorted), [&](const Notice& f) { return f.level == level; });
   return sorted;
 }
 

@@ -27,10 +27,10 @@ data::JointMotion good_motion() {
   return m;
 }
 
-std::vector<Finding> findings_of(const data::JointMotion& motion, IkRun run = {}) {
+std::vector<Notice> findings_of(const data::JointMotion& motion, IkRun run = {}) {
   const auto summary = summarize(std::move(run), motion, nullptr);
   EXPECT_TRUE(summary);
-  return summary->findings;
+  return summary->notices;
 }
 
 TEST(Findings, AGoodTrialHasNone) { EXPECT_THAT(findings_of(good_motion()), IsEmpty()); }
@@ -85,19 +85,19 @@ TEST(Findings, MarkersAndWarningsAreNotes) {
   data::JointMotion m = good_motion();
   m.marker_error.assign(30, kNaN);
   const auto found =
-      findings_of(m, {.markers = {{"L.Bicep", 0.0, kNaN, "it is at the origin in every frame."}},
+      findings_of(m, {.fit = {.excluded = {{"L.Bicep", "it is at the origin in every frame."}}},
                       .warnings = {"the header lies."}});
   ASSERT_THAT(found, SizeIs(3));
   EXPECT_EQ(found[0].text, "Marker L.Bicep was left out: it is at the origin in every frame.");
   EXPECT_EQ(found[1].text, "Marker A is never seen.");
   EXPECT_EQ(found[2].text, "the header lies.");
-  for (const Finding& f : found) EXPECT_EQ(f.level, Verdict::good);
+  for (const Notice& f : found) EXPECT_EQ(f.level, Verdict::good);
 }
 
 TEST(Findings, MarkersLeftOutForOneReasonShareALine) {
-  const auto found = findings_of(good_motion(), {.markers = {{"B", 0.0, kNaN, "never seen"},
-                                                             {"C", 0.0, kNaN, "given the weight 0"},
-                                                             {"D", 0.0, kNaN, "never seen"}}});
+  const auto found = findings_of(
+      good_motion(),
+      {.fit = {.excluded = {{"B", "never seen"}, {"C", "given the weight 0"}, {"D", "never seen"}}}});
   ASSERT_THAT(found, SizeIs(2));
   EXPECT_EQ(found[0].text, "2 markers were left out: never seen: B, D");
   EXPECT_EQ(found[0].subject, "");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/report/internal/findings.h"
 
 namespace kinemark::report {
@@ -58,13 +59,6 @@ struct Errors {
   }
 };
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return kNaN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& motion, std::int64_t coordinate) {
   const auto j = static_cast<std::size_t>(coordinate);
   CoordinateSummary s{.name = motion.coordinates[j], .is_rotation = motion.is_rotation[j]};
@@ -78,25 +72,30 @@ CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& moti
     s.max = std::fmax(s.max, motion.q[i]);
     if (!motion.q_sd.empty() && std::isfinite(motion.q_sd[i])) sds.push_back(motion.q_sd[i]);
   }
-  s.median_sd = median(sds);
+  s.median_sd = math::upper_median(sds);
   return s;
 }
 
-MarkerSummary with_facts(std::string name, const IkRun& run) {
-  MarkerSummary s{.name = std::move(name)};
-  const auto facts = std::ranges::find(run.markers, s.name, &MarkerFacts::name);
-  if (facts == run.markers.end()) return s;
-  s.weight = facts->weight;
-  s.noise_sd_m = facts->noise_sd_m;
-  s.why_excluded = facts->why_excluded;
-  s.used = s.why_excluded.empty() && s.weight > 0.0;
-  return s;
+MarkerRow row_of(std::string name, const data::MarkerFit& fit) {
+  MarkerRow row{.name = std::move(name)};
+  if (const auto marker = std::ranges::find(fit.markers, row.name, &data::FittedMarker::name);
+      marker != fit.markers.end()) {
+    row.weight = marker->weight;
+    row.noise_sd_m = marker->total_sd_m();
+    row.used = row.weight > 0.0;
+  } else if (const auto left = std::ranges::find(fit.excluded, row.name, &data::ExcludedMarker::name);
+             left != fit.excluded.end()) {
+    row.weight = 0.0;
+    row.why_excluded = left->why;
+    row.used = false;
+  }
+  return row;
 }
 
 void summarize_markers(IkSummary& s, const JointMotion& motion, const Trajectories* markers,
                        const Errors& errors) {
   for (std::size_t m = 0; m < motion.markers.size(); ++m) {
-    MarkerSummary marker = with_facts(motion.markers[m], s.run);
+    MarkerRow marker = row_of(motion.markers[m], s.run.fit);
     const ErrorSum& sum = errors.of_marker[m];
     marker.seen_frames = sum.count;
     marker.rms_error_m = sum.rms();
@@ -106,15 +105,17 @@ void summarize_markers(IkSummary& s, const JointMotion& motion, const Trajectori
   }
   s.rms_error_m = errors.all.rms();
   s.max_error_m = errors.all.max();
-  for (const MarkerFacts& facts : s.run.markers) {
-    if (std::ranges::find(motion.markers, facts.name) != motion.markers.end()) continue;
-    MarkerSummary marker = with_facts(facts.name, s.run);
+  const auto add_idle = [&](const std::string& name) {
+    if (std::ranges::find(motion.markers, name) != motion.markers.end()) return;
+    MarkerRow marker = row_of(name, s.run.fit);
     marker.used = false;
-    const std::int64_t column = markers == nullptr ? -1 : markers->find(facts.name);
+    const std::int64_t column = markers == nullptr ? -1 : markers->find(name);
     for (std::int64_t f = 0; column >= 0 && f < motion.frames(); ++f)
       marker.seen_frames += markers->present(f, column) ? 1 : 0;
     s.markers.push_back(std::move(marker));
-  }
+  };
+  for (const auto& marker : s.run.fit.markers) add_idle(marker.name);
+  for (const auto& marker : s.run.fit.excluded) add_idle(marker.name);
 }
 
 /// The frames with the largest error; neighbours of one that is taken are the same event and are left out.
@@ -163,6 +164,7 @@ Result<IkSummary> summarize(IkRun run, const JointMotion& motion, const Trajecto
                             const SummaryOptions& options) {
   if (const auto ok = options.check(); !ok) return std::unexpected(ok.error());
   if (const auto ok = motion.validate(); !ok) return std::unexpected(ok.error());
+  if (const auto ok = run.fit.validate(); !ok) return std::unexpected(ok.error());
   if (markers != nullptr) {
     if (markers->state.size() != markers->names.size() * static_cast<std::size_t>(markers->frames()))
       return fail(Code::bad_input, "the report's markers have no state for each frame and marker");
@@ -190,8 +192,8 @@ Result<IkSummary> summarize(IkRun run, const JointMotion& motion, const Trajecto
   const Errors errors(motion);
   summarize_markers(s, motion, markers, errors);
   find_worst_frames(s, motion, errors.of_frame, options);
-  s.findings = internal::find_findings(s, motion);
-  s.verdict = std::ranges::any_of(s.findings, [](const Finding& f) { return f.level == Verdict::attention; })
+  s.notices = internal::find_notices(s, motion);
+  s.verdict = std::ranges::any_of(s.notices, [](const Notice& f) { return f.level == Verdict::attention; })
                   ? Verdict::attention
                   : Verdict::good;
   return s;

@@ -13,18 +13,11 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/report/report_parts.h"
 
 namespace kinemark::report {
-
-/// What the solver knew of one marker of the file or the model.
-struct MarkerFacts {
-  std::string name;
-  double weight = 1.0;       ///< 0: not used
-  double noise_sd_m = kNaN;  ///< given or estimated standard deviation along one axis
-  std::string why_excluded;  ///< empty: used
-};
 
 /// Everything about a run that is not in its arrays. The caller fills this in.
 struct IkRun {
@@ -33,72 +26,79 @@ struct IkRun {
   std::string method;        ///< "least squares" or "direct marker control"
   std::string version;       ///< of the program
   std::string command_line;  ///< as typed
-  std::uint64_t seed = 0;
-  int threads = 1;
-  int exit_status = 0;
-  double solve_s = kNaN;  ///< wall-clock seconds of the solve alone
-  std::vector<std::pair<std::string, std::string>> options;
-  std::vector<InputFile> inputs;
-  std::vector<Gate> gates;
-  std::vector<MarkerFacts> markers;             ///< in any order; markers not listed have weight 1
+  std::uint64_t seed = 0;    ///< of random starts
+  int threads = 1;           ///< as asked for
+  int exit_status = 0;       ///< of the program
+  double solve_s = kNaN;     ///< wall-clock seconds of the solve alone
+  std::vector<std::pair<std::string, std::string>> options;  ///< name and value, as they were used
+  std::vector<InputFile> inputs;                             ///< files that were read
+  std::vector<Gate> gates;                                   ///< bounds that decide the exit status
+  /// Of names, weights, noise and what was left out; errors are computed from the motion, and its warnings
+  /// stand in `warnings`. Markers that are not listed have the weight 1.
+  data::MarkerFit fit;
   std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
   std::vector<std::string> warnings;            ///< one sentence each
 };
 
+/// One coordinate over the recording.
 struct CoordinateSummary {
-  std::string name;
-  bool is_rotation = true;
-  bool locked = false;
-  std::int64_t determined_frames = 0;
-  double min = kNaN;        ///< rad or m, over determined frames
-  double max = kNaN;        ///< rad or m, over determined frames
-  double median_sd = kNaN;  ///< rad or m, over determined frames
+  std::string name;                    ///< in the model
+  bool is_rotation = true;             ///< true: rad, false: m
+  bool locked = false;                 ///< the model holds it
+  std::int64_t determined_frames = 0;  ///< frames in which the markers fix it
+  double min = kNaN;                   ///< rad or m, over determined frames
+  double max = kNaN;                   ///< rad or m, over determined frames
+  double median_sd = kNaN;             ///< rad or m, over determined frames
 };
 
-struct MarkerSummary {
-  std::string name;
-  bool used = true;
-  std::string why_excluded;
-  double weight = 1.0;
-  std::int64_t seen_frames = 0;  ///< frames with an error, or with coordinates for excluded markers
-  double rms_error_m = kNaN;     ///< of the distance between measured and model marker
-  double max_error_m = kNaN;
-  std::int64_t max_error_frame = -1;
-  double noise_sd_m = kNaN;
+/// A row of the page's table of markers, used or not.
+struct MarkerRow {
+  std::string name;                   ///< in the model, or in the recording
+  bool used = true;                   ///< false: it took no part
+  std::string why_excluded;           ///< a few words; empty when used
+  double weight = 1.0;                ///< as given, >= 0
+  std::int64_t seen_frames = 0;       ///< frames with an error, or with coordinates for excluded markers
+  double rms_error_m = kNaN;          ///< of the distance between measured and model marker
+  double max_error_m = kNaN;          ///< largest distance; NaN when never seen
+  std::int64_t max_error_frame = -1;  ///< its frame; -1 when never seen
+  double noise_sd_m = kNaN;           ///< standard deviation along one axis, given or estimated
 };
 
+/// A frame that fits badly.
 struct WorstFrame {
-  std::int64_t frame = 0;
-  double time_s = 0.0;
-  double rms_error_m = 0.0;  ///< over the markers seen in this frame
-  int markers_seen = 0;
-  std::string marker;  ///< the one with the largest error
-  double marker_error_m = 0.0;
-  data::FrameStatus status = data::FrameStatus::converged;
+  std::int64_t frame = 0;                                   ///< index in the motion
+  double time_s = 0.0;                                      ///< on the recording's clock
+  double rms_error_m = 0.0;                                 ///< over the markers seen in this frame
+  int markers_seen = 0;                                     ///< number of markers used
+  std::string marker;                                       ///< the one with the largest error
+  double marker_error_m = 0.0;                              ///< its distance
+  data::FrameStatus status = data::FrameStatus::converged;  ///< how the frame ended
 };
 
+/// What a report says of joint angles and their fit.
 struct IkSummary {
-  IkRun run;
-  TimeBase time;
-  Verdict verdict = Verdict::good;              ///< attention: at least one finding of that level
+  IkRun run;                                    ///< who ran what
+  TimeBase time;                                ///< of the motion
+  Verdict verdict = Verdict::good;              ///< attention: at least one notice of that level
   std::array<std::int64_t, 4> status_frames{};  ///< by FrameStatus
   double determined_fraction = kNaN;            ///< over frames and coordinates that are not locked
   double rms_error_m = kNaN;                    ///< over all frames and seen markers
-  double max_error_m = kNaN;
-  std::vector<CoordinateSummary> coordinates;
-  std::vector<MarkerSummary> markers;  ///< used ones in the motion's order, then the excluded ones
-  std::vector<WorstFrame> worst_frames;
-  std::vector<Finding> findings;  ///< the serious ones first
+  double max_error_m = kNaN;                    ///< over the same
+  std::vector<CoordinateSummary> coordinates;   ///< n
+  std::vector<MarkerRow> markers;               ///< used ones in the motion's order, then the excluded ones
+  std::vector<WorstFrame> worst_frames;         ///< the worst first
+  std::vector<Notice> notices;                  ///< the serious ones first
 };
 
+/// Options of the summary.
 struct SummaryOptions {
-  int worst_frames = 20;
+  int worst_frames = 20;                 ///< at most, >= 0
   double worst_frame_distance_s = 0.25;  ///< two worst frames are at least this far apart
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold.
 };
 
-/// Counts, errors, worst frames and findings of a solved trial.
+/// Counts, errors, worst frames and notices of a solved trial.
 ///
 /// @param run      facts that are not in the arrays
 /// @param motion   F frames; must be valid

@@ -41,7 +41,7 @@ Json coordinates_json(const IkSummary& s) {
 
 Json markers_json(const IkSummary& s) {
   Json out = Json::array();
-  for (const MarkerSummary& m : s.markers)
+  for (const MarkerRow& m : s.markers)
     out.push_back(
         {{"name", m.name},
          {"used", m.used},
@@ -100,9 +100,16 @@ IkRun read_run(const Json& json) {
     run.gates.push_back(
         {g.at("name"), g.at("passed"), value("value"), value("bound"), g.at("unit"), g.at("sentence")});
   }
-  for (const Json& m : json.at("markers"))
-    run.markers.push_back({m.at("name"), m.at("weight").is_null() ? 1.0 : m.at("weight").get<double>(),
-                           metres(m, "noise_sd_mm"), m.at("why_excluded")});
+  for (const Json& m : json.at("markers")) {
+    const auto why = m.at("why_excluded").get<std::string>();
+    if (why.empty())
+      run.fit.markers.push_back({.name = m.at("name"),
+                                 .weight = m.at("weight").is_null() ? 1.0 : m.at("weight").get<double>(),
+                                 .noise_sd_m = metres(m, "noise_sd_mm"),
+                                 .common_sd_m = 0.0});  // the file holds both together
+    else
+      run.fit.excluded.push_back({m.at("name"), why});
+  }
   for (const Json& c : json.at("coordinates"))
     if (c.at("locked").get<bool>()) run.locked_coordinates.push_back(c.at("name"));
   json.at("warnings").get_to(run.warnings);
@@ -134,7 +141,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"max_error_mm", millimetres(s.max_error_m)},
           {"determined_fraction", number(s.determined_fraction, 6)},
           {"status_frames", status_json(s)},
-          {"findings", findings_json(s.findings)},
+          {"findings", findings_json(s.notices)},
           {"gates", gates_json(run.gates)},
           {"coordinates", coordinates_json(s)},
           {"markers", markers_json(s)},

@@ -74,9 +74,9 @@ TEST(RunFromJson, ReadsBackWhatWasWritten) {
   ASSERT_EQ(back->gates.size(), 2U);
   EXPECT_FALSE(back->gates[1].passed);
   EXPECT_EQ(back->inputs[0].hash, s.run.inputs[0].hash);
-  ASSERT_EQ(back->markers.size(), s.markers.size());
-  EXPECT_NEAR(back->markers[0].noise_sd_m, s.markers[0].noise_sd_m, 1e-7);
-  EXPECT_EQ(back->markers.back().why_excluded, "it is at the origin in every frame.");
+  ASSERT_EQ(back->fit.markers.size() + back->fit.excluded.size(), s.markers.size());
+  EXPECT_NEAR(back->fit.markers[0].total_sd_m(), s.markers[0].noise_sd_m, 1e-7);
+  EXPECT_EQ(back->fit.excluded.back().why, "it is at the origin in every frame.");
 }
 
 TEST(RunFromJson, ASummaryMadeFromWhatWasReadWritesTheSameJson) {

@@ -98,7 +98,7 @@ TEST(Summarize, DescribesTheExampleTrial) {
   EXPECT_NEAR(wrist->median_sd, 2.2 * kRadPerDeg, 0.3 * kRadPerDeg);
   EXPECT_LT(wrist->min, wrist->max);
   EXPECT_TRUE(std::ranges::find(s->coordinates, "subtalar_angle_r", &CoordinateSummary::name)->locked);
-  const MarkerSummary& excluded = s->markers.back();
+  const MarkerRow& excluded = s->markers.back();
   EXPECT_EQ(excluded.name, "L.Bicep");
   EXPECT_FALSE(excluded.used);
   EXPECT_EQ(excluded.seen_frames, 600);

@@ -41,9 +41,9 @@ Json gates_json(std::span<const Gate> gates) {
   return out;
 }
 
-Json findings_json(std::span<const Finding> findings) {
+Json findings_json(std::span<const Notice> findings) {
   Json out = Json::array();
-  for (const Finding& f : findings)
+  for (const Notice& f : findings)
     out.push_back({{"level", f.level == Verdict::attention ? "attention" : "note"},
                    {"about", f.about},
                    {"subject", f.subject},

@@ -50,8 +50,8 @@ TEST(Millimetres, ComeFromMetres) {
 }
 
 TEST(FindingsJson, HoldsLevelPlaceAndWords) {
-  const std::array<Finding, 2> findings{{{Verdict::attention, "gap", "R.Knee", "A sentence.", 1.5},
-                                         {Verdict::good, "warning", "", "Another.", kNaN}}};
+  const std::array<Notice, 2> findings{{{Verdict::attention, "gap", "R.Knee", "A sentence.", 1.5},
+                                        {Verdict::good, "warning", "", "Another.", kNaN}}};
   const auto json = findings_json(findings);
   ASSERT_EQ(json.size(), 2U);
   EXPECT_EQ(json[0].dump(),

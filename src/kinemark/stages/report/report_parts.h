@@ -1,44 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What all reports have: inputs with their hashes, quality gates, findings, and the bound on a page's size.
+// What all reports have: inputs with their hashes, quality gates, notices, and the bound on a page's size.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "kinemark/core/result.h"
-
 #include "kinemark/core/missing.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
 
 namespace kinemark::report {
 
-/// A file that the result depends on.
-struct InputFile {
-  std::string role;  ///< "model", "markers", "tasks", ...
-  std::string path;  ///< as the user gave it
-  std::int64_t bytes = 0;
-  std::string hash;       ///< hexadecimal digits, lower case
-  std::string hash_kind;  ///< "XXH3-64"
-};
+using data::Gate;
+using data::InputFile;
 
-/// A quality bound that the run had to meet.
-struct Gate {
-  std::string name;      ///< "marker_rms"
-  bool passed = true;    ///< false: the run ends with exit status 1
-  double value = 0.0;    ///< what was reached, in `unit`
-  double bound = 0.0;    ///< what was asked, in `unit`
-  std::string unit;      ///< "mm", "%", ...
-  std::string sentence;  ///< for people: what was compared and what to do when it failed
-};
-
+/// What a report says in a word.
 enum class Verdict : std::uint8_t { good, attention };
 
-[[nodiscard]] std::string_view to_string(Verdict verdict);
+[[nodiscard]] std::string_view to_string(Verdict verdict);  ///< "good", "attention"
 
-/// A line of the list "what needs your attention".
-struct Finding {
-  Verdict level = Verdict::good;  ///< attention: the result should not be used before somebody looked
+/// One entry of the list "what needs your attention".
+struct Notice {
+  Verdict level = Verdict::good;  ///< attention: the result should be checked by a person before use
   std::string about;              ///< "gate", "frames", "coordinate", "marker", "gap", ... or "warning"
   std::string subject;            ///< name of the gate, coordinate or marker; may be empty
   std::string text;               ///< one sentence
@@ -50,7 +35,7 @@ struct ReportOptions {
   std::int64_t max_points = 20'000;            ///< per plotted series, at least 2
   std::int64_t max_series_bytes = 24'000'000;  ///< of all plotted series as they stand in the page
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold.
 };
 
 }  // namespace kinemark::report

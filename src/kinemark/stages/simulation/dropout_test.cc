@@ -10,7 +10,7 @@
 
 #include "kinemark/stages/simulation/internal/motion.h"
 #include "kinemark/stages/simulation/subject.h"
-#include "kinemark/stages/simulation/test_models.h"
+#include "kinemark/stages/simulation/testing/models.h"
 
 namespace kinemark::simulation {
 namespace {

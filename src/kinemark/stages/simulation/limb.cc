@@ -35,7 +35,7 @@ Eigen::Matrix3Xd marker_places(const ChainOptions& options, double length_m) {
   return out;
 }
 
-/// A turn drawn evenly from all: z points anywhere on the sphere, and x anywhere around it.
+/// A uniformly distributed random rotation: z points anywhere on the sphere, and x anywhere around it.
 Matrix3d any_turn(Random& random) {
   const double height = random.uniform(-1.0, 1.0);
   const double azimuth = random.uniform(0.0, 2.0 * std::numbers::pi);

@@ -21,7 +21,7 @@ struct LimbRecording {
   Array<double> x_true;           ///< F x M x 3, m: all markers, without noise
   Array<double> centre_in_world;  ///< F x J x 3, m: the joints between the segments
   Array<double> end_in_world;     ///< F x 3, m: the far end of the last segment
-  /// S matrices 3 x (markers of the segment), m: their places in segment axes, z along the bone from its
+  /// S matrices 3 x (markers of the segment), m: their positions in segment axes, z along the bone from its
   /// upper joint.
   std::vector<Eigen::Matrix3Xd> x_in_segment;
 };
@@ -36,11 +36,12 @@ struct ChainOptions {
   bool planar = false;        ///< staggered to both sides in one plane, not all around the bone
   double noise_sd_m = 0.001;  ///< per axis, >= 0
   double missing = 0.0;       ///< 0 to 0.95, share of samples lost, each on its own
-  /// Losses go with the pose: none while the chain's end points away from a certain side, twice the share
+  /// Losses depend on the pose: none while the chain's end points away from a certain side, twice the share
   /// (0.98 at most) while it points there, as near an animal's mouth.
   bool pose_correlated = false;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of poses, noise and losses
 
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
@@ -62,11 +63,12 @@ struct SleeveOptions {
   double mouth_loss = 0.6;    ///< chance that an LED near the hand is hidden for a whole visit to the mouth
   bool obstacles = false;  ///< head, trunk and the cage's front bars stand between LEDs and cameras as well
   double missing = 0.0;    ///< share of samples lost besides, each on its own
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of poses, noise and losses
 
   /// Three cameras, a narrow beam, 0.9 hidden at the mouth and a fifth of the rest lost: about 30 % is seen.
   [[nodiscard]] static SleeveOptions hard();
-  [[nodiscard]] std::int64_t frames() const;
+  [[nodiscard]] std::int64_t frames() const;  ///< frames that the duration and rate give
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 

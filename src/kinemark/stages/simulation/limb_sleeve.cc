@@ -22,7 +22,7 @@ using std::numbers::pi;
 constexpr double kUpperArm_m = 0.150, kForearm_m = 0.160;
 constexpr double kNearest_m = 0.040, kStraight_m = 0.008;  // wrist from shoulder; reach left when straightest
 
-/// How the arm lies in one frame: segment axes have z along the bone, x along the elbow's hinge.
+/// Pose of the arm in one frame: segment axes have z along the bone, x along the elbow's hinge.
 struct ArmPose {
   Vector3d elbow, wrist;
   Matrix3d world_from_upper_arm, world_from_forearm;
@@ -54,7 +54,7 @@ ArmPose pose_arm(const Vector3d& goal, double swivel, double roll) {
 }
 
 /// Three turns about the limb over its LEDs, or the next number of turns that shares no factor with theirs:
-/// no neighbours look the same way, no two sit above each other, and they never lie in one plane.
+/// neighbours face different directions, no two are above each other, and they never lie in one plane.
 Eigen::Matrix3Xd led_places(const SleeveOptions& options, double length_m) {
   const int n = options.leds_per_segment;
   int turns = n > 3 ? 3 : 1;

@@ -82,7 +82,7 @@ TEST(MacaqueArm, WearsTheSleeveInEveryFrame) {
   for (std::int64_t f = 0; f < limb.markers.frames(); f += 7) {
     const Matrix3d upper = world_from_body(limb, f, 0), lower = world_from_body(limb, f, 1);
     shoulder = math::to_angles_about(axes, upper, shoulder);
-    // Hinge first, then the turn about the forearm.
+    // Hinge first, then the rotation about the forearm.
     const Matrix3d elbow = upper.transpose() * lower;
     const double flexion = std::acos(std::clamp(elbow(2, 2), -1.0, 1.0));
     const Matrix3d turn = math::axis_angle(-Vector3d::UnitY(), flexion).transpose() * elbow;

@@ -14,29 +14,33 @@
 
 namespace kinemark::simulation {
 
-/// The grid that hangs before one camera at a time, square to its axis as well as hands can do it.
+/// The grid that hangs before one camera at a time, square to its axis within the accuracy of mounting it by
+/// hand.
 struct GridOptions {
-  int nodes = 15;  ///< along each side, 3 to 101, odd
-  double side_m = 1.0;
-  double distance_m = 3.0;         ///< from the lens
-  int samples = 50;                ///< conversions of every LED, 1 to 10 000
-  double placement_sd_m = 0.5e-3;  ///< of each LED on the board, in either direction
-  double tilt_sd_deg = 0.2, roll_sd_deg = 0.1;
+  int nodes = 15;                               ///< along each side, 3 to 101, odd
+  double side_m = 1.0;                          ///< between the outermost LEDs, > 0
+  double distance_m = 3.0;                      ///< from the lens
+  int samples = 50;                             ///< conversions of every LED, 1 to 10 000
+  double placement_sd_m = 0.5e-3;               ///< of each LED on the board, in either direction
+  double tilt_sd_deg = 0.2, roll_sd_deg = 0.1;  ///< one standard deviation of how it hangs, >= 0
+  /// one standard deviation along the axis and across it, >= 0
   double distance_sd_m = 5e-3, centre_sd_m = 1e-3;
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
+/// The grid as every camera recorded it, and where its LEDs really were.
 struct GridRecording {
   /// Per camera: one camera, nodes x nodes LEDs named "i,j" (i to the camera's right, j down, both from 0),
-  /// `samples` frames. LEDs are lit one at a time; each has the time of its turn.
+  /// `samples` frames. LEDs are lit one at a time; each has the time of its own slot.
   std::vector<data::Counts> counts;
-  int nodes = 0;
-  double spacing_m = 0.0;
-  double distance_m = 0.0;
+  int nodes = 0;                           ///< along each side
+  double spacing_m = 0.0;                  ///< between neighbours, as the operator believes
+  double distance_m = 0.0;                 ///< from the lens, as the operator believes
   std::vector<Eigen::Matrix3Xd> x_in_cam;  ///< truth: where the LEDs were, m, in the order of the LEDs
 };
 
-/// Random(seed, 200): places of the LEDs on the board, the same board for all cameras. Random(seed, 210 +
+/// Random(seed, 200): positions of the LEDs on the board, the same board for all cameras. Random(seed, 210 +
 /// camera): tilt 2, distance, centre 2, roll, then noise, sample by sample.
 [[nodiscard]] Result<GridRecording> record_grid(const PhysicalRig& rig, const GridOptions& options = {});
 
@@ -47,12 +51,14 @@ struct TreePosesOptions {
   int set = 0;               ///< another set of poses and noise of the same rig, 0 to 1000
   RigRecordingOptions
       recording;  ///< rate, intensity, noise, threads; frames, time, seed and stream are set here
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
+/// A tree of LEDs held still in many poses, and where they really were.
 struct TreePosesRecording {
-  data::Counts counts;  ///< poses x frames_per_pose frames, three LEDs
-  int frames_per_pose = 0;
+  data::Counts counts;                         ///< poses x frames_per_pose frames, three LEDs
+  int frames_per_pose = 0;                     ///< of each pose
   std::vector<Eigen::Matrix3d> leds_in_world;  ///< truth of each pose: columns are LEDs, m
 };
 
@@ -62,7 +68,7 @@ struct TreePosesRecording {
 [[nodiscard]] Result<TreePosesRecording> record_tree_poses(const PhysicalRig& rig,
                                                            const TreePosesOptions& options = {});
 
-/// One LED on a motor stage that visits a lattice of places.
+/// One LED on a motor stage that visits a lattice of positions.
 struct ScanOptions {
   Eigen::Vector3i places{8, 9, 6};                       ///< along X, Y, Z, 2 to 50 each
   Eigen::Vector3d size_m{0.8, 0.8, 0.8};                 ///< of the lattice, about the world's origin
@@ -71,13 +77,15 @@ struct ScanOptions {
   double alignment_sd_deg = 0.2, alignment_sd_m = 5e-3;  ///< of the stage as a whole
   RigRecordingOptions
       recording;  ///< rate, intensity, noise, threads; frames, time, seed and stream are set here
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
+/// One LED carried through the volume by a stage, and where it really was.
 struct ScanRecording {
-  data::Counts counts;  ///< places x frames_per_place frames, one LED
-  int frames_per_place = 0;
-  Eigen::Matrix3Xd x_in_stage;  ///< where the stage says it was, m
+  data::Counts counts;          ///< places x frames_per_place frames, one LED
+  int frames_per_place = 0;     ///< at each place
+  Eigen::Matrix3Xd x_in_stage;  ///< position reported by the stage, m
   Eigen::Matrix3Xd x_in_world;  ///< truth, m
   math::SE3 world_from_stage;   ///< truth
 };

@@ -43,7 +43,7 @@ TEST(Grid, HangsBeforeEachCamera) {
     EXPECT_GT(counts.at(0, 14 * 15 + 7, 0)[0], 3.0 * counts.at(0, 14 * 15 + 7, 0)[1]);
     EXPECT_GT(counts.at(0, 7 * 15 + 14, 0)[2], 3.0 * counts.at(0, 7 * 15 + 14, 0)[3]);
   }
-  // One board: relative places of LEDs are the same before both cameras, whatever its pose.
+  // One board: relative positions of LEDs are the same before both cameras, whatever its pose.
   const auto distance = [&grid](std::size_t c) {
     return (grid.x_in_cam[c].col(0) - grid.x_in_cam[c].col(224)).norm();
   };
@@ -105,7 +105,7 @@ TEST(TreePoses, RefuseWhatCannotBe) {
               HasSubstr("368.7 frames per second at most"));
   auto blind = rig();
   for (auto& camera : blind.rig.cameras) camera.cam_from_world.translation.x() += 10.0;
-  EXPECT_THAT(record_tree_poses(blind, {.poses = 1}).error().message, HasSubstr("in sight"));
+  EXPECT_THAT(record_tree_poses(blind, {.poses = 1}).error().message, HasSubstr("seen by all cameras"));
 }
 
 TEST(Scan, VisitsItsPlacesInTurn) {
@@ -126,9 +126,11 @@ TEST(Scan, VisitsItsPlacesInTurn) {
 }
 
 TEST(Scan, RefusesOptionsOutOfRange) {
-  EXPECT_THAT(record_scan(rig(), {.places = {1, 5, 5}}).error().message, HasSubstr("1 places along an axis"));
+  EXPECT_THAT(record_scan(rig(), {.places = {1, 5, 5}}).error().message,
+              HasSubstr("1 positions along an axis"));
   EXPECT_THAT(record_scan(rig(), {.size_m = {1, 0, 1}}).error().message, HasSubstr("a scan of 0 m"));
-  EXPECT_THAT(record_scan(rig(), {.frames_per_place = 0}).error().message, HasSubstr("frames of each place"));
+  EXPECT_THAT(record_scan(rig(), {.frames_per_place = 0}).error().message,
+              HasSubstr("frames of each position"));
   EXPECT_THAT(record_scan(rig(), {.stage_sd_m = -1.0}).error().message, HasSubstr("0 or more"));
 }
 

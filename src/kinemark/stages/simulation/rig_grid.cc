@@ -13,8 +13,6 @@
 namespace kinemark::simulation {
 namespace {
 
-using Eigen::Vector3d;
-
 /// A board that hangs before a camera: LEDs in camera axes.
 Eigen::Matrix3Xd hang_board(const GridOptions& o, const Eigen::Matrix2Xd& on_board, Random& random) {
   const double tilt_x = o.tilt_sd_deg * kRadPerDeg * random.gaussian();

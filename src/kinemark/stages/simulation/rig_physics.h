@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The rig of 1986 as a workshop would build it: drawn from a seed, with what nobody told the operator.
+// The rig of 1986 with random manufacturing errors drawn from a seed, which are unknown to the operator.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +15,9 @@ namespace kinemark::simulation {
 /// LEDs and lenses. Values: Poizner, Wooten & Salot (1986) and data sheets;
 /// docs/theory/lateral-effect-detector.md.
 struct RigLight {
-  double led_power_w = 0.35;  ///< radiant, pulsed, into a hemisphere by Lambert's law
-  double focal_length_m = 25e-3;
-  double f_number = 1.85;
+  double led_power_w = 0.35;       ///< radiant, pulsed, into a hemisphere by Lambert's law
+  double focal_length_m = 25e-3;   ///< of the lens
+  double f_number = 1.85;          ///< focal length over aperture
   double distance_m = 3.0;         ///< of the cameras from the middle; lenses are focused there
   double transmission = 0.80;      ///< of the lens
   double responsivity_a_w = 0.60;  ///< of the detector
@@ -30,24 +30,25 @@ struct RigLight {
 [[nodiscard]] double photocurrent_a(const RigLight& light, double distance_m, double cos_led,
                                     double cos_camera);
 
-/// What a camera sees of the room.
+/// Light from the room at one camera.
 struct RoomLight {
   Eigen::Vector4d stray = Eigen::Vector4d::Zero();  ///< share of the stray light at each electrode
   double flicker_counts = 0.0;                      ///< amplitude, the same at all electrodes
-  double flicker_phase_rad = 0.0;
+  double flicker_phase_rad = 0.0;                   ///< at time 0
 };
 
-/// A rig with everything that acts on its counts.
+/// A rig with all effects on its counts.
 struct PhysicalRig {
-  data::Rig rig;      ///< the truth; offsets without stray light
-  data::Rig nominal;  ///< what the operator believes: drawings, and poses set by hand
-  RigLight light;
+  data::Rig rig;                ///< the truth; offsets without stray light
+  data::Rig nominal;            ///< the operator's nominal values: drawings, and poses set by hand
+  RigLight light;               ///< LED, lens and distance
   std::vector<RoomLight> room;  ///< per camera
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;       ///< of everything that was drawn
 };
 
+/// Options of draw_rig().
 struct RigDrawOptions {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;     ///< of everything that is drawn
   double imperfection = 1.0;  ///< >= 0, times the tolerances of lens, sheet, channels and lamps
   double misalignment = 1.0;  ///< >= 0, times the errors of poses set by hand
   data::DetectorKind detector = data::DetectorKind::tetra_lateral;  ///< not generic
@@ -55,6 +56,7 @@ struct RigDrawOptions {
   double ripple = 0.0;     ///< >= 0, sd of further warp terms of degree 6 to 10, half-sides
   bool dark_slot =
       false;  ///< also raises all channels by 16 counts, so that darkness is within the converter
+  /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };
 
@@ -74,19 +76,21 @@ struct RigDrawOptions {
 struct LedState {
   Eigen::Vector3d x_in_world = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit vector along which it shines most
-  bool shining = true;
+  bool shining = true;                                   ///< false: it is switched off
 };
 
 /// Expected counts of one camera: light of the LED (none if it is behind the camera or misses the sheet),
 /// stray light and offset; neither flicker nor noise.
 struct ExpectedCounts {
-  Eigen::Vector4d counts;
-  bool on_sheet = true;
+  Eigen::Vector4d counts;  ///< of channels +x, -x, +y, -y
+  bool on_sheet = true;    ///< whether light falls on the detector
 };
+/// @param intensity  >= 0, of the LED's power
 [[nodiscard]] ExpectedCounts expected_counts(const PhysicalRig& rig, int camera, const LedState& led,
                                              double intensity = 1.0);
 
-/// Light that reaches a camera by way of a mirror: as if from a second place, times a share of the LED's own.
+/// Light that reaches a camera by way of a mirror: as from a second position, with a share of the LED's
+/// intensity.
 [[nodiscard]] Eigen::Vector4d reflected_counts(const PhysicalRig& rig, int camera, const LedState& led,
                                                double intensity, const Eigen::Vector3d& place_in_world,
                                                double share);

@@ -137,7 +137,7 @@ TEST(ExpectedCounts, EveryKindOfDetectorSeesTheSameLight) {
   const auto duo = expected_counts(ideal(data::DetectorKind::duo_lateral), 1, led).counts;
   EXPECT_NEAR(pin.sum(), tetra.sum(), 1e-9);
   EXPECT_GT(duo.sum(), 1.98 * tetra.sum());  // each of its two layers carries the whole current
-  // and the ratio of its opposite currents is the place itself, but for the stray light
+  // and the ratio of its opposite currents is the position itself, except for the stray light
   const auto rig = ideal(data::DetectorKind::duo_lateral);
   EXPECT_NEAR((duo[0] - duo[1]) / (duo[0] + duo[1]),
               camera::project(rig.rig.cameras[1], led.x_in_world).image.x(), 2e-3);

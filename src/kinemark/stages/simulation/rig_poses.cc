@@ -50,7 +50,7 @@ Result<std::vector<TreePose>> draw_poses(const PhysicalRig& rig, const TreePoses
   for (std::int64_t tries = 0; out.size() < static_cast<std::size_t>(options.poses); ++tries) {
     if (tries == kMostTries)
       return fail(Code::bad_input,
-                  "hardly a pose of the tree is in sight of all cameras; look at their poses");
+                  "too few poses of the tree are seen by all cameras; check the poses of the cameras");
     const TreePose pose = draw_pose(random);
     if (well_inside(smooth, pose.leds_in_world())) out.push_back(pose);
   }
@@ -109,14 +109,14 @@ Status ScanOptions::check() const {
   for (int axis = 0; axis < 3; ++axis) {
     if (places[axis] < 2 || places[axis] > 50)
       return fail(Code::usage,
-                  fmt::format("{} places along an axis of the scan; need 2 to 50", places[axis]));
+                  fmt::format("{} positions along an axis of the scan; need 2 to 50", places[axis]));
     if (!(size_m[axis] > 0.0) || !(size_m[axis] < 10.0))
       return fail(Code::usage, fmt::format("a scan of {} m; need up to 10 m", size_m[axis]));
   }
   for (const double v : {stage_sd_m, alignment_sd_deg, alignment_sd_m})
     if (!(v >= 0.0) || !(v < 90.0))
       return fail(Code::usage, fmt::format("a standard deviation of {} in the scan; need 0 or more", v));
-  return check_count(frames_per_place, 1000, "frames of each place");
+  return check_count(frames_per_place, 1000, "frames of each position");
 }
 
 Result<ScanRecording> record_scan(const PhysicalRig& rig, const ScanOptions& options) {

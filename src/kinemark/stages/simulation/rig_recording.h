@@ -18,10 +18,11 @@ namespace kinemark::simulation {
 
 inline constexpr int kMostLeds = 8;  ///< that the rig can drive
 
+/// Options of record().
 struct RigRecordingOptions {
-  double rate_hz = 100.0;     ///< frames per second; at most what the slots of all LEDs leave room for
-  std::int64_t frames = 400;  ///< at least 1; frames times LEDs at most 10 million
-  double t0_s = 0.0;
+  double rate_hz = 100.0;              ///< frames per second; limited by the time slots of all LEDs
+  std::int64_t frames = 400;           ///< at least 1; frames times LEDs at most 10 million
+  double t0_s = 0.0;                   ///< time of frame 0
   std::vector<double> intensity;       ///< per LED, >= 0; empty: 1. Half the light: 0.5
   std::uint64_t seed = 1, stream = 0;  ///< of the noise
   bool noise = true;  ///< of amplifier and converter; flicker, stray light and rounding are always there
@@ -38,8 +39,9 @@ enum HiddenFlag : std::uint8_t {
   kHiddenDark = 4,      ///< the LED did not shine
 };
 
+/// Counts of a moving scene, and the truth.
 struct RigRecording {
-  data::Counts counts;            ///< as recorded; saturation is flagged, occlusion is for others to find
+  data::Counts counts;            ///< as recorded; saturation is flagged, occlusion is left to reconstruction
   data::Trajectories truth;       ///< every LED at the time of the frame
   data::Derivatives derivatives;  ///< velocity and acceleration there
   data::Trajectories when_lit;    ///< every LED in the middle of its conversions (sample_offset_s)

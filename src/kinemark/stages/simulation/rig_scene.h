@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What LEDs do before the rig: where each is at any time, and what hides or mirrors it.
+// Scenes of LEDs before the rig: the position of each LED at any time, and what occludes or mirrors it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,26 +15,27 @@
 
 namespace kinemark::simulation {
 
-/// A mirror's doing at one instant; share 0: none.
+/// Reflection of an LED at one instant; share 0: none.
 struct Reflection {
-  Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< m, from where the light seems to come
+  Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< m, apparent position of the light
   double share = 0.0;                                        ///< of the LED's direct light
 };
 
-/// Frames in which something stands between an LED and a camera.
+/// Frames in which an LED is occluded from a camera.
 struct Occlusion {
-  int led = 0;
+  int led = 0;                                   ///< index into RigScene::leds
   int camera = -1;                               ///< -1: all of them
   std::int64_t first_frame = 0, last_frame = 0;  ///< both included
 };
 
+/// LEDs that move, what reflects them and what hides them.
 struct RigScene {
   std::vector<std::string> leds;  ///< names
   /// State of an LED at a time (s); called from several threads at once.
   std::function<LedState(int led, double time_s)> led;
   /// Mirrors; may be empty.
   std::function<Reflection(int led, double time_s, const Eigen::Vector3d& x_in_world)> reflection;
-  std::vector<Occlusion> occlusions;
+  std::vector<Occlusion> occlusions;  ///< in any order
 };
 
 /// The orientation tree: three LEDs, sides 533, 310 and 310 mm; columns are its vertices, m: back left, back
@@ -43,27 +44,29 @@ struct RigScene {
 /// Distances of its vertices 0-1, 0-2 and 1-2, m.
 [[nodiscard]] std::array<double, 3> tree_sides_m();
 
-/// Where the tree stands: centroid (m in world), then turned about X, Y and Z: Ry(yaw) Rx(pitch) Rz(roll).
+/// Pose of the tree: centroid (m in world), then turned about X, Y and Z: Ry(yaw) Rx(pitch) Rz(roll).
 struct TreePose {
-  Eigen::Vector3d centroid_in_world = Eigen::Vector3d::Zero();
-  double yaw_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;
+  Eigen::Vector3d centroid_in_world = Eigen::Vector3d::Zero();  ///< m
+  double yaw_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;        ///< turns about Y, X and Z
+  /// Tree to world, m.
   [[nodiscard]] math::SE3 world_from_tree() const;
   /// Columns are the LEDs, m in world.
   [[nodiscard]] Eigen::Matrix3d leds_in_world() const;
 };
 
-/// Ten places of the tree that both cameras see, spread through the volume.
+/// Ten poses of the tree that both cameras see, spread through the volume.
 [[nodiscard]] const std::array<TreePose, 10>& tree_test_poses();
 
 /// Still LEDs "back left", "back right", "front", shining along Z.
 [[nodiscard]] RigScene still_tree(const TreePose& pose);
 
+/// Options of the turning wheel of the 1986 study.
 struct WheelOptions {
-  double turned_deg = 8.0;  ///< about the vertical; the study uses 8 and 35. Then tilted by -4 deg
-  double diameter_m = 0.392;
-  double rate_hz = 1.5;      ///< revolutions per second
-  double glint_share = 0.0;  ///< 0.04: the frame mirrors that share during 8 degrees of each turn
-  int leds = 1;              ///< 1 to 8, evenly along the rim
+  double turned_deg = 8.0;    ///< about the vertical; the study uses 8 and 35. Then tilted by -4 deg
+  double diameter_m = 0.392;  ///< of the circle on which its LEDs sit, > 0
+  double rate_hz = 1.5;       ///< revolutions per second
+  double glint_share = 0.0;   ///< 0.04: the frame mirrors that share during 8 degrees of each turn
+  int leds = 1;               ///< 1 to 8, evenly along the rim
 };
 
 /// One LED, "rim", or several, "rim 1" and so on, on a wheel about (20, -30, -40) mm.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A person who moves, simulated: what a laboratory records, and the truth.
+// A simulated moving person: the recording of a laboratory, and the truth.
 #pragma once
 
 #include "kinemark/core/result.h"
@@ -11,9 +11,10 @@
 
 namespace kinemark::simulation {
 
+/// A recording of a simulated subject, and the truth.
 struct SimulatedSubject {
   data::Trajectories markers;       ///< as recorded: soft tissue, noise, gaps; measured or missing
-  data::Trajectories true_markers;  ///< where rigid bones would carry them; nothing missing
+  data::Trajectories true_markers;  ///< as carried by rigid bones; nothing missing
   data::JointMotion truth;  ///< coordinates; q_sd 0, all determined; marker_error = recorded minus true
 };
 

@@ -4,17 +4,14 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
-#include <utility>
+
+#include "kinemark/core/enum_names.h"
 
 namespace kinemark::simulation {
 namespace {
 
-constexpr std::array<std::pair<MotionKind, std::string_view>, 4> kNames{{{MotionKind::walk, "walk"},
-                                                                         {MotionKind::reach, "reach"},
-                                                                         {MotionKind::tai_chi, "tai-chi"},
-                                                                         {MotionKind::mixed, "mixed"}}};
+constexpr EnumNames<MotionKind::mixed> kNames{"walk", "reach", "tai-chi", "mixed"};
 constexpr double kMostFrames = 1e7;
 
 Status in_range(const char* name, double value, double low, double high) {
@@ -24,18 +21,9 @@ Status in_range(const char* name, double value, double low, double high) {
 
 }  // namespace
 
-std::string_view to_string(MotionKind kind) {
-  for (const auto& [k, name] : kNames)
-    if (k == kind) return name;
-  return "unknown";
-}
+std::string_view to_string(MotionKind kind) { return kNames[kind]; }
 
-Result<MotionKind> parse_motion_kind(std::string_view name) {
-  for (const auto& [kind, known] : kNames)
-    if (known == name) return kind;
-  return fail(Code::usage,
-              fmt::format("no motion is called \"{}\"; expected walk, reach, tai-chi or mixed", name));
-}
+Result<MotionKind> parse_motion_kind(std::string_view name) { return kNames.parse(name, "motion"); }
 
 std::int64_t SubjectOptions::frames() const { return std::llround(duration_s * rate_hz); }
 

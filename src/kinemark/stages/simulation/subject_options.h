@@ -24,10 +24,10 @@ enum class MotionKind : std::uint8_t {
 
 /// Options of simulate_subject().
 struct SubjectOptions {
-  MotionKind motion = MotionKind::mixed;
-  double duration_s = 10.0;   ///< > 0; round(duration rate) frames, at most 10 million
-  double rate_hz = 100.0;     ///< > 0
-  std::uint64_t seed = 1;     ///< of everything below
+  MotionKind motion = MotionKind::mixed;  ///< how the subject moves
+  double duration_s = 10.0;               ///< > 0; round(duration rate) frames, at most 10 million
+  double rate_hz = 100.0;                 ///< > 0
+  std::uint64_t seed = 1;                 ///< of everything below
   double full_turns = 0.0;    ///< turns of the whole body about the vertical over the recording (free roots
                               ///< only); a walking subject then goes round in a circle instead of on the spot
   double noise_sd_m = 0.001;  ///< >= 0, Gaussian, per axis
@@ -37,13 +37,13 @@ struct SubjectOptions {
       0.3;  ///< 0 to 1, share of its variance that moves all markers of a segment together
   double dropout_random =
       0.0;  ///< 0 to 0.9, share of marker-frames lost in gaps of 0.01 s to seconds, anywhere
-  double dropout_sight = 0.0;  ///< 0 to 0.9, share lost where the pose turns markers away from or hides them
-                               ///< from a ring of cameras; on top of the random ones (may coincide)
+  double dropout_sight = 0.0;  ///< 0 to 0.9, share lost where the pose hides markers from a ring of cameras;
+                               ///< on top of the random ones (may coincide)
   int threads = 1;             ///< 0: all cores. Any number gives the same bits.
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
-  [[nodiscard]] std::int64_t frames() const;
+  [[nodiscard]] std::int64_t frames() const;  ///< round(duration_s * rate_hz)
 };
 
 }  // namespace kinemark::simulation

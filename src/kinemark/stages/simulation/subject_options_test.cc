@@ -47,7 +47,7 @@ TEST(MotionKind, NamesComeBack) {
     EXPECT_EQ(parse_motion_kind(to_string(kind)).value(), kind);
   const auto unknown = parse_motion_kind("swim");
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().message, "no motion is called \"swim\"; expected walk, reach, tai-chi or mixed");
+  EXPECT_EQ(unknown.error().message, "there is no motion 'swim'; there are walk, reach, tai-chi and mixed");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/simulation/test_models.h"
+#include "kinemark/stages/simulation/testing/models.h"
 
 namespace kinemark::simulation {
 namespace {

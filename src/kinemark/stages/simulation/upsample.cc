@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where marker m is between frames f and f + 1, both seen; t in (0, 1).
+/// Position of marker m between frames f and f + 1, both seen; t in (0, 1).
 Vector3d between(const data::Trajectories& in, std::int64_t f, std::int64_t m, double t, Upsampling how) {
   const Vector3d a = in.x(f, m), b = in.x(f + 1, m);
   if (how == Upsampling::linear) return a + t * (b - a);

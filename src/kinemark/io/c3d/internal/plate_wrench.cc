@@ -29,7 +29,7 @@ double newtons(const std::string& unit) {
   return text == "kn" ? 1e3 : 1.0;
 }
 
-/// The manual gives moments in N x unit of length; a channel that names another unit is believed.
+/// The manual gives moments in N x unit of length; another unit named by the channel takes precedence.
 double newton_metres(const std::string& unit, double metres_per_unit) {
   const std::string text = plain(unit);
   if (text.size() < 2 || text.front() != 'n') return metres_per_unit;
@@ -63,7 +63,7 @@ Result<Eigen::MatrixXd> calibration(const C3dForcePlate& plate, std::size_t size
                                              plate.plate.type, size, size));
   Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(plate.plate.calibration.data(), n, n);
   if (!m.allFinite() || m.isZero(0.0))
-    return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of what is no number");
+    return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of values that are not numbers");
   return m;
 }
 
@@ -87,7 +87,7 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
   PlateWrench wrench;
   wrench.is_pressure_point_ = type == 1;
   // From the origin of the plate's axes to the centre of its surface; z points down, into the plate. Files
-  // that give it the other way round are told by its sign.
+  // that give the opposite vector are recognised by its sign.
   wrench.centre_ = plate.plate.origin_in_plate;
   wrench.origin_turned_ = wrench.centre_.z() > 0.0;
   const bool sensors = type == 3 || type == 7;
@@ -118,7 +118,7 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
   } else {
     wrench.matrix_ = Eigen::MatrixXd::Identity(6, 6);
   }
-  // Sensors lie evenly about the middle: what is left of ORIGIN is the depth.
+  // Sensors lie evenly about the middle: the remaining component of ORIGIN is the depth.
   if (sensors) wrench.centre_.head<2>().setZero();
   return wrench;
 }

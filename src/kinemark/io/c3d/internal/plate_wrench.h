@@ -15,12 +15,12 @@ namespace kinemark::io::internal {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Channels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
 
-/// What one sample of a plate's channels says: force (N) and moment (N m) about the centre of its surface, in
-/// the plate's axes and with the sign of the file.
+/// What one sample of a plate's channels gives: force (N) and moment (N m) about the centre of its surface,
+/// in the plate's axes and with the sign of the file.
 class PlateWrench {
  public:
   /// `units` of all analog channels; `metres_per_unit` of the file's lengths. A plate that cannot be
-  /// computed: Code::not_supported or bad_input, a half sentence that says why.
+  /// computed: Code::not_supported or bad_input, with the reason as half a sentence.
   static Result<PlateWrench> create(const C3dForcePlate& plate, const std::vector<std::string>& units,
                                     double metres_per_unit);
 

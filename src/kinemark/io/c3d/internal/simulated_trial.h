@@ -24,7 +24,7 @@ struct SimulatedTrial {
   std::uint64_t seed = 1;
 };
 
-/// Markers that swing about places in a volume of 4 m, analog channels in their own units. The truth for
+/// Markers that swing about points in a volume of 4 m, analog channels in their own units. The truth for
 /// round trips: every number is known here.
 inline data::Trial simulate_trial(const SimulatedTrial& options) {
   using data::SampleState;

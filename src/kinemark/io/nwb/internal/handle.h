@@ -32,7 +32,8 @@ class Handle {
   Closer close_ = nullptr;
 };
 
-/// HDF5 prints every failure to stderr unless told not to; while this lives it is silent in this thread.
+/// HDF5 prints every failure to stderr by default; during the lifetime of this object it is silent in this
+/// thread.
 class Quiet {
  public:
   Quiet() {

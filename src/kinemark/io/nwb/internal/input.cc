@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxChildren = 100'000;
 constexpr std::size_t kMaxTextBytes = 1UL << 20;
-// Deflate makes a byte out of at most 1032, and a chunk that nobody wrote takes none.
+// Deflate compresses at most 1032 bytes to one, and a chunk that was never written has no bytes.
 constexpr std::size_t kMaxExpansion = 1100;
 constexpr std::size_t kFreeBytes = 256UL << 20;
 
@@ -105,7 +105,7 @@ Input::Input(Handle file, Handle link_access, std::string name, std::size_t size
 }
 
 Result<Input> Input::open(const std::filesystem::path& path) {
-  // HDF5 does not tell a file that is not there from one that is broken.
+  // HDF5 does not distinguish a missing file from a damaged one.
   const auto there = InputFile::open(path);
   if (!there) return std::unexpected(there.error());
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
@@ -145,7 +145,7 @@ std::optional<std::vector<std::int64_t>> Input::shape(hid_t dataset, bool text) 
   if (H5Iget_type(dataset) != H5I_DATASET) return std::nullopt;
   const Handle type(H5Dget_type(dataset), H5Tclose);
   if (!type || !(text ? is_text(type.id()) : is_number(type.id()))) return std::nullopt;
-  // Samples in other files are not read, nor chunks larger than the file can explain.
+  // Samples in other files are not read, nor chunks larger than the file size allows.
   const Handle create(H5Dget_create_plist(dataset), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(create.id());
   if (layout == H5D_VIRTUAL || layout == H5D_LAYOUT_ERROR || H5Pget_external_count(create.id()) != 0)

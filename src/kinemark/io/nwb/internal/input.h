@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Reading HDF5 objects that may be anything: whatever is not as asked is an empty answer.
+// Reading HDF5 objects of unknown content: an object that is not of the requested kind reads as empty.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ class Input {
   template <class T>
   [[nodiscard]] std::optional<Array<T>> numbers(hid_t dataset);
 
-  /// Take `bytes` of what the file's size explains; false when it does not explain them.
+  /// Reserve `bytes` of the memory that the file's size justifies; false when they exceed it.
   [[nodiscard]] bool afford(std::size_t count, std::size_t bytes_each);
 
   [[nodiscard]] hid_t file() const { return file_.id(); }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Where things are in the files that we write; reader and writer share it. docs/formats/nwb.md
+// Paths of objects in the files that we write, shared by reader and writer. docs/formats/nwb.md
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ struct Column {
   std::vector<std::int64_t> integers;
 };
 
-/// Puts the pieces of an NWB file in place. A failure is remembered, not returned: what follows one does
+/// Writes the parts of an NWB file. A failure is recorded, not returned: what follows one does
 /// nothing of use, and failed() is asked once at the end. Callers hold a Quiet.
 class Output {
  public:
@@ -40,7 +40,7 @@ class Output {
   Handle texts(hid_t parent, const char* name, const std::vector<std::string>& texts,
                std::size_t columns = 1);
   Handle number(hid_t parent, const char* name, double value);
-  /// Numbers, frames x width (1: a plain list), in checksummed chunks; `fill` where nobody writes.
+  /// Numbers, frames x width (1: a plain list), in checksummed chunks; `fill` where nothing is written.
   Handle samples(hid_t parent, const char* name, hid_t file_type, std::int64_t frames, int width, double fill,
                  int compression);
   /// Rows [first, first + count) of samples().

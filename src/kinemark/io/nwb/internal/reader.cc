@@ -18,7 +18,7 @@ using data::SampleState;
 using data::Trajectories;
 
 std::unexpected<Error> too_large(const std::string& what) {
-  return fail(Code::bad_input, what + ": holds more samples than the size of the file explains");
+  return fail(Code::bad_input, what + ": holds more samples than the size of the file allows");
 }
 
 /// What each value of `control` means, where all of them are names of states.
@@ -36,7 +36,7 @@ std::vector<SampleState> control_states(Input& in, hid_t series) {
   return out;
 }
 
-/// States that the file tells, or `measured` for all.
+/// States stored in the file, or `measured` for all.
 std::vector<SampleState> read_states(Input& in, hid_t series, std::size_t frames) {
   std::vector<SampleState> out(frames, SampleState::measured);
   if (const std::vector<SampleState> meaning = control_states(in, series); !meaning.empty()) {
@@ -121,7 +121,7 @@ Result<std::vector<data::FilterUsed>> read_filters(Input& in, std::size_t marker
   const auto noise_sd_m = numbers("filter_noise_sd_m");
   if (!methods || !order || !cutoff_hz || !noise_sd_m || methods->size() != markers ||
       order->size() != markers || cutoff_hz->size() != markers || noise_sd_m->size() != markers)
-    return fail(Code::bad_input, "its table of markers does not tell a filter for each");
+    return fail(Code::bad_input, "its table of markers does not give a filter for each");
   std::vector<data::FilterUsed> out;
   for (std::size_t m = 0; m < markers; ++m)
     out.push_back({.method = (*methods)[m],

@@ -79,7 +79,7 @@ Status check_metadata(const NwbMetadata& m) {
     if (!date->empty() && !is_date(*date))
       return fail(
           Code::bad_input,
-          fmt::format("'{}' is not a date as NWB wants it; expected 2026-11-21T14:05:00+00:00", *date));
+          fmt::format("'{}' is not a date in the form of NWB; expected 2026-11-21T14:05:00+00:00", *date));
   if (!m.sex.empty() && m.sex != "F" && m.sex != "M" && m.sex != "U" && m.sex != "O")
     return fail(Code::bad_input, fmt::format("'{}' is not a sex that NWB knows; need F, M, U or O", m.sex));
   return {};
@@ -101,7 +101,7 @@ Handle write_root(Output& out, const NwbMetadata& m, const NwbOutline& outline) 
 
   const Handle general = out.group(file, "general");
   out.texts(general.id(), "was_generated_by", {m.software, fallback(m.version, "unknown")}, 2);
-  // A subject is demanded, even where nothing is known of it.
+  // NWB requires a subject, even an unknown one.
   const Handle subject = out.group(general.id(), "subject", "Subject");
   out.text(subject.id(), "subject_id", fallback(m.subject_id, kUnknownSubject));
   out.text(subject.id(), "description", "subject of the recording");

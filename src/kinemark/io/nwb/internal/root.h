@@ -9,7 +9,7 @@
 
 namespace kinemark::io::internal {
 
-/// What makes this file different from others: the identifier, or everything that is told of it.
+/// The file's identity: its identifier, or all of its metadata.
 [[nodiscard]] std::string identity_of(const NwbMetadata& metadata, const NwbOutline& outline);
 
 /// Dates are ISO 8601 with a time zone, texts are UTF-8 without zero bytes, a sex is one that NWB knows.

@@ -42,7 +42,7 @@ Status read_clock(Input& in, hid_t series, std::int64_t frames, PositionSeries& 
         return fail(Code::bad_input,
                     fmt::format("has a timestamp {} after sample {}; they must increase", (*times)[i], i));
     out.time.t0_s = times->front();
-    // A single sample does not tell a rate; any will do.
+    // A single sample has no rate; any value will do.
     out.time.rate_hz = frames > 1 ? static_cast<double>(frames - 1) / (times->back() - times->front()) : 1.0;
     for (std::int64_t f = 0; f < frames; ++f)
       if (std::abs((*times)[static_cast<std::size_t>(f)] - out.time.time_s(f)) * out.time.rate_hz >
@@ -71,8 +71,9 @@ Result<PositionSeries> describe(Input& in, const std::string& path, std::string 
   const std::string unit = in.text_attribute(data.id(), "unit").value_or(pose ? "pixels" : "meters");
   const auto metres = metres_per_unit(unit);
   if (!metres)
-    return fail(Code::not_supported,
-                fmt::format("{}: is in '{}', which is no length; need meters or the like", path, unit));
+    return fail(
+        Code::not_supported,
+        fmt::format("{}: is in '{}', which is not a unit of length; need meters or the like", path, unit));
   out.metres_per_number = *metres * in.number_attribute(data.id(), "conversion").value_or(1.0);
   out.metres_offset = *metres * in.number_attribute(data.id(), "offset").value_or(0.0);
   if (const Handle frame = in.object(group.id(), "reference_frame"))
@@ -92,7 +93,7 @@ struct Found {
 };
 
 /// Every group of a positional type under `path`, by the group that holds it. Fails where something is there
-/// that cannot be opened: leaving it out would lose markers without a word.
+/// that cannot be opened: leaving it out would lose markers silently.
 Status walk(Input& in, const std::string& path, int depth, int& groups_left,
             std::map<std::string, std::vector<Found>>& found) {
   const auto damaged = [](const std::string& what) {
@@ -219,15 +220,15 @@ Result<PositionGroup> find_positions(Input& in) {
   auto markers = text_column(in, table.id(), "marker");
   auto names = text_column(in, table.id(), "series");
   if (markers && names) return find_ours(in, table.id(), std::move(*markers), std::move(*names));
-  // A table of ours that damage took is no file of somebody else. HDF5 1.10 can lose links without an error,
-  // so the file is also asked, in another place, who wrote it.
+  // Files of kinemark whose table was lost to damage must not be read as foreign ones. HDF5 1.10 can lose
+  // links without an error, so the writer's name is also read from another place.
   const Handle generated = in.object(in.file(), "/general/was_generated_by");
   const auto software = in.texts(generated.id());
   const bool says_ours = software && !software->empty() && software->front() == NwbMetadata{}.software;
   // H5Lexists() is negative where the links themselves are damaged.
   if (says_ours || (table && H5Lexists(table.id(), "series", H5P_DEFAULT) != 0))
     return fail(Code::bad_input,
-                "its table of markers is gone or cannot be read; the file is broken. Nothing was read.");
+                "its table of markers is missing or cannot be read; the file is damaged. Nothing was read.");
   return find_foreign(in);
 }
 

@@ -11,7 +11,7 @@
 
 namespace kinemark::io::internal {
 
-/// One series of positions in a file: a marker to be.
+/// One series of positions in a file, which becomes a marker.
 struct PositionSeries {
   std::string marker;
   std::string path;

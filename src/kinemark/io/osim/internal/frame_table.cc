@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kMaxFrameDepth = 50;
 constexpr std::size_t kMaxFrames = 100'000,
-                      kMaxPath = 1000;  // bounds on what a hostile file can make us keep
+                      kMaxPath = 1000;  // bounds on the memory that a hostile file can claim
 
-/// What a component adds to the paths of those below it: its name, or for a set without one the lower-case
-/// tag
+/// The part that a component adds to the paths of those below it: its name, or for a set without one the
+/// lower-case tag
 /// ("jointset"). Elements that are neither ("objects", "frames") add nothing.
 std::string path_step(pugi::xml_node node) {
   if (std::string name = name_of(node); !name.empty()) return name;
@@ -119,7 +119,7 @@ Attachment FrameTable::offset_frame(pugi::xml_node node) {
   if (const auto parent = socket(node, "parent"))
     frame = *parent;
   else
-    file_.note(node, "does not say on which frame it sits");
+    file_.note(node, "does not name its frame");
   --depth_;
   frame.body_from_frame = frame.body_from_frame * read_transform(file_, node, "translation", "orientation");
   return resolved_.insert_or_assign(node, frame).first->second;

@@ -15,7 +15,8 @@ namespace kinemark::io::osim {
 /// The tasks of <set> below owner; anything wrong is noted in the file.
 [[nodiscard]] IkTasks read_ik_tasks(XmlFile& file, pugi::xml_node owner, const char* set);
 
-/// A path as the file writes it, on any system, seen from `folder`; empty when it is absent or "Unassigned".
+/// A path as written in the file, of any operating system, relative to `folder`; empty when it is absent or
+/// "Unassigned".
 [[nodiscard]] std::filesystem::path path_of(pugi::xml_node node, const char* child,
                                             const std::filesystem::path& folder);
 

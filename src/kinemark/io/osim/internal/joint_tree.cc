@@ -67,7 +67,7 @@ void add_scapulothoracic(const FileJoint& joint, ModelDescription& description) 
 
 enum class Direction { unknown, as_written, turned_round };
 
-/// From the ground outwards, against a joint's direction only where nothing else leads on.
+/// From the ground outwards, against a joint's direction only where no other path exists.
 std::vector<Direction> directions(const std::vector<FileJoint>& joints, std::vector<bool>& reached) {
   const auto slot = [](int body) { return static_cast<std::size_t>(body + 1); };  // 0: ground
   std::vector<std::vector<std::size_t>> by_parent(reached.size()), by_child(reached.size());

@@ -73,8 +73,8 @@ std::vector<AxisDescription> ellipsoid_axes(const Vector3d& radii, int a, int b)
 
 ScapulothoracicPair split(const JointDescription& joint, const Scapulothoracic& parameters,
                           std::span<const int> coordinates, int body_between) {
-  // The ellipsoid's frames are turned by 90 deg about Z on both sides, so that abduction and elevation come
-  // out positive; in the turned frame the thorax's x and y radii change places.
+  // The ellipsoid's frames are rotated by 90 deg about Z on both sides, so that abduction and elevation are
+  // positive; in the rotated frame the thorax's x and y radii are exchanged.
   const Vector3d radii(parameters.radii.y(), parameters.radii.x(), parameters.radii.z());
   ScapulothoracicPair pair;
   pair.sliding = {.name = joint.name + "_sliding",

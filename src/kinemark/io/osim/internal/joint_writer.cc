@@ -72,7 +72,7 @@ Result<std::array<AxisDescription, 3>> three_axes(const JointDescription& joint,
     if (axis.is_rotation == rotations) axes.push_back(axis);
   const auto refuse = [&](std::string_view why) {
     return fail(Code::not_supported,
-                fmt::format("joint '{}' {}, which OpenSim has no form for", joint.name, why));
+                fmt::format("joint '{}' {}, which OpenSim cannot represent", joint.name, why));
   };
   if (axes.size() > 3)
     return refuse(rotations ? "has more than three rotations" : "has more than three translations");
@@ -118,7 +118,7 @@ Status write_spatial_transform(pugi::xml_node node, const ModelDescription& desc
   return {};
 }
 
-/// What OpenSim takes a coordinate for when nothing is said.
+/// OpenSim's default motion type of a coordinate.
 bool looks_like_rotation(const JointDescription& joint, int idx) {
   return std::ranges::any_of(
       joint.axes, [&](const auto& axis) { return axis.coordinate_idx == idx && axis.is_rotation; });
@@ -141,7 +141,8 @@ bool is_identity(const math::SE3& frame) {
   return frame.rotation == Eigen::Matrix3d::Identity() && frame.translation == Vector3d::Zero();
 }
 
-/// What the joint's socket names: the body itself, or an offset frame of the joint that is added to `frames`.
+/// The name in the joint's socket: the body itself, or an offset frame of the joint that is added to
+/// `frames`.
 std::string attach(pugi::xml_node frames, const ModelDescription& description, int body_idx,
                    const math::SE3& frame, std::string_view name) {
   std::string path = body_path(description, body_idx);

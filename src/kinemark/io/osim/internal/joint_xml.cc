@@ -58,7 +58,7 @@ std::vector<pugi::xml_node> coordinate_nodes(pugi::xml_node joint) {
   return nodes;
 }
 
-/// The coordinates of one joint: reads them, makes those that the file only names.
+/// The coordinates of one joint: reads them and creates those that the file only names.
 class JointCoordinates {
  public:
   JointCoordinates(XmlFile& file, pugi::xml_node model, pugi::xml_node joint, ModelDescription& description)
@@ -121,7 +121,8 @@ class JointCoordinates {
   std::vector<std::string> words_;  // motion_type, one per index
 };
 
-/// Slot 0 to 2 for rotation1 to 3, 3 to 5 for translation1 to 3; by position where the name says nothing.
+/// Slot 0 to 2 for rotation1 to 3, 3 to 5 for translation1 to 3; by position where the name is not one of
+/// these.
 std::size_t slot_of(pugi::xml_node axis, std::size_t position) {
   constexpr std::array<std::string_view, 6> names = {"rotation1",    "rotation2",    "rotation3",
                                                      "translation1", "translation2", "translation3"};
@@ -188,7 +189,7 @@ void read_scapulothoracic(XmlFile& file, pugi::xml_node node, data::JointDescrip
   description.parameters = {radii.x(), radii.y(), radii.z(), origin[0], origin[1], direction};
 }
 
-/// Frame of the joint on one side: a socket or, before 4.0, a body and a place on it.
+/// Frame of the joint on one side: a socket or, before 4.0, a body and a position on it.
 Attachment read_side(XmlFile& file, FrameTable& frames, pugi::xml_node node, bool parent, int owner_body) {
   std::optional<Attachment> side = frames.socket(node, parent ? "parent_frame" : "child_frame");
   if (!side) side = frames.socket(node, parent ? "parent_body" : "child_body");

@@ -12,7 +12,7 @@
 
 namespace kinemark::io::osim {
 
-/// A joint as the file has it, before it is known which of its two bodies is nearer to the ground.
+/// A joint as stored in the file, before it is known which of its two bodies is nearer to the ground.
 struct FileJoint {
   pugi::xml_node node;
   data::JointDescription description;  ///< parent and child as the file names them
@@ -24,11 +24,11 @@ struct FileJoint {
 [[nodiscard]] FileJoint read_joint(XmlFile& file, FrameTable& frames, pugi::xml_node model,
                                    pugi::xml_node node, int owner_body, data::ModelDescription& description);
 
-/// Hangs every body from the ground: turns joints round whose child is nearer to the ground than their
-/// parent, splits scapulothoracic joints, and puts the result into the description. A joint that closes a
+/// Connects every body to the ground: reverses joints whose child is nearer to the ground than their parent,
+/// splits scapulothoracic joints, and puts the result into the description. A joint that closes a
 /// loop, or a body that no joint reaches, is noted.
 ///
-/// A joint turned round moves by the inverse, R^-1 then the opposite translation. Where it has both, a
+/// A reversed joint has the inverse motion: R^-1, then the opposite translation. Where it has both, a
 /// massless body
 /// "<joint>_intermediate" comes between, with the joints "<joint>_rotation" and "<joint>".
 void hang_from_ground(XmlFile& file, std::vector<FileJoint> joints, data::ModelDescription& description);

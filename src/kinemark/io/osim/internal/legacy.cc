@@ -27,7 +27,7 @@ void rename_objects(pugi::xml_node model, const char* set, const char* tag) {
     if (std::string_view(object.name()).starts_with("Simbody")) object.set_name(tag);
 }
 
-/// SimbodyTranslationDof "tx" has no axis of its own; a dof without the word for its kind says is_rotation.
+/// SimbodyTranslationDof "tx" has no axis of its own; a dof without motion_type has is_rotation.
 bool is_rotation(pugi::xml_node dof) {
   if (std::string_view(dof.name()).find("Rotation") != std::string_view::npos) return true;
   return text_of(dof, "is_rotation") == "true";

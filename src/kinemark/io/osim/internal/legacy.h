@@ -6,8 +6,9 @@
 
 namespace kinemark::io::osim {
 
-/// Bring a model of the first versions (before 2.0) into the shape of 2.0, in place: what the dynamics engine
-/// held goes into the model, SimbodyBody and its like become Body, and the degrees of freedom of a joint
+/// Convert a model of the first versions (before 2.0) to the structure of 2.0, in place: the contents of the
+/// dynamics engine move into the model, SimbodyBody and its like become Body, and the degrees of freedom of a
+/// joint
 /// (DofSet, TransformAxisSet) become a CustomJoint's SpatialTransform. Does nothing to newer models.
 void modernise(pugi::xml_node model);
 

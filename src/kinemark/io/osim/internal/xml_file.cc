@@ -83,7 +83,7 @@ Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
   const auto options = pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype;
   auto outcome = file.tree_.load_buffer(text.data(), text.size(), options, encoding);
   if (outcome.status == pugi::status_end_element_mismatch) {
-    // A closing tag that nobody opened, behind a document that is complete without it.
+    // An unmatched closing tag after an otherwise complete document.
     if (const auto begin = last_closing_tag(text, static_cast<std::size_t>(outcome.offset)))
       outcome = file.tree_.load_buffer(text.data(), *begin, options, encoding);
   }
@@ -122,7 +122,7 @@ void XmlFile::inline_files(const std::filesystem::path* folder) {
   for (const pugi::xml_node node : finder.found) {
     const std::string wanted(trim(node.attribute("file").value()));
     if (folder == nullptr)
-      return note(node, fmt::format("stands in another file, {}, which is not at hand", in_quotes(wanted)));
+      return note(node, fmt::format("stands in another file, {}, which is not available", in_quotes(wanted)));
     const auto other = read(*folder / wanted);
     if (!other) return note(node, other.error().message, other.error().code);
     const pugi::xml_node source = other->find_object({node.name()});

@@ -15,11 +15,11 @@
 
 namespace kinemark::io::osim {
 
-/// A file of OpenSim's as a tree of elements, and the first thing found wrong with its content.
+/// An OpenSim file as a tree of elements, with the first error found in its content.
 ///
 /// Files in the field are not always well-formed: bytes that are not UTF-8 are taken as Latin-1, element
-/// names may hold "::", closing tags nobody opened at the end are passed over. A document that is cut short,
-/// or nested deeper than any real one, is refused.
+/// names may hold "::", unmatched closing tags at the end are ignored. A truncated or unreasonably deeply
+/// nested document is refused.
 ///
 /// The getters never stop: a bad value is noted (the first one wins) and the fallback returned, so that a
 /// reader goes straight on and looks at error() once.
@@ -35,7 +35,7 @@ class XmlFile {
   /// The first element below the document element whose tag is one of `tags`, or that element itself.
   [[nodiscard]] pugi::xml_node find_object(std::initializer_list<const char*> tags) const;
   [[nodiscard]] pugi::xml_node document() const { return tree_.document_element(); }
-  /// Version of the document, 10500 for the oldest ones, which do not say.
+  /// Version of the document, 10500 for the oldest ones, which do not state it.
   [[nodiscard]] int version() const;
   [[nodiscard]] const std::string& name() const { return name_; }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// How counts are described in the channel that carries them.
+// Description of counts in the metadata of the channel that carries them.
 #pragma once
 
 #include <cstddef>

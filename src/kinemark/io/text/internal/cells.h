@@ -57,7 +57,7 @@ class Lines {
 /// times the memory of their text.
 [[nodiscard]] Status check_header_line(std::string_view line, std::int64_t number);
 
-/// How cells are told apart: by single tabs (cells may be blank), or by runs of blanks.
+/// How cells are separated: by single tabs (cells may be blank), or by runs of blanks.
 enum class Separator : std::uint8_t { tab, blanks };
 
 enum class Cell : std::uint8_t {
@@ -106,7 +106,7 @@ class Cells {
   bool begin_cell() {
     if (done_) return false;
     while (p_ != end_ && (is_space(*p_) || (!tabs_ && *p_ == '\t'))) ++p_;
-    // Runs of blanks end with the last cell; a tab promises one more.
+    // Runs of blanks end with the last cell; after a tab follows one more.
     return tabs_ || p_ != end_;
   }
   Cell finish_blank() {

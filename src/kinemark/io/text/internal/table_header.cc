@@ -153,7 +153,7 @@ Status read_labels(std::string_view line, std::int64_t number, TableHeader& head
       header.columns_named.push_back(fmt::format("{}_{}", labels[i], k));
   }
   if (header.columns && *header.columns != static_cast<double>(labels.size()))
-    header.warnings.push_back(fmt::format("header says {} columns, {} are labelled; the labels are believed",
+    header.warnings.push_back(fmt::format("header says {} columns, {} are labelled; the labels are used",
                                           *header.columns, labels.size()));
   return {};
 }

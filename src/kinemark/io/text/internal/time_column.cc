@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -62,9 +63,7 @@ double rounded_rate(std::span<const double> time_s, double resolution_s, double 
 double median_step(std::span<const double> time_s) {
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return math::upper_median(steps);
 }
 
 bool usable(double rate_hz) { return rate_hz > 0.0 && std::isfinite(rate_hz); }
@@ -80,7 +79,7 @@ double resolution_of(std::string_view number) {
     exponent = std::atoi(std::string(number.substr(exponent_at + 1, 8)).c_str());
   const std::size_t point = digits.find('.');
   if (point != std::string_view::npos) {
-    // Printers fill up with zeros that say nothing: "0.017000" is rounded to 0.001.
+    // Trailing zeros carry no information: "0.017000" is rounded to 0.001.
     const std::size_t last = digits.find_last_not_of('0');
     exponent -= static_cast<double>(last - point);
   }
@@ -95,7 +94,7 @@ Result<TimeBase> even_time(std::span<const double> time_s, double resolution_s,
   const double header_hz = first_stated == stated.end() ? 0.0 : *first_stated;
   if (time_s.size() == 1) {
     if (header_hz == 0.0)
-      return fail(Code::bad_input, "the header gives no rate and a single row does not tell one");
+      return fail(Code::bad_input, "the header gives no rate and a single row does not determine one");
     time.rate_hz = header_hz;
     return time;
   }
@@ -104,7 +103,7 @@ Result<TimeBase> even_time(std::span<const double> time_s, double resolution_s,
     if (!usable(rate_hz) || spread(time_s, rate_hz) > tolerance(resolution_s, rate_hz)) continue;
     time.rate_hz = rate_hz;
     if (rate_hz != header_hz)
-      warnings.push_back(fmt::format("header says {} Hz, but the time column runs at {} Hz and is believed",
+      warnings.push_back(fmt::format("header says {} Hz, but the time column runs at {} Hz and is used",
                                      header_hz, rate_hz));
     return time;
   }
@@ -116,9 +115,8 @@ Result<TimeBase> even_time(std::span<const double> time_s, double resolution_s,
       warnings.push_back(
           fmt::format("header gives no rate; {:.6g} Hz is taken from the time column", time.rate_hz));
     else if (std::abs(time.rate_hz - header_hz) > kSameRate * header_hz)
-      warnings.push_back(
-          fmt::format("header says {} Hz, but the time column runs at {:.6g} Hz and is believed", header_hz,
-                      time.rate_hz));
+      warnings.push_back(fmt::format("header says {} Hz, but the time column runs at {:.6g} Hz and is used",
+                                     header_hz, time.rate_hz));
     return time;
   }
 

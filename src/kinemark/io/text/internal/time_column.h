@@ -19,13 +19,14 @@ namespace kinemark::io::internal {
 /// The even time base that describes a written time column best.
 ///
 /// A stated rate (of the header, in order of trust) is taken when the column agrees with it to half of
-/// `resolution_s`, the rounding of the written times, or to 2 % of a frame. Otherwise the column is believed
-/// when it is even, with a warning. An uneven column gets the rate of its median step (or the stated rate,
-/// when they agree) and a warning that tells the largest deviation. Frame 0 is at time_s[0].
+/// `resolution_s`, the rounding of the written times, or to 2 % of a frame. Otherwise an even column
+/// determines the rate, with a warning. An uneven column gets the rate of its median step (or the stated
+/// rate,
+/// when they agree) and a warning that gives the largest deviation. Frame 0 is at time_s[0].
 ///
 /// @param time_s   one or more finite times, s
 /// @param stated   rates of the header in Hz; those that are not positive and finite are skipped
-/// Code::bad_input when neither the column nor the header tells a rate. O(rows).
+/// Code::bad_input when neither the column nor the header gives a rate. O(rows).
 [[nodiscard]] Result<TimeBase> even_time(std::span<const double> time_s, double resolution_s,
                                          std::span<const double> stated, std::vector<std::string>& warnings);
 

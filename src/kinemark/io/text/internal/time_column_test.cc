@@ -66,7 +66,7 @@ TEST(EvenTime, BelievesAnEvenColumnAgainstTheHeader) {
   const auto out = fit(clock(200, 25.0, 0.001), 0.001, {250.0});
   EXPECT_EQ(out.time.rate_hz, 25.0);
   EXPECT_THAT(out.warnings, ElementsAre(HasSubstr("250 Hz, but the time column runs at 25 Hz")));
-  // A rounded header is no contradiction, but over an hour the column knows better.
+  // A rounded header is no contradiction, but over an hour the column is more accurate.
   const auto ntsc = fit(clock(200'000, 60.0 / 1.001, 0.0), 0.0, {59.94});
   EXPECT_NEAR(ntsc.time.rate_hz, 60.0 / 1.001, 1e-9);
   EXPECT_THAT(ntsc.warnings, IsEmpty());
@@ -96,7 +96,7 @@ TEST(EvenTime, TellsTheLargestDeviationOfAnUnevenColumn) {
   EXPECT_THAT(odd_end.warnings, ElementsAre(testing::AllOf(HasSubstr("row 126 is at 4.992 s, 0.008 s off"),
                                                            HasSubstr("250 Hz"))));
 
-  // Ten frames lost in the middle: the header still knows the rate.
+  // Ten frames lost in the middle: the header still has the right rate.
   auto gap = clock(100, 100.0, 0.0);
   for (std::size_t i = 50; i < gap.size(); ++i) gap[i] += 0.1;
   const auto lost = fit(gap, 0.01, {100.0});

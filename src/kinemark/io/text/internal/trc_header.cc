@@ -113,8 +113,8 @@ Status read_names(Lines& lines, TrcHeader& header) {
                             lines.number(), excerpt(trim(line))));
   if (line.find('\t') == std::string_view::npos) header.separator = Separator::blanks;
 
-  // Cell numbers of the names. Each third cell: a name stands above its x column, and a gap is a marker that
-  // nobody named. Anything else (packed, or shifted by a tab) tells the order only.
+  // Cell numbers of the names. Each third cell: a name stands above its x column, and a gap is an unnamed
+  // marker. Anything else (packed, or shifted by a tab) gives the order only.
   std::vector<std::size_t> name_cells;
   for (std::size_t c = 2; c < cells.size(); ++c)
     if (!cells[c].empty()) name_cells.push_back(c);
@@ -137,7 +137,7 @@ Status read_names(Lines& lines, TrcHeader& header) {
     header.warnings.push_back(fmt::format("{} markers between the named ones have no name and are not read",
                                           header.marker.size() - header.names.size()));
   if (header.markers && *header.markers != static_cast<double>(header.names.size()))
-    header.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are believed",
+    header.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are used",
                                           *header.markers, header.names.size()));
   return {};
 }

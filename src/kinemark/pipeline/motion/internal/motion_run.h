@@ -1,22 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a MotionJob that do not depend on how the motion is found: read, name the files, tell, write.
+// The steps of a MotionJob that do not depend on how the motion is found: read, name the files, judge, write.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kinemark/core/progress.h"
 #include "kinemark/data/image_tracks.h"
 #include "kinemark/data/joint_motion.h"
-#include "kinemark/data/table.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/pipeline/motion/torques.h"
 
@@ -26,6 +24,7 @@ struct MotionInputs {
   model::Model model;
   data::Trial trial;
   std::optional<data::ImageTracks> images;  ///< at the frames of the trial
+  std::vector<data::InputFile> files;       ///< all that were read, for the record
 };
 
 /// Model, markers and output are named, images as they must be. `or_else` ends the advice: " or a --setup
@@ -33,56 +32,36 @@ struct MotionInputs {
 [[nodiscard]] Status check_named(const MotionJob& job, std::string_view or_else = "");
 [[nodiscard]] Result<MotionInputs> read_inputs(const MotionJob& job);
 
-/// What is known of a run before anything is solved, with the hashes of model and markers.
-[[nodiscard]] Result<report::IkRun> begin_run(const MotionJob& job, const MotionInputs& inputs);
+/// What is known of a run before anything is solved.
+[[nodiscard]] report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs);
 /// Files of forces, and what there is to tell of the torques.
 [[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);
-/// Nothing when the path is empty.
+/// No value when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
 
-/// What the estimate (IkResult, TrackResult) says of itself and of each marker, and why a marker that was
-/// seen may have the weight 0.
-template <class Estimate>
-void add_estimate(report::IkRun& run, const Estimate& result, std::string_view why_weightless) {
-  run.solve_s = result.solve_seconds;
-  run.warnings.insert(run.warnings.end(), result.warnings.begin(), result.warnings.end());
-  for (const auto& marker : result.markers)
-    run.markers.push_back({.name = marker.name,
-                           .weight = marker.weight,
-                           .noise_sd_m = std::hypot(marker.noise_sd_m, marker.common_sd_m)});
-  const auto exclude = [&](const std::string& name, std::string_view why) {
-    run.markers.push_back({.name = name, .weight = 0.0, .why_excluded = std::string(why)});
-  };
-  for (const auto& marker : result.excluded_markers)
-    exclude(marker.name, marker.seen ? why_weightless : "never seen");
-  for (const auto& name : result.model_markers_without_data)
-    exclude(name, "in the model, not in the recording");
-  for (const auto& name : result.data_markers_without_model)
-    exclude(name, "in the recording, not in the model");
-}
+/// The fit of the estimate; its warnings and what it found, in words, behind the warnings that are there.
+/// @param time  of the estimated motion
+void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time);
 
 /// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
               std::string sentence);
-/// The gates that all have: length of the mean marker error, told in `offset_sentence`, and marker RMS.
+/// The gates that all have: length of the mean marker error, described by `offset_sentence`, and marker RMS.
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m);
 
 /// The job's output, files beside it by their suffixes, and further ones: refused where they exist.
 [[nodiscard]] Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,
                                     const std::vector<std::filesystem::path>& further = {});
-/// Write what will become `target`, one of the staging's.
-[[nodiscard]] Status put(const Staging& staging, const std::filesystem::path& target,
-                         const data::Table& table);
-[[nodiscard]] Status put(const Staging& staging, const std::filesystem::path& target,
-                         const std::string& text);
-/// Summarise the run and write, where they were staged, all that the motion holds, and Q_report.json. @param
-/// markers  as for report::summarize()
-[[nodiscard]] Status write_motion(const MotionJob& job, const Staging& staging, report::IkRun run,
-                                  const data::JointMotion& motion, const data::Trajectories* markers,
-                                  MotionOutcome& outcome);
-/// Let appear what was put, unless the caller stops `what` in the last moment.
-[[nodiscard]] Status reveal(Staging& staging, const Progress& progress, std::string_view what,
-                            MotionOutcome& outcome);
+/// Summary, gates and warnings of the outcome. @param markers  as for report::summarize()
+[[nodiscard]] Status judge(report::IkRun run, const data::JointMotion& motion,
+                           const data::Trajectories* markers, MotionOutcome& outcome);
+/// A table for each thing that the motion holds, and Q_report.json. All three must live until they are
+/// written.
+[[nodiscard]] std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
+                                                   const report::IkSummary& summary);
+/// Write the files and let them appear, unless the caller stops `what` in the last moment.
+[[nodiscard]] Status write(const MotionJob& job, Staging& staging, const std::vector<ResultFile>& files,
+                           std::string_view what, MotionOutcome& outcome);
 
 }  // namespace kinemark::pipeline::internal

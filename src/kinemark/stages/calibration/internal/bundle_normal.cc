@@ -8,6 +8,7 @@
 
 #include "kinemark/camera/response.h"
 #include "kinemark/math/scale_free.h"
+#include "kinemark/math/se3.h"
 #include "kinemark/stages/calibration/internal/bundle_problem.h"
 
 namespace kinemark::calibration::internal {
@@ -20,13 +21,7 @@ using Eigen::VectorXd;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kFlat = 1e-9;  // keeps a pose that one camera alone saw from being singular
-
-Eigen::Matrix3d cross(const Vector3d& v) {
-  Eigen::Matrix3d out;
-  out << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return out;
-}
+constexpr double kFlat = 1e-9;  // keeps a pose seen by one camera only from being singular
 
 }  // namespace
 
@@ -86,7 +81,7 @@ void BundleProblem::add_tree(const BundleState& state, MatrixXd& a, VectorXd& g)
             tree_weight_[static_cast<std::size_t>((poses_[p] * tree_.leds() + led) * tree_.cameras + c)],
             free);
         Eigen::Matrix<double, 3, 6> d_pose;
-        d_pose << -rows.d_point * cross(arm), rows.d_point;
+        d_pose << -rows.d_point * math::skew(arm), rows.d_point;
         h[p] += d_pose.transpose() * d_pose;
         b[p] += d_pose.transpose() * rows.residual;
         w += d_pose.transpose() * rows.d_free;
@@ -142,14 +137,13 @@ void BundleProblem::add_grids(const BundleState& state, MatrixXd& a, VectorXd& g
       rows.fill(camera, world_from_cam * (place + cam_from_grid.translation), seen, grid_weight_[index],
                 free);
       const auto row = 3 * static_cast<Eigen::Index>(n), at = 2 * static_cast<Eigen::Index>(n);
-      // The grid stands before its camera: it goes along with that camera's pose, which therefore does not
-      // matter.
+      // The grid's pose is relative to its camera, so that the camera's pose has no effect.
       for (int k = 0; k < width; ++k)
         if (free[static_cast<std::size_t>(k)].index < ParameterLayout::focal) rows.d_free.col(k).setZero();
       const Eigen::Matrix3d d_cam = rows.d_point * world_from_cam.rotation;
       const Eigen::Matrix<double, 3, 2> d_shift = d_cam * cam_from_grid.rotation.leftCols<2>();
       stacked.block(row, 0, 3, width) = rows.d_free;
-      stacked.block<3, 3>(row, width) = -d_cam * cross(place);
+      stacked.block<3, 3>(row, width) = -d_cam * math::skew(place);
       stacked.block<3, 3>(row, width + 3) = d_cam;
       residuals.segment<3>(row) = rows.residual;
       node_factor_[n] += d_shift.transpose() * d_shift;

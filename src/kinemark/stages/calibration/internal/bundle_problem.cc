@@ -60,7 +60,7 @@ void BundleProblem::set_free(const data::Rig& rig) {
     const auto add = [&](int first, int count, double sigma) {
       for (int i = 0; i < count; ++i) free_.push_back({c, first + i, sigma});
     };
-    if (c > 0) {  // the first camera holds the world
+    if (c > 0) {  // the first camera fixes the world frame
       add(ParameterLayout::rotation, 3, p.rotation_rad);
       add(ParameterLayout::centre, 3, p.centre_m);
     }
@@ -193,8 +193,7 @@ BundleProblem::Misfit BundleProblem::misfit(const BundleState& state) const {
       static_cast<std::ptrdiff_t>(options_.largest_outlier_share * static_cast<double>(all.size())));
   std::ranges::nth_element(all, all.end() - std::max<std::ptrdiff_t>(leave, 1));
   const double sum = std::accumulate(all.begin(), all.end() - leave, 0.0);
-  // Priors pay for their part of the unknowns: each takes 1 - (posterior / prior variance) of a degree of
-  // freedom.
+  // Degrees of freedom of the priors: each takes 1 - (posterior / prior variance).
   const VectorXd variance = [&] {
     MatrixXd inverse = MatrixXd::Identity(factor_.rows(), factor_.cols());
     factor_.triangularView<Eigen::Lower>().solveInPlace(inverse);

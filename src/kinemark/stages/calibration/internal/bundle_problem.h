@@ -11,7 +11,7 @@
 
 namespace kinemark::calibration::internal {
 
-/// A parameter that the bundle moves, and how far it may lie from where it starts.
+/// A free parameter of the bundle adjustment and the standard deviation of its prior.
 struct FreeParameter {
   int camera = 0;
   int index = 0;  ///< by data::ParameterLayout
@@ -26,7 +26,7 @@ struct BundleState {
   std::vector<Eigen::Vector2d> grid_shift;  // per node: the same grid stood before every camera
 };
 
-/// Place of a node of a grid that is off by `shift`, in the grid, m.
+/// Position of a grid node that is displaced by `shift`, in the grid, m.
 [[nodiscard]] Eigen::Vector3d on_grid(const GridSightings& grid, int node, const Eigen::Vector2d& shift);
 
 /// What the bundle minimises (bundle_problem.cc), and its normal equations with poses and grid nodes
@@ -39,7 +39,7 @@ class BundleProblem {
   BundleProblem(data::Rig nominal, const StillPoses& tree, const std::vector<GridSightings>& grids,
                 const BundleOptions& options);
 
-  /// Poses of the tree that take part (all, unless told).
+  /// Poses of the tree that take part (default: all).
   void use_poses(std::vector<int> poses) { poses_ = std::move(poses); }
   [[nodiscard]] const std::vector<int>& poses() const { return poses_; }
 
@@ -53,7 +53,7 @@ class BundleProblem {
 
   struct Step {
     bool solved = false;
-    double decrement = 0.0;  // g' A^-1 g: the fall of the cost that the step promises, times two
+    double decrement = 0.0;  // g' A^-1 g: the predicted decrease of the cost by the step, times two
     Eigen::VectorXd global;
     std::vector<Eigen::Matrix<double, 6, 1>> poses;  // by poses()
     std::vector<Eigen::Vector2d> nodes;
@@ -66,7 +66,8 @@ class BundleProblem {
   [[nodiscard]] Eigen::MatrixXd covariance() const;
   [[nodiscard]] const std::vector<FreeParameter>& free() const { return free_; }
 
-  /// Derivative of pose `p` of poses() (turn, then shift) by the free parameters, from the last solve().
+  /// Derivative of pose `p` of poses() (rotation, then translation) by the free parameters, from the last
+  /// solve().
   [[nodiscard]] Eigen::MatrixXd pose_by_free(std::size_t p) const;
 
   struct Misfit {

@@ -12,7 +12,7 @@ using data::ParameterLayout;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Derivative of a turned (by w) and shifted (by t) point: w x arm + t.
+/// Derivative of a point by rotation w and translation t: w x arm + t.
 Eigen::Matrix<double, 3, 6> d_moved(const Vector3d& arm) {
   Eigen::Matrix<double, 3, 6> out;
   for (int i = 0; i < 3; ++i) out.col(i) = Vector3d::Unit(i).cross(arm);
@@ -26,8 +26,8 @@ MatrixXd hold_the_cloud(const data::Rig& rig, const BundleProblem& problem,
                         const std::vector<math::SE3>& world_from_tree, const std::vector<Vector3d>& tree) {
   const auto& free = problem.free();
   const auto columns = static_cast<Eigen::Index>(free.size());
-  // motion: the rigid motion (turn, shift) of the cloud by the free parameters, in least squares over its
-  // points.
+  // motion: the rigid motion (rotation, translation) of the cloud by the free parameters, in least squares
+  // over its points.
   Eigen::Matrix<double, 6, 6> square = Eigen::Matrix<double, 6, 6>::Zero();
   MatrixXd right = MatrixXd::Zero(6, columns);
   const auto& poses = problem.poses();

@@ -10,7 +10,7 @@
 namespace kinemark::calibration::internal {
 
 /// Covariance of all parameters of all cameras (data::Rig::covariance) in the gauge that holds the cloud of
-/// tree LEDs: what remains is what matters among points, not where the laboratory is.
+/// tree LEDs: the uncertainty of the laboratory frame as a whole is thereby removed.
 ///
 /// A change of the free parameters moves every pose of the tree, hence the cloud as a whole, by a small rigid
 /// motion; taking that motion out again moves the cameras. S-transformation, Baarda (1973).

@@ -11,8 +11,8 @@
 
 namespace kinemark::calibration::internal {
 
-/// Place of the spot on the sheet (half-sides) that four readings without offset tell of, by Gauss-Newton
-/// from the middle. No value when they are dark.
+/// Position of the spot on the sheet (half-sides) from four readings without offset, by Gauss-Newton from the
+/// middle. No value when they are dark.
 [[nodiscard]] std::optional<Eigen::Vector2d> find_spot(const data::Detector& detector,
                                                        const Eigen::Vector4d& readings);
 

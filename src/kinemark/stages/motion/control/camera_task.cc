@@ -32,9 +32,9 @@ constexpr double kMirrored = 1.2;             // periods of the cut-off, as for 
 constexpr double kUnseen = 0.1;               // cosine of the angle off the axis: 84 degrees
 constexpr double kPlain = 0.25;               // 76 degrees
 constexpr double kDifference = 1e-5;          // of the depth: rounding and truncation are both below 1e-9
-constexpr double kStandstill_m_per_s = 1e-9;  // slower, the image does not bend
+constexpr double kStandstill_m_per_s = 1e-9;  // slower, the curvature is negligible
 
-/// How much of a view remains at this angle: bounded where the point nears the plane of the lens.
+/// Weight of a view at this angle, 0 to 1: it vanishes where the point nears the plane of the lens.
 double facing(const Vector3d& x_in_cam) {
   return smooth_step((x_in_cam.z() / x_in_cam.norm() - kUnseen) / (kPlain - kUnseen));
 }
@@ -69,7 +69,8 @@ class CameraTask : public Task {
   [[nodiscard]] Status bind(const model::Model& model) override {
     if (!status_) return status_;
     if (!seen()) return fail(Code::bad_input, "no camera sees it in two frames in a row");
-    if (!point_.x_in_body.allFinite()) return fail(Code::bad_input, "its place in the body is not a number");
+    if (!point_.x_in_body.allFinite())
+      return fail(Code::bad_input, "its position in the body is not a number");
     const auto body = internal::body_by_name(model, point_.body);
     if (!body) return std::unexpected(body.error());
     body_ = *body;
@@ -112,7 +113,7 @@ class CameraTask : public Task {
   }
 
  private:
-  /// What the curvature of the projection adds to the image's acceleration: (change of d_point along the
+  /// Part of the image acceleration due to the curvature of the projection: (change of d_point along the
   /// velocity) velocity, by central differences.
   static Vector2d bend(const data::Camera& camera, const Vector3d& place, const Vector3d& velocity,
                        double depth) {
@@ -124,7 +125,7 @@ class CameraTask : public Task {
             velocity);
   }
 
-  /// Goal and its two derivatives at a time, and how much of it counts, 0 to 1.
+  /// Goal and its two derivatives at a time; returns its weight, 0 to 1.
   [[nodiscard]] double look(const View& view, double time_s, std::array<double, 6>& goal) const {
     if (view.runs.empty()) return 0.0;
     const double frame = (time_s - time_.t0_s) * time_.rate_hz;
@@ -168,7 +169,7 @@ class CameraTask : public Task {
         lowpass() ? internal::GoalFilter(time_.rate_hz, o.cutoff_hz, 0.0, o.fade_s).noise_in_goal() : 1.0;
     for (std::size_t c = 0; c < tracks.cameras.size(); ++c) {
       View view{.camera = tracks.cameras[c], .sd = std::sqrt(left) * tracks.noise_sd[c], .runs = {}};
-      view.camera.table = {};  // for another method, and large
+      view.camera.table = {};  // not needed here, and large
       if (auto status = find_runs(tracks, c, marker, view.runs); !status) return status;
       views_.push_back(std::move(view));
     }
@@ -181,7 +182,7 @@ class CameraTask : public Task {
     for (std::int64_t first = 0; first < frames; ++first) {
       std::int64_t end = first;
       while (end < frames && tracks.at(end, c, marker).allFinite()) ++end;
-      // Goals need both ends of an interval, but for a goal that stays.
+      // Goals need both ends of an interval, except for a constant goal.
       if (end - first >= std::min<std::int64_t>(2, frames)) {
         Eigen::MatrixXd values(2, end - first);
         for (std::int64_t f = first; f < end; ++f) values.col(f - first) = tracks.at(f, c, marker);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Goals in the images of calibrated cameras: a point of the body is to be seen where the cameras saw it. One
-// camera fixes two directions of a point and leaves the third to the body; two cameras fix its place.
+// Goals in the images of calibrated cameras: the image of a point of the body shall agree with the measured
+// one. One camera fixes two directions of the point, the third follows from the body; two cameras fix its
+// position.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,7 @@
 
 namespace kinemark::motion {
 
-/// Options of camera_task(). The last two mean what they mean for markers, see TrackOptions.
+/// Options of camera_task(). cutoff_hz and fade_s have the same meaning as for markers, see TrackOptions.
 struct CameraTaskOptions {
   double weight = 1.0;  ///< > 0; with 1, a row counts like a coordinate of a marker
   double cutoff_hz =
@@ -24,20 +25,20 @@ struct CameraTaskOptions {
   double fade_s = 0.1;  ///< > 0; the weight of a camera grows and shrinks over this time beside its gaps
 };
 
-/// Bring a point of a body to where cameras see one of the tracks: 2 rows per camera, in the units of its
+/// Move a point of a body to where the cameras see one of the tracks: 2 rows per camera, in the units of its
 /// images.
 ///
-/// A pixel counts as much as what it covers at the present depth of the point, so that weights compare with
-/// those of markers. A camera that does not see the point in this frame and the next says nothing; nor does
-/// one that would have to see it behind itself or more than 84 degrees off its axis. The ends of the tracks
-/// are no gaps; beyond them the nearest goal stays and fades. Tracks of a single frame stay for ever. `sd` is
-/// the noise of the camera, as much of it as the low-pass leaves.
+/// Image errors are scaled to metres at the present depth of the point, so that weights are comparable with
+/// those of markers. A camera has weight 0 when it does not see the point in this frame and the next, and
+/// when the point is behind it or more than 84 degrees off its axis. The ends of the tracks
+/// are no gaps; beyond them the nearest goal stays and fades. A track of a single frame is a constant goal.
+/// `sd` is the noise of the camera, as much of it as the low-pass leaves.
 ///
-/// What is wrong with tracks, point or options is said by bind(). Copies what it needs of `tracks`.
+/// Errors in tracks, point or options are reported by bind(). Copies what it needs of `tracks`.
 /// evaluate() costs three projections per camera.
 ///
-/// LockMode::automatic asks tasks what they move at nine instants of the recording: where no camera sees the
-/// point at any of them, lock nothing (LockMode::off).
+/// LockMode::automatic evaluates tasks at nine instants of the recording to find which coordinates they move.
+/// When no camera sees the point at any of these, use LockMode::off.
 /// @param point  x_in_body in m, finite; the body must be able to move
 /// @param name   of the track
 [[nodiscard]] std::shared_ptr<Task> camera_task(BodyPoint point, const data::ImageTracks& tracks,

@@ -9,13 +9,13 @@
 #include <cmath>
 
 #include "kinemark/camera/projection.h"
-#include "kinemark/camera/test_cameras.h"
+#include "kinemark/camera/testing/cameras.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/track.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 #include "support/allocations.h"
 
 namespace kinemark::motion {
@@ -29,7 +29,7 @@ const BodyPoint kF2{.body = "forearm", .x_in_body = {-0.02, -0.25, 0.04}};
 
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
 
-/// A pinhole camera at a place, looking at the origin, with 1000 px per unit slope.
+/// A pinhole camera at a position, looking at the origin, with 1000 px per unit slope.
 data::Camera camera_at(const Vector3d& place) {
   data::Camera camera;
   camera.kind = data::CameraKind::pinhole;
@@ -214,7 +214,7 @@ TEST(CameraTask, FadesBesideGapsButNotAtTheEnds) {
     EXPECT_EQ(still.rows.error.head<2>(), Vector2d::Zero()) << t;
     EXPECT_TRUE(still.rows.jacobian.topRows<2>().isZero()) << t;
   }
-  EXPECT_GT(still.look(*task, 0.5).weight[2], 0.0);  // the other camera does not mind
+  EXPECT_GT(still.look(*task, 0.5).weight[2], 0.0);  // the other camera is not affected
   double before = share(0.25);
   for (int i = 1; i < 500; ++i) {
     const double now = share(0.25 + 1e-3 * i);
@@ -322,7 +322,7 @@ TEST(CameraTask, OneCameraOfAPairIsBetterThanNone) {
   };
   const double both = worst(0), one = worst(1), none = worst(2);
   EXPECT_LT(both, 1e-3);
-  EXPECT_LT(one, 1e-3);  // the joints and the other images say the depth
+  EXPECT_LT(one, 1e-3);  // the joints and the other images determine the depth
   EXPECT_GT(none, 5.0 * one);
 }
 

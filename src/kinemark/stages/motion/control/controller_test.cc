@@ -8,7 +8,7 @@
 
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 #include "support/allocations.h"
 
 namespace kinemark::motion::internal {
@@ -106,7 +106,7 @@ TEST(Controller, LimitsHoldAndNothingIsFasterThanTheySay) {
   const auto model = body(0.4);
   const Plan plan = make(model, {.step_s = 1e-3});
   Controller controller(plan);
-  // Goals of a body without these limits: elbow and knee ask for much more.
+  // Goals of a body without these limits: elbow and knee exceed them by far.
   Eigen::VectorXd q = Eigen::VectorXd::Zero(13);
   q[9] = 1.2;
   q[11] = -1.2;

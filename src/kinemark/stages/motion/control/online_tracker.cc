@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/bounds.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
@@ -24,27 +25,25 @@ using data::FrameStatus;
 constexpr double kFastest_hz = 10000.0;
 constexpr double kLongestGap_s = 2.0;
 constexpr double kMostAhead_s = 0.5;  // of the stamps, by frames that come faster than the rate
-constexpr double kPatience_s = 1.0;   // then a start with fewer markers is good enough
+constexpr double kPatience_s = 1.0;   // after which a start with fewer markers is accepted
 constexpr double kEnough = 0.95;      // of the markers
 constexpr std::int64_t kFewest = 3;
 
-/// A recording of two frames that shows all markers in the model's default pose: what make_plan() needs to
-/// bring names together.
+/// A recording of two frames with all markers in the model's default pose, from which make_plan() matches the
+/// names.
 data::Trajectories pretend(const model::Model& model, const std::vector<std::string>& names, double rate_hz) {
   auto markers = data::Trajectories::all_missing(names, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = 2});
   model::Workspace w(model);
   model::kinematics(model, w, model.default_state());
-  for (std::int64_t m = 0; m < markers.markers(); ++m) {
-    const auto& name = names[at(m)];
-    const auto colon = name.rfind(':');
-    auto idx = model.description().find_marker(name);
-    if (idx < 0 && colon != std::string::npos) idx = model.description().find_marker(name.substr(colon + 1));
-    for (std::int64_t f = 0; f < 2; ++f) {
-      markers.x(f, m) =
-          idx < 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(w.marker.col(idx));
+  for (std::int64_t f = 0; f < 2; ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) {
+      markers.x(f, m).setZero();
       markers.state[markers.index(f, m)] = data::SampleState::measured;
     }
-  }
+  const data::NameIndex index(names);
+  for (Eigen::Index i = 0; i < w.marker.cols(); ++i)
+    if (const auto m = index.find(model.description().markers[at(i)].name); m >= 0)
+      for (std::int64_t f = 0; f < 2; ++f) markers.x(f, m) = w.marker.col(i);
   return markers;
 }
 
@@ -55,7 +54,7 @@ struct OnlineTracker::Impl {
       : plan(std::move(given)),
         options(opts),
         filter(internal::make_filter(plan.rate_hz, opts)),
-        // A window to look back, one of poses not fetched yet, and frames that the stream skips, at once.
+        // Largest number of frames: the window, poses not fetched yet, and skipped frames.
         capacity(2 * filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
         samples(plan.problem.model.marker_count(), capacity),
         readout(plan.problem.model),
@@ -140,7 +139,7 @@ struct OnlineTracker::Impl {
       pose.status = fixed ? FrameStatus::converged : FrameStatus::underdetermined;
   }
 
-  /// Of the goals: as given, or from what the filter has removed so far.
+  /// Noise of the goals: as given, or from the part removed by the filter so far.
   const MarkerVariances& noise() {
     const double gain = filter.noise_in_goal();
     variances.common.setZero(static_cast<Eigen::Index>(plan.problem.model.bodies().size()));
@@ -210,7 +209,7 @@ Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
   if (s.window().ended()) return fail(Code::usage, "a frame came after the end of the stream");
   if (s.window().frames() - s.next_frame > s.filter.window_frames())
     return fail(Code::usage,
-                "poses are ready that nobody fetched; call next() after every frame until it has none");
+                "poses are waiting to be fetched; call next() after every frame until it has none");
   if (s.window().frames() == 0) {
     s.t0_s = time_s;
   } else {

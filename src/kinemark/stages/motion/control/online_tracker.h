@@ -17,55 +17,56 @@ namespace kinemark::motion {
 
 /// One frame of a live stream; numbers as in data::JointMotion, n coordinates each.
 struct LivePose {
-  std::int64_t frame = 0;
-  double time_s = 0.0;
-  Eigen::VectorXd q, v, a, tau;
-  Eigen::VectorXd q_sd, q_bound;         ///< NaN where not determined; empty without error bars
-  std::vector<std::uint8_t> determined;  ///< empty without error bars
-  int rank = 0;
-  double smallest_singular = 0.0;
-  data::FrameStatus status = data::FrameStatus::no_markers;
+  std::int64_t frame = 0;         ///< number of the frame, from 0
+  double time_s = 0.0;            ///< of the frame
+  Eigen::VectorXd q, v, a, tau;   ///< coordinates (rad, m), their rates and accelerations, forces (N m, N)
+  Eigen::VectorXd q_sd, q_bound;  ///< NaN where not determined; empty without error bars
+  std::vector<std::uint8_t> determined;                      ///< empty without error bars
+  int rank = 0;                                              ///< directions of motion that the markers hold
+  double smallest_singular = 0.0;                            ///< as TrackResult, kg^-1/2
+  data::FrameStatus status = data::FrameStatus::no_markers;  ///< how well the frame was followed
 };
 
-/// track_markers() on a stream: frames go in, poses come out `delay_frames()` later, with the same numbers
+/// track_markers() on a stream: poses are returned `delay_frames()` after their frames, with the same numbers
 /// (q, v, a, tau) as from a file, provided that the first frame shows 95 % of the markers and that the same
 /// coordinates are locked. Standard deviations and bounds agree to rounding when the marker noise is given;
 /// otherwise it is estimated from the frames so far.
 ///
 /// The delay is the lookahead of the goals' filter, TrackOptions::lookahead_s, or the fading time where that
-/// is longer; a shorter lookahead answers sooner and filters less well. Memory does not grow.
+/// is longer; a shorter lookahead reduces the delay and filters less well. Memory use is constant.
 class OnlineTracker {
  public:
   /// @param markers  names in the order in which frames will come
   /// @param rate_hz  of the stream, in (0, 10000]
   static Result<OnlineTracker> create(const model::Model& model, const std::vector<std::string>& markers,
                                       double rate_hz, const TrackOptions& options = {});
-  OnlineTracker(OnlineTracker&&) noexcept;
-  OnlineTracker& operator=(OnlineTracker&&) noexcept;
+  OnlineTracker(OnlineTracker&&) noexcept;             ///< takes a running tracker over
+  OnlineTracker& operator=(OnlineTracker&&) noexcept;  ///< replaces this one by another
   OnlineTracker(const OnlineTracker&) = delete;
   OnlineTracker& operator=(const OnlineTracker&) = delete;
   ~OnlineTracker();
 
-  [[nodiscard]] std::int64_t delay_frames() const;
+  [[nodiscard]] std::int64_t delay_frames() const;  ///< frames that must have come before a pose comes out
 
-  /// One frame: x (3 x markers, m, NaN where not seen) at a time in s. A frame's place is its
-  /// time since the first one, to the nearest frame, or the next place where that is taken; frames that the
-  /// stream skipped count as not seen. Fails, and takes nothing in, when time does not advance, jumps by more
+  /// One frame: x (3 x markers, m, NaN where not seen) at a time in s. The frame's index is its time since
+  /// the first one, rounded to the nearest frame, or the next index where that one is taken; skipped frames
+  /// count as not seen. Fails without effect when time does not advance, jumps by more
   /// than 2 s or falls more than half a second behind the count of frames, x has the wrong size, or poses
   /// wait to be fetched.
   [[nodiscard]] Status push(double time_s, const Eigen::Matrix3Xd& x);
-  /// No more frames will come: what is on the way comes out.
+  /// End of the stream: poses still delayed become available.
   void finish();
   /// The next pose that is ready, valid until the next call, or nullptr: call it after every frame until
   /// then. Before enough markers were seen, poses are the rest pose with status no_markers. Fails when the
-  /// first pose shows that the model cannot be controlled (no mass behind a coordinate).
+  /// model cannot be controlled in the first pose (a coordinate moves no mass).
   [[nodiscard]] Result<const LivePose*> next();
 
+  /// Names of those held at the rest pose; known once the first pose is out.
   [[nodiscard]] std::vector<std::string> locked_coordinates() const;
   /// Frames by which the poses' times run ahead of the stamp last pushed: 0 or 1 for a stream that keeps its
   /// rate, more where frames come faster than that, or in a burst after a pause.
   [[nodiscard]] std::int64_t frames_ahead() const;
-  [[nodiscard]] std::int64_t restarts() const;
+  [[nodiscard]] std::int64_t restarts() const;  ///< times that the body was set anew to its markers
 
  private:
   struct Impl;

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "kinemark/stages/motion/control/track.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "kinemark/stages/motion/control/internal/body_name.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion::internal {
 namespace {

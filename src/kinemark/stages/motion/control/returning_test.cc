@@ -55,7 +55,7 @@ TEST(ReturningMarkers, PlaceSpeedAndAccelerationBelongTogether) {
 }
 
 TEST(ReturningMarkers, NeverAskForMoreThanTheyMust) {
-  // From rest, a cubic over T needs 6 miss / T^2 at most; a critically damped pull of omega = 100 / s would
+  // From rest, a cubic over T needs 6 miss / T^2 at most; a critically damped spring of omega = 100 / s would
   // begin with 1e4 miss.
   ReturningMarkers returning(1, kEase_s);
   returning.lead(0, kBegun_s, kMiss, Vector3d::Zero());

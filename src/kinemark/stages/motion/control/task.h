@@ -12,7 +12,7 @@
 
 namespace kinemark::motion {
 
-/// What one task asks of the body in one step, row by row. The controller answers with the acceleration
+/// The rows of one task in one step. The controller demands the acceleration
 ///   J q'' = goal_acceleration + kd (goal_velocity - velocity) + kp error - bias.
 struct TaskRows {
   Eigen::VectorXd error;              ///< goal minus present value
@@ -29,7 +29,7 @@ struct TaskRows {
   void resize(int rows, int speeds);
 };
 
-/// A goal for a number of rows that stays the same.
+/// A goal with a constant number of rows.
 class Task {
  public:
   Task() = default;
@@ -37,11 +37,11 @@ class Task {
   Task& operator=(const Task&) = delete;
   virtual ~Task() = default;
 
-  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string name() const = 0;  ///< what messages call it
   /// Called once, before the first step. The model has the bodies, coordinates and speeds (and their order)
   /// of the one given to the tracker, but of its markers only those that are tracked.
   [[nodiscard]] virtual Status bind(const model::Model& model) = 0;
-  [[nodiscard]] virtual int rows() const = 0;
+  [[nodiscard]] virtual int rows() const = 0;  ///< number of rows, > 0 once bound
   /// Fill `out`, which has rows() rows and is as resize() left it. `w` holds kinematics() and velocities().
   /// Must not allocate.
   virtual void evaluate(const model::Model& model, const model::Workspace& w, double time_s,

@@ -57,7 +57,7 @@ class OrientationTask : public Task {
       if (!(goal.norm() > 0.5 && goal.norm() < 2.0))
         return fail(Code::bad_input, fmt::format("goal {} is no unit quaternion", i));
       Eigen::Vector4d value = goal.normalized().coeffs();
-      if (value.dot(before) < 0.0) value = -value;  // both mean the same turn: stay near
+      if (value.dot(before) < 0.0) value = -value;  // both represent the same rotation: keep the sign
       values.col(i) = before = value;
     }
     auto curve = GoalCurve::through(values, time_);
@@ -68,8 +68,7 @@ class OrientationTask : public Task {
 
   void evaluate(const model::Model& model, const model::Workspace& w, double time_s,
                 TaskRows& out) const override {
-    // The spline runs through the quaternions; what it says is brought back to unit length with its
-    // derivatives.
+    // The spline interpolates quaternions; its value is normalised to unit length, with the derivatives.
     std::array<double, 12> values{};
     curve_.at(time_s, values);
     const Eigen::Map<const Eigen::Vector4d> p(values.data()), dp(values.data() + 4), ddp(values.data() + 8);
@@ -190,7 +189,7 @@ class DistanceTask : public Task {
                    b = model::point_in_world(w, idx_b_, b_.x_in_body);
     const Vector3d way = a - b;
     const double distance = way.norm();
-    if (distance < 1e-9) {  // no direction in which they could part
+    if (distance < 1e-9) {  // the direction is undefined
       out.weight[0] = 0.0;
       return;
     }

@@ -10,7 +10,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/track.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 #include "support/allocations.h"
 
 namespace kinemark::motion {
@@ -78,7 +78,7 @@ TEST(Tasks, AMovingOrientationFeedsItsRateForward) {
   for (int f = 0; f < 100; ++f) {
     const double t = f / 50.0;
     Eigen::Quaterniond goal(Eigen::AngleAxisd(0.5 + 2.0 * t + 0.5 * t * t, axis));
-    if (f % 3 == 0) goal.coeffs() = -goal.coeffs();  // the same turn
+    if (f % 3 == 0) goal.coeffs() = -goal.coeffs();  // the same rotation
     goals.push_back(goal);
   }
   const auto task = orientation_task("trunk", goals, time);
@@ -117,7 +117,7 @@ TEST(Tasks, TheyBringTheBodyToTheirGoals) {
   EXPECT_LT(result->rms_goal_error_m, 1e-3);  // the trunk above is not disturbed
 }
 
-// A distance along a straight arm does not feel the elbow; anywhere else it does.
+// A distance along a straight arm does not depend on the elbow; elsewhere it does.
 TEST(Tasks, WhatATaskMovesIsLookedForInMoreThanOnePose) {
   const auto model = body();
   auto markers = testing_body::record(model, 60);

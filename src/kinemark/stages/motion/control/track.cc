@@ -13,6 +13,7 @@
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
+#include "kinemark/stages/motion/internal/marker_account.h"
 
 namespace kinemark::motion {
 namespace {
@@ -59,57 +60,9 @@ void fill_goals(const Plan& plan, const data::Trajectories& markers, const GoalF
   }
 }
 
-void summarise(const Plan& plan, const data::Trajectories& markers, const MarkerVariances* noise,
-               TrackResult& result) {
-  const auto& p = plan.problem;
-  const auto& motion = result.motion;
-  const auto M = static_cast<std::int64_t>(p.model.marker_count());
-  double squares = 0.0;
-  std::int64_t count = 0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::int64_t m = 0; m < M; ++m) {
-    const int body = p.model.markers()[at(m)].body;
-    MarkerSummary s;
-    s.name = motion.markers[at(m)];
-    s.name_in_data = markers.names[at(p.data_marker[at(m)])];
-    s.body = p.model.description().bodies[at(p.model.bodies()[at(body)].description_idx)].name;
-    s.weight = p.weight[m];
-    double own = 0.0;
-    std::int64_t seen = 0;
-    for (std::int64_t f = 0; f < p.frames; ++f) {
-      const Eigen::Map<const Eigen::Vector3d> error(motion.marker_error.data() + (f * M + m) * 3);
-      if (std::isnan(error.x())) continue;
-      ++seen;
-      own += error.squaredNorm();
-      sum += error;
-      s.max_m = std::max(s.max_m, error.norm());
-    }
-    squares += own;
-    count += seen;
-    s.seen = static_cast<double>(seen) / static_cast<double>(p.frames);
-    s.rms_m = seen > 0 ? std::sqrt(own / static_cast<double>(seen)) : kNaN;
-    s.noise_sd_m = noise != nullptr ? std::sqrt(noise->own[m]) : kNaN;
-    s.common_sd_m = noise != nullptr ? std::sqrt(noise->common[body]) : kNaN;
-    result.max_marker_error_m = std::max(result.max_marker_error_m, s.max_m);
-    result.markers.push_back(std::move(s));
-  }
-  // Nothing seen, nothing known: NaN passes no gate.
-  if (count == 0) {
-    result.rms_marker_error_m = kNaN;
-    result.mean_marker_error_m.setConstant(kNaN);
-    return;
-  }
-  result.rms_marker_error_m = std::sqrt(squares / static_cast<double>(count));
-  result.mean_marker_error_m = sum / static_cast<double>(count);
-}
-
 void describe(const Plan& plan, const data::Trajectories& markers, TrackResult& result) {
   const auto& p = plan.problem;
-  result.model_markers_without_data = p.model_only;
-  result.data_markers_without_model = p.data_only;
-  result.excluded_markers = p.excluded;
-  result.warnings = p.warnings;
-  result.first_frame = p.first_frame;
+  result.fit = p.fit;
   result.step_s = plan.step_s;
   result.free_speeds =
       static_cast<int>(std::count(p.fixed_speed.begin(), p.fixed_speed.end(), std::uint8_t{0}));
@@ -184,15 +137,16 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
   if (options.error_bars) {
     const auto noise = internal::goal_noise(*plan, markers, track, filter, options);
     internal::add_error_bars(*plan, track, noise, options.threads, result);
-    summarise(*plan, markers, &noise, result);
-  } else {
-    summarise(*plan, markers, nullptr, result);
+    internal::add_marker_noise(plan->problem.model, noise, result.fit);
   }
+  internal::add_marker_errors(result.motion, result.fit);
   if (result.flagged_frames > 0)
-    result.warnings.push_back(
-        fmt::format("{} of {} frames are flagged: the goals were out of reach, or the body ran away and was "
-                    "started anew ({} times)",
-                    result.flagged_frames, result.motion.frames(), result.restarts));
+    result.fit.findings.push_back(
+        {.kind = data::FindingKind::flagged,
+         .size = static_cast<double>(result.flagged_frames),
+         .detail =
+             fmt::format("the goals were out of reach, or the body ran away and was started anew ({} times)",
+                         result.restarts)});
   return result;
 }
 

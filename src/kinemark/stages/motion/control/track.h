@@ -10,6 +10,7 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/control/track_options.h"
@@ -17,12 +18,13 @@
 
 namespace kinemark::motion {
 
+/// What track_markers() found: the motion, and how well it follows the markers.
 struct TrackResult {
   /// q, v, a, tau, marker_error (measured minus model), status; with error bars also q_sd, determined and
   /// q_bound. Status not_converged: the frame was flagged (explosion, restart, goals out of reach).
   data::JointMotion motion;
-  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
-  std::vector<int> rank;         ///< per frame: directions that the levels fix together
+  data::MarkerFit fit;    ///< loop gaps are not computed
+  std::vector<int> rank;  ///< per frame: directions that the levels fix together
   /// Per frame: smallest pivot over all levels, near the smallest singular value of what they fix, kg^-1/2; 0
   /// where they fix nothing. Without error bars NaN where one level fixes everything: not computed.
   std::vector<double> smallest_singular;
@@ -32,18 +34,11 @@ struct TrackResult {
   int free_speeds = 0;                                ///< directions there are: speeds that are not locked
   std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
   std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames
-  std::vector<MarkerSummary> markers;
-  std::vector<std::string> model_markers_without_data, data_markers_without_model;
-  std::vector<ExcludedMarker> excluded_markers;
-  std::vector<std::string> warnings;
-  /// Measured to model, all frames and markers; RMS and mean NaN when none is seen.
-  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;
-  Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();
   double rms_goal_error_m = 0.0, max_goal_error_m = 0.0;  ///< goal (filtered) to model, gaps left out
-  std::int64_t flagged_frames = 0;
-  std::int64_t restarts = 0;
-  double step_s = 0.0;  ///< as used
-  std::int64_t steps = 0;
+  std::int64_t flagged_frames = 0;                        ///< frames beyond max_error_m, or not followed
+  std::int64_t restarts = 0;                              ///< times that the body was set anew to its markers
+  double step_s = 0.0;                                    ///< as used
+  std::int64_t steps = 0;                                 ///< of the controller
   double solve_seconds = 0.0;  ///< wall time of the steps alone, without start and error bars
 };
 

@@ -14,13 +14,14 @@
 
 namespace kinemark::motion {
 
-/// What is pursued at one level of priority. Levels come in order: a lower one never disturbs a higher one.
+/// Markers and tasks of one priority level, in descending priority: a lower level never disturbs a higher
+/// one.
 struct TrackLevel {
   std::vector<std::string> markers;          ///< names in the model; "*": all that no level names
   std::vector<std::shared_ptr<Task>> tasks;  ///< goals that are not points, see tasks.h
 };
 
-/// What becomes of coordinates that no tracked marker moves by more than 1 cm per rad (per m: 1 cm).
+/// Treatment of coordinates that no tracked marker moves by more than 1 cm per rad (per m: 1 cm).
 enum class LockMode : std::uint8_t {
   automatic,  ///< they are held at the rest pose
   off         ///< they are left to the posture task
@@ -39,19 +40,20 @@ struct TrackOptions {
   double truncation = 1e-4;  ///< > 0, of a level's strongest direction: below, left to lower levels
   bool feed_forward = true;  ///< velocity and acceleration of the goals are used
   double cutoff_hz = 6.0;    ///< of the goals, zero phase, -3 dB; 0: goals are the samples; or >= 0.12
-  double lookahead_s = 0.0;  ///< half width of that filter; 0: 1.2 / cutoff. The live tracker lags by it
-  double fade_s = 0.1;       ///< > 0; a marker's weight grows and shrinks over this time beside its gaps
+  double lookahead_s =
+      0.0;              ///< half width of that filter; 0: 1.2 / cutoff. It is the delay of the online tracker
+  double fade_s = 0.1;  ///< > 0; a marker's weight grows and shrinks over this time beside its gaps
   const data::Derivatives* derivatives = nullptr;  ///< velocity and acceleration of the samples, used in
                                                    ///< place of the filter; not for the live tracker
 
-  double posture_kp = 100.0, posture_kd = 20.0;  ///< of what the levels leave open, root included; >= 0
+  double posture_kp = 100.0, posture_kd = 20.0;  ///< of the null space of all levels, root included; >= 0
   std::vector<CoordinateTask> rest_pose;  ///< name and value; others: the model's default, roots: the start
   bool limits = true;                     ///< clamped coordinates stay in their range
-  LockMode lock = LockMode::automatic;
-  std::vector<std::string> locked;  ///< coordinates held at the rest pose besides those the model locks
+  LockMode lock = LockMode::automatic;    ///< which coordinates are held besides
+  std::vector<std::string> locked;        ///< coordinates held at the rest pose besides those the model locks
 
-  double first_time_s = -1e300;  ///< track only frames in [first_time_s, last_time_s]
-  double last_time_s = 1e300;
+  double first_time_s = -1e300;    ///< track only frames in [first_time_s, last_time_s]
+  double last_time_s = 1e300;      ///< both ends included
   double max_error_m = 0.3;        ///< a frame with a larger RMS distance to its goals is flagged
   double max_speed = 1e3;          ///< rad/s, norm of all speeds: beyond, flagged and started anew
   bool error_bars = true;          ///< compute q_sd, determined and q_bound

@@ -10,7 +10,7 @@
 
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/tasks.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {
@@ -38,7 +38,7 @@ TEST(Track, FollowsCleanMarkersToTheTrueAngles) {
   const auto result = track_markers(model, markers);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_LT(angle_rms(model, result->motion), 1e-3);
-  EXPECT_LT(result->rms_marker_error_m, 5e-4);
+  EXPECT_LT(result->fit.rms_error_m, 5e-4);
   EXPECT_EQ(result->flagged_frames, 0);
   EXPECT_EQ(result->restarts, 0);
   EXPECT_TRUE(result->locked_coordinates.empty());
@@ -234,7 +234,7 @@ TEST(Track, TheTimeRangeIsKept) {
   const auto model = body();
   const auto markers = record(model, 200);
   const auto track = track_markers(model, markers, {.first_time_s = 0.5, .last_time_s = 1.2}).value();
-  EXPECT_EQ(track.first_frame, 50);
+  EXPECT_EQ(track.fit.first_frame, 50);
   EXPECT_EQ(track.motion.frames(), 71);
   EXPECT_NEAR(track.motion.q[track.motion.index(30, 9)], testing_body::coordinates(model, 80)[9], 2e-3);
 }
@@ -335,7 +335,9 @@ TEST(Track, GoalsOutOfReachAreFlaggedAndNeverAnExplosion) {
   EXPECT_GT(track.flagged_frames, 5);
   EXPECT_EQ(track.motion.status[55], data::FrameStatus::not_converged);
   EXPECT_EQ(track.motion.status[110], data::FrameStatus::converged);
-  EXPECT_FALSE(track.warnings.empty());
+  ASSERT_EQ(track.fit.findings.size(), 1U);
+  EXPECT_EQ(track.fit.findings[0].kind, data::FindingKind::flagged);
+  EXPECT_EQ(track.fit.findings[0].size, static_cast<double>(track.flagged_frames));
   for (const double v : track.motion.v) ASSERT_LT(std::abs(v), 2e3);
   EXPECT_NEAR(track.motion.q[track.motion.index(115, 9)], testing_body::coordinates(model, 115)[9], 5e-3);
 }
@@ -401,8 +403,8 @@ TEST(Track, NeedsMassesAndMarkersThatCanMove) {
               HasSubstr("marker 'T1' sits on a body that is welded to the ground"));
   const auto track = track_markers(model, markers, {.error_bars = false});
   ASSERT_TRUE(track) << track.error().message;
-  EXPECT_EQ(track->markers.size(), 13U);
-  EXPECT_THAT(track->warnings, ::testing::Contains(HasSubstr("'T1'")));
+  EXPECT_EQ(track->fit.markers.size(), 13U);
+  EXPECT_THAT(track->fit.warnings, ::testing::Contains(HasSubstr("'T1'")));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace kinemark::motion {
 
 /// Which body each wrench acts on, frame by frame: W x F tree indices, data::kGround where nothing acts.
 struct ContactPlan {
-  std::vector<std::vector<int>> body;
-  std::vector<Contact> contacts;
+  std::vector<std::vector<int>> body;  ///< W x F
+  std::vector<Contact> contacts;       ///< by wrench and time
 };
 
 /// A wrench that names its body acts there. Any other acts, over each stretch of frames with more than

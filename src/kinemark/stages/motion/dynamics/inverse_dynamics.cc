@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 using internal::AppliedForce;
 using internal::FrameDynamics;
 
-constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that nothing ever determined
+constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that is never determined
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -36,9 +36,10 @@ Status check_input(const model::Model& model, const data::JointMotion& motion,
     return fail(Code::bad_input, fmt::format("the motion has {} coordinates, the model {}", motion.size(),
                                              model.coordinate_count()));
   if (!model.point_constraints().empty())
-    return fail(Code::not_supported,
-                "the model has closed loops, whose inner forces motion alone does not tell; inverse dynamics "
-                "needs a tree");
+    return fail(
+        Code::not_supported,
+        "the model has closed loops, whose inner forces do not follow from the motion; inverse dynamics "
+        "needs a tree");
   if (std::ranges::all_of(model.bodies(), [](const auto& body) { return body.mass == 0.0; }))
     return fail(Code::bad_input, "no body of the model has a mass; torques need masses and inertias");
   for (const auto* rates : {&motion.v, &motion.a})
@@ -116,7 +117,7 @@ class Worker {
   VectorXd q_, qd_, qdd_, by_q_, by_v_, by_a_, tau_by_q_, tau_by_v_, tau_by_a_;
 };
 
-/// Sums over frames of what a root still needs.
+/// Sums over frames of the residual force of a root.
 struct RootSums {
   double force = 0.0, moment = 0.0;
 };

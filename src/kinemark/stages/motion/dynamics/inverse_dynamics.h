@@ -15,48 +15,51 @@
 
 namespace kinemark::motion {
 
+/// Options of inverse dynamics.
 struct DynamicsOptions {
   bool error_bars = true;         ///< compute tau_sd
-  double contact_force_n = 20.0;  ///< a plate with less force on it is empty, and what it says is left out
+  double contact_force_n = 20.0;  ///< a plate with less force on it is empty, and its data are left out
   std::vector<std::string> feet;  ///< bodies that plates may touch; empty: those whose names contain "calcn"
                                   ///< or "foot", or else all
   int threads = 1;                ///< for the error bars; 0: all cores. Any number gives the same bits.
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
-/// What a free root still needs to move as it does: the ground's push where there are no force plates, the
-/// misfit of model, motion and plates where there are.
+/// Residual force and moment at a free root: the ground reaction where there are no force plates, else the
+/// disagreement of model, motion and plates.
 struct RootResidual {
-  std::string body;
-  double force_rms_n = 0.0, force_max_n = 0.0;
+  std::string body;                                 ///< the body at the root
+  double force_rms_n = 0.0, force_max_n = 0.0;      ///< what no plate explains, over the frames
   double moment_rms_nm = 0.0, moment_max_nm = 0.0;  ///< about the origin of the root joint
 };
 
 /// One contact of a plate with a body.
 struct Contact {
-  std::string wrench, body;
-  std::int64_t first_frame = 0, last_frame = 0;
+  std::string wrench, body;                      ///< name of the plate, and of the body it acts on
+  std::int64_t first_frame = 0, last_frame = 0;  ///< both ends included
 };
 
+/// What inverse dynamics says besides the torques.
 struct DynamicsSummary {
-  std::vector<RootResidual> roots;
-  std::vector<Contact> contacts;
-  double body_weight_n = 0.0;
-  bool rates_estimated = false;  ///< v and a were not there and came from estimate_rates()
-  std::vector<std::string> warnings;
+  std::vector<RootResidual> roots;    ///< one a free root
+  std::vector<Contact> contacts;      ///< by wrench and time
+  double body_weight_n = 0.0;         ///< mass of the model times gravity
+  bool rates_estimated = false;       ///< v and a were absent and were filled by estimate_rates()
+  std::vector<std::string> warnings;  ///< one sentence each
 };
 
-/// Fill tau (and tau_sd) of a motion: tau = M q'' + b + g - sum J'f in the speeds of the tree, turned to the
-/// file's coordinates so that tau . dq/dt is power (coordinates of a free root: the residual force along the
+/// Fill tau (and tau_sd) of a motion: tau = M q'' + b + g - sum J'f in the speeds of the tree, converted to
+/// the file's coordinates so that tau . dq/dt is power (coordinates of a free root: the residual force along
+/// the
 /// axis of each). Locked coordinates get the force that holds them; coupled coordinates and those that drive
 /// nothing NaN; frames in which a wrench is unknown NaN.
 ///
 /// v and a come from the motion; where they are empty estimate_rates() fills them. tau_sd is first order:
 /// the covariance of q, v and a (`errors`, or estimate_rates() again) through the derivatives of tau; errors
 /// of different coordinates are taken as independent, those of masses, model and wrenches are not in it.
-/// Where q is known to q_sd, that is used for q. Fails for closed loops (their inner forces cannot be told
-/// from motion), for a massless model and for wrenches whose frames are not the motion's. About 10 us per
+/// Where q_sd is present it is used for q. Fails for closed loops (their inner forces do not follow from the
+/// motion), for a massless model and for wrenches whose frames are not the motion's. About 10 us per
 /// frame, 0.6 ms with error bars (whole body).
 [[nodiscard]] Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointMotion& motion,
                                                        const DynamicsOptions& options = {},

@@ -136,7 +136,7 @@ TEST(InverseDynamicsJudge, AgreesOnAWholeBodyWithAndWithoutAPush) {
         if (dof[at(c)] >= 0) worst = std::max(worst, std::abs(tau[c] - theirs[dof[at(c)]]) / scale);
     }
   }
-  // MuJoCo turns every inertia to its principal axes on loading, which costs digits.
+  // MuJoCo transforms every inertia to its principal axes on loading, which costs digits.
   EXPECT_LT(worst, 1e-5);
   EXPECT_GT(largest, 500.0);
   RecordProperty("measured", fmt::format("{:.2e}", worst));

@@ -12,7 +12,7 @@
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {
@@ -74,7 +74,7 @@ TEST(InverseDynamics, PendulumBarsByHand) {
   (void)inverse_dynamics(model, motion, {}, nullptr, &errors).value();
   const double by_q = 2.0 * 9.81 * 0.3 * std::cos(0.4), by_a = 0.2;
   EXPECT_NEAR(motion.tau_sd[0], std::sqrt(by_q * by_q * qq + 2 * by_q * by_a * qa + by_a * by_a * aa), 1e-6);
-  motion.q_sd = {0.05};  // what is said of q itself wins over what its smoothness says
+  motion.q_sd = {0.05};  // the SD given for q takes precedence over that from smoothing
   (void)inverse_dynamics(model, motion, {}, nullptr, &errors).value();
   EXPECT_NEAR(motion.tau_sd[0], std::sqrt(by_q * by_q * 0.0025 + 2 * by_q * by_a * qa + by_a * by_a * aa),
               1e-6);
@@ -132,7 +132,7 @@ TEST(InverseDynamics, BarsCoverTheTruth) {
   }
   EXPECT_GT(inside, 0.62 * all);
   EXPECT_GT(inside_two, 0.93 * all);
-  // Waves are smoother than the prior believes, so that the bars are wide; but not without measure.
+  // Waves are smoother than the prior assumes, so that the error bars are too wide, within a limit.
   EXPECT_GT(std::sqrt(squares / all), 0.45);
 }
 

@@ -14,12 +14,13 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kLever_m = 0.1;      // turns radians into metres where both must be compared
-constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearisation says nothing
-constexpr double kFloor = 1e-10;      // relative damping that is always there: keeps blind directions at rest
+constexpr double kLever_m = 0.1;      // converts radians to metres where both must be compared
+constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearisation is not valid
+constexpr double kFloor =
+    1e-10;  // relative damping that is always added: keeps undetermined directions at rest
 constexpr double kNewtonDone = 1e-6;  // an exact Newton step below this leaves an error of its square
-constexpr int kPatience = 12;         // iterations after which a flat valley is left alone:
-constexpr double kFlat = 1e-10;       // what a step may still win, as a share of the cost
+constexpr int kPatience = 12;         // iterations after which slow progress ends the search:
+constexpr double kFlat = 1e-10;       // of the cost: smallest gain of a step that continues it
 constexpr double kLinearDone = 1e-9;  // a Gauss-Newton step below this leaves an error of its own size
 
 }  // namespace
@@ -83,7 +84,7 @@ double FrameSolver::visit(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weig
     sum += weight[m] * rho;
     effective_weight_[m] = weight[m] * slope;
   }
-  // Everything is kept multiplied by the total weight: the marker part is then a plain weighted sum.
+  // All terms are multiplied by the total weight, so that the marker part is a plain weighted sum.
   cost_ = sum;
   if (pulls_on_free_joints_) model::coordinates_from_state(model_, x, q_, q_);
   for (const auto& pull : problem_.pulls) {
@@ -140,7 +141,7 @@ bool FrameSolver::step(double damping, bool exact) {
   H_.diagonal() += (damping + kFloor) * total_weight_ * scale_;
   dx_ = g_;
   if (gap_.size() > 0) {
-    // Stiffness across the loops changes nothing of a step that closes them, but keeps the matrix positive
+    // Stiffness across the loops does not change a step that closes them, but keeps the matrix positive
     // definite.
     const double stiffness = 10.0 * total_weight_;
     HinvC_ = stiffness * C_.transpose();
@@ -193,7 +194,7 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
   const bool looped = gap_.size() > 0;
   multiplier_.setZero();
   loop_penalty_ = 0.0;
-  for (const auto& c : model_.coordinates())  // a start outside the limits comes in first
+  for (const auto& c : model_.coordinates())  // a start outside the limits is moved inside first
     if (c.speed_idx >= 0 && !problem_.fixed_speed[at(c.speed_idx)])
       x[c.state_idx] = std::clamp(x[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
 
@@ -207,8 +208,8 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
     model::clear_forces(w_);
     model::add_marker_forces(model_, w_, effective_weight_, residual_);
     if (looped) {
-      // The loop forces bend the problem as the markers do (Hessian of the Lagrangian), but leave the
-      // gradient alone.
+      // The loop forces contribute to the second derivatives (Hessian of the Lagrangian), but not to the
+      // gradient.
       const auto constraints = model_.point_constraints();
       for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Eigen::Vector3d f = multiplier_.segment<3>(3 * static_cast<Eigen::Index>(k));

@@ -21,7 +21,7 @@ class FrameSolver {
     double cost = 0.0;  ///< of the frame with the chosen loss, as IkOptions defines it
   };
 
-  /// Improve x for measured places y with weights (0: not seen). `frame` selects the task values.
+  /// Improve x for measured positions y with weights (0: not seen). `frame` selects the task values.
   Outcome solve(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, std::int64_t frame,
                 Eigen::VectorXd& x);
 

@@ -6,9 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/text.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/workspace.h"
 
@@ -16,31 +21,10 @@ namespace kinemark::motion::internal {
 namespace {
 
 std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i == 12) return text + fmt::format(", and {} more", names.size() - i);
-    text += (i ? ", " : "") + names[i];
-  }
-  return text.empty() ? "none" : text;
+  return names.empty() ? "none" : join_some(names, 12);
 }
 
-/// Recording's marker for each name: exact, or the only one whose name ends in ":name".
-std::map<std::string, int, std::less<>> index_names(const data::Trajectories& markers) {
-  std::map<std::string, int, std::less<>> index, suffixes;
-  for (int m = 0; m < static_cast<int>(markers.markers()); ++m) {
-    const std::string& name = markers.names[static_cast<std::size_t>(m)];
-    index[name] = m;
-    if (const auto colon = name.rfind(':'); colon != std::string::npos) {
-      const auto [it, fresh] = suffixes.try_emplace(name.substr(colon + 1), m);
-      if (!fresh) it->second = -1;  // two subjects carry it: ambiguous
-    }
-  }
-  for (const auto& [name, m] : suffixes)
-    if (m >= 0) index.try_emplace(name, m);
-  return index;
-}
-
-bool ever_seen(const data::Trajectories& markers, int m) {
+bool ever_seen(const data::Trajectories& markers, std::int64_t m) {
   for (std::int64_t f = 0; f < markers.frames(); ++f)
     if (markers.present(f, m)) return true;
   return false;
@@ -49,44 +33,47 @@ bool ever_seen(const data::Trajectories& markers, int m) {
 Status match_markers(const model::Model& model, const data::Trajectories& markers, const IkOptions& options,
                      Problem& problem, data::ModelDescription& reduced) {
   const auto& described = model.description().markers;
-  const auto index = index_names(markers);
+  const data::NameIndex index(markers.names);
   std::map<std::string, double, std::less<>> weights;
   for (const auto& [name, weight] : options.marker_weights) {
-    if (model.description().find_marker(name) < 0 && !index.contains(name))
-      return fail(
-          Code::bad_input,
-          fmt::format("a weight names marker '{}', which neither the model nor the recording has", name));
+    if (model.description().find_marker(name) < 0 && index.find(name) < 0)
+      return fail(Code::bad_input, fmt::format("a weight names marker '{}', which neither the model nor the "
+                                               "recording has; the recording has {}",
+                                               name, index.instead_of(name)));
     weights[name] = weight;
   }
   std::vector<bool> used(markers.names.size(), false);
   reduced.markers.clear();
+  auto& fit = problem.fit;
+  std::vector<data::ExcludedMarker> model_only;
   std::vector<double> used_weights;
   for (const auto& marker : described) {
-    const auto it = index.find(marker.name);
-    if (it == index.end()) {
-      problem.model_only.push_back(marker.name);
+    const auto recorded = index.find(marker.name);
+    if (recorded < 0) {
+      const bool several = index.ambiguous(marker.name);
+      model_only.push_back({marker.name, std::string(several ? data::kAmbiguous : data::kNotInRecording)});
       continue;
     }
-    used[static_cast<std::size_t>(it->second)] = true;
+    used[at(recorded)] = true;
     const auto w = weights.find(marker.name);
     const double weight = w == weights.end() ? options.default_marker_weight : w->second;
-    const bool seen = ever_seen(markers, it->second);
+    const bool seen = ever_seen(markers, recorded);
     if (weight == 0.0 || !seen) {
-      problem.excluded.push_back({marker.name, seen});
+      fit.excluded.push_back({marker.name, std::string(seen ? data::kNoWeight : data::kNeverSeen)});
       continue;
     }
     reduced.markers.push_back(marker);
-    problem.data_marker.push_back(it->second);
+    problem.data_marker.push_back(static_cast<int>(recorded));
     used_weights.push_back(weight);
+    fit.markers.push_back(
+        {.name = marker.name, .name_in_data = markers.names[at(recorded)], .weight = weight});
   }
-  for (std::size_t m = 0; m < used.size(); ++m)
-    if (!used[m]) problem.data_only.push_back(markers.names[m]);
   if (described.empty())
     return fail(Code::bad_input,
                 fmt::format("model '{}' has no markers; need at least one", model.description().name));
-  if (reduced.markers.empty() && !problem.excluded.empty()) {
+  if (reduced.markers.empty() && !fit.excluded.empty()) {
     std::vector<std::string> names;
-    for (const auto& marker : problem.excluded) names.push_back(marker.name);
+    for (const auto& marker : fit.excluded) names.push_back(marker.name);
     return fail(
         Code::bad_input,
         fmt::format("every marker that model and recording share has the weight 0 or is never seen: {}",
@@ -98,6 +85,9 @@ Status match_markers(const model::Model& model, const data::Trajectories& marker
     return fail(Code::bad_input, fmt::format("no marker in common: the model has {}; the recording has {}",
                                              list(names), list(markers.names)));
   }
+  std::ranges::move(model_only, std::back_inserter(fit.excluded));
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (!used[m]) fit.excluded.push_back({markers.names[m], std::string(data::kNotInModel)});
   problem.weight =
       Eigen::Map<const Eigen::VectorXd>(used_weights.data(), static_cast<Eigen::Index>(used_weights.size()));
   return {};
@@ -138,6 +128,14 @@ void find_limits(const model::Model& model, const IkOptions& options, Problem& p
   }
 }
 
+void name_bodies(const model::Model& model, data::MarkerFit& fit) {
+  for (std::size_t m = 0; m < fit.markers.size(); ++m) {
+    const int body = model.markers()[m].body;
+    const auto& bodies = model.description().bodies;
+    fit.markers[m].body = body < 0 ? "ground" : bodies[at(model.bodies()[at(body)].description_idx)].name;
+  }
+}
+
 /// RMS distance of points from their centre.
 double spread(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -147,7 +145,7 @@ double spread(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(squares / static_cast<double>(points.size()));
 }
 
-// A body changes the spread of its markers by moving, but never a hundredfold: that is a unit.
+// Motion of a body changes the spread of its markers, but never a hundredfold: the unit must be wrong.
 Status check_units(const Problem& problem, const data::Trajectories& markers) {
   model::Workspace w(problem.model);
   model::kinematics(problem.model, w, problem.model.default_state());
@@ -225,6 +223,8 @@ Result<Problem> make_problem(const model::Model& model, const data::Trajectories
   auto compiled = model::Model::compile(std::move(reduced), {.free_roots = !model.free_joints().empty()});
   if (!compiled) return std::unexpected(compiled.error());
   problem.model = std::move(*compiled);
+  problem.fit.first_frame = problem.first_frame;
+  name_bodies(problem.model, problem.fit);
   find_limits(problem.model, options, problem);
   if (auto status = check_units(problem, markers); !status) return std::unexpected(status.error());
   return problem;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A recording and a model brought together: which marker is which, what is fixed, what is pulled where.
+// A recording matched with a model: correspondence of markers, fixed speeds and coordinate tasks.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
-#include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/ik_options.h"
 
 namespace kinemark::motion::internal {
@@ -19,9 +19,7 @@ struct Problem {
   model::Model model;            ///< the given model with the used markers only
   std::vector<int> data_marker;  ///< per model marker: its index in the recording
   Eigen::VectorXd weight;        ///< per model marker, > 0
-  std::vector<std::string> model_only, data_only;
-  std::vector<ExcludedMarker> excluded;
-  std::vector<std::string> warnings;
+  data::MarkerFit fit;           ///< the markers, those left out, warnings; errors and noise not known yet
 
   struct Pull {
     int coordinate = 0;

@@ -3,12 +3,12 @@
 #include "kinemark/stages/motion/internal/start.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/rotation_fit.h"
 #include "kinemark/model/kinematics.h"
 
 namespace kinemark::motion::internal {
@@ -44,16 +44,11 @@ void lay_over(const Problem& problem, model::Workspace& w, const Eigen::Matrix3X
     if (count == 0) continue;
     from_centre /= total;
     to_centre /= total;
-    // Kabsch: rotation that takes the model's markers to the measured ones.
+    // Rotation that takes the model's markers to the measured ones.
     Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
     for (Eigen::Index m = 0; m < weight.size(); ++m)
       if (carried(m)) S += weight[m] * (y.col(m) - to_centre) * (w.marker.col(m) - from_centre).transpose();
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    if (count >= 3) {
-      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-      R = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
-    }
+    const Eigen::Matrix3d R = count >= 3 ? math::fit_rotation(S).rotation : Eigen::Matrix3d::Identity();
     // world_from_joint_out <- (R, to - R from) * itself; expressed in the parent's joint frame.
     const Eigen::Matrix3d& frame = w.joint_rotation[at(free.body)];
     const Eigen::Vector3d frame_origin = model.bodies()[at(free.body)].parent_from_joint.translation;
@@ -75,7 +70,7 @@ FrameSolver::Outcome find_start(const Problem& problem, const IkOptions& options
   const auto& model = problem.model;
   const Eigen::VectorXd given = x;
   FrameSolver::Outcome best;
-  int found = 0;  // how often the cheapest pose has come out: three independent times are enough
+  int found = 0;  // how often the pose of least cost was found: three independent times are enough
   for (int start = 0; start < starts && found < 3; ++start) {
     Eigen::VectorXd candidate = given;
     if (start > 0) {

@@ -8,8 +8,9 @@
 
 namespace kinemark::motion::internal {
 
-/// Pose of a frame from nothing: the given state and random ones around it, each first laid over the markers
-/// as a rigid body (free roots only), then solved; the cheapest of at most `starts` wins. Deterministic in
+/// Pose of a frame without a previous one: the given state and random ones around it, each first aligned with
+/// the markers as a rigid body (free roots only), then solved; the one of least cost among at most `starts`
+/// is returned. Deterministic in
 /// options.seed.
 FrameSolver::Outcome find_start(const Problem& problem, const IkOptions& options, FrameSolver& solver,
                                 const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, std::int64_t frame,

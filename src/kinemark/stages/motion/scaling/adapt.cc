@@ -106,7 +106,7 @@ Result<AdaptResult> adapt_model(const data::ModelDescription& model, const data:
   auto problem = internal::make_problem(*compiled, *picked, options.ik);
   if (!problem) return std::unexpected(problem.error());
   problem->weight /= problem->weight.mean();  // noise and priors are weighed against markers of weight 1
-  // Limits help to find the first postures; afterwards they would only hide a wrong size.
+  // Limits help to find the first postures; afterwards they would conceal a wrong size.
   IkOptions first = options.ik;
   first.limits = given.ik.limits;
   const auto start = solve_ik(*compiled, *picked, first);

@@ -19,7 +19,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing_leg::leg;
 
-/// Sizes of the leg's segments, and all marker places.
+/// Sizes of the leg's segments, and all marker positions.
 std::vector<GeometryParameter> parameters(const data::ModelDescription& model) {
   auto out = scale_parameters(model, default_scale_groups(model), 0.3).value();
   const auto places = marker_parameters(model, {}, 0.005).value();
@@ -50,7 +50,7 @@ int index_of(const AdaptResult& result, const std::string& name) {
   return -1;
 }
 
-// Sizes and places are drawn with the deviations that the priors claim, so the covariance is the truth's own.
+// Sizes and positions are drawn from the priors, so that the covariance must be exact.
 // Errors of one subject hang together; each subject's chi-square and share count as one number, and chance is
 // judged from how these numbers scatter.
 TEST(AdaptModel, finds_sizes_and_places_of_a_noisy_recording_within_their_deviations) {
@@ -164,7 +164,7 @@ TEST(AdaptModel, every_frame_doubled_with_its_noise_changes_nothing) {
   expect_same_sizes(once, adapt_model(leg(), twice, list, options).value(), 0.02);
 }
 
-// A prior on the postures of every frame would pull the sizes along with the zero of an angle.
+// A prior on the postures of every frame would bias the sizes by the zero of an angle.
 TEST(AdaptModel, where_an_angle_has_its_zero_does_not_matter) {
   const auto list = parameters(leg());
   const auto recording =

@@ -46,7 +46,7 @@ data::ModelDescription torso(bool clavicles) {
   return model;
 }
 
-/// Marker places with one coordinate set.
+/// Marker positions with one coordinate set.
 Eigen::Matrix3Xd places(const data::ModelDescription& description, const std::string& coordinate,
                         double value) {
   const auto model = model::Model::compile(description).value();

@@ -73,8 +73,10 @@ Result<int> find_joint(const data::ModelDescription& model, const std::string& n
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     if (model.joints[j].name != name) continue;
     if (model.joints[j].parent_body_idx == kGround)
-      return fail(Code::bad_input,
-                  fmt::format("joint '{}' hangs on the ground, its place there is not geometry", name));
+      return fail(
+          Code::bad_input,
+          fmt::format("joint '{}' is connected to the ground; its position is not a geometry parameter",
+                      name));
     return static_cast<int>(j);
   }
   return fail(Code::bad_input, fmt::format("the model has no joint '{}'", name));

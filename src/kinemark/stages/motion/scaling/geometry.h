@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a model as a list of numbers: sizes of segments, places of joints, places of markers. Each
-// number moves parts of the description linearly, so that derivatives are exact and cheap.
+// The geometry parameters of a model: sizes of segments, positions of joints and of markers. The description
+// is linear in each parameter, so that derivatives are exact and cheap.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,40 +16,42 @@
 
 namespace kinemark::motion {
 
+/// What a geometry parameter is.
 enum class ParameterKind : std::uint8_t {
   body_scale,    ///< size of one or more segments, 1 as the model has it
-  joint_offset,  ///< one coordinate of a joint's place in its parent, m
-  marker_place,  ///< one coordinate of a marker's place in its body, m
+  joint_offset,  ///< one coordinate of a joint's position in its parent, m
+  marker_place,  ///< one coordinate of a marker's position in its body, m
 };
 
 /// What a parameter moves, per unit.
 struct GeometryTerm {
+  /// What it moves.
   enum class Moves : std::uint8_t {
     parent_frame,  ///< a joint's frame in the parent body, along `direction` (parent's axes)
     child_frame,   ///< a joint's frame in the child body, along `direction` (child's axes)
     translation,   ///< the function of translation axis `axis` of a joint is multiplied by 1 + rate x
     marker,        ///< a marker, along `direction` (axes of its body)
   };
-  Moves moves = Moves::marker;
+  Moves moves = Moves::marker;                          ///< what it moves
   int idx = 0;                                          ///< joint or marker of the description
   int axis = 0;                                         ///< translation: which of the joint's axes
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< m per unit
   double rate = 0.0;                                    ///< translation: share per unit
 };
 
-/// One unknown number: its place in the list, what it moves and how well it is known beforehand.
+/// One geometry parameter: its value in the model, its effect and its prior.
 struct GeometryParameter {
-  std::string name;
-  ParameterKind kind = ParameterKind::marker_place;
-  double initial = 0.0;   ///< value in the description: 1 for sizes, m for places
-  double prior_sd = 0.0;  ///< > 0; of value - initial, in the units of the value
-  std::vector<GeometryTerm> terms;
+  std::string name;                                  ///< in reports
+  ParameterKind kind = ParameterKind::marker_place;  ///< what it scales or moves
+  double initial = 0.0;             ///< value in the description: 1 for sizes, m for positions
+  double prior_sd = 0.0;            ///< > 0; of value - initial, in the units of the value
+  std::vector<GeometryTerm> terms;  ///< all that the number moves
 };
 
-/// Segments that grow together, each along the axes that count.
+/// Segments with a common size, each along the axes that are scaled.
 struct ScaleGroup {
-  std::string name;
-  std::vector<data::ScaledBody> parts;
+  std::string name;                     ///< in reports
+  std::vector<data::ScaledBody> parts;  ///< bodies and their axes
 };
 
 /// Groups for a body whose segments are named as OpenSim's models name them: pelvis and trunk in height
@@ -67,7 +69,7 @@ struct ScaleGroup {
 
 /// A marker that sits on a joint centre: it moves with the joint's frame in the parent.
 struct MarkerOnJoint {
-  std::string marker, joint;
+  std::string marker, joint;  ///< names in the model
 };
 
 /// Three offsets (parent's axes) per named joint; all joints but those to the ground when `joints` is empty.
@@ -88,9 +90,9 @@ struct MarkerOnJoint {
 
 /// Distance from a body's own joint to one that hangs on it.
 struct SegmentLength {
-  std::string name;  ///< "femur_r: hip_r to knee_r"
-  int first_joint = 0, second_joint = 0;
-  double length_m = 0.0;
+  std::string name;                       ///< "femur_r: hip_r to knee_r"
+  int first_joint = 0, second_joint = 0;  ///< indices into the description's joints
+  double length_m = 0.0;                  ///< in the description
 };
 
 /// All such distances above 10 mm, in the order of the joints; joints to the ground count as a body's own.

@@ -67,7 +67,7 @@ TEST(ScaleParameters, a_size_moves_joints_markers_and_slides_of_its_body) {
   EXPECT_EQ(thigh.initial, 1.0);
   EXPECT_EQ(thigh.prior_sd, 0.2);
   const auto bigger = apply_geometry(model, *parameters, Eigen::VectorXd::Constant(1, 0.1));
-  // The thigh's own frame in its joint to the pelvis, the knee's place and slide, the marker.
+  // The thigh's own frame in its joint to the pelvis, the knee's position and translation, the marker.
   EXPECT_TRUE(bigger.joints[1].child_from_joint.translation.isApprox(Vector3d(0, 0.011, 0)));
   EXPECT_EQ(bigger.joints[1].parent_from_joint.translation, model.joints[1].parent_from_joint.translation);
   EXPECT_TRUE(bigger.joints[2].parent_from_joint.translation.isApprox(1.1 * Vector3d(0, -0.4, 0)));
@@ -129,7 +129,7 @@ TEST(JointParameters, refuse_names_and_ties_that_make_no_sense) {
     return joint_parameters(model, joints, 0.02, tied).error().message;
   };
   EXPECT_THAT(message({"elbow"}, {}), HasSubstr("no joint 'elbow'"));
-  EXPECT_THAT(message({"ground_pelvis"}, {}), HasSubstr("hangs on the ground"));
+  EXPECT_THAT(message({"ground_pelvis"}, {}), HasSubstr("is connected to the ground"));
   EXPECT_THAT(message({}, {{"NONE", "knee_r"}}), HasSubstr("no marker 'NONE'"));
   EXPECT_THAT(message({}, {{"TIB", "knee_r"}}), HasSubstr("cannot sit on joint 'knee_r'"));
 }

@@ -22,7 +22,8 @@ struct Share {
   const char* inward;  // takes the share where the segment is missing
 };
 
-// From the ends inwards, so that a missing chain hands its shares on. Pelvis and trunk stand for each other.
+// From the ends inwards, so that a missing chain passes its shares on. Pelvis and trunk substitute each
+// other.
 constexpr Share kShares[] = {
     {"hand", true, 0.006, 0.0, "forearm"},      {"forearm", true, 0.016, 0.0, "upper arm"},
     {"upper arm", true, 0.028, 0.436, "trunk"}, {"foot", true, 0.0145, 0.0, "shank"},
@@ -36,7 +37,7 @@ std::string key_of(const std::string& body) {
   const std::string segment = internal::segment_of(stem);
   for (const auto& share : kShares)
     if (segment == share.segment) {
-      if (share.paired && side.empty()) return {};  // of which side nobody says: it keeps its mass
+      if (share.paired && side.empty()) return {};  // side unknown: it keeps its mass
       return share.paired ? segment + side : segment;
     }
   return {};

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/ik.h"
-#include "kinemark/stages/motion/scaling/scale.h"
 
 namespace kinemark::motion {
 namespace {
@@ -76,13 +76,14 @@ Result<PlaceResult> place_markers(const data::ModelDescription& model, const dat
   const auto solved = solve_ik(*compiled, *frame, ik);
   if (!solved) return std::unexpected(solved.error());
 
-  PlaceResult result{.model = model, .rms_m = solved->rms_marker_error_m};
+  PlaceResult result{.model = model, .rms_m = solved->fit.rms_error_m};
   result.pose = Eigen::Map<const Eigen::VectorXd>(solved->motion.q.data(), compiled->coordinate_count());
   model::Workspace w(*compiled);
   model::kinematics(*compiled, w, model::state_from_coordinates(*compiled, result.pose));
+  const data::NameIndex index(frame->names);
   for (std::size_t i = 0; i < model.markers.size(); ++i) {
     auto& marker = result.model.markers[i];
-    const auto recorded = find_recorded(*frame, marker.name);
+    const auto recorded = index.find(marker.name);
     if (recorded < 0 || !frame->present(0, recorded)) {
       result.unseen.push_back(marker.name);
       continue;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/workspace.h"
@@ -30,7 +31,7 @@ Matrix3d stretched_inertia(const Matrix3d& inertia, const Vector3d& factors) {
   return after.trace() * Matrix3d::Identity() - after;
 }
 
-/// Marker places of the model in its default pose, world.
+/// Marker positions of the model in its default pose, world.
 Result<Eigen::Matrix3Xd> default_places(const data::ModelDescription& model) {
   const auto compiled = model::Model::compile(model);
   if (!compiled) return std::unexpected(compiled.error());
@@ -67,16 +68,22 @@ struct Scaler {
   Result<MeasuredPair> measure(const data::ScaleMeasurement& measurement, const data::MarkerPair& pair,
                                const Eigen::Matrix3Xd& places) const {
     MeasuredPair out{.first = pair.first, .second = pair.second};
+    const data::NameIndex index(recording->names);
     std::int64_t recorded[2];
     int modelled[2];
     for (int i = 0; i < 2; ++i) {
       const std::string& name = i == 0 ? pair.first : pair.second;
-      recorded[i] = find_recorded(*recording, name);
+      recorded[i] = index.find(name);
       modelled[i] = model.find_marker(name);
-      if (modelled[i] < 0 || recorded[i] < 0)
+      if (modelled[i] < 0)
         return fail(Code::bad_input,
-                    fmt::format("measurement '{}' needs marker '{}', which the {} does not have",
-                                measurement.name, name, modelled[i] < 0 ? "model" : "recording"));
+                    fmt::format("measurement '{}' needs marker '{}', which the model does not have",
+                                measurement.name, name));
+      if (recorded[i] < 0)
+        return fail(
+            Code::bad_input,
+            fmt::format("measurement '{}' needs marker '{}', which the recording does not have; it has {}",
+                        measurement.name, name, index.instead_of(name)));
     }
     out.model_m = (places.col(modelled[0]) - places.col(modelled[1])).norm();
     if (out.model_m < 1e-6)
@@ -156,17 +163,6 @@ void fill_between(const data::ModelDescription& model, std::vector<data::BodyFac
 }
 
 }  // namespace
-
-std::int64_t find_recorded(const data::Trajectories& recording, const std::string& name) {
-  if (const auto exact = recording.find(name); exact >= 0) return exact;
-  std::int64_t found = -1;
-  for (std::int64_t m = 0; m < recording.markers(); ++m) {
-    if (!recording.names[at(m)].ends_with(":" + name)) continue;
-    if (found >= 0) return -1;
-    found = m;
-  }
-  return found;
-}
 
 void apply_factors(data::ModelDescription& model, std::span<const Vector3d> factors, bool scale_mass) {
   const auto of = [&](int body) -> Vector3d {

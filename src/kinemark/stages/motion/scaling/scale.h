@@ -17,23 +17,26 @@
 
 namespace kinemark::motion {
 
+/// One distance, measured and in the model.
 struct MeasuredPair {
-  std::string first, second;
+  std::string first, second;   ///< names in the model
   double measured_m = 0.0;     ///< mean over the frames that show both
   double measured_sd_m = 0.0;  ///< over these frames
   double model_m = 0.0;        ///< in the model's default pose
 };
 
+/// One measurement, carried out.
 struct MeasurementResult {
-  std::string name;
-  double factor = 1.0;
-  std::vector<MeasuredPair> pairs;
+  std::string name;                 ///< as given
+  double factor = 1.0;              ///< measured over model, mean over the pairs
+  std::vector<MeasuredPair> pairs;  ///< one by one
 };
 
+/// A scaled model and where its factors come from.
 struct ScaleResult {
-  data::ModelDescription model;
-  std::vector<data::BodyFactors> factors;  ///< one per body, in the model's order
-  std::vector<MeasurementResult> measurements;
+  data::ModelDescription model;                 ///< with the new sizes and masses
+  std::vector<data::BodyFactors> factors;       ///< one per body, in the model's order
+  std::vector<MeasurementResult> measurements;  ///< as carried out
 };
 
 /// Scale a model as the recipe says. `recording` may be null when no step measures.
@@ -53,8 +56,5 @@ void apply_factors(data::ModelDescription& model, std::span<const Eigen::Vector3
 
 /// Multiply all masses and inertias so that the model weighs mass_kg. Fails for a massless model.
 [[nodiscard]] Status set_total_mass(data::ModelDescription& model, double mass_kg);
-
-/// Index of a marker in a recording: by name, or the only one behind a subject prefix; -1 otherwise.
-[[nodiscard]] std::int64_t find_recorded(const data::Trajectories& recording, const std::string& name);
 
 }  // namespace kinemark::motion

@@ -112,7 +112,7 @@ TEST(ScaleModel, measured_over_model_distance_averaged_over_pairs) {
 TEST(ScaleModel, a_pair_is_measured_in_the_frames_that_show_both) {
   const auto model = leg();
   auto recording = static_trial(model);
-  const auto thi = find_recorded(recording, "THI"), knm = find_recorded(recording, "KNM");
+  const auto thi = recording.find("THI"), knm = recording.find("KNM");
   const Vector3d along = (recording.x(0, thi) - recording.x(0, knm)).normalized();
   for (std::int64_t f = 0; f < recording.frames(); ++f) {
     if (f % 2 == 0)
@@ -138,7 +138,7 @@ TEST(ScaleModel, a_factor_is_the_mean_of_its_pairs) {
   data::ScaleRecipe recipe;
   recipe.measurements = {thigh_measurement()};
   // One pair 10 % longer, the other as it is.
-  const auto thi = find_recorded(recording, "THI"), knm = find_recorded(recording, "KNM");
+  const auto thi = recording.find("THI"), knm = recording.find("KNM");
   for (std::int64_t f = 0; f < recording.frames(); ++f)
     recording.x(f, thi) += 0.1 * (recording.x(f, thi) - recording.x(f, knm));
   EXPECT_NEAR(scale_model(model, &recording, recipe)->measurements[0].factor, 1.05, 1e-9);
@@ -183,9 +183,9 @@ TEST(ScaleModel, finds_markers_behind_a_subject_prefix) {
   data::ScaleRecipe recipe;
   recipe.measurements = {thigh_measurement()};
   EXPECT_TRUE(scale_model(model, &recording, recipe));
-  EXPECT_EQ(find_recorded(recording, "THI"), 3);
   recording.names[4] = "Bob:THI";
-  EXPECT_EQ(find_recorded(recording, "THI"), -1);
+  EXPECT_THAT(scale_model(model, &recording, recipe).error().message,
+              HasSubstr("Ann:THI, Bob:THI (several subjects: need the full name)"));
 }
 
 TEST(ScaleModel, says_what_is_wrong) {

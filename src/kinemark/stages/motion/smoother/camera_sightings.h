@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Markers seen in the images of calibrated cameras: a marker that one camera sees says two things about its
-// place, and the body says the third.
+// Markers observed in the images of calibrated cameras. One camera determines two directions of a marker's
+// position; the body model determines the third.
 #pragma once
 
 #include "kinemark/data/image_tracks.h"
@@ -9,12 +9,14 @@
 
 namespace kinemark::motion {
 
-/// Images as information about marker places: sum over the cameras of D'D / noise^2, D the slope of the
-/// image by the place. `column` gives each model marker its place in the tracks (-1: none); frame 0 is
-/// `first_frame` of them, which must outlive this. Points behind a camera say nothing. Residuals beyond
-/// bend_sd count linearly (0: never).
+/// Images as information about marker positions: sum over the cameras of D'D / noise^2, D the derivative of
+/// the image by the position. `column` gives each model marker its index in the tracks (-1: none); frame 0 is
+/// `first_frame` of them, which must outlive this. Points behind a camera give no information. Residuals
+/// beyond bend_sd count linearly (0: never).
 class CameraSightings final : public Sightings {
  public:
+  /// @param column  for each model marker its index in `tracks`
+  /// @param first_frame  of `tracks`, where the motion begins
   CameraSightings(const data::ImageTracks& tracks, std::vector<int> column, std::int64_t first_frame,
                   double bend_sd);
   void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;
@@ -26,9 +28,9 @@ class CameraSightings final : public Sightings {
   double bend_sd_;
 };
 
-/// smooth_motion() on images. `markers` holds what could be triangulated (places of markers that two cameras
-/// or more saw; as many frames as the tracks): the start comes from it, and names that the tracks lack are
-/// left out. The noise of the images is what the tracks say; soft tissue is not in the bars.
+/// smooth_motion() on images. `markers` holds the triangulated points (markers seen by two cameras or more;
+/// as many frames as the tracks), from which the start is computed; markers that the tracks lack are left
+/// out. The noise of the images is that of the tracks; the error bars do not include soft tissue.
 [[nodiscard]] Result<SmootherResult> smooth_images(const model::Model& model, const data::ImageTracks& tracks,
                                                    const data::Trajectories& markers,
                                                    const SmootherOptions& options = {},

@@ -12,7 +12,7 @@
 #include "kinemark/camera/projection.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-/// A pinhole camera at a place, looking at the origin, with 1000 px per unit slope.
+/// A pinhole camera at a position, looking at the origin, with 1000 px per unit slope.
 data::Camera camera_at(const Vector3d& place) {
   data::Camera camera;
   camera.kind = data::CameraKind::pinhole;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/golden_section.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/math/symmetric3.h"
 
 namespace kinemark::motion {
@@ -19,12 +21,12 @@ using Eigen::VectorXd;
 
 constexpr std::array<double, 4> kThirdDifference = {-1.0, 3.0, -3.0, 1.0};
 // Ratio of the variance of a step to that of the noise. Below the first the bandwidth is a 600th of the rate
-// and the matrix loses its digits; above the second nothing is smoothed any more.
+// and the matrix becomes ill-conditioned; above the second there is no smoothing.
 constexpr double kSmallestRatio = 1e-12, kLargestRatio = 1e4;
-constexpr Index kBlock = 1500, kBlocks = 4;  // what the ratio is estimated on in long recordings
+constexpr Index kBlock = 1500, kBlocks = 4;  // blocks from which the ratio is estimated in long recordings
 constexpr double kWidestSpread = 30.0;       // relative SDs beyond it count as this much
 
-/// A = D'D / ratio + diag(weight) as L diag(d) L', and what follows from it.
+/// A = D'D / ratio + diag(weight) as L diag(d) L', with its solutions and inverse band.
 class Band {
  public:
   Band(const VectorXd& weight, double ratio) : d_(weight), l_(3, weight.size()) {
@@ -131,19 +133,9 @@ double best_ratio(const VectorXd& y, const VectorXd& weight) {
     if (here < best_misfit) best_misfit = here, best = low + i * spacing;
   }
   // Golden section between the neighbours of the best grid point, to 2 % of the ratio.
-  constexpr double kGolden = 0.6180339887498949;
-  double a = std::max(low, best - spacing), b = std::min(high, best + spacing);
-  double c = b - kGolden * (b - a), d = a + kGolden * (b - a), at_c = at_log(c), at_d = at_log(d);
-  while (b - a > 0.05) {
-    if (at_c < at_d) {
-      b = d, d = c, at_d = at_c;
-      at_c = at_log(c = b - kGolden * (b - a));
-    } else {
-      a = c, c = d, at_c = at_d;
-      at_d = at_log(d = a + kGolden * (b - a));
-    }
-  }
-  return std::exp(0.5 * (a + b));
+  const auto refined = math::golden_section(at_log, std::max(low, best - spacing),
+                                            std::min(high, best + spacing), {.width = 0.05});
+  return std::exp(refined.middle());
 }
 
 VectorXd weights_of(std::span<const double> sd, Index frames) {
@@ -153,8 +145,7 @@ VectorXd weights_of(std::span<const double> sd, Index frames) {
     if (s >= 0.0) seen.push_back(s);
   VectorXd weight = VectorXd::Zero(frames);
   if (seen.empty()) return weight;
-  std::ranges::nth_element(seen, seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2));
-  const double usual = seen[seen.size() / 2];
+  const double usual = math::upper_median(seen);
   for (Index f = 0; f < frames; ++f) {
     const double s = sd[static_cast<std::size_t>(f)];
     if (!(s >= 0.0)) continue;
@@ -233,8 +224,7 @@ SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const 
     std::vector<double> all;
     for (const double s : sd)
       if (s >= 0.0) all.push_back(s);
-    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
-    if (all[all.size() / 2] > 0.0) usual = all[all.size() / 2];
+    if (const double middle = math::upper_median(all); middle > 0.0) usual = middle;
   }
   out.known = true;
   out.noise_scale = std::sqrt(variance) / usual;

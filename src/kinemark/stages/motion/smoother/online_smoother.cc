@@ -30,11 +30,11 @@ using Eigen::VectorXd;
 using internal::NodeFactor;
 
 constexpr double kLargestSd = 0.5;   // rad or m, as in the smoother
-constexpr double kFloor = 1e-6;      // 1/rad^2 or 1/m^2: holds what nothing determines
+constexpr double kFloor = 1e-6;      // 1/rad^2 or 1/m^2: holds undetermined directions
 constexpr double kLookAgain = 0.02;  // rad or m; a prediction that misses by more is linearised anew
 constexpr int kLooks = 4;
 constexpr std::int64_t kFewestMarkers = 3;
-constexpr double kFarthest_m = 1e6;     // what lies farther away is no place of a marker
+constexpr double kFarthest_m = 1e6;     // farther positions are not those of a marker
 constexpr double kLargestEntry = 1e60;  // of the normal equations: products of these are finite
 
 /// The markers of the newest frame.
@@ -93,7 +93,7 @@ struct OnlineSmoother::Impl {
     return x;
   }
 
-  /// Pose of the first frame from nothing.
+  /// Pose of the first frame, without a previous one.
   [[nodiscard]] Result<VectorXd> first_pose() const {
     auto recording = data::Trajectories::all_missing(markers, {.rate_hz = rate_hz, .frames = 1});
     for (std::int64_t m = 0; m < recording.markers(); ++m) {
@@ -112,7 +112,7 @@ struct OnlineSmoother::Impl {
     return x;
   }
 
-  /// Where the last frames lead: constant second difference.
+  /// Prediction from the last frames: constant second difference.
   [[nodiscard]] VectorXd predict() const {
     const auto n = nodes.size();
     if (n == 0) return {};
@@ -155,7 +155,7 @@ struct OnlineSmoother::Impl {
     }
   }
 
-  /// False when the normal equations or a step are not finite; what is held is of no use then.
+  /// False when the normal equations or a step are not finite; the stored state is then invalid.
   [[nodiscard]] bool take_in(VectorXd x) {
     internal::Window with = window;
     for (int look = 0; look < kLooks; ++look) {
@@ -185,7 +185,7 @@ struct OnlineSmoother::Impl {
     window.clear();
   }
 
-  /// The node at a place in the queue as it stands now.
+  /// The current estimate of the node at a position in the queue.
   SmoothedFrame read(std::int64_t place) {
     const std::int64_t from = std::max<std::int64_t>(0, place - 2),
                        to = std::min<std::int64_t>(static_cast<std::int64_t>(nodes.size()), place + 3);

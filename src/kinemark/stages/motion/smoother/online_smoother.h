@@ -15,19 +15,20 @@
 
 namespace kinemark::motion {
 
+/// Options of the online smoother.
 struct OnlineSmootherOptions {
   int lag_frames = 10;     ///< >= 3: what comes out has seen so many frames more
   bool error_bars = true;  ///< q_sd and determined; costs about as much as lag_frames pushes without
   bool limits = true;      ///< clamped coordinates stay in their range (by clipping)
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold.
 };
 
 /// One frame that is ready; n coordinates.
 struct SmoothedFrame {
-  std::int64_t frame = 0;  ///< counted from the first that was pushed
-  Eigen::VectorXd q, v, a;
-  Eigen::VectorXd q_sd;  ///< NaN where not determined; white noise only; empty without error bars
+  std::int64_t frame = 0;   ///< counted from the first that was pushed
+  Eigen::VectorXd q, v, a;  ///< coordinates (rad, m), their rates and accelerations
+  Eigen::VectorXd q_sd;     ///< NaN where not determined; white noise only; empty without error bars
   std::vector<std::uint8_t> determined;  ///< empty without error bars
 };
 
@@ -40,8 +41,8 @@ class OnlineSmoother {
   /// @param markers  names in the model, in the order in which they will come; `tuning` has as many
   static Result<OnlineSmoother> create(const model::Model& model, const std::vector<std::string>& markers,
                                        SmootherTuning tuning, const OnlineSmootherOptions& options = {});
-  OnlineSmoother(OnlineSmoother&&) noexcept;
-  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;
+  OnlineSmoother(OnlineSmoother&&) noexcept;             ///< takes a running smoother over
+  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;  ///< replaces this one by another
   OnlineSmoother(const OnlineSmoother&) = delete;
   OnlineSmoother& operator=(const OnlineSmoother&) = delete;
   ~OnlineSmoother();

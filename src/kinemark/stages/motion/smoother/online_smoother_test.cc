@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {

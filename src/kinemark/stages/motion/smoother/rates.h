@@ -9,8 +9,8 @@
 
 namespace kinemark::motion {
 
-/// How sure a motion is of its coordinates and their rates, each coordinate by itself (errors of different
-/// coordinates are taken as independent).
+/// Covariance of coordinates and their rates, for each coordinate separately (errors of different coordinates
+/// are taken as independent).
 struct RateErrors {
   /// F x n x 6: covariance of q, v, a as qq qv qa vv va aa. Zero where locked; NaN where a coordinate was
   /// never determined and for coupled coordinates.

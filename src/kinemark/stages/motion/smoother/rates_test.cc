@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What was seen of the markers, as the smoother takes it: for every frame and marker the information about
-// its place (an inverse covariance) and the pull of the residual. Points in space, images of calibrated
-// cameras and anything else that is a function of marker places fit in.
+// Observations of the markers as input of the smoother: for every frame and marker the information about its
+// position (an inverse covariance) and the gradient of the cost. Points in space, images of calibrated
+// cameras and any other function of the marker positions can be observations.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,9 @@
 
 namespace kinemark::motion {
 
-/// One frame's sightings, linear about the places that were asked for. M markers.
+/// One frame's observations, linearized about given marker positions. M markers.
 struct MarkerInformation {
-  Eigen::Matrix3Xd pull;              ///< 3 x M, minus the gradient of `cost` by each marker's place, 1/m
+  Eigen::Matrix3Xd pull;              ///< 3 x M, minus the gradient of `cost` by each marker's position, 1/m
   Eigen::VectorXd weight;             ///< M, information common to the three axes, 1/m^2; 0 where not seen
   std::vector<Eigen::Matrix3d> full;  ///< M, information besides `weight`, 1/m^2; or empty
   double cost = 0.0;                  ///< half the sum of squares, each over its variance (or a robust loss)
@@ -25,6 +25,7 @@ struct MarkerInformation {
   void clear(Eigen::Index markers, bool with_full);
 };
 
+/// What cameras or markers saw of the body, frame by frame, as the smoother asks for it.
 class Sightings {
  public:
   Sightings() = default;
@@ -32,24 +33,28 @@ class Sightings {
   Sightings& operator=(const Sightings&) = delete;
   virtual ~Sightings() = default;
 
-  /// What frame f says when the markers are at p (3 x M, m). Sizes `out`; allocates only then.
+  /// Linearize the observations of frame f about marker positions p (3 x M, m). Sizes `out`; allocates only
+  /// then.
   virtual void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const = 0;
 };
 
-/// How much is known of one marker.
+/// Noise and robust threshold of one marker.
 struct MarkerTrust {
   double information = 1e6;  ///< 1/m^2 per axis: the inverse variance of its noise
-  double bend_m = 1e300;     ///< residuals beyond it count linearly (Huber)
+  double bend_m = 1e300;     ///< Huber threshold: residuals beyond it count linearly
 };
 
-/// Cost and pull of a point seen at distance r: isotropic, with Huber's loss.
+/// Adds an observed point with Huber's loss, isotropic; returns its cost.
 [[nodiscard]] double add_point(const MarkerTrust& trust, const Eigen::Vector3d& residual, Eigen::Index m,
                                MarkerInformation& out);
 
-/// Markers measured in space. `column` gives each model marker its place in the recording, frame 0 is
+/// Markers measured in space. `column` gives each model marker its index in the recording, frame 0 is
 /// `first_frame` of it. Both must outlive this.
 class MarkerSightings final : public Sightings {
  public:
+  /// @param column  for each model marker its index in `markers`
+  /// @param first_frame  of `markers`, where the motion begins
+  /// @param trust  one a used marker
   MarkerSightings(const data::Trajectories& markers, std::vector<int> column, std::int64_t first_frame,
                   std::vector<MarkerTrust> trust);
   void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;

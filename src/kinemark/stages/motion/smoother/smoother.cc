@@ -13,6 +13,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/stages/motion/internal/marker_account.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/smoother/coordinate_smoother.h"
 #include "kinemark/stages/motion/smoother/internal/motion_output.h"
@@ -30,46 +31,33 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using internal::Problem;
 
-constexpr double kLargestStateSd = 0.5;  // rad or m; beyond it a linear error bar says nothing
+constexpr double kLargestStateSd = 0.5;  // rad or m; beyond it a linear error bar is not valid
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Measured minus model, and what it amounts to marker by marker.
+/// Measured minus model, what it amounts to marker by marker, and the gaps of closed loops.
 void fill_marker_errors(const Problem& problem, const data::Trajectories& markers, const MatrixXd& states,
                         SmootherResult& result) {
   const auto M = static_cast<std::int64_t>(problem.data_marker.size());
   auto& motion = result.motion;
   motion.marker_error.assign(at(3 * M * problem.frames), kNaN);
   model::Workspace w(problem.model);
-  VectorXd squares = VectorXd::Zero(M), seen = VectorXd::Zero(M), largest = VectorXd::Zero(M);
   VectorXd gap;
+  result.fit.max_loop_gap_m = 0.0;
   for (std::int64_t f = 0; f < problem.frames; ++f) {
     model::kinematics(problem.model, w, states.col(f));
     model::point_constraint_gaps(problem.model, w, gap);
-    if (gap.size() > 0) result.max_loop_gap_m = std::max(result.max_loop_gap_m, gap.cwiseAbs().maxCoeff());
+    if (gap.size() > 0)
+      result.fit.max_loop_gap_m = std::max(result.fit.max_loop_gap_m, gap.cwiseAbs().maxCoeff());
     for (std::int64_t m = 0; m < M; ++m) {
       if (!markers.present(problem.first_frame + f, problem.data_marker[at(m)])) continue;
       const Vector3d error = markers.x(problem.first_frame + f, problem.data_marker[at(m)]) - w.marker.col(m);
       std::copy_n(error.data(), 3, motion.marker_error.data() + 3 * (f * M + m));
-      squares[m] += error.squaredNorm();
-      seen[m] += 1.0;
-      largest[m] = std::max(largest[m], error.norm());
-      result.mean_marker_error_m += error;
     }
   }
-  for (std::int64_t m = 0; m < M; ++m) {
-    auto& summary = result.markers[at(m)];
-    summary.seen = seen[m] / static_cast<double>(problem.frames);
-    summary.rms_m = seen[m] > 0.0 ? std::sqrt(squares[m] / seen[m]) : kNaN;
-    summary.max_m = largest[m];
-  }
-  result.max_marker_error_m = largest.maxCoeff();
-  if (seen.sum() > 0.0) {
-    result.rms_marker_error_m = std::sqrt(squares.sum() / seen.sum());
-    result.mean_marker_error_m /= seen.sum();
-  }
+  internal::add_marker_errors(motion, result.fit);
 }
 
 /// q_sd, determined, the covariances and the frames' status.
@@ -116,12 +104,7 @@ void fill_bars(const Problem& problem, const Sightings& sightings, const interna
 
 SmootherResult begin_result(IkResult& start, const model::Model& model) {
   SmootherResult result;
-  result.first_frame = start.first_frame;
-  result.markers = std::move(start.markers);
-  result.model_markers_without_data = std::move(start.model_markers_without_data);
-  result.data_markers_without_model = std::move(start.data_markers_without_model);
-  result.excluded_markers = std::move(start.excluded_markers);
-  result.warnings = std::move(start.warnings);
+  result.fit = std::move(start.fit);
   auto& motion = result.motion;
   motion.markers = start.motion.markers;
   motion.time = start.motion.time;
@@ -172,8 +155,9 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   result.iterations = outcome.iterations;
   result.converged = outcome.converged;
   if (!outcome.converged)
-    result.warnings.push_back(
-        fmt::format("the smoother did not settle in {} iterations over the recording", outcome.iterations));
+    result.fit.findings.push_back({.kind = data::FindingKind::not_settled,
+                                   .subject = "the smoother",
+                                   .size = static_cast<double>(outcome.iterations)});
   fill_coordinates(problem.model, states, result.motion);
   result.motion.status.assign(at(problem.frames), outcome.converged ? data::FrameStatus::converged
                                                                     : data::FrameStatus::not_converged);

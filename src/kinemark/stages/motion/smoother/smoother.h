@@ -7,11 +7,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "kinemark/core/progress.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik.h"
@@ -25,25 +25,19 @@ namespace kinemark::motion {
 struct SmootherTuning {
   Eigen::VectorXd step_variance;     ///< nv, of the third difference of each speed's own coordinate
   std::vector<MarkerTrust> markers;  ///< one per used marker, in the order of motion.markers
-  double rate_hz = 0.0;
+  double rate_hz = 0.0;              ///< of the recording that it was found on
 };
 
+/// What the smoother found: the motion, and how well it fits the markers.
 struct SmootherResult {
   /// q, v, a, q_sd, determined, marker_error (measured minus model), status. A frame without any marker is
   /// bridged like any other gap. Determined: the SD is at most 0.5 rad or 0.5 m.
   data::JointMotion motion;
-  RateErrors errors;             ///< covariance of q, v, a by coordinate; empty without error bars
-  std::int64_t first_frame = 0;  ///< index in the recording of motion's frame 0
-  SmootherTuning tuning;
-  std::vector<MarkerSummary> markers;
-  std::vector<std::string> model_markers_without_data, data_markers_without_model;
-  std::vector<ExcludedMarker> excluded_markers;
-  std::vector<std::string> warnings;
-  double rms_marker_error_m = 0.0, max_marker_error_m = 0.0;  ///< measured to model, where seen
-  Eigen::Vector3d mean_marker_error_m = Eigen::Vector3d::Zero();
-  double max_loop_gap_m = 0.0;  ///< largest gap of a closed loop
-  int iterations = 0;           ///< steps over the whole recording
-  bool converged = false;
+  RateErrors errors;       ///< covariance of q, v, a by coordinate; empty without error bars
+  data::MarkerFit fit;     ///< markers used and left out, and how well they fit
+  SmootherTuning tuning;   ///< as used
+  int iterations = 0;      ///< steps over the whole recording
+  bool converged = false;  ///< false: the iteration limit was reached
   double start_seconds = 0.0, solve_seconds = 0.0;  ///< wall time: least squares; smoother with error bars
 };
 

@@ -9,16 +9,16 @@ namespace kinemark::motion {
 
 /// Options of smooth_motion().
 struct SmootherOptions {
-  /// Of the least squares that everything begins with: marker weights (relative trust), marker noise (0:
+  /// Options of the least squares that provides the start: marker weights (relative trust), marker noise (0:
   /// estimated), limits, time range, seed, threads. The smoother takes no coordinate tasks and no other loss
   /// than its own.
   IkOptions ik;
-  double bend_sd = 4.5;     ///< residuals of a marker beyond so many SDs count linearly (Huber); 0: never
+  double bend_sd = 4.5;     ///< Huber threshold in SDs: larger residuals of a marker count linearly; 0: never
   int max_iterations = 10;  ///< Gauss-Newton steps over the whole recording, >= 1
   bool error_bars =
       true;  ///< q_sd and the covariance of q, v and a; without them nothing is marked undetermined
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
 }  // namespace kinemark::motion

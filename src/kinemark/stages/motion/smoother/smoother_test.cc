@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
 namespace {

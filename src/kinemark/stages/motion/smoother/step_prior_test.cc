@@ -11,7 +11,7 @@
 #include "kinemark/core/random.h"
 #include "kinemark/math/euler.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/test_body.h"
+#include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion::internal {
 namespace {

@@ -45,7 +45,7 @@ model::Model rail() {
 
 double truth(int f) { return 0.5 * std::sin(0.1 * f); }
 
-/// All three markers at their own noisy places along the rail; frames 20 to 29 unseen.
+/// All three markers at noisy positions along the rail; frames 20 to 29 unseen.
 data::Trajectories record(std::uint64_t seed) {
   auto markers = data::Trajectories::all_missing({"A", "B", "C"}, {.rate_hz = 50.0, .frames = kFrames});
   Random random(seed, 12);
@@ -64,7 +64,7 @@ std::vector<MarkerTrust> trust() {
 }
 VectorXd step_variance() { return VectorXd::Constant(1, kStepSd_m * kStepSd_m); }
 
-/// The same by dense least squares: normal matrix and pull, frame by frame.
+/// The same by dense least squares: normal matrix and gradient, frame by frame.
 struct Dense {
   MatrixXd A = MatrixXd::Zero(kFrames, kFrames);
   VectorXd b = VectorXd::Zero(kFrames);
@@ -128,7 +128,7 @@ TEST(WholeTrajectory, IsBatchLeastSquaresWhereTheModelIsLinear) {
   EXPECT_GT(solved.sd[25], 2.0 * solved.sd[10]) << "nothing is seen there";
 }
 
-// The prior draws the motions, the markers are noisy: errors must scatter as the covariance says.
+// Motions are drawn from the prior, markers are noisy: the scatter of the errors must equal the covariance.
 TEST(WholeTrajectory, CovarianceIsTheScatterOfTheErrors) {
   const auto model = rail();
   constexpr int kDraws = 100;

@@ -10,7 +10,7 @@
 
 namespace kinemark::report::internal {
 
-/// A made-up cleaned recording with everything a report must show: twelve markers of a swinging arm with
+/// A synthetic cleaned recording with everything a report must show: twelve markers of a swinging arm with
 /// noise, gaps filled by several methods and one left open, a spike that was rejected, a label swap that was
 /// only flagged, samples that the recorder made, and a residual that is not white. For tests and for looking
 /// at the page.

@@ -10,7 +10,7 @@
 
 namespace kinemark::report::internal {
 
-/// A made-up solved trial with everything a report must show: 20 coordinates and 30 markers of a walking
+/// A synthetic solved trial with everything a report must show: 20 coordinates and 30 markers of a walking
 /// person, noise, soft-tissue waves, random dropout, a hidden wrist that leaves two coordinates undetermined,
 /// filled gaps, frames that did not converge, and a marker that was left out. For tests and for looking at
 /// the page.

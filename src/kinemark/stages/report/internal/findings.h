@@ -13,6 +13,6 @@ namespace kinemark::report::internal {
 /// Of level attention: a failed gate, frames that did not converge or had no marker, a coordinate that is
 /// never determined, an exit status other than 0. Notes: excluded markers, coordinates determined for part of
 /// the time, warnings. The serious ones come first, otherwise the order is fixed by the inputs.
-[[nodiscard]] std::vector<Finding> find_findings(const IkSummary& summary, const data::JointMotion& motion);
+[[nodiscard]] std::vector<Notice> find_notices(const IkSummary& summary, const data::JointMotion& motion);
 
 }  // namespace kinemark::report::internal

@@ -23,7 +23,7 @@ namespace kinemark::report::internal {
 
 /// The parts that all reports share, as README.md describes them.
 [[nodiscard]] nlohmann::ordered_json gates_json(std::span<const Gate> gates);
-[[nodiscard]] nlohmann::ordered_json findings_json(std::span<const Finding> findings);
+[[nodiscard]] nlohmann::ordered_json findings_json(std::span<const Notice> findings);
 [[nodiscard]] nlohmann::ordered_json inputs_json(std::span<const InputFile> inputs);
 [[nodiscard]] nlohmann::ordered_json options_json(
     std::span<const std::pair<std::string, std::string>> options);

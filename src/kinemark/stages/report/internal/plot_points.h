@@ -20,7 +20,7 @@ class PlotPoints {
   [[nodiscard]] std::int64_t step() const { return step_; }
   [[nodiscard]] std::int64_t size() const { return size_; }
 
-  /// Values on the grid. NaN frames count only where a pair has nothing else.
+  /// Values on the grid; NaN only where all frames of a pair are NaN.
   [[nodiscard]] std::vector<float> extremes(std::span<const double> values) const;
   /// The largest value of each pair, for both of its points; error bars are never understated.
   [[nodiscard]] std::vector<float> largest(std::span<const double> values) const;

@@ -44,7 +44,7 @@ std::array<Vector3d, kCameras> camera_ring(const model::Model& model, const Eige
                                            const SubjectOptions& options) {
   const Vector3d up =
       model.gravity().norm() > 0.0 ? Vector3d(-model.gravity().normalized()) : Vector3d(Vector3d::UnitY());
-  // Around the mean place of the markers over some frames; the floor is the lowest marker.
+  // Around the mean position of the markers over some frames; the floor is the lowest marker.
   model::Workspace w(model);
   Vector3d centre = Vector3d::Zero();
   double floor = INFINITY;
@@ -83,7 +83,8 @@ double second_best(const Vector3d& marker, const Vector3d& outward, int own_segm
   for (const Vector3d& camera : cameras) {
     double seen = outward.dot((camera - marker).normalized());
     for (std::size_t s = 0; s < capsules.size() && seen > second; ++s) {
-      if (static_cast<int>(s) == own_segment) continue;  // facing speaks for the segment under the marker
+      if (static_cast<int>(s) == own_segment)
+        continue;  // the facing angle covers the segment under the marker
       const double free =
           distance_of_lines(marker, camera, capsules[s].from, capsules[s].to) - segments.all[s].radius_m;
       seen = std::min(seen, free / kGraze_m);
@@ -169,7 +170,7 @@ Lost lines_of_sight(const model::Model& model, const Segments& segments, const E
     for (std::int64_t f = 0; f < frames; ++f) score[static_cast<std::size_t>(f * markers + m)] -= mean;
   }
 
-  // The worst `count`, ties by place, so that the choice is unique.
+  // The worst `count`, ties by index, so that the choice is unique.
   std::vector<std::size_t> order(samples);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto worse = [&](std::size_t a, std::size_t b) {

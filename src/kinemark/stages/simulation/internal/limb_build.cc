@@ -43,7 +43,7 @@ void record_limb(LimbRecording& limb, double noise_sd_m, double missing, std::ui
                  std::span<const double> weight) {
   Random noise(seed, static_cast<std::uint64_t>(LimbStream::noise));
   Random loss(seed, static_cast<std::uint64_t>(LimbStream::loss));
-  constexpr double kMost = 0.98;  // of a frame's samples, so that the worst frames still show something
+  constexpr double kMost = 0.98;  // of a frame's samples, so that some remain in the worst frames
   const std::size_t markers = limb.markers.names.size();
   auto& x = limb.markers.x_in_world;
   for (std::size_t i = 0; i < limb.markers.state.size(); ++i) {

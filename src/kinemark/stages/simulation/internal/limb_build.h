@@ -11,7 +11,7 @@
 
 namespace kinemark::simulation::internal {
 
-/// Streams of random numbers: noise and losses do not depend on each other, nor the motion on either.
+/// Streams of random numbers: motion, noise and losses are independent of one another.
 enum class LimbStream : std::uint64_t { motion = 700, noise = 701, loss = 702, sight = 703 };
 
 inline constexpr double kMostLimbFrames = 1e7;

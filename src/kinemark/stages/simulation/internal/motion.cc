@@ -109,7 +109,7 @@ void Motion::draw_coordinate(int c) {
       break;
   }
 
-  // Walking: what the left side does, the right side did half a stride ago, about the same centre.
+  // Walking: the left side repeats the motion of the right side half a stride later, about the same centre.
   if (options_.motion == MotionKind::walk && coordinate.name.ends_with("_l")) {
     const int twin =
         model_.description().find_coordinate(coordinate.name.substr(0, coordinate.name.size() - 2) + "_r");

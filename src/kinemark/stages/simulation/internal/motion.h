@@ -36,7 +36,7 @@ class Motion {
   void draw_root(std::size_t which);
   [[nodiscard]] Wave::Sine sine(double amplitude, double low_hz, double high_hz, Random& random) const;
 
-  // One free joint: sways about where it would be if it only turned and walked.
+  // Motion of one free joint: walking and turning, with oscillations added.
   struct Root {
     Wave shift[3];  // forward, up, right of the body, m
     Wave sway[3];   // rotation vector, rad

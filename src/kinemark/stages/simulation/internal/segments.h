@@ -8,7 +8,7 @@
 
 namespace kinemark::simulation::internal {
 
-/// Bodies that are welded together count as one. Places are in the frame of the segment's first body, m.
+/// Bodies that are welded together count as one. Positions are in the frame of the segment's first body, m.
 struct Segment {
   int body = -1;  ///< tree index of the first body
   double mass = 0.0;

@@ -22,7 +22,7 @@ constexpr std::array<std::array<double, 3>, 6> kCameras_m{{{0.7, 0.5, 0.5},
                                                            {0.9, 0.2, -0.2}}};
 constexpr double kNear_m = 0.055;  // from the wrist to the mouth, while head and hand hide LEDs
 
-/// Does the line from x along `to_camera` run into a ball about `centre`?
+/// True when the line from x along `to_camera` meets a ball about `centre`.
 bool meets_ball(const Vector3d& x, const Vector3d& to_camera, const Vector3d& centre, double radius_m) {
   const double along = std::clamp((centre - x).dot(to_camera) / to_camera.squaredNorm(), 0.0, 1.0);
   return (x + along * to_camera - centre).norm() < radius_m;
@@ -56,7 +56,7 @@ SleeveSight::SleeveSight(const SleeveOptions& options)
 void SleeveSight::begin_frame(const Vector3d& wrist) {
   const bool near = (wrist - mouth_in_world()).norm() < kNear_m;
   if (near && !at_mouth_) {
-    // The far half of the forearm is what dips behind the jaw.
+    // The distal half of the forearm is hidden by the jaw.
     for (std::size_t led = hidden_.size() / 2 + hidden_.size() / 4; led < hidden_.size(); ++led)
       hidden_[led] = random_.uniform() < mouth_loss_ ? 1 : 0;
   }

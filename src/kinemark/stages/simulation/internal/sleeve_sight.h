@@ -16,9 +16,9 @@ class SleeveSight {
  public:
   explicit SleeveSight(const SleeveOptions& options);
 
-  /// Tell where the wrist is in this frame, m; a visit to the mouth hides LEDs for as long as it lasts.
+  /// Set the wrist position of this frame, m; while the hand is at the mouth, LEDs are hidden.
   void begin_frame(const Eigen::Vector3d& wrist);
-  /// Is LED `led` (of both segments) at x, shining along this unit vector, seen?
+  /// True when LED `led` (of both segments) at x, shining along this unit vector, is seen.
   [[nodiscard]] bool sees(int led, const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const;
 
  private:

@@ -73,7 +73,7 @@ Field draw_field(const Segment& segment, const Eigen::MatrixXd& angles, Random r
   return field;
 }
 
-// What every marker's flesh does after impacts at jittered instants.
+// Oscillation of the soft tissue under every marker after impacts at jittered instants.
 VectorXd oscillation(double impact_hz, const SubjectOptions& options, Eigen::Index frames) {
   VectorXd out = VectorXd::Zero(frames);
   if (options.motion == MotionKind::tai_chi) return out;

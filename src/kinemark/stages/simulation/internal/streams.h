@@ -8,7 +8,7 @@
 
 namespace kinemark::simulation::internal {
 
-/// What a stream of random numbers is for. The numbers are part of the results: they never change.
+/// Purpose of each stream of random numbers. The values determine the results and must never change.
 enum class Draw : std::uint64_t {
   motion = 1,
   root = 2,

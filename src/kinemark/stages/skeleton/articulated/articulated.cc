@@ -12,32 +12,39 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/math/symmetric3.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain_fit.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain_rounds.h"
-#include "kinemark/stages/skeleton/articulated/internal/continuity.h"
-#include "kinemark/stages/skeleton/articulated/internal/findings.h"
-#include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
-#include "kinemark/stages/skeleton/articulated/internal/recording_pass.h"
-#include "kinemark/stages/skeleton/articulated/internal/widening.h"
+#include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
+#include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
+#include "kinemark/stages/skeleton/articulated/geometry/hold_hinges.h"
+#include "kinemark/stages/skeleton/articulated/recording/continuity.h"
+#include "kinemark/stages/skeleton/articulated/recording/findings.h"
+#include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
+#include "kinemark/stages/skeleton/articulated/recording/widening.h"
 
 namespace kinemark::skeleton {
 namespace {
 
+using articulated::ChainFitOptions;
+using articulated::ChainSamples;
+using articulated::FittedChain;
+using articulated::HingeAxis;
 using data::CentreState;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
-constexpr double kRobustDof = 30.0;  // of Student's t: bends at some five SDs and costs nothing below
+constexpr double kRobustDof =
+    30.0;  // of Student's t: lowers weights beyond some five SDs, costs nothing below
 constexpr double kMm = 1e3;
 
-/// Everything that is known on the way, in the chain's order of segments and joints.
+/// Everything that is known on the direction, in the chain's order of segments and joints.
 struct Work {
   const data::Trajectories& markers;
   const data::SegmentLayout& layout;
   const ArticulatedOptions& options;
-  internal::JointTree tree;
-  internal::ChainInput input;
-  ChainFit fit;
-  internal::RecordingPass pass;
-  internal::Continuity continuity;
+  articulated::JointTree tree;
+  articulated::ChainInput input;
+  FittedChain fit;
+  articulated::RecordingPass pass;
+  articulated::Continuity continuity;
 };
 
 Status check_input(const data::Trajectories& markers, const data::SegmentLayout& layout,
@@ -45,7 +52,7 @@ Status check_input(const data::Trajectories& markers, const data::SegmentLayout&
   if (auto s = markers.validate(); !s) return s;
   if (auto s = options.check(); !s) return s;
   if (auto s = layout.validate(markers.markers()); !s) return s;
-  if (auto s = internal::check_tree(layout); !s) return s;
+  if (auto s = articulated::check_tree(layout); !s) return s;
   if (!options.kinds.empty() && options.kinds.size() != layout.segments.size())
     return fail(Code::usage, fmt::format("{} kinds for {} segments; need one each", options.kinds.size(),
                                          layout.segments.size()));
@@ -69,8 +76,8 @@ ChainFitOptions fit_options(const Work& w) {
   return out;
 }
 
-/// Markers whose place on their segment is not known say nothing in any frame.
-void blank_dropped_markers(const ChainFit& fit, ChainSamples& samples) {
+/// Take markers whose position on their segment is not known out of all frames.
+void blank_dropped_markers(const FittedChain& fit, ChainSamples& samples) {
   for (int m = 0; m < samples.markers; ++m) {
     if (fit.marker_weight[at(m)] > 0.0) continue;
     for (std::int64_t f = 0; f < samples.frames; ++f)
@@ -95,7 +102,7 @@ data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
 }
 
 /// What the motion shows of a joint.
-std::string words(const internal::JointMotionSeen& seen, bool hinge, double common_sd_m) {
+std::string describe_motion(const articulated::ObservedMotion& seen, bool hinge, double common_sd_m) {
   const double deg = seen.range_rad * kDegPerRad;
   if (seen.frames == 0) return "no frame determines it by its own markers";
   if (seen.still)
@@ -108,33 +115,33 @@ std::string words(const internal::JointMotionSeen& seen, bool hinge, double comm
 }
 
 /// An axis that can be named: lines show none, and noise alone has none.
-bool shows_axis(const internal::JointMotionSeen& seen) {
+bool shows_axis(const articulated::ObservedMotion& seen) {
   return !seen.still && seen.axis_in_parent.squaredNorm() > 0.0;
 }
 
-bool is_hinge(const Work& w, const internal::JointMotionSeen& seen) {
+bool is_hinge(const Work& w, const articulated::ObservedMotion& seen) {
   return shows_axis(seen) && (w.options.joint == data::JointChoice::hinge ||
                               (w.options.joint == data::JointChoice::automatic && seen.one_axis));
 }
 
 Status pass_over(Work& w, const Progress& progress) {
-  auto pass = internal::pass_over(w.fit, w.input.samples, w.options.threads, progress);
+  auto pass = articulated::pass_over(w.fit, w.input.samples, w.options.threads, progress);
   if (!pass) return std::unexpected(pass.error());
   w.pass = std::move(*pass);
   return {};
 }
 
-/// Hinges whose place along the axis the motion leaves open; one that was asked for may turn about others
-/// too, and then its place is known.
+/// Hinges whose position along the axis the motion leaves open. One that was asked for may rotate about other
+/// axes too; its position is then known.
 std::vector<HingeAxis> find_open_hinges(const Work& w) {
   std::vector<HingeAxis> out;
   for (int j = 0; j < w.fit.chain.joints(); ++j)
-    if (const auto seen = internal::look_at_joint(w.fit, w.pass, j); seen.one_axis && is_hinge(w, seen))
+    if (const auto seen = articulated::observe_motion(w.fit, w.pass, j); seen.one_axis && is_hinge(w, seen))
       out.push_back({.joint = j, .in_parent = seen.axis_in_parent, .in_child = seen.axis_in_child});
   return out;
 }
 
-data::SkeletonJoint describe_joint(const Work& w, int j, const internal::JointMotionSeen& seen,
+data::SkeletonJoint describe_joint(const Work& w, int j, const articulated::ObservedMotion& seen,
                                    double common_sd_m) {
   const int layout_joint = w.tree.joint_order[at(j)];
   const auto& named = w.layout.joints[at(layout_joint)];
@@ -143,7 +150,7 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const internal::JointMo
   out.kind = hinge ? data::JointKind::hinge : data::JointKind::ball;
   out.range_of_motion_rad = seen.range_rad;
   out.method = "articulated";
-  out.words = words(seen, hinge, common_sd_m);
+  out.words = describe_motion(seen, hinge, common_sd_m);
   // The chain may see the joint from its other side.
   const bool turned = w.tree.holder[at(layout_joint)] != named.parent;
   Vector3d above = w.fit.chain.joint.col(j), below = Vector3d::Zero();
@@ -181,15 +188,15 @@ void widen_hinge(const Work& w, data::Skeleton& skeleton, int j) {
   const int layout_joint = w.tree.joint_order[at(j)];
   const data::SkeletonJoint& joint = skeleton.joints[at(layout_joint)];
   const bool turned = w.tree.holder[at(layout_joint)] != joint.parent_segment;
-  internal::widen_along_axis(w.pass.sampled, w.fit.chain.layout.parent[at(j)],
-                             turned ? joint.axis_in_child : joint.axis_in_parent, layout_joint,
-                             w.fit.chain.scale(), skeleton);
+  articulated::widen_along_axis(w.pass.sampled, w.fit.chain.layout.parent[at(j)],
+                                turned ? joint.axis_in_child : joint.axis_in_parent, layout_joint,
+                                w.fit.chain.scale(), skeleton);
 }
 
 /// One joint's centres, by its own frames or by its path.
 void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary& summary) {
   const int layout_joint = w.tree.joint_order[at(j)];
-  const internal::SmoothedPath& path = w.continuity.path[at(j)];
+  const articulated::SmoothedPath& path = w.continuity.path[at(j)];
   const double shared = common_variance(w, j) / 3.0;
   const double widest = w.options.max_bridge_sd_m * w.options.max_bridge_sd_m;
   for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
@@ -200,13 +207,13 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
     const bool alone = state == CentreState::determined;
     Matrix3d C = state == CentreState::undetermined
                      ? Matrix3d::Zero()
-                     : internal::load_symmetric(w.pass.covariance[at(j)].data() + 6 * k);
+                     : articulated::load_symmetric(w.pass.covariance[at(j)].data() + 6 * k);
     if (!path.place.empty() && path.known(k)) {
       const Matrix3d own = path.covariance_at(k);
       if (alone || own.trace() < widest) {
         state = alone ? CentreState::determined : CentreState::bridged;
         centre = path.place[k];
-        C = own + (alone ? internal::load_symmetric(w.pass.common[at(j)].data() + 6 * k)
+        C = own + (alone ? articulated::load_symmetric(w.pass.common[at(j)].data() + 6 * k)
                          : Matrix3d(shared * Matrix3d::Identity()));
       }
     }
@@ -227,19 +234,19 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
     skeleton.state[to] = state;
     if (state == CentreState::undetermined) continue;
     std::copy_n(centre.data(), 3, skeleton.centre_in_world.data() + 3 * to);
-    internal::store_symmetric(skeleton.covariance.data() + 6 * to, C);
+    articulated::store_symmetric(skeleton.covariance.data() + 6 * to, C);
   }
   summary.common_sd_m = std::sqrt(3.0 * shared);
   summary.white_jerk = path.place.empty() ? 0.0 : w.continuity.prior[at(j)].white_jerk;
 }
 
 /// Along a hinge's axis its place is not known, nor is that part of a length from it.
-double open_variance(const Work& w, const data::Skeleton& skeleton, const ChainFit::Length& length,
+double open_variance(const Work& w, const data::Skeleton& skeleton, const FittedChain::Length& length,
                      int chain_joint) {
   const auto& joint = skeleton.joints[at(w.tree.joint_order[at(chain_joint)])];
   if (joint.kind != data::JointKind::hinge) return 0.0;
   const bool on_parent = joint.parent_segment == w.tree.segment_order[at(length.segment)];
-  const double along = length.way.dot(on_parent ? joint.axis_in_parent : joint.axis_in_child);
+  const double along = length.direction.dot(on_parent ? joint.axis_in_parent : joint.axis_in_child);
   return std::pow(along * w.fit.chain.scale(), 2);
 }
 
@@ -261,17 +268,17 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
   auto& warnings = skeleton.warnings;
   warnings = w.fit.warnings;
   const auto name = [&](int chain_marker) { return w.markers.names[at(w.input.marker[at(chain_marker)])]; };
-  const auto slips = internal::find_slips(w.fit, w.input.samples, w.pass);
+  const auto slips = articulated::find_slipped_markers(w.fit, w.input.samples, w.pass);
   for (const auto& slip : slips)
     warnings.push_back(
         fmt::format("marker '{}' sits {:.1f} mm elsewhere on its segment from {:.2f} s on: "
                     "did it slip?",
                     name(slip.marker), kMm * slip.distance_m, w.markers.time.time_s(slip.frame)));
-  for (const auto& swap : internal::find_swaps(w.fit, w.input.samples, w.pass))
+  for (const auto& swap : articulated::find_swapped_markers(w.fit, w.input.samples, w.pass))
     warnings.push_back(fmt::format(
         "markers '{}' and '{}' have exchanged names in about {} frames, the first at {:.2f} s",
         name(swap.marker_a), name(swap.marker_b), swap.frames, w.markers.time.time_s(swap.first_frame)));
-  for (const auto& loose : internal::find_loose_markers(w.fit, w.input.samples, w.pass)) {
+  for (const auto& loose : articulated::find_loose_markers(w.fit, w.input.samples, w.pass)) {
     const bool slipped = std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; });
     if (!slipped)
       warnings.push_back(
@@ -302,9 +309,9 @@ ArticulatedFit assemble(const Work& w) {
     skeleton.segments[at(w.tree.segment_order[at(s)])] = describe_segment(w, s);
   skeleton.joints.resize(w.layout.joints.size());
   out.joints.resize(w.layout.joints.size());
-  std::vector<internal::JointMotionSeen> seen;
+  std::vector<articulated::ObservedMotion> seen;
   for (int j = 0; j < J; ++j) {
-    seen.push_back(internal::look_at_joint(w.fit, w.pass, j));
+    seen.push_back(articulated::observe_motion(w.fit, w.pass, j));
     skeleton.joints[at(w.tree.joint_order[at(j)])] =
         describe_joint(w, j, seen.back(), std::sqrt(common_variance(w, j)));
   }
@@ -317,7 +324,7 @@ ArticulatedFit assemble(const Work& w) {
   for (int j = 0; j < J; ++j) {
     const int joint = w.tree.joint_order[at(j)];
     if (seen[at(j)].still)
-      internal::widen_all_around(joint, w.fit.chain.scale(), skeleton);
+      articulated::widen_all_around(joint, w.fit.chain.scale(), skeleton);
     else if (skeleton.joints[at(joint)].kind == data::JointKind::hinge)
       widen_hinge(w, skeleton, j);
   }
@@ -352,8 +359,8 @@ Status ArticulatedOptions::check() const {
 Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const data::SegmentLayout& layout,
                                        const ArticulatedOptions& options, const Progress& progress) {
   if (auto s = check_input(markers, layout, options); !s) return std::unexpected(s.error());
-  Work w{.markers = markers, .layout = layout, .options = options, .tree = internal::JointTree(layout)};
-  w.input = internal::arrange(markers, layout, w.tree);
+  Work w{.markers = markers, .layout = layout, .options = options, .tree = articulated::JointTree(layout)};
+  w.input = articulated::arrange(markers, layout, w.tree);
   auto fit = fit_chain(w.input.samples, w.input.layout, fit_options(w), progress);
   if (!fit) return std::unexpected(fit.error());
   w.fit = std::move(*fit);
@@ -366,10 +373,10 @@ Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const 
   const std::size_t J = layout.joints.size();
   if (options.continuity)
     w.continuity =
-        internal::follow_paths(w.fit, w.input.samples, markers.time.rate_hz, options.threads, w.pass);
+        articulated::follow_paths(w.fit, w.input.samples, markers.time.rate_hz, options.threads, w.pass);
   else
-    w.continuity = {.prior = std::vector<internal::PathPrior>(J),
-                    .path = std::vector<internal::SmoothedPath>(J)};
+    w.continuity = {.prior = std::vector<articulated::PathPrior>(J),
+                    .path = std::vector<articulated::SmoothedPath>(J)};
   return assemble(w);
 }
 

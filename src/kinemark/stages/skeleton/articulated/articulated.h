@@ -21,7 +21,7 @@ namespace kinemark::skeleton {
 struct ArticulatedOptions {
   double noise_sd_m = 0.0;               ///< of a marker, per axis, >= 0; 0: estimated from the residuals
   std::vector<data::SegmentKind> kinds;  ///< one a segment; empty: the data choose line, plane or solid
-  data::JointChoice joint = data::JointChoice::automatic;
+  data::JointChoice joint = data::JointChoice::automatic;  ///< of all joints: ball, hinge, or found
   bool continuity = true;  ///< smooth the centres in time and bridge what one frame leaves open
   bool robust = true;      ///< single markers far off lose their weight
   /// Soft tissue: every marker has a noise of its own, found from its residuals and shrunk towards the common
@@ -31,17 +31,18 @@ struct ArticulatedOptions {
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
 /// What became of one joint over the recording.
 struct JointSummary {
   std::int64_t determined = 0, bridged = 0, ambiguous = 0, undetermined = 0;  ///< frames, together F
-  std::int64_t modes = 0;    ///< places that fit alike, summed over the frames not determined on their own
+  std::int64_t modes = 0;    ///< positions that fit alike, summed over the frames not determined on their own
   double common_sd_m = 0.0;  ///< root of the trace: error that all frames share through the geometry
   double white_jerk = 0.0;   ///< m^2/s^5, of the smoothing; 0: none was done
 };
 
+/// Joint centres of a layout, and what became of each joint.
 struct ArticulatedFit {
   data::Skeleton skeleton;           ///< one centre a frame and joint; covariances include the common part
   std::vector<JointSummary> joints;  ///< as skeleton.joints
@@ -61,8 +62,8 @@ struct ArticulatedFit {
 ///
 /// Fails with one sentence where the geometry cannot be known at all: no frame that shows two segments, fewer
 /// than two markers on a segment, a joint that never moves. What the recording shows about each joint is in
-/// skeleton.joints[].words; markers that move on their segment, swapped names and a geometry with a mirror
-/// twin are in skeleton.warnings. About 60 us a frame and thread for 16 markers.
+/// skeleton.joints[].words; markers that move on their segment, swapped names and a mirror ambiguity of the
+/// geometry are in skeleton.warnings. About 60 us a frame and thread for 16 markers.
 [[nodiscard]] Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers,
                                                      const data::SegmentLayout& layout,
                                                      const ArticulatedOptions& options = {},

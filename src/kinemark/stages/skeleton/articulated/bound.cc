@@ -11,19 +11,19 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/math/symmetric3.h"
-#include "kinemark/stages/skeleton/articulated/internal/joint_tree.h"
+#include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
 
 namespace kinemark::skeleton {
 namespace {
 
+using articulated::JointTree;
 using data::SegmentKind;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using internal::JointTree;
 
-constexpr double kUnit_m = 0.1;  // lengths are measured in this, so that shifts and turns weigh alike
+constexpr double kUnit_m = 0.1;  // lengths are measured in this, so that shifts and rotations weigh alike
 constexpr double kRank = 1e-9;   // of a frame's information, relative: the truth carries no noise
 constexpr double kHeld = 1e-4;   // part of a joint's shift that may lie in what a frame leaves open
 
@@ -42,7 +42,7 @@ PseudoInverse invert(const MatrixXd& H, double relative) {
           eigen.eigenvectors().leftCols(left_out)};
 }
 
-/// Unknowns of a limb: those of a frame (place of joint 0, turns) and those common to all frames.
+/// Unknowns of a limb: those of a frame (position of joint 0, rotations) and those common to all frames.
 class Limb {
  public:
   Limb(const data::Trajectories& markers, const data::SegmentLayout& layout,
@@ -51,17 +51,17 @@ class Limb {
     const int S = static_cast<int>(layout.segments.size()), J = static_cast<int>(layout.joints.size());
     frame_unknowns_ = 3;
     for (int s = 0; s < S; ++s) {
-      turn_.push_back(frame_unknowns_);
+      rotation_.push_back(frame_unknowns_);
       frame_unknowns_ += kinds[at(s)] == SegmentKind::line ? 2 : 3;
     }
-    marker_global_.assign(static_cast<std::size_t>(markers.markers()), -1);
+    marker_parameters_.assign(static_cast<std::size_t>(markers.markers()), -1);
     for (int s = 0; s < S; ++s)
-      for (const int m : layout.segments[at(s)].markers) marker_global_[at(m)] = take(s);
-    for (int j = 0; j < J; ++j) joint_global_.push_back(j == 0 ? -1 : take(tree_.holder[at(j)]));
+      for (const int m : layout.segments[at(s)].markers) marker_parameters_[at(m)] = take(s);
+    for (int j = 0; j < J; ++j) joint_parameters_.push_back(j == 0 ? -1 : take(tree_.holder[at(j)]));
   }
 
   [[nodiscard]] int frame_unknowns() const { return frame_unknowns_; }
-  [[nodiscard]] int globals() const { return globals_; }
+  [[nodiscard]] int geometry_parameters() const { return geometry_parameters_; }
 
   /// Fix each segment's axes to its points: z towards the farthest from its origin, x towards the one
   /// farthest from that line.
@@ -97,21 +97,22 @@ class Limb {
     return R;
   }
 
-  /// How a marker (joint < 0) or a joint moves with the unknowns: A of the frame, B of the globals.
+  /// How a marker (joint < 0) or a joint moves with the unknowns: A of the frame, B of the geometry
+  /// parameters.
   void jacobian(std::int64_t frame, int segment, int marker, int joint, const std::vector<Matrix3d>& R,
                 MatrixXd& A, MatrixXd& B) const {
     A.setZero(3, frame_unknowns_);
-    B.setZero(3, globals_);
+    B.setZero(3, geometry_parameters_);
     A.leftCols<3>().setIdentity();
     if (joint < 0) {
-      turn(A, segment, R[at(segment)], from_origin(frame, segment, marker));
-      shift(B, marker_global_[at(marker)], segment, R[at(segment)]);
+      rotate(A, segment, R[at(segment)], from_origin(frame, segment, marker));
+      shift(B, marker_parameters_[at(marker)], segment, R[at(segment)]);
       joint = tree_.origin[at(segment)];
     }
     for (; joint != 0; joint = tree_.origin[at(tree_.holder[at(joint)])]) {
       const int holder = tree_.holder[at(joint)];
-      turn(A, holder, R[at(holder)], from_origin(frame, holder, -1 - joint));
-      shift(B, joint_global_[at(joint)], holder, R[at(holder)]);
+      rotate(A, holder, R[at(holder)], from_origin(frame, holder, -1 - joint));
+      shift(B, joint_parameters_[at(joint)], holder, R[at(holder)]);
     }
   }
 
@@ -130,10 +131,10 @@ class Limb {
   };
 
   int take(int segment) {
-    const int first = globals_;
-    globals_ += kinds_[at(segment)] == SegmentKind::line    ? 1
-                : kinds_[at(segment)] == SegmentKind::plane ? 2
-                                                            : 3;
+    const int first = geometry_parameters_;
+    geometry_parameters_ += kinds_[at(segment)] == SegmentKind::line    ? 1
+                            : kinds_[at(segment)] == SegmentKind::plane ? 2
+                                                                        : 3;
     return first;
   }
 
@@ -158,9 +159,9 @@ class Limb {
     return place(frame, point) - place(frame, -1 - tree_.origin[at(segment)]);
   }
 
-  void turn(MatrixXd& A, int segment, const Matrix3d& R, const Vector3d& arm) const {
+  void rotate(MatrixXd& A, int segment, const Matrix3d& R, const Vector3d& arm) const {
     const int n = kinds_[at(segment)] == SegmentKind::line ? 2 : 3;
-    for (int i = 0; i < n; ++i) A.col(turn_[at(segment)] + i) = R.col(i).cross(arm);
+    for (int i = 0; i < n; ++i) A.col(rotation_[at(segment)] + i) = R.col(i).cross(arm);
   }
 
   void shift(MatrixXd& B, int first, int segment, const Matrix3d& R) const {
@@ -183,12 +184,12 @@ class Limb {
   std::span<const SegmentKind> kinds_;
   const LimbTruth& truth_;
   JointTree tree_;
-  std::vector<int> turn_, marker_global_, joint_global_;
+  std::vector<int> rotation_, marker_parameters_, joint_parameters_;
   std::vector<Axes> axes_;
-  int frame_unknowns_ = 0, globals_ = 0;
+  int frame_unknowns_ = 0, geometry_parameters_ = 0;
 };
 
-/// One frame: inverse information of its own unknowns, and how they answer to the globals.
+/// One frame: inverse information of its own unknowns, and how they depend on the geometry parameters.
 struct FrameBound {
   MatrixXd inverse, open, answer;
 };
@@ -204,7 +205,7 @@ Status check_shapes(const data::Trajectories& markers, const data::SegmentLayout
   if (layout.joints.empty() || F == 0) return fail(Code::usage, "a bound needs a joint and a frame");
   if (!(noise_sd_m > 0.0) || !std::isfinite(noise_sd_m))
     return fail(Code::usage, fmt::format("noise of {} m; need more than 0", noise_sd_m));
-  return internal::check_tree(layout);
+  return articulated::check_tree(layout);
 }
 
 }  // namespace
@@ -218,14 +219,14 @@ Result<CentreBound> calc_centre_bound(const data::Trajectories& markers, const d
   const int J = static_cast<int>(layout.joints.size()), S = static_cast<int>(layout.segments.size());
   std::vector<FrameBound> frames(static_cast<std::size_t>(markers.frames()));
   std::vector<Matrix3d> R(layout.segments.size());
-  MatrixXd information = MatrixXd::Zero(limb.globals(), limb.globals()), A, B;
+  MatrixXd information = MatrixXd::Zero(limb.geometry_parameters(), limb.geometry_parameters()), A, B;
   const auto turn_axes = [&](std::int64_t f) {
     for (int s = 0; s < S; ++s) R[at(s)] = limb.axes(f, s);
   };
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
     turn_axes(f);
     MatrixXd H = MatrixXd::Zero(limb.frame_unknowns(), limb.frame_unknowns()),
-             G = MatrixXd::Zero(limb.frame_unknowns(), limb.globals());
+             G = MatrixXd::Zero(limb.frame_unknowns(), limb.geometry_parameters());
     for (int s = 0; s < S; ++s) {
       if (limb.looseness(f, s) > 1e-6)
         return fail(Code::bad_input, fmt::format("segment '{}' is not rigid in the truth (frame {})",
@@ -275,7 +276,7 @@ Result<CentreBound> calc_centre_bound(const data::Trajectories& markers, const d
   // A length is the difference of two joints of one segment; turning that segment does not change it.
   turn_axes(0);
   MatrixXd A2, B2;
-  for (const auto& [a, b] : internal::joint_pairs(layout)) {
+  for (const auto& [a, b] : articulated::joint_pairs(layout)) {
     const double* x = truth.centre_in_world.data();
     const Vector3d along =
         (Eigen::Map<const Vector3d>(x + 3 * b) - Eigen::Map<const Vector3d>(x + 3 * a)).normalized();

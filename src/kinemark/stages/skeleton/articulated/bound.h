@@ -22,7 +22,7 @@ struct CentreBound {
   Array<double> known_geometry;    ///< the same if the markers' places in their segments were known
   Array<std::uint8_t> determined;  ///< F x J, 1 where the frame's information holds the joint
   std::vector<int> length_joint_a, length_joint_b;  ///< pairs of joints that meet on a segment
-  std::vector<double> length_sd_m;
+  std::vector<double> length_sd_m;                  ///< smallest standard deviation of their distance, m
 
   /// Variance of a centre, summed over x, y and z, m^2.
   [[nodiscard]] double variance(std::size_t index) const {

@@ -20,7 +20,8 @@ namespace {
 /// The report's numbers are in millimetres; tolerances of the search are absolute, so it is done in them too.
 constexpr double kPerMetre = 1e3;
 constexpr int kRegressionSteps = 200;
-/// Above this condition the visible markers lie in a plane with the joint's place: a mirror twin fits alike.
+/// Above this condition number the visible markers lie in a plane with the joint centre: its mirror image
+/// fits equally well (mirror ambiguity).
 constexpr double kFlat = 1e3;
 
 std::vector<std::int64_t> complete_frames(const Samples& samples, const std::vector<int>& markers, int most) {

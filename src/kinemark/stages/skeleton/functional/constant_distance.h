@@ -14,29 +14,32 @@
 
 namespace kinemark::skeleton {
 
+/// Options of the constant-distance method.
 struct ConstantDistanceOptions {
   int complete_frames = 30;  ///< the first so many frames that show every marker inform the distances; >= 2
   double penalty_m = 1e-5;   ///< weight of the mean distances against their variances (0.01 in millimetres)
 
+  /// Ranges hold.
   [[nodiscard]] Status check() const;
 };
 
+/// What the constant-distance method found of one joint.
 struct ConstantDistanceFit {
   std::vector<int> markers;           ///< of the parent, then of the child
   Eigen::VectorXd distances_m;        ///< of each from the joint, mean over the chosen frames
   std::vector<std::int64_t> chosen;   ///< complete frames
   Eigen::Matrix3Xd centre_in_chosen;  ///< the joint there, m
   double distance_sd_m = 0.0;         ///< scatter of the distances over the chosen frames, RMS
-  /// F: frames with two markers on one segment and one on the other, or more, have a place (m, in world).
+  /// F: frames with two markers on one segment and one on the other, or more, have a position (m, in world).
   std::vector<Eigen::Vector3d> centre_in_world;
-  std::vector<Eigen::Matrix3d> covariance;  ///< F, m^2, of the distances' scatter alone
+  std::vector<Eigen::Matrix3d> covariance;  ///< F, m^2, of the scatter of the distances alone
   std::vector<data::CentreState> state;     ///< F; ambiguous: three distances, or markers near a plane
 };
 
-/// Two steps. (1) Over the chosen frames, joint places minimise sum_k var_f |x_fk - J_f| + penalty mean_f
-/// |x_fk - J_f|, from the mean of the markers, by L-BFGS. (2) In every other frame the place is regressed on
-/// the known distances (Levenberg-Marquardt from the mean of what is visible). To keep only the real samples
-/// of an upsampled stream, mask the rest.
+/// Two steps. (1) Over the chosen frames, joint positions minimise sum_k var_f |x_fk - J_f| + penalty mean_f
+/// |x_fk - J_f|, from the mean of the markers, by L-BFGS. (2) In every other frame the position is regressed
+/// on the known distances (Levenberg-Marquardt from the mean of what is visible). To keep only the real
+/// samples of an upsampled stream, mask the rest.
 ///
 /// Code::bad_input when no two frames show every marker of both segments. O(chosen K + F K).
 [[nodiscard]] Result<ConstantDistanceFit> fit_constant_distance(const Samples& samples,

@@ -4,10 +4,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "kinemark/core/enum_names.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
 #include "kinemark/stages/skeleton/functional/words.h"
@@ -15,9 +14,9 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr std::array<std::string_view, 6> kMethods = {"score",        "sara",     "gamage",
-                                                      "gamage-plain", "cylinder", "constant-distance"};
-constexpr std::array<std::string_view, 3> kSides = {"both", "parent", "child"};
+constexpr EnumNames<FunctionalMethod::constant_distance> kMethods{
+    "score", "sara", "gamage", "gamage-plain", "cylinder", "constant-distance"};
+constexpr EnumNames<Sides::child> kSides{"both", "parent", "child"};
 
 data::SkeletonSegment describe_segment(const SegmentPoses& poses) {
   data::SkeletonSegment out;
@@ -28,7 +27,7 @@ data::SkeletonSegment describe_segment(const SegmentPoses& poses) {
   return out;
 }
 
-/// Noise of all markers together, from every segment that tells.
+/// Noise of all markers together, from every segment with an estimate.
 double common_noise(const std::vector<SegmentPoses>& poses) {
   double squares = 0.0, weight = 0.0;
   for (const SegmentPoses& p : poses) {
@@ -74,7 +73,8 @@ void carry_into_segments(const ConstantDistanceFit& fit, const internal::JointTa
   out.method = "constant distance";
 }
 
-/// One joint into the skeleton. The sentence that says why not, or what was done differently, or nothing.
+/// Add one joint to the skeleton. Returns a sentence on failure or on deviations from the requested method,
+/// else an empty one.
 std::string find_joint(const Samples& samples, const internal::JointTask& task,
                        const FunctionalOptions& options, std::size_t j, data::Skeleton& skeleton,
                        bool& placed) {
@@ -122,26 +122,15 @@ Status check_input(const data::Trajectories& trajectories, const data::SegmentLa
 
 }  // namespace
 
-std::string_view to_string(FunctionalMethod method) { return kMethods[static_cast<std::size_t>(method)]; }
+std::string_view to_string(FunctionalMethod method) { return kMethods[method]; }
 
 Result<FunctionalMethod> parse_functional_method(std::string_view name) {
-  const auto at = std::ranges::find(kMethods, name);
-  if (at == kMethods.end())
-    return fail(Code::usage,
-                fmt::format("'{}' is not a method; use score, sara, gamage, gamage-plain, cylinder or "
-                            "constant-distance",
-                            name));
-  return static_cast<FunctionalMethod>(at - kMethods.begin());
+  return kMethods.parse(name, "method");
 }
 
-std::string_view to_string(Sides sides) { return kSides[static_cast<std::size_t>(sides)]; }
+std::string_view to_string(Sides sides) { return kSides[sides]; }
 
-Result<Sides> parse_sides(std::string_view name) {
-  const auto at = std::ranges::find(kSides, name);
-  if (at == kSides.end())
-    return fail(Code::usage, fmt::format("'{}' is not a side; use both, parent or child", name));
-  return static_cast<Sides>(at - kSides.begin());
-}
+Result<Sides> parse_sides(std::string_view name) { return kSides.parse(name, "side"); }
 
 Status FunctionalOptions::check() const {
   if (!(noise_sd_m >= 0.0) || !std::isfinite(noise_sd_m))

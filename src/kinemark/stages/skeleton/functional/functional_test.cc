@@ -173,7 +173,7 @@ TEST(Functional, SwappedLabelsAreToldAndLeftOut) {
   EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 0.003);
 }
 
-/// The chain seen from elsewhere: every sample turned, shifted and scaled.
+/// The chain in another frame: every sample rotated, shifted and scaled.
 data::Trajectories moved(const data::Trajectories& from, const Eigen::Matrix3d& R, const Eigen::Vector3d& t,
                          double scale) {
   data::Trajectories to = from;

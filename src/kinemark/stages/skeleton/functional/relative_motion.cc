@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/rotation_fit.h"
+
 namespace kinemark::skeleton {
 namespace {
 
 constexpr double kHingeRatio = 0.25;
-constexpr double kHingeNoise = 3.0;  ///< turns below so many SDs of the noise are none
+constexpr double kHingeNoise = 3.0;  ///< rotations below so many SDs of the noise count as none
 
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return rotation_vector(a.transpose() * b).norm();
@@ -40,7 +42,7 @@ RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& ch
     sum += turns.back();
   }
   if (turns.empty()) return motion;
-  const Eigen::Matrix3d mean = kabsch(sum);
+  const Eigen::Matrix3d mean = math::fit_rotation(sum).rotation;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const Eigen::Matrix3d& turn : turns) {
     const Eigen::Vector3d v = rotation_vector(mean.transpose() * turn);

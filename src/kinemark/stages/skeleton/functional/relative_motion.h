@@ -11,19 +11,21 @@
 
 namespace kinemark::skeleton {
 
-/// How a segment turns against another over the frames in which both have a pose.
+/// Rotation of a segment against another over the frames in which both have a pose.
 struct RelativeMotion {
   std::vector<std::int64_t> frames;  ///< in which both poses are known
-  double range_rad = 0.0;  ///< largest turn between two of these frames (a lower bound, nearly always met)
+  double range_rad =
+      0.0;  ///< largest rotation between two of these frames (a lower bound, nearly always attained)
   Eigen::Vector3d sd_rad =
-      Eigen::Vector3d::Zero();  ///< of the turn from the mean, about its axes, largest first
+      Eigen::Vector3d::Zero();  ///< SD of the rotation from the mean, about its axes, largest first
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the child's mean pose
 
-  /// A hinge turns about its axis alone: the next largest SD is no more than a quarter of the largest, or no
-  /// more than what noise of the poses (rad, per axis) makes of none.
+  /// Hinge if the second largest SD is at most a quarter of the largest, or at most what noise of the poses
+  /// (rad, per axis) alone would produce.
   [[nodiscard]] data::JointKind kind(double noise_rad) const;
 };
 
+/// Over the frames in which both poses are known. O(F).
 [[nodiscard]] RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& child);
 
 /// Rotation vector of a rotation, length 0 to pi.

@@ -13,12 +13,12 @@ namespace kinemark::skeleton {
 namespace {
 
 constexpr std::size_t kLeastFrames = 4;
-constexpr std::int64_t kNoiseFrames = 200;  ///< in which the noise of the poses is looked at
+constexpr std::int64_t kNoiseFrames = 200;  ///< from which the noise of the poses is estimated
 
 struct Solution {
   Vector6 centre = Vector6::Zero();
   Vector6 axis = Vector6::Zero();  ///< two unit vectors; zero for a ball
-  Vector6 open = Vector6::Zero();  ///< SD along each eigenvector of what the data leave open, m
+  Vector6 open = Vector6::Zero();  ///< SD along each eigenvector due to undetermined directions, m
   Matrix6 directions = Matrix6::Identity();
 };
 
@@ -41,7 +41,8 @@ Solution solve(const ScoreSums& sums, data::JointKind kind, double residual_vari
     const Vector6 e = s.directions.col(i);
     const double value = std::max(0.0, eigen.eigenvalues()(i));
     s.centre += e * (e.dot(sums.right) / (value + prior));
-    // Noise of the poses looks like motion: by its share of the eigenvalue the place is drawn to the markers.
+    // Noise of the poses acts like motion: it biases the centre towards the markers by its share of the
+    // eigenvalue.
     const double from_prior = prior / (value + prior);
     const double from_noise = std::min(1.0, e.dot(pose_noise * e) / (value + prior));
     s.open(i) =
@@ -51,8 +52,8 @@ Solution solve(const ScoreSums& sums, data::JointKind kind, double residual_vari
   return s;
 }
 
-/// What noise of the turns adds to the normal matrix' eigenvalues: 2 (u'G_a u + v'G_b v), G = (tr T I - T)
-/// / 2.
+/// Contribution of the rotation noise to the eigenvalues of the normal matrix: 2 (u'G_a u + v'G_b v), G = (tr
+/// T I - T) / 2.
 Matrix6 noise_of_poses(const Samples& samples, const SegmentPoses& a, const SegmentPoses& b,
                        const RelativeMotion& motion) {
   Matrix6 noise = Matrix6::Zero();
@@ -155,7 +156,7 @@ JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const Seg
     if (kind == data::JointKind::hinge) {
       const Vector6 axis = same_sign(without.axis, best.axis);
       tilts += scale * 0.5 * (axis - best.axis).head<3>().squaredNorm();
-      // Where along the axis the point was put is a convention; it does not count as error.
+      // The position of the point along the axis is a convention and does not count as error.
       const Vector6 along = best.directions.col(0);
       d -= along * along.dot(d);
     }

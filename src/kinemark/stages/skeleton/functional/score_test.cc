@@ -81,7 +81,7 @@ TEST(Score, CovarianceCoversTheTruth) {
 }
 
 TEST(Score, WhatTheMotionLeavesOpenIsWide) {
-  // A hinge taken for a ball: along the axis nothing is known, across it the place is.
+  // A hinge fitted as a ball: the position is not determined along the axis, but across it.
   const Both both(
       {.per_segment = 5, .stagger_m = 0.04, .turns = Turns::hinge, .range_rad = 1.0, .noise_sd_m = 0.0005});
   const auto fit = both.fit(data::JointKind::ball);

@@ -3,22 +3,19 @@
 #include "kinemark/stages/skeleton/functional/segment_poses.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/math/se3.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/skeleton/functional/internal/rigid_shape.h"
 
 namespace kinemark::skeleton {
 namespace {
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  return Eigen::Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
-}
-
-/// A segment without poses: markers along z at the places that their distances tell.
+/// A segment without poses: markers along z at the positions given by their distances.
 void lay_on_line(const Samples& samples, SegmentPoses& out) {
   out.kind = data::SegmentKind::line;
   const auto K = out.markers.size();
@@ -47,12 +44,6 @@ void lay_on_line(const Samples& samples, SegmentPoses& out) {
     return;
   }
   out.x_in_segment.topRows(2).setZero();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 SegmentPoses without_poses(const Samples& samples, const std::string& name, const std::vector<int>& markers) {
@@ -89,7 +80,7 @@ void pose_all_frames(const internal::RigidShape& shape, const SegmentPoseOptions
     usual.push_back(rms[i]);
   }
   if (usual.empty()) return;
-  out.usual_rms_m = median(usual);
+  out.usual_rms_m = math::upper_median(usual);
   double odd_squares = 0.0;
   for (std::int64_t f = 0; f < frames; ++f) {
     const auto i = static_cast<std::size_t>(f);
@@ -118,16 +109,8 @@ void pose_all_frames(const internal::RigidShape& shape, const SegmentPoseOptions
 
 }  // namespace
 
-Eigen::Matrix3d kabsch(const Eigen::Matrix3d& sum_world_segment) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum_world_segment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  const Eigen::Matrix3d v = svd.matrixV();
-  if ((u * v.transpose()).determinant() < 0.0) u.col(2) *= -1.0;
-  return u * v.transpose();
-}
-
 Eigen::Matrix3d PoseNoise::at(const Eigen::Matrix3d& world_from_segment, const Eigen::Vector3d& x) const {
-  const Eigen::Matrix3d arm = world_from_segment * cross_matrix(x - visible_mean);
+  const Eigen::Matrix3d arm = world_from_segment * math::skew(x - visible_mean);
   return mean_variance * Eigen::Matrix3d::Identity() + arm * turn * arm.transpose();
 }
 

@@ -17,13 +17,15 @@ namespace kinemark::skeleton {
 
 /// Which samples a method may use: those present and, where there is a mask (F x M, 0 leaves out), allowed.
 struct Samples {
-  const data::Trajectories& trajectories;
-  std::span<const std::uint8_t> mask;
+  const data::Trajectories& trajectories;  ///< kept by the caller
+  std::span<const std::uint8_t> mask;      ///< F x M, or empty
 
+  /// Whether a sample may be used.
   [[nodiscard]] bool seen(std::int64_t frame, int marker) const {
     return trajectories.present(frame, marker) &&
            (mask.empty() || mask[trajectories.index(frame, marker)] != 0);
   }
+  /// The sample, m.
   [[nodiscard]] Eigen::Vector3d x(std::int64_t frame, int marker) const {
     return trajectories.x(frame, marker);
   }
@@ -31,34 +33,39 @@ struct Samples {
 
 /// Shape and poses of a segment. Origin: mean of its markers; z: along their longest extent.
 struct SegmentPoses {
-  std::string name;
+  std::string name;               ///< as in the layout
   std::vector<int> markers;       ///< in the recording
   Eigen::Matrix3Xd x_in_segment;  ///< one column a marker, m; NaN for one that could not be placed
-  data::SegmentKind kind = data::SegmentKind::line;  ///< line: no frame fixes the turn about z, no poses
+  data::SegmentKind kind =
+      data::SegmentKind::line;  ///< line: the rotation about z is not determined, no poses
   double noise_sd_m =
       0.0;  ///< of the markers, per axis: as given, else about the rigid shape; NaN when unknown
   std::vector<std::uint8_t> known;                  ///< F: 1 where the pose is known
   std::vector<Eigen::Matrix3d> world_from_segment;  ///< F; identity where unknown
   std::vector<Eigen::Vector3d> origin;              ///< F, m; zero where unknown
-  std::int64_t known_frames = 0;
+  std::int64_t known_frames = 0;                    ///< of F
   /// Frames in which the markers keep their shape far worse than usual (labels swapped, a marker elsewhere):
   /// left out.
   std::int64_t odd_frames = 0, first_odd_frame = -1;
+  /// distance from the shape, RMS, in those frames and in the others
   double odd_rms_m = 0.0, usual_rms_m = 0.0;
 
+  /// A point of the segment, m, taken to the world in a frame whose pose is known.
   [[nodiscard]] Eigen::Vector3d to_world(std::int64_t frame, const Eigen::Vector3d& x) const {
     const auto f = static_cast<std::size_t>(frame);
     return world_from_segment[f] * x + origin[f];
   }
+  /// A point of the world, m, taken to the segment in a frame whose pose is known.
   [[nodiscard]] Eigen::Vector3d to_segment(std::int64_t frame, const Eigen::Vector3d& x) const {
     const auto f = static_cast<std::size_t>(frame);
     return world_from_segment[f].transpose() * (x - origin[f]);
   }
 };
 
+/// Options of find_segment_poses() and pose_known_shape().
 struct SegmentPoseOptions {
   double noise_sd_m = 0.0;        ///< per axis; 0: found from the shape's residuals
-  double max_turn_sd_rad = 0.35;  ///< a frame whose visible markers fix the turn worse has no pose
+  double max_turn_sd_rad = 0.35;  ///< a frame whose rotation is less certain has no pose
   double odd_factor = 8.0;        ///< a frame this many times worse than the median is odd
 };
 
@@ -75,19 +82,17 @@ struct SegmentPoseOptions {
                                             const Eigen::Matrix3Xd& x_in_segment,
                                             const SegmentPoseOptions& options = {});
 
-/// What noise of the markers (none where it is unknown) makes of a segment's pose in a frame where it is
-/// known.
+/// Uncertainty of a segment's pose in a frame, from the noise of the markers (none where that is unknown).
 struct PoseNoise {
   Eigen::Vector3d visible_mean = Eigen::Vector3d::Zero();  ///< of the visible markers, in the segment, m
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();  ///< covariance of the small turn, in the segment, rad^2
-  double mean_variance = 0.0;                      ///< of the visible markers' mean, per axis, m^2
+  Eigen::Matrix3d turn =
+      Eigen::Matrix3d::Zero();  ///< covariance of the rotation error, in the segment, rad^2
+  double mean_variance = 0.0;   ///< of the visible markers' mean, per axis, m^2
 
   /// Covariance in world of a point of the segment, m^2.
   [[nodiscard]] Eigen::Matrix3d at(const Eigen::Matrix3d& world_from_segment, const Eigen::Vector3d& x) const;
 };
+/// Of a frame whose pose is known.
 [[nodiscard]] PoseNoise pose_noise(const Samples& samples, const SegmentPoses& poses, std::int64_t frame);
-
-/// Rotation R with world ~ R segment in the least-squares sense; both with their means taken off.
-[[nodiscard]] Eigen::Matrix3d kabsch(const Eigen::Matrix3d& sum_world_segment);
 
 }  // namespace kinemark::skeleton

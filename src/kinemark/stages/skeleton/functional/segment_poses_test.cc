@@ -59,7 +59,7 @@ TEST(SegmentPoses, MarkersNeverSeenTogetherStillMakeOneShape) {
   const auto poses = first_segment(chain);
   EXPECT_LT(shape_error(poses.x_in_segment, chain.x_in_segment[0]), 1e-7);
   EXPECT_EQ(poses.known_frames, chain.markers.frames());
-  // With two in common the halves may turn about the line through them: one half stays out.
+  // With two in common the halves may rotate about the line through them: one half stays out.
   for (std::int64_t f = 0; f < chain.markers.frames(); f += 2) chain.markers.set_missing(f, 5);
   EXPECT_EQ(first_segment(chain).known_frames, chain.markers.frames() / 2);
 }

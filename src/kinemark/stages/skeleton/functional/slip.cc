@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::int64_t kLeastSlipFrames = 64;
 constexpr std::int64_t kBlocksASide = 8;
-constexpr double kEdge = 0.1;  ///< of the frames at either end in which no slip is looked for
-/// What noise of the poses does to a joint's place it does alike in both halves; so much of it is taken off.
+constexpr double kEdge = 0.1;  ///< of the frames at either end, excluded from the search
+/// Noise of the poses biases a joint's position equally in both halves; this share of it is subtracted.
 constexpr double kOpenDiffers = 0.99;
 constexpr double kAlsoShare =
-    0.5;  ///< a slipped marker drags the pose: others that move less than this share do not count
+    0.5;  ///< a slipped marker shifts the pose: others that move by less than this share are not reported
 
 struct Path {
   std::vector<std::int64_t> frames;
@@ -60,8 +60,8 @@ Eigen::Index change_point(const Path& path) {
   return best;
 }
 
-/// Mean of some columns and the variance of that mean (sum over axes), from blocks; infinite where one column
-/// or none tells nothing of it.
+/// Mean of some columns and the variance of that mean (sum over axes), from blocks; infinite with one column
+/// or none.
 struct Part {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double variance = 0.0;
@@ -87,7 +87,7 @@ std::optional<Slip> compare_marker(const Path& path, const SlipOptions& options)
   slip.shift_m = (after.mean - before.mean).norm();
   slip.sd_m = std::sqrt(before.variance + after.variance);
   slip.frame = path.frames[static_cast<std::size_t>(at)];
-  // What is not a number is no slip.
+  // NaN is not reported as a slip.
   if (!(slip.shift_m >= options.least_m) || !(slip.shift_m >= options.sure_sd * slip.sd_m))
     return std::nullopt;
   return slip;
@@ -115,7 +115,7 @@ void find_marker_slips(const Samples& samples, const SegmentPoses& poses, int se
   }
 }
 
-/// The joint's place in each segment, first half against second.
+/// The joint's position in each segment, first half against second.
 void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout, int joint,
                       const std::vector<SegmentPoses>& poses, const SlipOptions& options,
                       std::vector<Slip>& slips) {

@@ -56,7 +56,8 @@ struct Moments {
 
 struct Centre {
   Eigen::Vector3d place = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
-  Eigen::Vector3d open = Eigen::Vector3d::Zero();  ///< SD along each direction of what the data leave open, m
+  Eigen::Vector3d open =
+      Eigen::Vector3d::Zero();  ///< SD along each direction due to undetermined directions, m
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
   double noise_variance = 0.0;
 };
@@ -104,7 +105,7 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
     for (int k = options.about_axis ? 1 : 0; k < 3; ++k) {
       const Eigen::Vector3d e = c.directions.col(k);
       const double value = std::max(0.0, eigen.eigenvalues()(k));
-      // The prior holds the centre to the points' mean.
+      // The prior ties the centre to the points' mean.
       c.place += e * ((e.dot(corrected) + prior * e.dot(means)) / (value + prior));
       const double from_prior = prior / (value + prior);
       const double from_noise = std::min(1.0, 2.0 * c.noise_variance / (value + prior));

@@ -12,16 +12,17 @@ namespace kinemark::skeleton {
 
 /// Centre about which points move on spheres, or axis about which they move on circles.
 struct SphereFit {
-  bool found = false;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< m, in the segment that holds still
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length; zero for spheres
-  double axis_sd_rad = 0.0;
-  double residual_rms_m = 0.0;  ///< distance of the points from their spheres or cylinders
-  Eigen::VectorXd radii_m;      ///< one a point; NaN for one that was never seen
-  std::int64_t samples = 0, frames = 0;
+  bool found = false;  ///< false: too little data or no turn, the rest means nothing
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();      ///< m, in the segment that holds still
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, m^2
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();        ///< unit length; zero for spheres
+  double axis_sd_rad = 0.0;                              ///< of each tilt of the axis
+  double residual_rms_m = 0.0;           ///< distance of the points from their spheres or cylinders
+  Eigen::VectorXd radii_m;               ///< one a point; NaN for one that was never seen
+  std::int64_t samples = 0, frames = 0;  ///< points used, and the frames they come from
 };
 
+/// Options of fit_spheres().
 struct SphereOptions {
   bool correct_bias = true;  ///< Halvorsen's
   bool about_axis = false;   ///< circles about an axis (cylinders) instead of spheres
@@ -35,7 +36,8 @@ struct SphereOptions {
 ///
 /// @param still   Segment in whose axes the centre rests; frames in which its pose is unknown are left out.
 /// @param moving  Markers that move about it; each may be missing at any time.
-/// Covariance as in fit_score(): blocks of frames left out, plus what the motion leaves open.
+/// Covariance as in fit_score(): blocks of frames left out, plus the variance that the motion leaves
+/// undetermined.
 [[nodiscard]] SphereFit fit_spheres(const Samples& samples, const SegmentPoses& still,
                                     const std::vector<int>& moving, const SphereOptions& options = {});
 

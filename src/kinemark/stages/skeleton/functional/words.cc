@@ -13,7 +13,7 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr double kKnown_m = 0.01;     ///< a place known worse is called not known
+constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
@@ -27,7 +27,7 @@ std::string describe_hinge(const data::SkeletonJoint& joint, const Eigen::Matrix
   std::string text = direction
                          ? fmt::format("axis direction known to {:.1f} deg", joint.axis_sd_rad * kDegPerRad)
                          : std::string("axis direction not known");
-  text += across < kKnown_m ? fmt::format(", its place to {}", millimetres(across)) : ", its place not";
+  text += across < kKnown_m ? fmt::format(", its position to {}", millimetres(across)) : ", its position not";
   return text + ", position along it not";
 }
 

@@ -31,10 +31,11 @@ TEST(Words, AHingeTellsAxisAndPlace) {
   joint.axis_in_parent = Eigen::Vector3d::UnitX();
   joint.axis_sd_rad = 0.035;
   EXPECT_EQ(describe_joint(joint),
-            "12 deg of motion: axis direction known to 2.0 deg, its place not, position along it not");
+            "12 deg of motion: axis direction known to 2.0 deg, its position not, position along it not");
   joint.covariance_in_parent = Eigen::Vector3d(0.09, 1e-6, 1e-6).asDiagonal();
-  EXPECT_EQ(describe_joint(joint),
-            "12 deg of motion: axis direction known to 2.0 deg, its place to 1.0 mm, position along it not");
+  EXPECT_EQ(
+      describe_joint(joint),
+      "12 deg of motion: axis direction known to 2.0 deg, its position to 1.0 mm, position along it not");
   joint.axis_sd_rad = 0.5;
   EXPECT_NE(describe_joint(joint).find("axis direction not known"), std::string::npos);
 }

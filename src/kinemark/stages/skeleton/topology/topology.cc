@@ -9,14 +9,15 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/core/text.h"
 #include "kinemark/stages/skeleton/topology/internal/edges.h"
 #include "kinemark/stages/skeleton/topology/internal/pairs.h"
 
 namespace kinemark::skeleton {
 namespace {
 
-constexpr double kMostWork = 1e9;         ///< samples of pairs looked at
-constexpr std::int64_t kFewFrames = 200;  ///< never looked at fewer than these for want of time
+constexpr double kMostWork = 1e9;         ///< largest number of pair samples
+constexpr std::int64_t kFewFrames = 200;  ///< fewest frames, even if that limit is exceeded
 constexpr std::size_t kNamesTold = 8;
 
 std::vector<std::int64_t> draw_frames(const data::Trajectories& t, const TopologyOptions& options) {
@@ -26,13 +27,6 @@ std::vector<std::int64_t> draw_frames(const data::Trajectories& t, const Topolog
   std::vector<std::int64_t> frames;
   for (std::int64_t i = 0; i < n; ++i) frames.push_back(i * t.frames() / n);
   return frames;
-}
-
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < kNamesTold; ++i) text += (i ? ", " : "") + names[i];
-  if (names.size() > kNamesTold) text += fmt::format(" and {} more", names.size() - kNamesTold);
-  return text;
 }
 
 /// The recording cut to the frames drawn: what fits and poses are made of.
@@ -76,7 +70,7 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
     }
     const double own = odds_to(clusters.segment[i]);
     evidence.nats = (std::isnan(own) ? 0.0 : own) - (evidence.second_segment < 0 ? 0.0 : best);
-    // One marker that it moves against, on its own segment, is as much a reason as another segment that fits.
+    // Motion against one marker of its own segment is as much evidence as another segment that fits.
     const bool moves =
         internal::least_odds(clusters.odds, clusters.pairs, clusters.segment, i) < -options.doubtful_nats;
     evidence.doubtful = evidence.second_segment >= 0 && (moves || evidence.nats < options.doubtful_nats);
@@ -89,7 +83,7 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
   }
   if (!doubtful.empty())
     out.warnings.push_back(fmt::format("Segment of {} of {} markers doubtful: {}.", doubtful.size(),
-                                       clusters.markers.size(), list(doubtful)));
+                                       clusters.markers.size(), join_some(doubtful, kNamesTold)));
 }
 
 /// Tree edges as joints that lead away from the first segment of each tree.
@@ -120,12 +114,12 @@ void add_joints(const std::vector<internal::TreeEdge>& tree, const TopologyOptio
       }
   }
   if (!doubtful.empty())
-    out.warnings.push_back(
-        fmt::format("Another joint would do nearly as well (times worse) in place of: {}.", list(doubtful)));
+    out.warnings.push_back(fmt::format("Another joint would do nearly as well (times worse) in place of: {}.",
+                                       join_some(doubtful, kNamesTold)));
   if (roots.size() > 1)
     out.warnings.push_back(
         fmt::format("The segments make {} groups that were never seen together, beginning with: {}.",
-                    roots.size(), list(roots)));
+                    roots.size(), join_some(roots, kNamesTold)));
 }
 
 void warn_of_unseen(const Clusters& clusters, const std::vector<std::string>& names, Topology& out) {
@@ -140,11 +134,11 @@ void warn_of_unseen(const Clusters& clusters, const std::vector<std::string>& na
     }
   for (const int m : out.left_out) lost.push_back(names[static_cast<std::size_t>(m)]);
   if (!pairs.empty())
-    out.warnings.push_back(
-        fmt::format("{} pairs of markers were hardly ever seen together: {}.", pairs.size(), list(pairs)));
+    out.warnings.push_back(fmt::format("{} pairs of markers were hardly ever seen together: {}.",
+                                       pairs.size(), join_some(pairs, kNamesTold)));
   if (!lost.empty())
-    out.warnings.push_back(
-        fmt::format("{} markers were hardly ever seen and are on no segment: {}.", lost.size(), list(lost)));
+    out.warnings.push_back(fmt::format("{} markers were hardly ever seen and are on no segment: {}.",
+                                       lost.size(), join_some(lost, kNamesTold)));
 }
 
 Clusters find_clusters(const Samples& samples, const std::vector<std::int64_t>& frames,
@@ -183,7 +177,7 @@ Status TopologyOptions::check() const {
     return bad(fmt::format("motion between segments from {} to {} m; need more than 0, then more",
                            least_motion_m, most_motion_m));
   if (least_frames < 6) return bad(fmt::format("pairs seen in {} frames; need 6 or more", least_frames));
-  if (most_frames < 100) return bad(fmt::format("looking at {} frames; need 100 or more", most_frames));
+  if (most_frames < 100) return bad(fmt::format("{} frames are used; need 100 or more", most_frames));
   if (!(doubtful_nats >= 0.0) || !(doubtful_margin >= 1.0))
     return bad(fmt::format("doubt below {} nats and {} times; need 0 and 1 or more", doubtful_nats,
                            doubtful_margin));
@@ -205,11 +199,10 @@ Result<Topology> find_topology(const data::Trajectories& trajectories, const Top
   out.markers.resize(static_cast<std::size_t>(trajectories.markers()));
   const Clusters clusters = find_clusters(samples, frames, options, out);
   if (clusters.markers.size() < 2)
-    return fail(
-        Code::bad_input,
-        fmt::format(
-            "{} of {} markers were seen in {} frames or more; two at least are needed to tell segments",
-            clusters.markers.size(), trajectories.markers(), options.least_frames));
+    return fail(Code::bad_input,
+                fmt::format("{} of {} markers were seen in {} frames or more; two at least are needed to "
+                            "distinguish segments",
+                            clusters.markers.size(), trajectories.markers(), options.least_frames));
   const int S = 1 + *std::ranges::max_element(clusters.segment);
   out.layout.segments.resize(static_cast<std::size_t>(S));
   std::vector<SegmentPoses> poses;
@@ -224,7 +217,7 @@ Result<Topology> find_topology(const data::Trajectories& trajectories, const Top
   warn_of_unseen(clusters, trajectories.names, out);
   if (S == 1) {
     out.warnings.push_back(fmt::format(
-        "All {} markers keep their distances: one segment, or nothing moved, so no joint can be seen.",
+        "All {} markers keep their distances: one segment, or nothing moved, so no joint can be found.",
         clusters.markers.size()));
     return out;
   }

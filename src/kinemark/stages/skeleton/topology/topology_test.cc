@@ -56,7 +56,7 @@ TEST(Topology, RandomChainsThroughNoiseAndGaps) {
 TEST(Topology, OneMarkerMovesAboutASolidSegment) {
   auto chain = make_chain(
       {.lengths_m = {0.12, 0.15, 0.16}, .per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005});
-  // The last segment keeps a single marker: its sphere about the second joint tells where it belongs.
+  // The last segment keeps a single marker: its sphere about the second joint determines its segment.
   for (std::int64_t f = 0; f < chain.markers.frames(); ++f)
     for (const int m : {9, 10, 11}) chain.markers.set_missing(f, m);
   const auto found = find_topology(chain.markers);
@@ -76,7 +76,7 @@ TEST(Topology, NothingMovesIsOneSegmentAndSaidSo) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->layout.segments.size(), 1U);
   ASSERT_EQ(found->warnings.size(), 1U);
-  EXPECT_NE(found->warnings[0].find("no joint can be seen"), std::string::npos);
+  EXPECT_NE(found->warnings[0].find("no joint can be found"), std::string::npos);
 }
 
 TEST(Topology, PairsNeverSeenTogetherAreReported) {

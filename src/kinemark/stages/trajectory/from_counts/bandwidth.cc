@@ -78,7 +78,7 @@ Problem split(std::span<const PositionSight> sights, std::size_t max_sights) {
   return problem;
 }
 
-constexpr double kLongestGap = 4.5;  // intervals: what lies beyond says little of the bandwidth
+constexpr double kLongestGap = 4.5;  // intervals: longer gaps carry little information on the bandwidth
 
 template <int kOrder>
 double risk(const Problem& problem, const Bandwidth& at) {

@@ -7,8 +7,8 @@
 
 namespace kinemark::trajectory {
 
-/// What one instant says about a point in space: position and inverse covariance (singular where one camera
-/// alone saw it, zero where none did).
+/// One observation of a point in space: position and inverse covariance (singular where only one camera saw
+/// it, zero where none did).
 struct PositionSight {
   double time_s = 0.0;                                    ///< strictly increasing
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< m^-2
@@ -24,14 +24,15 @@ struct Bandwidth {
   double sure = 0.0;              ///< risk found, less a constant
 };
 
-/// The member of a family that `order` and a half-gain frequency name, for samples of inverse variance
+/// The smoother with this `order` and half-gain frequency, for samples of inverse variance
 /// `information` (m^-2 per axis) `interval_s` apart: q = omega0^(2 order) interval / information.
 [[nodiscard]] Bandwidth bandwidth_at(int order, double half_gain_hz, double information, double interval_s);
 
+/// Options of the choice of a bandwidth.
 struct BandwidthOptions {
   int order = 0;                  ///< 3, 4 or 5; 0: the best of them
   double half_gain_hz = 0.0;      ///< 0: the best
-  double around_hz = 0.0;         ///< half gain: look only within two octaves around it; 0: everywhere
+  double around_hz = 0.0;         ///< half gain: search only within two octaves around it; 0: everywhere
   std::size_t max_sights = 1200;  ///< records longer than that are judged by four pieces of them
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The 1986 chain behind the look-up table: bridge occlusions, Butterworth there and back, two-point
-// differences.
+// The processing of 1986 after the look-up table: bridge occlusions, Butterworth filter forwards and
+// backwards, two-point differences.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace kinemark::trajectory {
 
+/// Options of the chain of 1986.
 struct ClassicChainOptions {
-  double cutoff_hz = 12.0;
+  double cutoff_hz = 12.0;  ///< -3 dB, below half the rate
   /// The cut-off is that of both passes together; false: of each pass, so that 0.80 of it comes out.
   bool cutoff_of_both_passes = true;
 };

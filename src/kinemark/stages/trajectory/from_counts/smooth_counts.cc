@@ -12,6 +12,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
 
@@ -37,7 +38,7 @@ Status check_shapes(const data::Counts& counts, const data::Rig& rig, const data
 /// F x L x C: enough light, complete, not saturated.
 std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
-  constexpr double kDark = 60.0;  // counts of all four channels: what offsets and stray light alone can make
+  constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
   std::vector<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<double> light;
   for (std::int64_t led = 0; led < counts.led_count(); ++led)
@@ -47,12 +48,10 @@ std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_sh
         if ((counts.flags[counts.index(f, led, c)] & kUnusable) == 0)
           light.push_back(counts.at(f, led, c).sum());
       if (light.empty()) continue;
-      const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
-      std::nth_element(light.begin(), middle, light.end());
+      const double least = std::max(dim_share * math::upper_median(light), kDark);
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         const auto i = counts.index(f, led, c);
-        out[i] = (counts.flags[i] & kUnusable) == 0 &&
-                 counts.at(f, led, c).sum() > std::max(dim_share * *middle, kDark);
+        out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > least;
       }
     }
   return out;
@@ -149,7 +148,7 @@ void put(const internal::LedPath::Sample& s, std::size_t index, SmoothedCounts& 
   out.points.state[index] = s.seen ? data::SampleState::measured : data::SampleState::model_filled;
 }
 
-/// Add what one stretch tells to what is known of its LED.
+/// Add the statistics of one stretch to those of its LED.
 void merge(LedFit& all, const LedFit& one) {
   const auto total = all.sightings + one.sightings;
   if (total > 0)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts to paths in one step: every conversion is used at its own time.
+// Paths directly from counts: every conversion is used at its own time.
 #pragma once
 
 #include <string>
@@ -22,11 +22,12 @@ enum class Flicker {
   ignore,
 };
 
+/// Options of smooth_counts().
 struct SmoothCountsOptions {
-  int order = 0;              ///< 3, 4 or 5 integrations; 0: chosen for each LED by SURE
-  double half_gain_hz = 0.0;  ///< of the filter; 0: chosen for each LED by SURE
-  Flicker flicker = Flicker::regress;
-  double flicker_hz = 120.0;
+  int order = 0;                       ///< 3, 4 or 5 integrations; 0: chosen for each LED by SURE
+  double half_gain_hz = 0.0;           ///< of the filter; 0: chosen for each LED by SURE
+  Flicker flicker = Flicker::regress;  ///< what is done about the room's lamps
+  double flicker_hz = 120.0;           ///< of the lamps' light
   double dim_share = 0.3;  ///< light below this share of the LED's median (each camera's own) is no sighting
   double student_freedom = 6.0;  ///< of the weights on each camera's misfit
   double reject_chi2 = 40.0;     ///< misfit of one camera (3 degrees of freedom) from which it is not used
@@ -35,13 +36,13 @@ struct SmoothCountsOptions {
   int passes = 5;                ///< 3 or more
   int threads = 0;               ///< LEDs are smoothed beside each other
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
-/// How one LED's path was found.
+/// Parameters and statistics of one LED's path.
 struct LedFit {
-  std::string name;
-  Bandwidth bandwidth;
+  std::string name;            ///< of the LED
+  Bandwidth bandwidth;         ///< of its filter
   double chi2_per_dof = 0.0;   ///< of the sightings used, robust weights left out; near 1 when noise is all
   std::int64_t sightings = 0;  ///< used, of F x C
   std::int64_t rejected = 0;   ///< misfit above reject_chi2
@@ -49,12 +50,13 @@ struct LedFit {
   std::vector<double> flicker_counts;  ///< amplitude found, per camera
 };
 
+/// Paths of all LEDs, with their rates.
 struct SmoothedCounts {
-  /// One marker per LED, at the times of the frames. Frames with a sighting are measured, others model_filled
-  /// (their covariance says how well), outside of the sightings missing.
+  /// One marker per LED, at the times of the frames. Frames with a sighting are measured, frames between
+  /// sightings model_filled (with their covariance), frames before the first and after the last one missing.
   data::Trajectories points;
   data::Derivatives derivatives;  ///< velocity and acceleration
-  std::vector<LedFit> leds;
+  std::vector<LedFit> leds;       ///< L
 };
 
 /// Smooth the paths of all LEDs of a recording.

@@ -49,7 +49,8 @@ void hide(data::Counts& counts, std::int64_t led, std::int64_t camera, std::int6
 }
 
 struct Errors {
-  double position_m = 0.0, velocity_m_s = 0.0, z2 = 0.0;  // root mean square; mean square over told variance
+  double position_m = 0.0, velocity_m_s = 0.0,
+         z2 = 0.0;  // root mean square; mean square over predicted variance
 };
 
 Errors errors_of(const SmoothedCounts& s, std::int64_t first, std::int64_t last) {
@@ -93,7 +94,7 @@ TEST_F(SmoothCounts, BeatsSingleFramesAndSaysHowWell) {
 }
 
 TEST_F(SmoothCounts, UsesEachConversionAtItsOwnTime) {
-  // The same counts told to be simultaneous: the path is late by the middle of the slot, 1.4 m/s x 0.45 ms
+  // The same counts declared as simultaneous: the path is late by the middle of the slot, 1.4 m/s x 0.45 ms
   // and more.
   auto simultaneous = counts;
   for (auto& t : simultaneous.conversion_time_s) t = rig.electronics.time_constant_s;

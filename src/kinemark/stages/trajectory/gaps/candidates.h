@@ -13,24 +13,24 @@
 
 namespace kinemark::trajectory {
 
-/// What one candidate would put into a gap.
+/// The fill of one candidate method.
 struct CandidateFill {
   std::string name;            ///< "cubic", "walk", "regression, untied", ...
   Eigen::MatrixXd x_in_world;  ///< L x 3, m
   double rms_m = 0.0;          ///< 3D, leave-gap-out, on the windows; infinity without any
   double weight = 0.0;         ///< in the combination
-  bool guarded = false;        ///< kept out of it because it strays
+  bool guarded = false;        ///< excluded from it because it deviates from the others
 };
 
 /// All candidates for one gap, and their combination: what `automatic` fills in.
 struct GapCandidates {
-  std::vector<CandidateFill> candidates;
-  Eigen::MatrixXd x_in_world;  ///< L x 3, m
-  Eigen::VectorXd sd_m;        ///< L, per axis, with the noise of a sample; NaN without windows
-  int windows = 0;
-  std::int64_t window_frames = 0;
-  std::vector<std::int64_t> predictors;  ///< markers, most rigid first
-  std::vector<std::int64_t> dropped;     ///< markers in the wrong place
+  std::vector<CandidateFill> candidates;  ///< all that were tried
+  Eigen::MatrixXd x_in_world;             ///< L x 3, m
+  Eigen::VectorXd sd_m;                   ///< L, per axis, with the noise of a sample; NaN without windows
+  int windows = 0;                        ///< artificial gaps that weights come from
+  std::int64_t window_frames = 0;         ///< their length
+  std::vector<std::int64_t> predictors;   ///< markers, most rigid first
+  std::vector<std::int64_t> dropped;      ///< markers at wrong positions
 };
 
 /// Compare all candidates for one stretch of missing samples, as a whole (not in pieces) and whatever the

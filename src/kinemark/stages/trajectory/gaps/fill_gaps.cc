@@ -23,7 +23,6 @@ namespace {
 using internal::Combination;
 using internal::Filled;
 using internal::Filler;
-using internal::FillKind;
 using internal::GapSpan;
 using internal::Index;
 using internal::Neighbour;
@@ -31,7 +30,7 @@ using internal::Neighbour;
 constexpr Index kMaxGapFrames = 4000;  // operators are dense, frames of the gap by samples beside it
 constexpr Index kGapsPerReport = 64;
 
-/// A gap, its accounts, and what to write when it is filled.
+/// A gap, its accounts, and its fill.
 struct Work {
   GapSpan span;
   std::vector<data::GapAccount> accounts;  // one per piece
@@ -54,7 +53,7 @@ std::vector<GapSpan> find_gaps(const data::Trajectories& in) {
   return gaps;
 }
 
-/// How far a marker roams: per axis, RMS about its mean. The bar of last resort.
+/// RMS of a marker's position about its mean, per axis: the error bar when there is no better one.
 double roaming_m(const internal::Recording& r, Index marker) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double square = 0.0;
@@ -126,7 +125,7 @@ double mean_square_sd(std::span<const Filled> pieces) {
   return sum / static_cast<double>(frames);
 }
 
-/// The gap as a whole or, where that is surer, in pieces.
+/// The gap as a whole or, where that is more certain, in pieces.
 std::vector<Filled> fill_or_split(const Filler& filler, const std::vector<Neighbour>& neighbours,
                                   const GapSpan& gap) {
   std::vector<Filled> whole;
@@ -143,7 +142,7 @@ std::vector<Filled> fill_or_split(const Filler& filler, const std::vector<Neighb
   return pieces;
 }
 
-/// Nothing but the marker's own path has a say.
+/// True when the fill uses the marker's own path only.
 bool is_temporal(const Filled& piece) {
   for (std::size_t k = 0; k < piece.fills.size(); ++k)
     if (piece.combination.weights[k] > 0.0 && !internal::is_temporal(piece.fills[k].kind)) return false;
@@ -195,7 +194,7 @@ void set_isotropic(data::Trajectories& out, Index frame, Index marker, double va
   math::pack_isotropic3(variance_m2, out.covariance.data() + 6 * out.index(frame, marker));
 }
 
-/// Covariance of what is there already, so that every sample has one.
+/// Covariance of the present samples, so that every sample has one.
 void set_noise(const Filler& filler, data::Trajectories& out) {
   out.covariance.assign(2 * out.x_in_world.size(), std::numeric_limits<double>::quiet_NaN());
   for (Index m = 0; m < out.markers(); ++m) {
@@ -228,7 +227,7 @@ data::Defect tell(const data::Trajectories& in, const internal::Swap& s) {
           .first_frame = s.first,
           .last_frame = s.end - 1,
           .sentence = fmt::format(
-              "markers '{}' and '{}' sit in each other's place in frames {} to {}, {:.0f} mm apart",
+              "markers '{}' and '{}' have exchanged labels in frames {} to {}, {:.0f} mm apart",
               in.names[static_cast<std::size_t>(s.first_marker)],
               in.names[static_cast<std::size_t>(s.second_marker)], s.first, s.end - 1, 1e3 * s.distance_m),
           .done = "not relied on when filling; left as it is"};

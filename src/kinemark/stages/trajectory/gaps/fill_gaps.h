@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fill gaps from time, from the neighbours and from both, with a standard deviation for every sample.
-// Derivation, sources and what the bars mean: docs/theory/gaps.md
+// Fill gaps from the marker's own path, from neighbouring markers and from both, with a standard deviation
+// for every sample. Derivation, sources and what the bars mean: docs/theory/gaps.md
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 namespace kinemark::trajectory {
 
+/// A recording with its gaps filled, and the account of each.
 struct GapResult {
   data::Trajectories trajectories;     ///< as the input; samples present there are untouched
   std::vector<data::GapAccount> gaps;  ///< by marker and frame; every gap has its account
@@ -35,10 +36,11 @@ struct GapResult {
 /// set to noise_sd_m squared, estimated when it is 0. Rejected samples count as missing. Samples that are
 /// present but neither `measured` nor `upsampled` (filled earlier) are neither changed nor learned from.
 ///
-/// A gap stays missing, and its account says why, when it is longer than max_gap_s, touches the start or end
-/// of the recording and there is nothing but time to predict from for more than max_extrapolation_s, has no
-/// sample on a side, or its SD is larger than max_sd_m or unknown. Gaps where the set of complete neighbours
-/// changes are filled in pieces that are tied to one another. Filled samples never help to fill others.
+/// A gap stays missing, with the reason in its account, when it is longer than max_gap_s, touches the start
+/// or end of the recording and there is nothing but time to predict from for more than max_extrapolation_s,
+/// has no sample on a side, or its SD is larger than max_sd_m or unknown. Gaps where the set of complete
+/// neighbours changes are filled in pieces that are tied to one another. Filled samples are never used to
+/// fill others.
 ///
 /// Fails with bad_input when the trajectories do not validate(), with usage when options do not check(), with
 /// cancelled when `progress` says so. About 10 ms per gap with `automatic`, less for single methods.

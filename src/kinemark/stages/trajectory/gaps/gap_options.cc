@@ -3,29 +3,22 @@
 #include "kinemark/stages/trajectory/gaps/gap_options.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "kinemark/core/enum_names.h"
 
 namespace kinemark::trajectory {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNames = {"none",  "linear",     "cubic", "pchip", "walk",
-                                                    "rigid", "regression", "pca",   "auto"};
+constexpr EnumNames<GapMethod::automatic> kNames{"none",  "linear",     "cubic", "pchip", "walk",
+                                                 "rigid", "regression", "pca",   "auto"};
 
 }  // namespace
 
-std::string_view to_string(GapMethod method) { return kNames[static_cast<std::size_t>(method)]; }
+std::string_view to_string(GapMethod method) { return kNames[method]; }
 
-Result<GapMethod> parse_gap_method(std::string_view name) {
-  const auto at = std::ranges::find(kNames, name);
-  if (at == kNames.end())
-    return fail(Code::usage,
-                fmt::format("there is no gap method '{}'; there are {}", name, fmt::join(kNames, ", ")));
-  return static_cast<GapMethod>(at - kNames.begin());
-}
+Result<GapMethod> parse_gap_method(std::string_view name) { return kNames.parse(name, "gap method"); }
 
 Status GapOptions::check() const {
   if (!(max_gap_s > 0.0))

@@ -17,7 +17,7 @@ enum class GapMethod : std::uint8_t {
   cubic,       ///< spline through 0.3 s on either side (not-a-knot)
   pchip,       ///< monotone cubic (Fritsch & Carlson 1980): never overshoots
   walk,        ///< smoother of an integrated random walk, order and bandwidth by leave-gap-out error
-  rigid,       ///< place in the frame of the most rigid neighbours, tied to both ends of the gap
+  rigid,       ///< position in the frame of the most rigid neighbours, tied to both ends of the gap
   regression,  ///< regression on the neighbours in that frame, tied to both ends
   pca,         ///< regression on the principal components of all complete markers, tied to both ends
   automatic,   ///< convex combination of all, weights from their errors on artificial gaps: the default
@@ -30,12 +30,12 @@ enum class GapMethod : std::uint8_t {
 
 /// Options of fill_gaps().
 struct GapOptions {
-  GapMethod method = GapMethod::automatic;
-  double max_gap_s = 2.0;   ///< longer gaps stay missing; > 0
+  GapMethod method = GapMethod::automatic;  ///< how all gaps are filled
+  double max_gap_s = 2.0;                   ///< longer gaps stay missing; > 0
   double max_sd_m = 0.020;  ///< a gap stays missing when its standard deviation, RMS over the gap and
                             ///< the axes, is larger or unknown; > 0, infinity: fill whatever it is
-  double max_extrapolation_s = 0.1;  ///< gaps at the start or end of the recording, where only time is left
-                                     ///< to predict from; >= 0
+  double max_extrapolation_s = 0.1;  ///< gaps at the start or end of the recording, where only the marker's
+                                     ///< own path can be extrapolated; >= 0
   double noise_sd_m = 0.0;           ///< of a measured sample, per axis; 0: from each marker's own data
   bool check_labels = true;          ///< look for swaps among neighbours and leave those predictors out
   std::uint64_t seed = 1;            ///< which artificial gaps are taken when there are more than enough

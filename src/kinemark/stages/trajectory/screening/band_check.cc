@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
 namespace kinemark::trajectory {
@@ -65,12 +66,8 @@ void add_power(const std::vector<double>& y, const std::vector<double>& cosine, 
   }
 }
 
-double median_of(const std::vector<double>& values, std::size_t first, std::size_t last) {
-  std::vector<double> part(values.begin() + static_cast<std::ptrdiff_t>(first),
-                           values.begin() + static_cast<std::ptrdiff_t>(last));
-  const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-  std::ranges::nth_element(part, middle);
-  return part.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(part.begin(), middle));
+double median_of(std::span<const double> values, std::size_t first, std::size_t last) {
+  return math::median(values.subspan(first, last - first));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 using data::SampleState;
 using data::Trajectories;
 
-/// Made by the recorder, as far as the file tells: nobody else has put his name to it.
+/// Made by the recorder, as far as known: no method is recorded for the sample.
 bool made_by_recorder(const Trajectories& t, std::int64_t frame, std::int64_t marker,
                       const data::Upsampling& u) {
   const SampleState s = t.state[t.index(frame, marker)];

@@ -10,7 +10,7 @@
 
 namespace kinemark::trajectory {
 
-/// What becomes of samples that the recorder made.
+/// Treatment of samples that the recorder interpolated.
 enum class MadeSamples : std::uint8_t {
   mark,      ///< they stay, with state `upsampled` and a method such as "recorder, linear x4"
   missing,   ///< the same frames, but only real samples are present

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
@@ -24,10 +25,7 @@ double confidence_of(double ratio, double half) {
 
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double v) { return std::isnan(v); });  // of numbers too large to subtract
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return values.empty() ? 0.0 : math::upper_median(values);
 }
 
 double rounding_of(const data::Trajectories& t, std::int64_t marker) {

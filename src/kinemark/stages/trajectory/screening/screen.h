@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Defects that recorders and exporters leave in marker streams: find them, say why, and reject on request.
+// Defects that recorders and exporters leave in marker streams: detection, evidence and, on request,
+// rejection.
 #pragma once
 
 #include <span>
@@ -12,19 +13,20 @@
 
 namespace kinemark::trajectory {
 
-/// Options of screen(): which kinds to look for, and how far is far.
+/// Options of screen(): kinds of defects and thresholds.
 struct ScreenOptions {
+  /// which defects are looked for
   bool zeros = true, stuck = true, duplicated_frames = true, clock_jumps = true, unit_slips = true,
        spikes = true, swaps = true;
   double min_spike_m = 0.01;    ///< > 0, smaller ones are left to the filter
-  double min_jump_m = 0.03;     ///< > 0, swaps across less cannot be told from motion
+  double min_jump_m = 0.03;     ///< > 0, swaps across less cannot be distinguished from motion
   double min_stuck_s = 0.1;     ///< > 0; and never below 8 frames
   double min_confidence = 0.5;  ///< 0 to 1, defects below are not reported
 
-  [[nodiscard]] Status check() const;
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
-/// Look for defects. Nothing is altered.
+/// Search for defects. Nothing is altered.
 ///
 /// @param frame_time_s  Recorded time of each frame, s (F), or empty. Not a number, going back or standing
 /// still: a

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Real recordings: what fires was looked at and is there; everything else stays silent.
+// Real recordings: the findings were checked by hand and are real; there are no others.
 #include <gtest/gtest.h>
 
 #include <algorithm>

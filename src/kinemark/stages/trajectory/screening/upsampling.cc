@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/band_check.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
 
@@ -172,9 +173,9 @@ data::BandCheck middle_of(std::vector<data::BandCheck> bands) {
   std::erase_if(bands, [](const data::BandCheck& b) { return b.verdict == BandVerdict::unknown; });
   if (bands.empty()) return {};
   const auto middle = [&](auto member) {
-    const auto at = bands.begin() + static_cast<std::ptrdiff_t>(bands.size() / 2);
-    std::ranges::nth_element(bands, at, {}, member);
-    return *at.*member;
+    std::vector<double> values;
+    for (const data::BandCheck& b : bands) values.push_back(b.*member);
+    return math::upper_median(values);
   };
   data::BandCheck b;
   b.top_m = middle(&data::BandCheck::top_m);
@@ -206,8 +207,8 @@ void write_sentences(const data::Trajectories& t, data::UpsamplingAccount& repor
   report.sentences.emplace_back(
       "Not visible to this test: interpolation followed by a low-pass filter, band-limited resampling, "
       "factors that are "
-      "no integer, and streams without noise above their rounding. For the first two only the spectrum "
-      "tells.");
+      "no integer, and streams without noise above their rounding. Only the spectrum shows the first "
+      "two.");
 }
 
 }  // namespace
@@ -217,7 +218,7 @@ Status UpsamplingOptions::check() const {
     return fail(Code::usage, fmt::format("the largest upsampling factor is {}; need 2 to 12", max_factor));
   if (max_frames < 1000)
     return fail(Code::usage,
-                fmt::format("the upsampling detector may look at {} frames; need 1000 or more", max_frames));
+                fmt::format("the upsampling detector may use {} frames; need 1000 or more", max_frames));
   return {};
 }
 

@@ -14,7 +14,7 @@
 
 namespace kinemark::trajectory {
 
-/// What is the same for all orders: the delay line of frames and the arrays that go out.
+/// The part common to all orders: the delay line of frames and the output arrays.
 class OnlineSmoother::Core {
  public:
   Core(std::int64_t markers, const OnlineOptions& options)
@@ -92,7 +92,7 @@ class CoreOf final : public OnlineSmoother::Core {
     std::array<double, 3 * m> z{};
     Step<m> step;             ///< to the next frame
     Square<m> covariance;     ///< of z; only where the marker was seen
-    std::int64_t piece = -1;  ///< stretches between gaps that nothing reaches across; -1: nothing known
+    std::int64_t piece = -1;  ///< index of the stretch between long gaps; -1: nothing known
     bool seen = false, settled = false;
   };
   struct Line {

@@ -19,10 +19,10 @@ struct OnlineOptions {
   int order = 4;               ///< 2 to 5
   double cutoff_hz = 6.0;      ///< below half the rate
   double noise_sd_m = 0.0005;  ///< per axis, > 0
-  int lag_frames = 12;         ///< 0 to 1,000,000; about rate / (2 cutoff_hz) is as good as waiting for ever
+  int lag_frames = 12;         ///< 0 to 1,000,000; about rate / (2 cutoff_hz) is as good as any longer one
   bool bridge = false;         ///< also give frames inside gaps that have ended within the lag
 
-  [[nodiscard]] Status check(double rate_hz) const;
+  [[nodiscard]] Status check(double rate_hz) const;  ///< Ranges hold at this rate.
 };
 
 /// One frame of M markers; borrowed until the next call. NaN where a marker was missing or nothing is known.
@@ -39,8 +39,8 @@ class OnlineSmoother {
   /// Fails with usage when the options do not check() or markers is negative. All memory is taken here:
   /// about 700 bytes per marker and frame of lag at order 5.
   static Result<OnlineSmoother> create(std::int64_t markers, double rate_hz, const OnlineOptions& options);
-  OnlineSmoother(OnlineSmoother&&) noexcept;
-  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;
+  OnlineSmoother(OnlineSmoother&&) noexcept;             ///< takes a running smoother over
+  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;  ///< replaces this one by another
   ~OnlineSmoother();
 
   /// The next frame, M x 3 in m; a marker with a coordinate that is not finite is missing. Gives the frame

@@ -18,9 +18,10 @@
 
 namespace kinemark::trajectory {
 
+/// Smoothed trajectories, their rates, and the account of each marker.
 struct SmoothResult {
   data::Trajectories trajectories;  ///< as the input, smoothed, with covariance when the noise is known
-  data::Derivatives derivatives;
+  data::Derivatives derivatives;    ///< velocity, acceleration, jerk
   std::vector<data::MarkerAccount> markers;  ///< M
 };
 
@@ -39,12 +40,12 @@ struct SmoothResult {
 
 /// One marker's part of the result. F frames, in the order of data::Trajectories.
 struct MarkerResult {
-  std::int64_t marker = 0;
+  std::int64_t marker = 0;   ///< index in the recording
   Array<double> x;           ///< F x 3, m
   Array<double> covariance;  ///< F x 6, m^2; empty when the noise is unknown
   Array<double> velocity, velocity_sd, acceleration, acceleration_sd, jerk, jerk_sd;  ///< F x 3; SDs as above
   Array<data::SampleState> state;                                                     ///< F
-  data::MarkerAccount account;
+  data::MarkerAccount account;  ///< what was done and why
 };
 
 /// The same, marker by marker: `sink` is given each result, in the order of the markers, from the calling

@@ -4,20 +4,16 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
-#include <utility>
+
+#include "kinemark/core/enum_names.h"
 
 namespace kinemark::trajectory {
 namespace {
 
-constexpr std::array<std::pair<FilterMethod, std::string_view>, 6> kMethods{
-    {{FilterMethod::none, "none"},
-     {FilterMethod::kalman, "kalman"},
-     {FilterMethod::butterworth, "butterworth"},
-     {FilterMethod::gcv, "gcv"},
-     {FilterMethod::savgol, "savgol"},
-     {FilterMethod::classic, "classic"}}};
+constexpr EnumNames<FilterMethod::classic> kMethods{"none", "kalman", "butterworth",
+                                                    "gcv",  "savgol", "classic"};
+constexpr EnumNames<CutoffRule::challis> kRules{"winter", "challis"};
 
 Status orders(const SmoothOptions& options) {
   struct Range {
@@ -48,29 +44,16 @@ Status orders(const SmoothOptions& options) {
 
 }  // namespace
 
-std::string_view to_string(FilterMethod method) {
-  for (const auto& [known, name] : kMethods)
-    if (known == method) return name;
-  return "unknown";
-}
+std::string_view to_string(FilterMethod method) { return kMethods[method]; }
 
 Result<FilterMethod> parse_filter_method(std::string_view name) {
   if (name == "auto") return FilterMethod::kalman;
-  for (const auto& [method, known] : kMethods)
-    if (known == name) return method;
-  return fail(Code::usage,
-              fmt::format("no filter is called \"{}\"; expected auto, none, kalman, butterworth, gcv, "
-                          "savgol or classic",
-                          name));
+  return kMethods.parse(name, "filter");
 }
 
-std::string_view to_string(CutoffRule rule) { return rule == CutoffRule::winter ? "winter" : "challis"; }
+std::string_view to_string(CutoffRule rule) { return kRules[rule]; }
 
-Result<CutoffRule> parse_cutoff_rule(std::string_view name) {
-  for (const CutoffRule rule : {CutoffRule::winter, CutoffRule::challis})
-    if (to_string(rule) == name) return rule;
-  return fail(Code::usage, fmt::format("no cut-off rule is called \"{}\"; expected winter or challis", name));
-}
+Result<CutoffRule> parse_cutoff_rule(std::string_view name) { return kRules.parse(name, "cut-off rule"); }
 
 Status SmoothOptions::check(double rate_hz) const {
   if (const auto status = orders(*this); !status) return status;

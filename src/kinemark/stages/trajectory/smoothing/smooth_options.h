@@ -27,16 +27,17 @@ enum class FilterMethod : std::uint8_t {
 
 /// How a Butterworth filter finds its cut-off when none is given.
 enum class CutoffRule : std::uint8_t {
-  winter,   ///< residual analysis (Winter 2009): where the residual is what noise alone would leave
+  winter,   ///< residual analysis (Winter 2009): where the residual equals that of noise alone
   challis,  ///< the residual is as white as it gets (Challis 1999)
 };
 
 [[nodiscard]] std::string_view to_string(CutoffRule rule);  ///< "winter", "challis"
+/// The rule of that name; the failure lists all names.
 [[nodiscard]] Result<CutoffRule> parse_cutoff_rule(std::string_view name);
 
 /// Options of smooth().
 struct SmoothOptions {
-  FilterMethod method = FilterMethod::kalman;
+  FilterMethod method = FilterMethod::kalman;  ///< how positions are smoothed
   /// kalman: times that noise is integrated, 2 to 5; gcv: half order of the spline, 2 to 5 (3 quintic, 4
   /// heptic, 5 nonic); butterworth: order of one pass, even, 2 to 10; savgol: degree, 1 to 7. 0: found from
   /// the data (kalman, gcv), else 2 (butterworth) and 4 (savgol). Classic has 2 and no choice.

@@ -179,7 +179,7 @@ TEST(Smooth, ErrorBarsKeepTheirWord) {
 }
 
 TEST(Smooth, TurnsWithTheLab) {
-  // The same gains for all axes: a turned recording gives the turned result.
+  // The same gains for all axes: a rotated recording gives the rotated result.
   Trajectories in = hand(), turned = in;
   Eigen::Matrix3d r;
   r << 0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6;

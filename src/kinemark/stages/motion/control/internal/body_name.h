@@ -12,7 +12,7 @@ namespace kinemark::motion::internal {
 /// Tree index of a body by name; data::kGround for "" and "ground". Fails when the model has none.
 [[nodiscard]] Result<int> body_by_name(const model::Model& model, const std::string& name);
 
-/// No joint can move it: the ground, and what is welded to it.
+/// True for bodies that no joint can move: the ground and bodies welded to it.
 [[nodiscard]] bool is_welded(const model::Model& model, int body);
 
 }  // namespace kinemark::motion::internal

@@ -76,7 +76,7 @@ void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, co
 void Bounds::add_level(std::size_t index) {
   Level& level = levels_[index];
   const Eigen::Index n = level.A.rows(), m = level.A.cols();
-  level.dx.noalias() -= level.A.transpose() * z_;  // what the levels above do not explain
+  level.dx.noalias() -= level.A.transpose() * z_;  // not explained by the levels above
   level.inverse.setZero(n, m);
   if (m == 0) return;
   level.projected = level.A;
@@ -102,7 +102,7 @@ void Bounds::add_level(std::size_t index) {
     V_.middleCols(rank_, count) = level.B;
     rank_ += static_cast<int>(count);
   }
-  // How errors of all goals so far come out: A_i^+ (own rows - A_i times what is explained above).
+  // Effect of the errors of all goals so far: A_i^+ (own rows - A_i times the part explained above).
   const Eigen::Index begin = first_column_[index];
   if (begin > 0)
     explained_.leftCols(begin) -= level.inverse * (level.A.transpose() * explained_.leftCols(begin)).eval();
@@ -151,11 +151,11 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
     sure = sure && sd_[c] <= kLargestSd;
     bound_[c] = sure ? std::abs(lag) + kNoiseSds * std::sqrt(variance) : nan;
     goal_bound_[c] = sure ? bound : nan;
-    // Held by goals alone that do not say how sure they are.
+    // Fixed only by goals without a standard deviation.
     if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;
     determined_[at(c)] = sure ? 1 : 0;
   }
-  for (const int c : plan_.locked) {  // held by us: nothing is known
+  for (const int c : plan_.locked) {  // locked here: nothing is known
     determined_[at(c)] = 0;
     sd_[c] = bound_[c] = goal_bound_[c] = nan;
   }

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What the goals of one frame fix, and how far the angles can be off (equations 14 to 17 of Demircan et al.).
+// Coordinates determined by the goals of one frame, and bounds on the angle errors (equations 14 to 17 of
+// Demircan et al.).
 //
-// Markers that miss their goals by dx come from angles that miss theirs by dq with J dq = dx, whatever the
-// controller did. Level by level, in z = L'dq: the first level explains z_1 = A_1^+ dx_1, the next what is
+// Marker errors dx and angle errors dq satisfy J dq = dx, independent of the controller. Level by level, in z
+// = L'dq: the first level explains z_1 = A_1^+ dx_1, the next what is
 // left of its own error, z_2 = A_2|1^+ (dx_2 - A_2 z_1), and so on; when all levels together have full
 // column rank, z is their sum, and so
 //     dq_c = sum over levels of (row c of L^-T A_i|..^+) (dx_i - A_i (z_1 + ... ))      (equation 15)
 // and with norms in place of the products the bound of equation 16. The same matrices turn the covariance of
-// the goals into that of the angles. Equation 15 leaves no freedom in dq_c: it is what the body lacks of the
-// angles that its goals ask for, zero where it fits them best, and large while it is on its way.
+// the goals into that of the angles. Equation 15 determines dq_c uniquely: the difference of the body's
+// angles to those that its goals require, zero at the best fit and large while the body still approaches the
+// goals.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -21,7 +23,7 @@
 #include "kinemark/model/workspace.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
 #include "kinemark/stages/motion/control/internal/plan.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 
@@ -29,19 +31,19 @@ class Bounds {
  public:
   explicit Bounds(const Plan& plan);
 
-  /// Equations 15 and 16 take goals for exact; bound() counts this many standard deviations of their noise.
+  /// Equations 15 and 16 assume exact goals; bound() counts this many standard deviations of their noise.
   static constexpr double kNoiseSds = 5.0;
 
-  /// For pose x with coordinates q and the goals that it follows.
+  /// Evaluate pose x with coordinates q and the goals of this frame.
   void find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
             const MarkerVariances& noise);
 
-  /// Of the goals' noise and, as if it were another error, what equation 15 says. NaN where not determined or
-  /// not known.
+  /// Standard deviation from the goals' noise, with the error by equation 15 added in quadrature. NaN where
+  /// not determined or not known.
   [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }
-  /// On the error of a coordinate: equation 15 and the goals' noise. NaN where not determined.
+  /// Bound on the error of a coordinate: equation 15 and the goals' noise. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }
-  /// Equation 16: on the distance to the coordinate that the goals ask for. NaN where not determined.
+  /// Equation 16: bound on the distance to the coordinate that the goals require. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& goal_bound() const { return goal_bound_; }
   [[nodiscard]] const std::vector<std::uint8_t>& determined() const { return determined_; }
   [[nodiscard]] int rank() const { return rank_; }

@@ -14,7 +14,7 @@
 namespace kinemark::motion::internal {
 namespace {
 
-// Singular values (kg^-1/2) above which a single level needs no singular vectors: everything is fixed by it.
+// Singular values (kg^-1/2) above which a single level needs no singular vectors: it fixes all directions.
 constexpr double kFullRank = 0.03;
 constexpr double kStartDamping = 0.01;  // of the speeds at the start
 constexpr int kMostHolds = 8;           // rounds of adding coordinates that rest at a limit
@@ -102,7 +102,7 @@ void Controller::find_commands(const GoalValues& goal, double time_s) {
       const auto& task = *plan_.levels[i].tasks[t];
       rows.resize(task.rows(), model_.speed_count());
       task.evaluate(model_, w_, time_s, rows);
-      // From here on `error` holds what is asked of the rows.
+      // From here on `error` holds the right-hand side of the rows.
       rows.error *= plan_.kp;
       rows.error +=
           plan_.kd * (feed * rows.goal_velocity - rows.velocity) + feed * rows.goal_acceleration - rows.bias;
@@ -221,7 +221,7 @@ void Controller::advance(double h) {
   move_ += 0.5 * h * h * a_;
   model::integrate(model_, x_, move_);
   v_ += h * a_;
-  // What rounding, or a limit met at the start, left beyond.
+  // Excess by rounding, or by a limit reached at the start.
   for (const auto& c : model_.coordinates()) {
     const int k = c.speed_idx;
     if (k < 0) continue;

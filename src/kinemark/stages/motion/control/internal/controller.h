@@ -14,19 +14,20 @@
 
 namespace kinemark::motion::internal {
 
-/// The body and the law that moves it. It allocates in its constructor and in the first step only.
+/// The simulated body and its control law. It allocates in its constructor and in the first step only.
 class Controller {
  public:
   explicit Controller(const Plan& plan);
 
-  /// Put the body to pose x, with the speeds that follow the goals best.
+  /// Set the body to pose x with the speeds that follow the goals best.
   void start(const Eigen::VectorXd& x, const GoalValues& goal, double time_s);
 
-  /// Acceleration wanted at the present state for goals at this instant. False when the body has run away:
-  /// speeds beyond the plan's limit or not finite.
+  /// Acceleration wanted at the present state for goals at this instant. False when the simulation has
+  /// diverged: speeds beyond the plan's limit or not finite.
   bool evaluate(const GoalValues& goal, double time_s);
 
-  /// Move on by h with the acceleration just found: x += h v + h^2 a / 2, v += h a; within the limits.
+  /// Integrate over the time step h with the acceleration just computed: x += h v + h^2 a / 2, v += h a;
+  /// within the limits.
   void advance(double h);
 
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
@@ -39,20 +40,20 @@ class Controller {
   [[nodiscard]] std::int64_t steps() const { return steps_; }
 
  private:
-  /// What markers and tasks ask for: residuals r of J a = r, and rows of the tasks.
+  /// Right-hand sides r of J a = r from markers and tasks, and rows of the tasks.
   void find_commands(const GoalValues& goal, double time_s);
   void gather_level(const Plan::Level& level, std::size_t index, const Eigen::VectorXd& weight);
-  /// The loops of the model, above all levels.
+  /// The loop constraints of the model, with priority over all levels.
   void close_loops();
   void solve(const Eigen::VectorXd& weight);
-  /// Hold what would run over a limit; true when something new is held.
+  /// Hold coordinates that would exceed a limit; true when another coordinate is held.
   bool hold_at_limits();
 
   const Plan& plan_;
   const model::Model& model_;
   model::Workspace w_;
   PrioritySolver solver_;
-  bool one_level_ = false;  // of markers and tasks, without loops: the fast way is open
+  bool one_level_ = false;  // of markers and tasks, without loops: the fast path can be used
   bool have_jacobian_ = false;
   Eigen::VectorXd x_, v_, a_, wished_, bias_, normal_force_, held_a_, move_;
   Eigen::Matrix3Xd command_;

@@ -11,8 +11,8 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr std::int64_t kLookedAt = 100;  // poses, for what no goal moves
-constexpr std::int64_t kInstants = 8;    // of the recording, at which tasks are asked
+constexpr std::int64_t kLookedAt = 100;  // poses, to find coordinates that no goal moves
+constexpr std::int64_t kInstants = 8;    // of the recording, at which tasks are evaluated
 
 /// First frame with at least 95 % as many goals as the best one.
 std::int64_t find_anchor(const Problem& p, const data::Trajectories& goals) {
@@ -59,7 +59,7 @@ Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, Loc
     }
   }
   plan.apply_locks(x);
-  FrameSolver solver(p, plan.start_options);  // knows the locks
+  FrameSolver solver(p, plan.start_options);  // with the locks applied
   for (std::int64_t f = anchor; f >= 0; --f) {
     p.observe(goals, f, y, weight);
     if (weight.sum() > 0.0) solver.solve(y, weight, 0, x);

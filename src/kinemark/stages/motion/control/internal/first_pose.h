@@ -8,13 +8,13 @@
 
 namespace kinemark::motion::internal {
 
-/// Pose of the first frame by inverse kinematics on the goals (laid out like the recording), found where
-/// nearly all of them are seen and followed back from there. Locks what no goal moves, and lets free roots
-/// rest where they start.
+/// Pose of the first frame by inverse kinematics on the goals (laid out like the recording), found in a frame
+/// where nearly all of them are seen and tracked back from there. Locks coordinates that no goal moves, and
+/// sets the rest pose of free roots to their start.
 [[nodiscard]] Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, LockMode lock);
 
-/// The same from one frame alone (3 x M and weights), for a live stream: what no goal moves is found in this
-/// pose and in random ones around it.
+/// The same from one frame alone (3 x M and weights), for a live stream: the coordinates that no goal moves
+/// are found from this pose and random ones around it.
 [[nodiscard]] Eigen::VectorXd find_first_pose(Plan& plan, const Eigen::Matrix3Xd& goal,
                                               const Eigen::VectorXd& weight, LockMode lock);
 

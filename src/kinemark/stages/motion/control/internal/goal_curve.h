@@ -10,8 +10,8 @@
 
 namespace kinemark::motion::internal {
 
-/// Natural cubic spline through evenly spaced values; one value stays for ever, and before the first and
-/// after the last frame the nearest stays.
+/// Natural cubic spline through evenly spaced values; a single value is a constant, and beyond the first and
+/// last frame the nearest value is held.
 class GoalCurve {
  public:
   GoalCurve() = default;

@@ -23,7 +23,7 @@ std::vector<double> lowpass_response(double cutoff, std::int64_t reach) {
   response[0] = 1.0;
   if (cutoff <= 0.0 || cutoff >= kNoLowpass) return response;
   const auto sections = math::butterworth_lowpass(2, math::two_pass_cutoff(2, cutoff));
-  // Long enough that what the ends do has died away.
+  // Long enough for the effect of the ends to decay.
   const auto half = reach + static_cast<std::int64_t>(std::ceil(3.0 / cutoff));
   std::vector<double> impulse(at(2 * half + 1), 0.0);
   impulse[at(half)] = 1.0;
@@ -191,7 +191,7 @@ void GoalFilter::build(const SampleWindow& samples, std::int64_t first, const da
       v1 = h * rate(d.velocity, first + 1, m);
       a0 = h * h * rate(d.acceleration, first, m);
       a1 = h * h * rate(d.acceleration, first + 1, m);
-      // A sample whose derivatives are not known is no goal.
+      // A sample without derivatives is not used as a goal.
       if (!v0.allFinite() || !v1.allFinite() || !a0.allFinite() || !a1.allFinite()) cell.weight_[m] = 0.0;
     }
     for (auto& power : cell.power_) power.col(m).setZero();

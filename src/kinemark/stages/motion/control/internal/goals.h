@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Goals between the frames of a recording: place, velocity and acceleration of every marker at any time, and
-// how much it counts.
+// Goals between the frames of a recording: position, velocity, acceleration and weight of every marker at any
+// time.
 //
 // The goal is a cubic B-spline with knots at the frames, twice continuously differentiable. Its coefficients
 // are the samples under one symmetric kernel: the two-pass Butterworth low-pass and the inverse of the
@@ -25,13 +25,13 @@ class SampleWindow {
   SampleWindow(int markers, std::int64_t capacity);
   /// Samples (3 x M) of the next frame; weight (M) is 0 where a marker is not seen.
   void push(const Eigen::Matrix3Xd& x, const Eigen::VectorXd& weight);
-  /// No further frame will come.
+  /// Marks the end of the stream.
   void end() { ended_ = true; }
 
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] std::int64_t frames() const { return frames_; }  ///< pushed so far
   [[nodiscard]] int markers() const { return static_cast<int>(weight_.rows()); }
-  /// Seen in a frame that is still kept; false for all others.
+  /// True when the marker was seen in that frame and the frame is still kept.
   [[nodiscard]] bool present(std::int64_t frame, int marker) const { return weight(frame, marker) > 0.0; }
   [[nodiscard]] double weight(std::int64_t frame, int marker) const;
   [[nodiscard]] Eigen::Vector3d x(std::int64_t frame, int marker) const;
@@ -75,8 +75,9 @@ class GoalFilter {
   [[nodiscard]] std::int64_t window_frames() const { return 2 * delay_frames() + 4; }
   /// The cell between frames `first` and `first + 1`.
   void build(const SampleWindow& samples, std::int64_t first, GoalCell& cell) const;
-  /// The same from samples whose derivatives are known: quintic through place, velocity and acceleration at
-  /// both ends. `marker[m]` and `first_frame` say where marker m and frame 0 of the window stand in `d`.
+  /// The same from samples whose derivatives are known: quintic through position, velocity and acceleration
+  /// at both ends. `marker[m]` and `first_frame` are the indices in `d` of marker m and of frame 0 of the
+  /// window.
   void build(const SampleWindow& samples, std::int64_t first, const data::Derivatives& d,
              const std::vector<int>& marker, std::int64_t markers_in_d, std::int64_t first_frame,
              GoalCell& cell) const;

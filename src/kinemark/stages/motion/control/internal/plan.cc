@@ -20,7 +20,8 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kRestPull = 1e-6;   // m^2/rad^2, on the first pose only: where markers leave a choice
+constexpr double kRestPull =
+    1e-6;  // m^2/rad^2, on the first pose only: for coordinates that the markers do not determine
 constexpr double kIdleLever = 0.01;  // m per rad
 constexpr double kIdleShare = 0.05;  // of the poses
 constexpr int kMostSteps = 100000;   // per frame
@@ -92,7 +93,7 @@ Status place_levels(const std::map<std::string, std::size_t>& level_of, const st
   }
   for (const auto& [name, level] : level_of)
     if (name != "*" && model.description().find_marker(name) < 0)
-      plan.problem.warnings.push_back(fmt::format(
+      plan.problem.fit.warnings.push_back(fmt::format(
           "marker '{}' of level {} is not in the recording, never seen, or weighs 0", name, level + 1));
   return {};
 }
@@ -102,7 +103,8 @@ Status set_gains(const TrackOptions& options, Plan& plan) {
   plan.kd = options.kd > 0.0 ? options.kd : 2.0 * options.omega_rad_s;
   plan.posture_kp = options.posture_kp;
   plan.posture_kd = options.posture_kd;
-  // Half of what the constant-acceleration update bears: kd h < 2, kp h < 2 kd. Critically damped: omega h
+  // Half of the stability limit of the constant-acceleration update: kd h < 2, kp h < 2 kd. Critically
+  // damped: omega h
   // <= 0.5.
   const double longest = std::min(1.0 / plan.kd, plan.kd / plan.kp);
   const double interval = 1.0 / plan.rate_hz;
@@ -128,7 +130,7 @@ Status set_gains(const TrackOptions& options, Plan& plan) {
   return {};
 }
 
-/// Coordinates to return to: the model's defaults but for those that are wished for.
+/// Rest pose: the model's defaults, except for the coordinates given in the options.
 Result<Eigen::VectorXd> rest_coordinates(const model::Model& model, const TrackOptions& options) {
   Eigen::VectorXd q(model.coordinate_count());
   for (int c = 0; c < q.size(); ++c) q[c] = model.description().coordinates[at(c)].default_value;
@@ -153,7 +155,7 @@ Status lock_named(const TrackOptions& options, Plan& plan) {
     const int c = model.description().find_coordinate(name);
     if (c < 0)
       return fail(Code::bad_input,
-                  fmt::format("coordinate '{}' shall be locked, and the model does not have it", name));
+                  fmt::format("coordinate '{}' is to be locked, but the model does not have it", name));
     const int speed = model.coordinates()[at(c)].speed_idx;
     if (speed < 0)
       return fail(
@@ -209,7 +211,10 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   auto problem = make_problem(model, markers, ik);
   if (!problem) return std::unexpected(problem.error());
   plan.problem = std::move(*problem);
-  plan.problem.warnings.insert(plan.problem.warnings.end(), warnings.begin(), warnings.end());
+  auto& fit = plan.problem.fit;
+  fit.warnings.insert(fit.warnings.end(), warnings.begin(), warnings.end());
+  for (auto& marker : fit.excluded)
+    if (marker.why == data::kNoWeight) marker.why = fmt::format("in no level, or {}", data::kNoWeight);
   plan.rate_hz = markers.time.rate_hz;
   plan.damping = {.damping = options.damping, .truncation = options.truncation};
   plan.feed_forward = options.feed_forward;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A model, a recording and options brought together: who is tracked at which level, with which gains, what is
-// held.
+// The set-up of a run from model, recording and options: markers and tasks of each level, gains, locked
+// coordinates.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,27 +34,27 @@ struct Plan {
   bool feed_forward = true;
   double posture_kp = 0.0, posture_kd = 0.0;
   double max_speed = 0.0, max_error_m = 0.0;
-  double ease_s = 0.0;      ///< in which the body is led to a marker that returns
+  double ease_s = 0.0;      ///< over which the goal of a marker that reappears is eased in
   Eigen::VectorXd rest;     ///< state; free joints as the model's default until the start is known
-  std::vector<int> locked;  ///< coordinates that we lock, not the model
+  std::vector<int> locked;  ///< coordinates locked here, not by the model
 
-  /// Put what is locked to the rest pose.
+  /// Set locked coordinates to the rest pose.
   void apply_locks(Eigen::VectorXd& x) const;
 };
 
 [[nodiscard]] Result<Plan> make_plan(const model::Model& model, const data::Trajectories& markers,
                                      const TrackOptions& options);
 
-/// The filter of the goals as the options ask for it.
+/// The filter of the goals according to the options.
 [[nodiscard]] GoalFilter make_filter(double rate_hz, const TrackOptions& options);
 
-/// Poses in which goals are looked at for what they move.
+/// Poses in which the coordinates moved by the goals are determined.
 struct Looks {
-  std::vector<Eigen::VectorXd> followed;  ///< of the body as it follows the goals
-  /// Tasks that are no points may be blind in all of `followed` (a distance along a straight arm): they are
-  /// looked at in these too, any poses within the limits around one of the others.
+  std::vector<Eigen::VectorXd> followed;  ///< poses found by following the goals
+  /// A task that is not a point may have zero derivatives in all of `followed` (a distance along a straight
+  /// arm), so tasks are also evaluated in these poses, drawn within the limits around one of the others.
   std::vector<Eigen::VectorXd> around;
-  std::vector<double> times_s{0.0};  ///< at which tasks are asked; what moves at any of them counts
+  std::vector<double> times_s{0.0};  ///< at which tasks are evaluated; moved at any of them counts as moved
 };
 
 /// Random poses within the limits, up to half a radian from x; locked and fixed coordinates stay.
@@ -64,7 +64,7 @@ struct Looks {
 /// the poses.
 void lock_idle(Plan& plan, const Looks& looks);
 
-/// Every speed that may move has mass behind it in pose x.
+/// Checks that the mass matrix of the free speeds is positive definite in pose x.
 [[nodiscard]] Status check_mass(const Plan& plan, const Eigen::VectorXd& x);
 
 }  // namespace kinemark::motion::internal

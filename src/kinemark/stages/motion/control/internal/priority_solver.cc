@@ -9,8 +9,8 @@
 namespace kinemark::motion::internal {
 namespace {
 
-// Singular values (kg^-1/2 per metre) around which the posture takes over from a level, smoothly: a direction
-// that hardly moves the goals, and that damping leaves almost free, would wind up otherwise.
+// Singular values (kg^-1/2 per metre) around which the posture smoothly takes over from a level: a direction
+// that hardly moves the goals, and that damping leaves almost free, would otherwise drift away.
 constexpr double kIdle = 0.005;
 constexpr double kBusy = 30.0 * kIdle;  // above it the posture's share is below 0.1 %
 
@@ -61,7 +61,7 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
   Level& level = levels_[next_level_++];
   const int m = static_cast<int>(J.rows()), n = static_cast<int>(J.cols());
   if (m == 0 || used_ == free_count_) return;
-  // A = J L^-T on the free speeds, and what the task still lacks.
+  // A = J L^-T on the free speeds, and the remaining residual of the task.
   level.A = J.transpose();  // kept transposed: L A' = J'
   level.r = r;
   for (int k = 0; any_held_ && k < n; ++k) {
@@ -86,7 +86,7 @@ void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,
   if (count == 0) return;
   smallest_ = std::min(smallest_, std::abs(qr(count - 1, count - 1)));
   // A' = B R P' on what is kept, so that B'z solves (R R' + damping^2) y = R P' r. Sizes do not follow the
-  // rank (that would allocate): what is not kept has zero rows in R and takes no part.
+  // rank (that would allocate): discarded directions have zero rows in R.
   const int size = std::min(m, n), rest = size - count;
   level.B.setIdentity(n, size);
   level.workspace.resize(size);
@@ -151,7 +151,7 @@ void PrioritySolver::add_posture(const Eigen::VectorXd& wished) {
     z_.noalias() += (kIdle * kIdle) * (level.B * level.along);
   }
   if (used_ == free_count_) return;
-  projected_ -= z_;  // towards the wish, from what the levels made
+  projected_ -= z_;  // from the levels' solution towards the posture
   auto along = part_.head(used_);
   along.noalias() = V_.leftCols(used_).transpose() * projected_;
   projected_.noalias() -= V_.leftCols(used_) * along;

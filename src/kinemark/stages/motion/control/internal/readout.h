@@ -9,7 +9,8 @@
 
 namespace kinemark::motion::internal {
 
-/// State, speeds and accelerations of the tree as the file's coordinates, with the forces that make them.
+/// State, speeds and accelerations of the tree converted to the file's coordinates, with the generalised
+/// forces.
 class Readout {
  public:
   /// The model must outlive the readout.

@@ -12,7 +12,7 @@
 
 namespace kinemark::motion::internal {
 
-/// Everything about the frames that the error bars need once the body has been through.
+/// What the error bars need of all frames after tracking.
 struct Track {
   Eigen::MatrixXd states;    // one column per frame
   data::Trajectories goals;  // laid out like the recording
@@ -23,7 +23,7 @@ struct Track {
 /// status of `result`, and the states of `track`. All references must outlive the recorder.
 class Recorder {
  public:
-  /// `result` knows its coordinates, markers and time.
+  /// Coordinates, markers and time of `result` must be set.
   Recorder(const Plan& plan, const data::Trajectories& markers, Walker& walker, Track& track,
            TrackResult& result);
 

@@ -10,22 +10,23 @@
 
 namespace kinemark::motion::internal {
 
-/// Leads the body to markers that return.
+/// Eases in the goals of markers that reappear.
 ///
-/// A small weight softens a marker only against others: one that alone moves a coordinate has all of its pull
-/// at any weight, and would take the body to its goal at omega. So its goal begins where the body carries the
-/// marker, with the speed that it has there, and comes to the true goal within `ease_s` (> 0) along a cubic.
+/// A small weight softens a marker only against others: one that alone moves a coordinate acts fully at any
+/// weight and would draw the body to its goal at the rate omega. Its goal therefore starts at the model
+/// marker's position and velocity and approaches the measured one along a cubic within `ease_s` (> 0).
 class ReturningMarkers {
  public:
   ReturningMarkers(int markers, double ease_s);
 
-  /// All goals of weight above 0 are followed as they are from now on.
+  /// From now on all goals of weight above 0 are used unchanged.
   void start(const Eigen::VectorXd& weight);
   /// Not followed so far: its weight is above 0 for the first time since it was 0.
   [[nodiscard]] bool is_new(int marker, const Eigen::VectorXd& weight) const;
-  /// From `time_s` on lead the marker: by how much it misses its goal there (m), and their velocities (m/s).
+  /// Ease in the marker from `time_s` on: its distance from the goal at that time (m), and the difference of
+  /// velocities (m/s).
   void lead(int marker, double time_s, const Eigen::Vector3d& miss, const Eigen::Vector3d& miss_rate);
-  /// Goals as the body shall see them; forgets the leads of markers whose weight is 0.
+  /// The eased goals; discards the transitions of markers whose weight is 0.
   void apply(double time_s, GoalValues& goal);
 
  private:

@@ -87,7 +87,8 @@ void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances&
     const auto* row = motion.determined.data() + motion.index(f, 0);
     auto& status = motion.status[at(f)];
     if (status != FrameStatus::converged && status != FrameStatus::underdetermined) continue;
-    // The rank of a step lacks what rests at a limit; what the markers determine is the better answer.
+    // The rank of a step excludes coordinates at a limit; the rank determined by the markers is reported
+    // instead.
     const bool all = std::all_of(row, row + n, [](auto d) { return d != 0; });
     status = all ? FrameStatus::converged : FrameStatus::underdetermined;
   }

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "kinemark/stages/motion/control/internal/recorder.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 
-/// Noise of the goals: from what the filter removed, and from how the markers of a segment disagree with the
-/// body; the larger of both. As given, where it is.
+/// Noise of the goals: from the part removed by the filter, and from the residuals of the markers of each
+/// segment; the larger of both. A given noise is used as it is.
 [[nodiscard]] MarkerVariances goal_noise(const Plan& plan, const data::Trajectories& markers,
                                          const Track& track, const GoalFilter& filter,
                                          const TrackOptions& options);

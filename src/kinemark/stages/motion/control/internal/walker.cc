@@ -3,14 +3,15 @@
 #include "kinemark/stages/motion/control/internal/walker.h"
 
 #include <cmath>
+#include <utility>
 
 #include "kinemark/model/kinematics.h"
 
 namespace kinemark::motion::internal {
 
-Walker::Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity, double t0_s)
+Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, double t0_s)
     : plan_(plan),
-      filter_(filter),
+      filter_(std::move(filter)),
       samples_(plan.problem.model.marker_count(), capacity),
       controller_(plan),
       solver_(plan.problem, plan.start_options),
@@ -92,7 +93,7 @@ void Walker::restart() {
   if (!x.allFinite()) x = last_good_;
   controller_.start(x, goal_, time_s());
   if (controller_.evaluate(goal_, time_s())) return;
-  // Goals that move faster than any body can: stand still until they are sane.
+  // Goals that move faster than any body can: hold the pose until they are plausible again.
   GoalValues nothing(static_cast<int>(goal_.weight.size()));
   controller_.start(last_good_, nothing, time_s());
   controller_.evaluate(nothing, time_s());

@@ -11,18 +11,18 @@
 
 namespace kinemark::motion::internal {
 
-/// Takes the body from frame to frame, over files and live streams alike.
+/// Advances the body from frame to frame, for files and live streams.
 class Walker {
  public:
   /// The plan must outlive the walker and stay as it is.
-  Walker(const Plan& plan, const GoalFilter& filter, std::int64_t capacity, double t0_s);
+  Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, double t0_s);
   /// Use the derivatives of a recording in place of the filter; `d` must outlive the walker.
   void use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d);
 
   [[nodiscard]] SampleWindow& samples() { return samples_; }
   [[nodiscard]] const SampleWindow& samples() const { return samples_; }
 
-  /// Put the body to pose x at frame `first`. Needs the cell that begins there.
+  /// Set the body to pose x at frame `first`. Needs the cell that begins there.
   void begin(const Eigen::VectorXd& x, std::int64_t first);
   /// Go on to the next frame. Needs the cell that ends there.
   void next();
@@ -30,19 +30,19 @@ class Walker {
   [[nodiscard]] std::int64_t frame() const { return frame_; }
   [[nodiscard]] double time_s() const { return t0_s_ + static_cast<double>(frame_) / plan_.rate_hz; }
   [[nodiscard]] Controller& controller() { return controller_; }
-  /// As measured; the body is led to those of markers that return.
+  /// The measured goals; those of markers that reappear are eased in.
   [[nodiscard]] const GoalValues& goal() const { return goal_; }
   [[nodiscard]] bool any_goal() const { return goal_.weight.maxCoeff() > 0.0; }
-  /// The body ran away on the way here, or is farther from its goals than the plan allows.
+  /// The simulation diverged before this frame, or the body is farther from its goals than the plan allows.
   [[nodiscard]] bool flagged() const { return flagged_; }
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
 
  private:
   void build_cell(std::int64_t first);
   void restart();
-  /// Step s of a frame, 1 to steps_per_frame. False when the body ran away.
+  /// Step s of a frame, 1 to steps_per_frame. False when the simulation diverged.
   bool step(int s);
-  /// Where and how fast the body carries markers that are new now.
+  /// Position and velocity errors of model markers whose goals become active now.
   void lead_new_markers(double time_s, double u);
   void judge();
 

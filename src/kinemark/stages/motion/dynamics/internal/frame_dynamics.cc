@@ -84,8 +84,8 @@ bool FrameDynamics::derivatives(int c, VectorXd& by_q, VectorXd& by_v, VectorXd&
   if (coordinate.speed_idx >= 0) {
     direction_[coordinate.speed_idx] = 1.0;
   } else if (coordinate.free_joint >= 0) {
-    // How this Euler angle turns the body now; that the axes themselves turn with the other angles is of
-    // second order beside the error of the angle.
+    // Axis of this Euler angle at present; the rotation of the axes with the other angles is a second-order
+    // effect of the error of the angle.
     const auto& free = model_.free_joints()[at(coordinate.free_joint)];
     if (coordinate.free_axis < 3)
       direction_.segment<3>(free.speed_idx + 3) = angular_from_rates(free, E_).col(coordinate.free_axis);

@@ -10,7 +10,7 @@
 
 namespace kinemark::motion::internal {
 
-/// A force on a body: the sum of all that acts there.
+/// The sum of the external forces on a body.
 struct AppliedForce {
   int body = data::kGround;  ///< tree index
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero(),
@@ -22,13 +22,13 @@ class FrameDynamics {
  public:
   explicit FrameDynamics(const model::Model& model);
 
-  /// Set coordinates and their rates (n each) and what acts from outside.
+  /// Set coordinates and their rates (n each) and the external forces.
   void set(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
            std::vector<AppliedForce> applied);
 
-  /// tau in speeds (nv) at what was set.
+  /// Generalised forces tau of the speeds (nv) for the values set.
   [[nodiscard]] const Eigen::VectorXd& tau() const { return tau_; }
-  /// tau as the file's coordinates see it (n); NaN for coordinates that own no speed.
+  /// Generalised forces of the file's coordinates (n); NaN for coordinates without a speed of their own.
   void to_coordinates(const Eigen::VectorXd& tau, Eigen::VectorXd& out) const;
   /// Derivatives of tau (speeds) by coordinate c, its rate and its acceleration. False when c moves nothing.
   /// By differences for the first two, good to about 1e-6.

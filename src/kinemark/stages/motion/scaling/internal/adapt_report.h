@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What an estimate says of each parameter and of each length made of them.
+// Values and uncertainties of each parameter and of the lengths computed from them.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 namespace kinemark::motion::internal {
 
 /// Fills model, parameters, lengths and not_determined from the change found, the result's covariance and the
-/// covariance without the prior of the marker places.
+/// covariance without the prior of the marker positions.
 void describe(const data::ModelDescription& model, const std::vector<GeometryParameter>& parameters,
               const Eigen::VectorXd& change, const Eigen::MatrixXd& data_covariance, AdaptResult& result);
 

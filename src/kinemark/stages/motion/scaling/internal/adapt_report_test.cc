@@ -20,7 +20,7 @@ using ::testing::Contains;
 using ::testing::Not;
 using testing_leg::leg;
 
-/// Sizes and joint places.
+/// Sizes and joint positions.
 std::vector<GeometryParameter> parameters() {
   auto list = scale_parameters(leg(), default_scale_groups(leg())).value();
   const auto joints = joint_parameters(leg()).value();
@@ -35,7 +35,7 @@ MatrixXd covariance(Index size, double sd) {
   return A * A.transpose();
 }
 
-// Lengths of two geometries a small step apart differ by what the deviations' slope says.
+// Lengths of two geometries a small step apart differ by the derivative times the step.
 TEST(Describe, the_deviation_of_a_length_is_that_of_its_parameters) {
   const auto list = parameters();
   const auto size = static_cast<Index>(list.size());

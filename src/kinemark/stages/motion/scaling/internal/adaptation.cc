@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -26,8 +26,8 @@ constexpr double kSameNoise = 0.03;
 constexpr double kLeastGain = 1e-7;  // of the cost
 constexpr double kNoPlacePrior_m = 1.0;
 constexpr double kLeastNoise_m = 1e-5;
-constexpr double kSettled = 0.1;  // standard deviations that the last step may leave to go
-constexpr double kNear = 0.3;     // standard deviations that a step must win before settle() takes over
+constexpr double kSettled = 0.1;  // standard deviations: largest distance to the minimum after the last step
+constexpr double kNear = 0.3;     // standard deviations: gain of a step below which settle() takes over
 constexpr int kSettleSteps = 20;
 constexpr int kQuietRounds = 3;
 constexpr double kSameMotion = 0.1;  // shares of motion that need no further round
@@ -99,8 +99,8 @@ double Adaptation::cost(const ProjectedSums& sums, const VectorXd& x, const Vect
   return sums.cost + (prior.array() * x.array().square()).sum();
 }
 
-/// Levenberg-Marquardt on the Schur complement, from where we are, until a step wins less than least_sd
-/// standard deviations of a parameter would.
+/// Levenberg-Marquardt on the Schur complement, from the current geometry, until the gain of a step is below
+/// that of least_sd standard deviations of a parameter.
 Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
   const VectorXd prior = priors();
   sums_ = projection_.solve(x_, states_);
@@ -125,7 +125,7 @@ Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
         damping *= 10.0;
         continue;
       }
-      // What the quadratic model promises of the first, boldest step.
+      // Gain predicted by the quadratic model for the first, longest step.
       if (!std::isfinite(ahead)) ahead = 2.0 * g.dot(step) - step.dot(S * step);
       const VectorXd x_try = x_ + step;
       MatrixXd states_try = states_;
@@ -151,11 +151,11 @@ Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
   return {};
 }
 
-/// Steps to where the quiet postures' equations balance. The gradient that iterate() brings to zero
-/// multiplies residuals by derivatives at postures that hold the noise of the same markers: along directions
-/// that only motion could tell it is noise times noise. Derivatives at the quiet postures are blind there,
-/// and the priors decide. What is motion is measured anew where that has led: iterate() may have gone astray
-/// so far that the postures' variances are those of another body.
+/// Newton steps to the zero of the equations with derivatives at the shrunk postures. The gradient of
+/// iterate() multiplies residuals by derivatives at postures that contain the noise of the same markers:
+/// along directions that only motion determines it is a product of noise with noise. Derivatives at the
+/// shrunk postures vanish there, and the priors decide. The shares of motion are then measured again, since
+/// iterate() may have ended so far away that the variances of its postures are wrong.
 Status Adaptation::settle(AdaptResult& result) {
   sums_ = projection_.solve(x_, states_);
   Quiet quiet;
@@ -200,7 +200,7 @@ std::optional<double> Adaptation::step_by(const Quiet& quiet) {
   return std::sqrt(step.dot(S * step)) / noise_m_;
 }
 
-/// Covariance with and without the prior of the places.
+/// Covariance with and without the prior of the positions.
 Status Adaptation::find_covariance(AdaptResult& result) {
   TissueModel tissue;
   std::optional<TissuePass> pass;
@@ -211,7 +211,7 @@ Status Adaptation::find_covariance(AdaptResult& result) {
   };
   if (options_.soft_tissue) look();
   if (tissue.found) {
-    // Samples that depend on each other count less against the priors.
+    // Correlated samples have less weight against the priors.
     noise_m_ = result.noise_sd_m * std::sqrt(tissue.inflation);
     if (auto s = iterate(options_.max_iterations, kNear, result); !s) return s;
     result.noise_sd_m = options_.marker_noise_sd_m > 0.0 ? options_.marker_noise_sd_m : residual_noise();

@@ -27,11 +27,11 @@ class Adaptation {
              const std::vector<GeometryParameter>& parameters, const AdaptOptions& options, Problem problem,
              Eigen::MatrixXd states, const Progress& progress);
 
-  /// Fills what it estimates: everything of the result but what describe() says.
+  /// Fills the estimates; the fields of describe() are left to the caller.
   Status run(AdaptResult& result);
 
   [[nodiscard]] const Eigen::VectorXd& change() const { return x_; }
-  /// Covariance as it would be without the prior of the marker places.
+  /// Covariance without the prior of the marker positions.
   [[nodiscard]] const Eigen::MatrixXd& data_covariance() const { return data_covariance_; }
   [[nodiscard]] const Problem& problem() const { return projection_.problem(); }
   [[nodiscard]] const Eigen::MatrixXd& states() const { return states_; }
@@ -55,7 +55,7 @@ class Adaptation {
   Eigen::VectorXd x_;
   Eigen::MatrixXd data_covariance_;
   ProjectedSums sums_{0};
-  NormalSums of_motion_{0};  ///< at the quiet postures
+  NormalSums of_motion_{0};  ///< at the shrunk postures
   double noise_m_ = 0.0;
 };
 

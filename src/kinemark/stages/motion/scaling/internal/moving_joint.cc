@@ -18,8 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kUnknownShift_m = 0.1;  // prior of a shift, so that a blind direction says nothing
-constexpr double kNotable_m = 0.008;     // shifts that a rigid shoulder girdle does not make
+constexpr double kUnknownShift_m = 0.1;  // prior of a shift, for directions that the markers do not determine
+constexpr double kNotable_m = 0.008;     // larger shifts exclude a rigid shoulder girdle
 constexpr double kAboveNoise = 2.0;
 
 }  // namespace

@@ -21,7 +21,7 @@ struct JointShift {
 [[nodiscard]] JointShift measure_shift(const Problem& problem, const data::Trajectories& markers,
                                        const Eigen::MatrixXd& states, int body, double noise_sd_m);
 
-/// Sentences about shoulders that move in a trunk that does not let them.
+/// Sentences about shoulders that move relative to the trunk although the model fixes them.
 [[nodiscard]] std::vector<std::string> recommend_joints(const Problem& problem,
                                                         const data::Trajectories& markers,
                                                         const Eigen::MatrixXd& states, double noise_sd_m);

@@ -14,7 +14,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr std::int64_t kGrain = 32;
-constexpr double kClearlyBetter = 0.98;  // cost that makes another posture worth having
+constexpr double kClearlyBetter = 0.98;  // largest cost ratio at which another posture is accepted
 
 /// The same parameters for a description that holds some of the markers only.
 std::vector<GeometryParameter> rename_markers(const data::ModelDescription& full,
@@ -32,13 +32,12 @@ std::vector<GeometryParameter> rename_markers(const data::ModelDescription& full
 }  // namespace
 
 Projection::Projection(const data::ModelDescription& full, const std::vector<GeometryParameter>& parameters,
-                       Problem problem, const IkOptions& options, const data::Trajectories& markers,
-                       int threads)
+                       Problem problem, IkOptions options, const data::Trajectories& markers, int threads)
     : problem_(std::move(problem)),
       layout_(problem_, full, parameters),
       base_(problem_.model.description()),
       parameters_(rename_markers(full, base_, parameters)),
-      options_(options),
+      options_(std::move(options)),
       markers_(markers),
       threads_(threads) {}
 

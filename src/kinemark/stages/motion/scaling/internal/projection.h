@@ -16,7 +16,7 @@ struct ProjectedSums {
   explicit ProjectedSums(int columns) : normal(columns) {}
   NormalSums normal;
   double cost = 0.0;              ///< weighted squares and tasks
-  std::int64_t moved_speeds = 0;  ///< speeds that the frames had to themselves, summed
+  std::int64_t moved_speeds = 0;  ///< free speeds of all frames, summed
   [[nodiscard]] double rms() const {
     return normal.seen > 0 ? std::sqrt(normal.squares / static_cast<double>(normal.seen)) : 0.0;
   }
@@ -26,21 +26,21 @@ struct ProjectedSums {
 class Projection {
  public:
   Projection(const data::ModelDescription& full, const std::vector<GeometryParameter>& parameters,
-             Problem problem, const IkOptions& options, const data::Trajectories& markers, int threads);
+             Problem problem, IkOptions options, const data::Trajectories& markers, int threads);
 
   /// Visit every stride-th frame only.
   void set_frames(std::int64_t stride) { stride_ = stride; }
 
   /// Solve all frames with the geometry changed by x, from `states` (columns are frames), which improve.
-  /// A geometry that is no model (numbers that are not finite) costs NaN, and nothing changes.
+  /// An invalid geometry (numbers that are not finite) has the cost NaN, and the states do not change.
   ProjectedSums solve(const Eigen::VectorXd& x, Eigen::MatrixXd& states);
 
-  /// The normal equations with derivatives at the quiet states and residuals at the best ones, none of which
-  /// change, with the geometry of the last solve().
+  /// The normal equations with derivatives at the shrunk states and residuals at the best ones, for the
+  /// geometry of the last solve(). The states do not change.
   [[nodiscard]] NormalSums sums_at(const Eigen::MatrixXd& best, const Eigen::MatrixXd& quiet) const;
 
-  /// Start every frame from its neighbours' postures as well, with the geometry of the last solve(), and keep
-  /// what is clearly better. Returns how many frames had been caught in a false minimum.
+  /// Also start every frame from its neighbours' postures, with the geometry of the last solve(), and keep
+  /// clear improvements. Returns the number of frames that had been in a false minimum.
   std::int64_t free_caught_frames(Eigen::MatrixXd& states) const;
 
   /// With the geometry of the last solve().

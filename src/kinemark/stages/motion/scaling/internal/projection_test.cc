@@ -24,7 +24,7 @@ constexpr std::int64_t kFrames = 5;
 constexpr double kNoise_m = 0.002;
 
 /// Geometry and the postures of all frames as one long vector, residuals and their derivatives by
-/// differences: knows nothing of Schur complements or Jacobians.
+/// differences: independent of Schur complements and Jacobians.
 class BruteForce {
  public:
   BruteForce(const data::ModelDescription& base, std::vector<GeometryParameter> list,

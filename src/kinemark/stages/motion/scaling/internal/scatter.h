@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// How far joints really moved, as against how far their angles, found from noisy markers, scatter.
+// Motion of the joints as opposed to the scatter of angles estimated from noisy markers.
 //
-// What a recording tells of a length grows with the square of the angles that its joints went through. At
-// postures that were found from noisy markers that sum counts the noise as motion: a limb that kept perfectly
-// still then seems to tell its length. Postures drawn together until they scatter as the joints moved give
-// the information without it. Theory: docs/theory/scaling.md
+// The information on a length grows with the sum of the squared angles of its joints. With postures estimated
+// from noisy markers this sum counts noise as motion: even a limb at rest seems to determine its length.
+// Postures shrunk towards their mean, so that their scatter equals the motion of the joints, give the
+// information without this bias. Theory: docs/theory/scaling.md
 #pragma once
 
 #include <Eigen/Core>
@@ -24,19 +24,19 @@ namespace kinemark::motion::internal {
                                                 const Eigen::MatrixXd& states, int threads);
 
 /// Mean of a joint angle and the share (0 to 1) of its scatter about it that is motion, as a factor of
-/// angles. Samples of which nothing is known (variance not below 1) do not count.
+/// angles. Samples without information (variance not below 1) do not count.
 struct Scatter {
   double mean = 0.0;
   double motion = 1.0;  ///< 1 where fewer than two samples count
 };
 
 /// The angles' chi-square about their weighted mean is 1 per degree of freedom when the joint keeps still,
-/// 1 + motion/noise otherwise: motion = sqrt(1 - 1/chi-square), and 0 where the chi-square stays within three
-/// deviations of what chance makes of a joint that keeps still.
+/// 1 + motion/noise otherwise: motion = sqrt(1 - 1/chi-square), and 0 where the chi-square is within three
+/// standard deviations of its expectation for a joint at rest.
 [[nodiscard]] Scatter measure_scatter(const Eigen::VectorXd& angles, const Eigen::VectorXd& variances);
 
-/// How every joint's postures are drawn towards their mean to the scatter of its motion. Free joints, whose
-/// place tells nothing of the geometry, stay.
+/// Shrinks the coordinates of every joint towards their mean to the scatter of its motion. Free joints, whose
+/// pose has no information on the geometry, are left unchanged.
 class Quiet {
  public:
   Quiet() = default;  ///< leaves everything as it is

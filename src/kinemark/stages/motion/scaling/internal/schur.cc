@@ -12,12 +12,11 @@
 namespace kinemark::motion::internal {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Moves = GeometryTerm::Moves;
 
-constexpr double kFloor = 1e-10;  // of the total weight: blind directions of a posture stay where they are
+constexpr double kFloor = 1e-10;  // of the total weight: holds undetermined directions of a posture
 
 bool hangs_on(const model::Model& model, int body, int ancestor) {
   while (body > ancestor) body = model.bodies()[at(body)].parent;
@@ -35,7 +34,7 @@ GeometryLayout::GeometryLayout(const Problem& problem, const data::ModelDescript
       Term term{.moves = given.moves, .column = k, .direction = given.direction};
       if (given.moves == Moves::marker) {
         const int m = model.description().find_marker(full.markers[at(given.idx)].name);
-        if (m < 0) continue;  // never seen: only its prior knows it
+        if (m < 0) continue;  // never seen: only its prior determines it
         term.body = model.markers()[at(m)].body;
         of_marker[at(m)].push_back(static_cast<int>(terms.size()));
         terms.push_back(term);

@@ -55,10 +55,9 @@ class FrameEquations {
   void visit(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, const Eigen::VectorXd& x);
   void add_to(NormalSums& sums) const;
 
-  /// Jq'W r, nv numbers: what tasks balance at the best posture.
+  /// Jq'W r, nv numbers: balanced by the coordinate tasks at the best posture.
   [[nodiscard]] Eigen::VectorXd posture_gradient() const;
-  /// Take the part of the gradient off that a posture which is not the best would follow, - W'L^-T L^-1
-  /// given.
+  /// Subtract the part of the gradient due to a posture that is not at its minimum, - W'L^-T L^-1 given.
   void add_posture_part(const Eigen::VectorXd& gradient, NormalSums& sums) const;
 
   /// Derivative of one marker by one parameter.

@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing_leg::leg;
 
@@ -48,7 +47,8 @@ struct Case {
   }
 };
 
-// Sizes, places and the slide of the knee: what every parameter does to every marker at a given posture.
+// Sizes, positions and the translation of the knee: effect of every parameter on every marker at a given
+// posture.
 TEST(GeometryLayout, its_velocities_are_the_derivatives_of_the_markers) {
   Case c;
   const VectorXd state = c.solved.states.col(1);

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr std::int64_t kTissueGrain = 64;
 constexpr double kStill = 1e-3;        // rad or m, RMS: less is no motion
 constexpr double kOwnDirection = 0.3;  // share of an angle that others do not explain, below it is left out
-constexpr double kTissueChance = 1.5;  // posture-bound energy over what independent noise would leave there
+constexpr double kTissueChance = 1.5;  // energy that follows the posture over that of independent noise
 constexpr double kLeastVisible =
     0.05;  // of the posture-bound energy, in residuals: below, nothing to divide by
 
@@ -31,7 +31,7 @@ std::vector<int> states_of_speeds(const model::Model& model) {
   return state;
 }
 
-/// States of the joints next to every body; welds are looked through.
+/// States of the joints next to every body, across welds.
 std::vector<std::vector<int>> neighbours(const model::Model& model) {
   const auto state = states_of_speeds(model);
   const auto bodies = model.bodies();
@@ -258,7 +258,7 @@ MatrixXd TissuePass::middle(const TissueModel& tissue, const MatrixXd& inverse_S
     const int body = problem_.model.markers()[at(m)].body;
     if (of_body[at(body)].size() == 0) of_body[at(body)].setZero(slide.rows(), slide.cols());
     of_body[at(body)] += slide;
-    // The geometry follows such a slide and so hides part of it from the residuals.
+    // The fitted geometry absorbs part of such a displacement, which is then missing from the residuals.
     const double visible = sums_.field_visible[at(m)].sum();
     const double hidden = (inverse_S * slide).cwiseProduct(slide).sum();
     const double left = visible > 0.0 ? std::clamp(1.0 - hidden / visible, kLeastVisible, 1.0) : 1.0;

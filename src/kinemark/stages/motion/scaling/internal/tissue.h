@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What soft tissue does to a geometry that was fitted as if errors were independent from frame to frame.
+// Effect of soft tissue on a geometry that was fitted as if errors were independent from frame to frame.
 //
 // A marker slides on its segment with the posture: per axis of the body u = sum_c b_c phi_c, phi_c the joint
 // angles next to the segment, orthonormal over the recording, b_c random with variance s/K. Part of b is its
 // own, part is shared by the markers of the segment. The geometry then has the covariance
 //     S^-1 (sum_f G V G' + sum_ic (s_i/K) g g' + sum_bc (s_b/K) g g' + priors) S^-1,   g = sum_f phi_c G_i R,
-// with G = Jp'W - Jp'W Jq H^-1 Jq'W, R world_from_body and V what is left over, independent.
+// with G = Jp'W - Jp'W Jq H^-1 Jq'W, R world_from_body and V the remaining, independent part.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/scaling/internal/schur.h"
 
@@ -23,7 +23,7 @@ namespace kinemark::motion::internal {
 [[nodiscard]] std::vector<Eigen::MatrixXd> posture_fields(const Problem& problem,
                                                           const Eigen::MatrixXd& states);
 
-/// How much of the residuals follows the posture, and the middle of the sandwich.
+/// The part of the residuals that follows the posture, and the middle matrix of the sandwich estimate.
 struct TissueModel {
   bool found = false;                  ///< false: nothing follows the posture beyond chance
   double sd_m = 0.0;                   ///< per axis, of what follows the posture, over all markers
@@ -38,10 +38,11 @@ class TissuePass {
   TissuePass(const Problem& problem, const GeometryLayout& layout, const data::Trajectories& markers,
              const Eigen::MatrixXd& states, int threads);
 
-  /// Does something follow the posture? `variances` are those of error_bars.h at these states.
+  /// Test whether residuals follow the posture. `variances` are those of error_bars.h at these states.
   [[nodiscard]] TissueModel detect(const MarkerVariances& variances) const;
 
-  /// Middle of the sandwich without priors. `inverse_S` corrects for what the geometry itself swallowed.
+  /// Middle matrix of the sandwich estimate without priors. `inverse_S` corrects for the part absorbed by the
+  /// geometry itself.
   [[nodiscard]] Eigen::MatrixXd middle(const TissueModel& model, const Eigen::MatrixXd& inverse_S) const;
 
  private:

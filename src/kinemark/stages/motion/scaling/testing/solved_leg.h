@@ -23,7 +23,7 @@ struct Solved {
 /// Inverse kinematics of all frames, without limits.
 [[nodiscard]] Solved solve(const data::ModelDescription& model, const data::Trajectories& markers);
 
-/// Sizes of the leg's segments and the places of these markers, with their usual priors.
+/// Sizes of the leg's segments and the positions of these markers, with their usual priors.
 [[nodiscard]] std::vector<GeometryParameter> sizes_and_places(const data::ModelDescription& model,
                                                               const std::vector<std::string>& markers);
 

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 
 void speeds_of_states(const model::Model& model, const MatrixXd& states, std::int64_t f, double rate_hz,
                       VectorXd& v, VectorXd& vdot) {
-  // Where the neighbours are, seen from here; beyond the ends a parabola through the last three frames.
+  // Differences to the neighbouring frames; beyond the ends a parabola through the last three frames.
   const Index F = states.cols();
   std::array<VectorXd, 5> way;  // frames f - 2 to f + 2
   const auto exists = [&](Index k) { return k >= 0 && k < F; };

@@ -8,8 +8,10 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/error_bars.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
+#include "kinemark/stages/motion/internal/marker_account.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -18,16 +20,11 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kSmallestVariance = 1e-10;  // 10 um: nothing is measured better
+constexpr double kSmallestVariance = 1e-10;  // 10 um, a lower bound of marker noise
 constexpr double kWidest = 10.0;             // a marker's variance over the usual one, and its inverse
 constexpr double kChance = 2.5;              // standard errors that a slow share must exceed
 
-double median(VectorXd values) {
-  if (values.size() == 0) return 0.0;
-  auto middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
-}
+double usual_of(const VectorXd& values) { return math::upper_median({values.data(), at(values.size())}); }
 
 /// Share of a marker's residual variance that is not white, beyond chance.
 double slow_share(const data::JointMotion& motion, Index m) {
@@ -50,7 +47,7 @@ double slow_share(const data::JointMotion& motion, Index m) {
 }
 
 struct Spread {
-  double usual = 0.0;  ///< m^2, variance per axis as most frames show it; 0 when they are few
+  double usual = 0.0;  ///< m^2, robust variance per axis; 0 with few frames
   double share = 1.0;  ///< of the variance over all frames, at most 1: small where single frames make the sum
 };
 
@@ -68,7 +65,7 @@ Spread spread(const data::JointMotion& motion, Index m) {
   if (count < kFewest) return {};
   const double all = squares.head(count).mean() / 3.0;
   if (!(all > 0.0)) return {};
-  const double usual = median(squares.head(count)) / kMedianOfChiSquare3;
+  const double usual = usual_of(squares.head(count)) / kMedianOfChiSquare3;
   return {.usual = usual, .share = std::min(1.0, usual / all)};
 }
 
@@ -101,12 +98,7 @@ void leave_out_outliers(const Problem& problem, const data::Trajectories& marker
     for (std::int64_t m = 0; m < calm.markers(); ++m) calm.set_missing(problem.first_frame + f, m);
     std::fill_n(motion.marker_error.begin() + f * M * 3, M * 3, std::numeric_limits<double>::quiet_NaN());
   }
-  const auto variances = estimate_variances(problem, calm, states, threads);
-  for (Index m = 0; m < M; ++m) {
-    const int body = problem.model.markers()[at(m)].body;
-    start.markers[at(m)].noise_sd_m = std::sqrt(variances.own[m]);
-    if (body >= 0) start.markers[at(m)].common_sd_m = std::sqrt(variances.common[body]);
-  }
+  add_marker_noise(problem.model, estimate_variances(problem, calm, states, threads), start.fit);
 }
 
 NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double bend_sd) {
@@ -116,14 +108,14 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   VectorXd own(M), common = VectorXd::Zero(M), share = VectorXd::Zero(M), count = VectorXd::Zero(bodies);
   split.common_slow.setZero(bodies);
   for (Index m = 0; m < M; ++m) {
-    const auto& summary = start.markers[at(m)];
-    own[m] = given_sd_m > 0.0 ? given_sd_m * given_sd_m : summary.noise_sd_m * summary.noise_sd_m;
+    const auto& marker = start.fit.markers[at(m)];
+    own[m] = given_sd_m > 0.0 ? given_sd_m * given_sd_m : marker.noise_sd_m * marker.noise_sd_m;
     if (!std::isfinite(own[m])) own[m] = 0.0;
     if (given_sd_m > 0.0) continue;
-    if (std::isfinite(summary.common_sd_m)) common[m] = summary.common_sd_m * summary.common_sd_m;
+    if (std::isfinite(marker.common_sd_m)) common[m] = marker.common_sd_m * marker.common_sd_m;
     share[m] = slow_share(start.motion, m);
   }
-  const double usual = std::max(kSmallestVariance, median(own));
+  const double usual = std::max(kSmallestVariance, usual_of(own));
   own = own.cwiseMax(usual / kWidest).cwiseMin(usual * kWidest);
   split.white = own.cwiseProduct((1.0 - share.array()).matrix()).cwiseMax(kSmallestVariance);
   split.slow = own.cwiseProduct(share);
@@ -136,15 +128,15 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   split.common_slow.array() /= count.array().max(1.0);
   split.any_slow = share.maxCoeff() > 0.0;
 
-  // Trust is shared out by the whole variance of a marker, half way to equal trust: markers that win trust
-  // by their residuals alone pull the pose to themselves and look even better.
+  // Weights follow from the whole variance of a marker, shrunk half way towards equal weights: a marker with
+  // small residuals would otherwise attract the pose and obtain even smaller residuals.
   const VectorXd total = own + common;
-  const double usual_total = median(total), usual_white = median(split.white);
-  const double usual_weight = median(problem.weight);
+  const double usual_total = usual_of(total), usual_white = usual_of(split.white);
+  const double usual_weight = usual_of(problem.weight);
   for (Index m = 0; m < M; ++m) {
     MarkerTrust trust;
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;
-    // Outliers are judged by what the other frames show, not by a variance that they made themselves.
+    // Outliers are judged by the other frames, not by a variance that they have raised themselves.
     if (bend_sd > 0.0) {
       const double usual_frames = given_sd_m > 0.0 ? 1.0 : spread(start.motion, m).share;
       trust.bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual_frames * total[m]));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Marker noise, split into what changes from frame to frame and what stays.
+// Marker noise, split into a white and a slow part.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,19 +12,19 @@
 
 namespace kinemark::motion::internal {
 
-/// Variances per axis, m^2. White noise has the second differences of white noise; the rest of a marker's
-/// residual variance, beyond what chance explains, is slow.
+/// Variances per axis, m^2. The white part follows from second differences; the rest of a marker's residual
+/// variance, beyond chance, is slow.
 struct NoiseSplit {
   Eigen::VectorXd white, slow;     ///< M, parts of the marker's own variance
   Eigen::VectorXd common_slow;     ///< per body, part that its markers share
-  std::vector<MarkerTrust> trust;  ///< M, for the smoother: white noise, evened out between markers
+  std::vector<MarkerTrust> trust;  ///< M, for the smoother: white noise, pooled between markers
   bool any_slow = false;
 };
 
-/// Least squares has no robust loss: one wild sample makes its own marker look bad and the others of the
-/// segment good, in all frames. Frames with a residual beyond `bend_sd` of what most frames of that marker
-/// show lose their residuals in start.motion, and the noise in start.markers is estimated anew without them;
-/// when they are more than a tenth of all they are no outliers, and nothing changes.
+/// Least squares has no robust loss: one outlier raises the estimated noise of its own marker and lowers that
+/// of the others on its segment, in all frames. Frames with a residual beyond `bend_sd` of what most frames
+/// of that marker show lose their residuals in start.motion, and the noise in start.fit is estimated anew
+/// without them; more than a tenth of all frames are not treated as outliers, and nothing changes.
 void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
                         int threads, IkResult& start);
 

@@ -19,7 +19,7 @@ struct Prepared {
 [[nodiscard]] Result<Prepared> prepare(const model::Model& model, const data::Trajectories& markers,
                                        const SmootherOptions& options, const Progress& progress);
 
-/// The smoother from there. Takes the marker summaries out of `prepared`.
+/// Runs the smoother from `prepared`, whose marker summaries are moved into the result.
 [[nodiscard]] Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers,
                                          const Sightings& sightings, const NoiseSplit& noise,
                                          const SmootherOptions& options, const Progress& progress);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
@@ -20,9 +21,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBlock_s = 0.2;    // three of them are about what the smoother looks at
-constexpr std::int64_t kLooks = 4;  // frames of a block that are looked at
-constexpr double kBlind = 100.0;    // times the usual variance: the markers there say nothing, neighbours do
+constexpr double kBlock_s = 0.2;    // three of them are about the smoother's time constant
+constexpr std::int64_t kLooks = 4;  // frames used of each block
+constexpr double kBlind = 100.0;    // times the usual variance: the block is not determined by its markers
 
 /// J'W S W J of one frame.
 void spread_of(const model::Model& model, FrameRows& rows, const NoiseSplit& noise, MatrixXd& B) {
@@ -46,7 +47,7 @@ void spread_of(const model::Model& model, FrameRows& rows, const NoiseSplit& noi
   }
 }
 
-/// Blocks without a number take the one of the nearest blocks that have one.
+/// Undetermined blocks take the value of the nearest determined ones.
 void bridge(VectorXd& row) {
   Index last = -1;
   for (Index b = 0; b < row.size(); ++b) {
@@ -97,9 +98,11 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
       sum_B.row(i).setZero();
       sum_B.col(i).setZero();
     }
-    // Errors of neighbouring frames are the same error: sums of B grow with the square of the looks.
-    const double looks = static_cast<double>(
-        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride);
+    // Errors of neighbouring frames are fully correlated: sums of B grow with the square of the number of
+    // frames used.
+    const std::int64_t used =
+        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
+    const auto looks = static_cast<double>(used);
     const std::int64_t middle = std::min(F - 1, b * block_ + block_ / 2);
     std::copy_n(motion.q.data() + motion.index(middle, 0), C, q.data());
     model::kinematics(model, w, states.col(middle));
@@ -109,10 +112,8 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
       variance_(c, b) = std::max(0.0, looks * gain.col(c).dot(sum_B * gain.col(c)));
   }
   for (Index c = 0; c < C; ++c) {
-    VectorXd sorted = variance_.row(c).transpose();
-    std::nth_element(sorted.data(), sorted.data() + sorted.size() / 2, sorted.data() + sorted.size());
-    const double usual = sorted[sorted.size() / 2];
     VectorXd row = variance_.row(c).transpose();
+    const double usual = math::upper_median({row.data(), at(row.size())});
     for (double& v : row)
       if (!(v <= kBlind * usual)) v = std::numeric_limits<double>::quiet_NaN();
     bridge(row);

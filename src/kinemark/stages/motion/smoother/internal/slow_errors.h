@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What soft tissue does to smoothed coordinates. Errors that change slower than the smoother looks are not
-// averaged out: over a stretch of frames with mean normal matrix H = mean J'WJ and mean spread
+// Effect of soft tissue on smoothed coordinates. Errors that change more slowly than the smoother's time
+// constant are not averaged out: over a stretch of frames with mean normal matrix H = mean J'WJ and mean
+// spread
 // B = mean J'W S W J (S the slow part of the marker covariance) the coordinates err by H^-1 B H^-1.
 #pragma once
 
@@ -17,7 +18,7 @@ namespace kinemark::motion::internal {
 
 class SlowErrors {
  public:
-  /// At the solved states. Fixed speeds do not err.
+  /// At the solved states. Fixed speeds have no error.
   SlowErrors(const model::Model& model, const Sightings& sightings, const NoiseSplit& noise,
              const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
              const Eigen::MatrixXd& states);

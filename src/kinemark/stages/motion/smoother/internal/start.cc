@@ -8,6 +8,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/smoother/coordinate_smoother.h"
 
@@ -19,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSmallestStep = 1e-10;  // rad or m
-// Third difference at 100 Hz of something that moves as people do, where nothing is known: 100 rad/s^3.
+// Default third difference at 100 Hz, from a typical jerk of human motion, 100 rad/s^3.
 constexpr double kUsualStep = 1e-4, kUsualRate_hz = 100.0;
 
 /// Every stretch of frames [first, last] in which `good` is false.
@@ -79,10 +80,8 @@ double pooled_sd(const data::JointMotion& motion, std::int64_t f, const int (&co
   return std::sqrt(squares / 3.0);
 }
 
-double usual_of(std::vector<double> values, double fallback) {
-  if (values.empty()) return fallback;
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-  return values[values.size() / 2];
+double usual_of(const std::vector<double>& values, double fallback) {
+  return values.empty() ? fallback : math::upper_median(values);
 }
 
 }  // namespace
@@ -127,7 +126,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     const auto& coordinate = model.coordinates()[at(c)];
     if (coordinate.speed_idx < 0) continue;
     turns[at(coordinate.speed_idx)] = motion.is_rotation[at(c)];
-    if (model.description().coordinates[at(c)].locked) continue;  // held: any number will do
+    if (model.description().coordinates[at(c)].locked) continue;  // locked: any number will do
     for (std::int64_t f = 0; f < F; ++f) {
       y[at(f)] = states(coordinate.state_idx, f);
       sd[at(f)] =
@@ -143,7 +142,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
       }
       estimate(free.speed_idx + i);
     }
-    // Turns add up along the path, in the axes of the body.
+    // Rotations add up along the path, in the axes of the body.
     MatrixXd path = MatrixXd::Zero(3, F);
     VectorXd turn;
     for (std::int64_t f = 1; f < F; ++f) {

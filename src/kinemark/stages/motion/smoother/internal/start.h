@@ -14,8 +14,8 @@ namespace kinemark::motion::internal {
 /// determined neighbours (a free joint as a whole).
 [[nodiscard]] Eigen::MatrixXd bridged_states(const model::Model& model, const data::JointMotion& motion);
 
-/// Variance of a third difference of every speed's coordinate, by the likelihood of the states (q_sd says
-/// how much each frame counts). Speeds that are never determined get the usual variance of their kind.
+/// Variance of a third difference of every speed's coordinate, by the likelihood of the states (frames are
+/// weighted by q_sd). Speeds that are never determined get the usual variance of their kind.
 [[nodiscard]] Eigen::VectorXd step_variances(const model::Model& model, const data::JointMotion& motion,
                                              const Eigen::MatrixXd& states);
 

@@ -7,6 +7,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
+#include "kinemark/math/se3.h"
 #include "kinemark/model/state.h"
 
 namespace kinemark::motion::internal {
@@ -22,8 +23,7 @@ constexpr std::array<double, 4> kSlope = {-1.0, 3.0, -3.0, 1.0};
 }  // namespace
 
 Matrix3d inverse_right_jacobian(const Vector3d& d) {
-  Matrix3d cross;
-  cross << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0;
+  const Matrix3d cross = math::skew(d);
   const double angle = d.norm();
   // 1/a^2 - (1 + cos a) / (2 a sin a), by its series near 0.
   const double second =

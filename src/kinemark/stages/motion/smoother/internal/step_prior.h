@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// White third differences of the posture: what ties four neighbouring frames together.
+// Prior of white third differences of the posture, which couples four neighbouring frames.
 //
 // With d_j = difference(x_j, x_j+1), e = d_2 - 2 d_1 + d_0 is dt^3 times the jerk of every speed (for free
 // joints that of the body's own angular velocity); prior: e independent, variance s per speed. Its slopes by

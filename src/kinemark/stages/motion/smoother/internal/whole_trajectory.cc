@@ -18,10 +18,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::int64_t kOneSegment = 1024, kSegment = 256;  // frames whose factors are in memory at once
-// SD (rad or m) at which a speed that nothing determines is held over the whole recording.
+// Prior SD (rad or m) over the whole recording of a speed that nothing determines.
 constexpr double kFloorSd = 30.0;
 constexpr double kDone = 1e-4;        // half the squared step over its variance: 0.015 standard deviations
-constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearisation says nothing
+constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearisation is not valid
 constexpr int kHalvings = 10;
 
 }  // namespace
@@ -107,8 +107,8 @@ void WholeTrajectory::forward(const MatrixXd& states, std::int64_t first, std::i
   }
 }
 
-// Forward over the segments, remembering what each began with; then back, each segment's factors made anew
-// (but those of the last).
+// Forward over the segments, storing the initial state of each; then backward, with the factors of each
+// segment computed again (except those of the last).
 void WholeTrajectory::sweep(const MatrixXd& states, bool with_right,
                             const std::function<void(std::int64_t, const NodeFactor&)>& back) {
   const std::int64_t segments = (frames_ + segment_ - 1) / segment_;

@@ -39,7 +39,7 @@ void Window::eliminate(const std::uint8_t* held, NodeFactor& factor) {
   }
   auto own = M_.topLeftCorner(n, n);
   llt_.compute(own);
-  // Only the last nodes can fail, in directions that nothing determines: rounding left them below zero.
+  // Only the last nodes can fail, in undetermined directions whose pivots are negative by rounding.
   for (double floor = 1e-12; llt_.info() != Eigen::Success; floor *= 10.0) {
     check(floor < 1e6, "the normal equations hold numbers that are not finite");
     own.diagonal().array() += floor * std::max(1.0, own.diagonal().cwiseAbs().maxCoeff());

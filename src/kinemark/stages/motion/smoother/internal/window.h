@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Block elimination of a long trajectory, four frames in view at a time.
+// Block elimination of a long trajectory in a window of four frames.
 //
 // The normal equations of the whole recording have n x n blocks, coupled over three neighbours. Node by node
 // the oldest of four is eliminated (Cholesky), which leaves a Schur complement on the other three: what a
@@ -15,7 +15,7 @@
 
 namespace kinemark::motion::internal {
 
-/// What eliminating one node leaves for the way back.
+/// Factors of one eliminated node for the backward pass.
 struct NodeFactor {
   Eigen::MatrixXd L;  ///< n x n lower
   Eigen::MatrixXd Y;  ///< 3n x n: couplings to the next three nodes times L^-T
@@ -45,7 +45,7 @@ class Window {
 /// Step of a node from those of the next three (3n), by its factor.
 void step_back(const NodeFactor& factor, const Eigen::VectorXd& next, Eigen::VectorXd& step);
 
-/// Covariances on the way back. Holds that of the three nodes after the one to come (3n x 3n).
+/// Covariances in the backward pass. Holds that of the three nodes after the next one (3n x 3n).
 class CovarianceWindow {
  public:
   explicit CovarianceWindow(Eigen::Index n);

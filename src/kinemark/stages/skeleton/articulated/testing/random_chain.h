@@ -5,14 +5,22 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/skeleton/articulated/internal/chain.h"
+#include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
 namespace kinemark::skeleton::testing_limbs {
+
+using articulated::Chain;
+using articulated::ChainLayout;
+using articulated::ChainPose;
+using articulated::ChainSamples;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
 struct RandomChain {
   Chain chain;
@@ -75,6 +83,55 @@ inline RandomChain make_random_chain(const RandomChainOptions& o) {
     out.pose.push_back(std::move(pose));
   }
   return out;
+}
+
+/// Draw the samples again from the chain and its poses, all markers seen.
+inline void redraw(RandomChain& limb, double noise_sd_m, std::uint64_t seed) {
+  Random random(seed, 2);
+  limb.samples.x.clear();
+  for (const ChainPose& pose : limb.pose) {
+    for (int k = 0; k < limb.chain.markers(); ++k) {
+      const Vector3d x = limb.chain.predict(pose, k);
+      for (int i = 0; i < 3; ++i) limb.samples.x.push_back(x[i] + noise_sd_m * random.gaussian());
+    }
+  }
+}
+
+/// The same limb in slow motion: each segment rotates against the one before by up to half a radian or so.
+inline void move_slowly(RandomChain& limb, double rate_hz, double noise_sd_m) {
+  for (std::size_t f = 0; f < limb.pose.size(); ++f) {
+    const double t = static_cast<double>(f) / rate_hz;
+    limb.pose[f].joint0 = 0.05 * Vector3d(std::sin(2.0 * t), std::cos(1.7 * t), std::sin(1.3 * t + 1.0));
+    Matrix3d R = Matrix3d::Identity();
+    for (std::size_t s = 0; s < limb.pose[f].rotation.size(); ++s) {
+      const double phase = 1.1 * static_cast<double>(s);
+      const Vector3d v(std::sin(2.1 * t + phase), std::sin(1.6 * t + 2.0 * phase), std::cos(1.9 * t + phase));
+      R = (R * articulated::exponential(0.5 * v)).eval();
+      limb.pose[f].rotation[s] = R;
+    }
+  }
+  redraw(limb, noise_sd_m, 5);
+}
+
+/// The same limb with joint 0 a hinge: segment 1 rotates against segment 0 about the x axis of both.
+inline void move_as_hinge(RandomChain& limb, double noise_sd_m) {
+  for (std::size_t f = 0; f < limb.pose.size(); ++f) {
+    const double angle = std::sin(0.1 * static_cast<double>(f));
+    limb.pose[f].rotation[1] = limb.pose[f].rotation[0] * articulated::exponential(angle * Vector3d::UnitX());
+  }
+  redraw(limb, noise_sd_m, 6);
+}
+
+/// The same recording in a lab that was rotated by R and shifted.
+inline void move_lab(RandomChain& limb, const Matrix3d& R, const Vector3d& shift) {
+  for (std::size_t i = 0; i < limb.samples.x.size(); i += 3) {
+    Eigen::Map<Vector3d> x(limb.samples.x.data() + i);
+    x = (R * x + shift).eval();
+  }
+  for (ChainPose& pose : limb.pose) {
+    pose.joint0 = (R * pose.joint0 + shift).eval();
+    for (Matrix3d& rotation : pose.rotation) rotation = (R * rotation).eval();
+  }
 }
 
 /// Hide a marker in a frame.

@@ -15,7 +15,7 @@
 
 namespace kinemark::skeleton::internal {
 
-/// A joint of the layout with all that its methods need.
+/// A joint of the layout with the inputs of its methods.
 struct JointTask {
   const data::SegmentLayout::Joint& joint;
   const SegmentPoses& parent;
@@ -23,8 +23,8 @@ struct JointTask {
   RelativeMotion motion;
 };
 
-/// Fit one joint by score, sara or a sphere fit. Nothing, and one sentence in `why`, where that cannot be.
-/// What had to be done differently is said in `why` too.
+/// Fit one joint by score, sara or a sphere fit. No value, and one sentence in `why`, where that is not
+/// possible. Deviations from the requested method are reported in `why` too.
 [[nodiscard]] std::optional<JointFit> fit_joint(const Samples& samples, const JointTask& task,
                                                 const FunctionalOptions& options, std::string& why);
 

@@ -12,7 +12,7 @@
 namespace kinemark::skeleton::internal {
 namespace {
 
-/// Turns of the poses by noise alone, rad per axis: of a frame in the middle.
+/// Rotation error of the poses by noise alone, rad per axis, in the middle frame.
 double noise_of_turns(const Samples& samples, const JointTask& task) {
   if (task.motion.frames.empty()) return 0.0;
   const std::int64_t f = task.motion.frames[task.motion.frames.size() / 2];
@@ -58,17 +58,17 @@ std::optional<JointFit> fit_sides(const Samples& samples, const JointTask& task,
   fit.residual_rms_m = squares;
   if (fit.in_parent || fit.in_child) {
     if (want_parent && !fit.in_parent)
-      why = fmt::format("'{}' shows no pose of its own, so the joint was placed from '{}' alone",
-                        task.parent.name, task.child.name);
+      why = fmt::format("'{}' has no pose, so the joint was placed from '{}' alone", task.parent.name,
+                        task.child.name);
     else if (want_child && !fit.in_child)
-      why = fmt::format("'{}' shows no pose of its own, so the joint was placed from '{}' alone",
-                        task.child.name, task.parent.name);
+      why = fmt::format("'{}' has no pose, so the joint was placed from '{}' alone", task.child.name,
+                        task.parent.name);
     return fit;
   }
   const SegmentPoses& none = !parent_possible && want_parent ? task.parent : task.child;
   why = fmt::format(
       "no frame shows three markers of '{}' that are not on a line; without a pose of a segment "
-      "these methods place nothing",
+      "these methods find no centre",
       none.name);
   return std::nullopt;
 }

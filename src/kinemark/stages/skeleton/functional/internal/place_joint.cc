@@ -18,7 +18,7 @@ void set_centre(data::Skeleton& skeleton, std::size_t i, const Eigen::Vector3d& 
   math::pack_symmetric3(covariance, skeleton.covariance.data() + 6 * i);
 }
 
-/// One side's share of a frame.
+/// The estimate of one side in a frame.
 struct Side {
   bool known = false;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -36,7 +36,7 @@ Side look(const Samples& samples, const SegmentPoses& poses, std::int64_t f, boo
   return side;
 }
 
-/// How much wider the gap between the two places is than noise of the poses makes it, variance ratio, >= 1.
+/// Variance of the gap between the two positions over that predicted from the noise of the poses, >= 1.
 double gap_ratio(const Samples& samples, const JointTask& task, const JointFit& fit) {
   if (!fit.in_parent || !fit.in_child || fit.kind == data::JointKind::hinge) return 1.0;
   double gaps = 0.0, expected = 0.0;

@@ -8,11 +8,13 @@
 #include <limits>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/rotation_fit.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr std::int64_t kShapeFrames = 3000;  ///< more tell the shape no better than noise allows
+constexpr std::int64_t kShapeFrames = 3000;  ///< more frames do not improve the shape
 constexpr int kRounds = 60;
 constexpr double kSettled_m = 1e-9;
 /// Least share of the whole shape's inertia about a line that the visible markers must have.
@@ -87,7 +89,7 @@ FramePose RigidShape::pose(std::int64_t frame) const {
     squares += d * d.transpose();
   }
   p.least_inertia = smallest_eigenvalue(inertia(squares));
-  p.rotation = kabsch(product);
+  p.rotation = math::fit_rotation(product).rotation;
   p.origin = world - p.rotation * local;
   for (std::size_t k = 0; k < markers_.size(); ++k)
     if (placed(k) && samples_.seen(frame, markers_[k]))
@@ -126,10 +128,8 @@ double RigidShape::improve(const std::vector<std::int64_t>& frames, bool trim) {
   }
   double limit = std::numeric_limits<double>::infinity();
   if (trim && !mean_squares.empty()) {
-    auto sorted = mean_squares;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    if (*middle > 0.0) limit = 25.0 * *middle;
+    const double usual = math::upper_median(mean_squares);
+    if (usual > 0.0) limit = 25.0 * usual;
   }
   Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, places_.cols());
   std::vector<int> counts(markers_.size(), 0);

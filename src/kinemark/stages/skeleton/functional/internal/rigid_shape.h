@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The shape of a rigid set of markers from whatever the frames show of them.
+// The shape of a rigid set of markers, estimated from frames with missing markers.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ struct FramePose {
   double least_inertia = 0.0;  ///< of these about any line, m^2
 };
 
-/// The shape while it is being found, and what a frame shows of it. Keeps references to both.
+/// The shape during its estimation, and its pose in a frame. Keeps references to both arguments.
 class RigidShape {
  public:
   RigidShape(const Samples& samples, const std::vector<int>& markers);
@@ -47,7 +47,7 @@ class RigidShape {
   [[nodiscard]] std::vector<std::int64_t> draw_frames() const;
   [[nodiscard]] std::int64_t best_start(const std::vector<std::int64_t>& frames) const;
   void start(std::int64_t frame);
-  /// One round over the frames: poses, then every marker's mean place in them. Returns the largest change.
+  /// One round over the frames: poses, then every marker's mean position in them. Returns the largest change.
   double improve(const std::vector<std::int64_t>& frames, bool trim);
   void turn_into_axes();
 

@@ -12,7 +12,7 @@
 
 namespace kinemark::skeleton::testing {
 
-/// How each segment turns against the one before.
+/// Rotation of each segment against the one before.
 enum class Turns : std::uint8_t { anywhere, cone, hinge };
 
 struct ChainSetup {

@@ -48,7 +48,7 @@ std::vector<std::int64_t> common_frames(const SegmentPoses& a, const SegmentPose
 }
 
 /// Variance that noise gives a point at a usual distance from the markers, m^2. It does not depend on the
-/// point looked for: else a point far away would look good for being badly known.
+/// point itself: otherwise a distant point would seem to fit well because it is uncertain.
 double spread_at_arm(const Samples& samples, const SegmentPoses& poses, std::int64_t frame) {
   const PoseNoise noise = pose_noise(samples, poses, frame);
   return 3.0 * noise.mean_variance + 2.0 / 3.0 * kArm_m * kArm_m * noise.turn.trace() + 1e-12;

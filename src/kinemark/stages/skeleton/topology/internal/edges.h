@@ -10,15 +10,15 @@
 
 namespace kinemark::skeleton::internal {
 
-/// What speaks for a joint between two segments: small is good.
+/// Evidence for a joint between two segments; small values favour it.
 struct Edge {
   int a = 0, b = 0;
-  double residual_m = 0.0;  ///< of the point that both hold still; NaN where none could be fitted
+  double residual_m = 0.0;  ///< of the common point; NaN where none could be fitted
   double cost_m = 0.0;      ///< with a share of the steadiest distance between their markers, see edge_cost()
 };
 
-/// RMS gap, per axis, of the point that two segments share, each frame weighted by what its poses are worth.
-/// NaN below 8 frames with both poses.
+/// RMS gap, per axis, of the point that two segments share, each frame weighted by the precision of its
+/// poses. NaN below 8 frames with both poses.
 [[nodiscard]] double shared_point_residual(const Samples& samples, const SegmentPoses& a,
                                            const SegmentPoses& b);
 

@@ -8,22 +8,19 @@
 #include <numeric>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr double kMostNats = 50.0;  ///< evidence saturates: one pair may not outvote all others
-constexpr int kGrid = 80;           ///< sizes of motion looked at
+using math::quantile;
+
+constexpr double kMostNats = 50.0;  ///< evidence saturates, so that one pair cannot outweigh all others
+constexpr int kGrid = 80;           ///< grid of sizes of motion
 constexpr double kSlow = 0.3;       ///< distances that correlate so far vary by more than noise
 constexpr double kUneven = 1.5;     ///< and so do those whose spread differs so much between markers
-constexpr double kFinest_m = 5e-5;  ///< finest motion looked at
+constexpr double kFinest_m = 5e-5;  ///< smallest motion of the grid
 constexpr double kOneFifth = 0.2, kFourFifths = 0.8;
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::ranges::nth_element(values, values.begin() + at);
-  return values[static_cast<std::size_t>(at)];
-}
 
 /// log of a mean of exp(terms) under weights.
 double log_mean(const Eigen::ArrayXd& terms, const Eigen::ArrayXd& weights) {
@@ -94,7 +91,7 @@ SameSegment describe_same_segment(const PairSpread& pairs, double noise_sd_m, do
 Eigen::MatrixXd log_odds(const PairSpread& pairs, const SameSegment& same, const OddsOptions& options) {
   const auto M = pairs.variance.rows();
   const double noise = 2.0 * same.noise_variance;
-  // Motion smaller than the noise would only describe an error of the noise figure.
+  // Motion smaller than the noise would only model an error of the noise estimate.
   const double least = std::max({options.least_motion_m, std::sqrt(noise), same.soft_sd_m});
   const double most = std::max(options.most_motion_m, 2.0 * least);
   const double finest = same.soft_sd_m > 0.0 ? kFinest_m : least;
@@ -107,7 +104,7 @@ Eigen::MatrixXd log_odds(const PairSpread& pairs, const SameSegment& same, const
     soft = sizes * (-0.5 * (sizes / same.soft_sd_m).square()).exp();
     soft /= soft.sum();
   }
-  // What is left when neither noise nor soft tissue is there: rounding of files.
+  // Lower bound without noise and soft tissue: rounding of files.
   const double floor = 1e-8;
   Eigen::MatrixXd odds = Eigen::MatrixXd::Zero(M, M);
   for (Eigen::Index i = 0; i < M; ++i)
@@ -190,7 +187,7 @@ std::vector<int> cluster(const Eigen::MatrixXd& odds, const PairSpread& pairs) {
       if (s == static_cast<int>(from)) s = static_cast<int>(to);
     alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(drop));
   }
-  // A marker near a joint may have joined the wrong side of it early.
+  // A marker near a joint may have been merged with the wrong segment early.
   for (std::size_t round = 0; round < M; ++round) {
     Eigen::MatrixXd to_segment = Eigen::MatrixXd::Zero(odds.rows(), odds.rows()), seen = to_segment;
     for (Eigen::Index i = 0; i < odds.rows(); ++i)

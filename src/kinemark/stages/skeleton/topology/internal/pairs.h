@@ -21,7 +21,7 @@ struct PairSpread {
 [[nodiscard]] PairSpread measure_pairs(const Samples& samples, const std::vector<int>& markers,
                                        const std::vector<std::int64_t>& frames, std::int64_t least_frames);
 
-/// What pairs of one segment have in common, from each marker's steadiest pairs.
+/// Statistics of pairs within one segment, from each marker's most constant distances.
 struct SameSegment {
   double noise_variance = 0.0;  ///< of a marker, per axis, m^2
   double soft_sd_m = 0.0;
@@ -42,8 +42,8 @@ struct OddsOptions {
 /// then single markers move to where they fit better.
 [[nodiscard]] std::vector<int> cluster(const Eigen::MatrixXd& odds, const PairSpread& pairs);
 
-/// Noise variance per axis that pairs of markers on one segment show, m^2; NaN without such pairs. The
-/// steadiest pairs alone are so by chance as well.
+/// Noise variance per axis that pairs of markers on one segment show, m^2; NaN without such pairs. Using the
+/// most constant pairs alone would bias it downwards.
 [[nodiscard]] double noise_within(const PairSpread& pairs, const std::vector<int>& segment);
 
 /// Least odds of marker i with any other of its own segment; 0 when it is alone.

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <vector>
 
 #include "kinemark/core/random.h"
 #include "kinemark/stages/skeleton/functional/testing/random_chain.h"
@@ -89,6 +91,55 @@ TEST(Pairs, ClustersAreNumberedByFirstMarkerAndStraysMove) {
   EXPECT_TRUE(std::isnan(mean_odds(odds, pairs, {0, 1, 1, 1, 1}, 0, 0)));
   EXPECT_EQ(least_odds(odds, pairs, {0, 0, 0, 1, 1}, 0), -5.0);
   EXPECT_EQ(least_odds(odds, pairs, {0, 1, 1, 1, 1}, 0), 0.0);
+}
+
+TEST(Pairs, TooFewFramesTogetherAreUnknownAndNoEvidence) {
+  auto chain = testing::make_chain({.frames = 60, .noise_sd_m = 0.001});
+  for (std::int64_t f = 10; f < 60; ++f) chain.markers.set_missing(f, 0);
+  const auto pairs = spread_of(chain);
+  EXPECT_EQ(pairs.frames(0, 1), 10.0);
+  EXPECT_TRUE(std::isnan(pairs.variance(0, 1)));
+  EXPECT_TRUE(std::isnan(pairs.correlation(1, 0)));
+  EXPECT_FALSE(std::isnan(pairs.variance(1, 2)));
+  const auto odds = log_odds(pairs, describe_same_segment(pairs, 0.0), {});
+  EXPECT_EQ(odds(0, 1), 0.0);
+  EXPECT_EQ(odds(4, 0), 0.0);
+}
+
+TEST(Pairs, MaskedSamplesAreNotSeen) {
+  const auto chain = testing::make_chain({.frames = 40});
+  std::vector<std::uint8_t> mask(40 * 6, 1);
+  for (std::size_t f = 0; f < 15; ++f) mask[6 * f + 2] = 0;
+  std::vector<std::int64_t> frames(40);
+  std::iota(frames.begin(), frames.end(), 0);
+  const auto pairs = measure_pairs({chain.markers, mask}, {0, 2}, frames, 20);
+  EXPECT_EQ(pairs.frames(0, 1), 25.0);
+  EXPECT_LT(pairs.variance(0, 1), 1e-20) << "exact data of one segment";
+}
+
+TEST(Pairs, NothingSeenHasNoNoise) {
+  PairSpread pairs;
+  pairs.variance = pairs.correlation = Eigen::MatrixXd::Constant(2, 2, std::nan(""));
+  pairs.frames = Eigen::MatrixXd::Zero(2, 2);
+  const auto same = describe_same_segment(pairs, 0.001);
+  EXPECT_EQ(same.noise_variance, 0.0);
+  EXPECT_EQ(same.independent, 1.0);
+  EXPECT_EQ(log_odds(pairs, same, {}).norm(), 0.0);
+}
+
+// The same pair, its distance spread ever wider: ever less likely on one segment.
+TEST(Pairs, OddsFallWithTheSpread) {
+  PairSpread pairs;
+  pairs.variance = pairs.correlation = Eigen::MatrixXd::Zero(2, 2);
+  pairs.frames = Eigen::MatrixXd::Constant(2, 2, 100.0);
+  double before = 51.0;
+  for (const double sd_m : {0.001, 0.003, 0.01, 0.05}) {
+    pairs.variance(0, 1) = pairs.variance(1, 0) = sd_m * sd_m;
+    const double now = log_odds(pairs, {.noise_variance = 1e-6}, {})(0, 1);
+    EXPECT_LE(now, before) << sd_m;
+    before = now;
+  }
+  EXPECT_EQ(before, -50.0);
 }
 
 }  // namespace

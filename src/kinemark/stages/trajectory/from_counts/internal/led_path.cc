@@ -69,7 +69,8 @@ void LedPath::remove_flicker(int camera, const Vector2d& cos_sin) {
 }
 
 void LedPath::linearise(const data::Camera& camera, View& v, const Vector3d& x) const {
-  // The response bends over decimetres: within a millimetre its tangent is right to a hundredth of a count.
+  // The response curves over decimetres: within a millimetre its linearisation is accurate to a hundredth of
+  // a count.
   constexpr double kStraight_m = 1e-3;
   if (v.linear && (x - v.at).squaredNorm() < kStraight_m * kStraight_m) return;
   const auto response = camera::respond(camera, x);
@@ -107,7 +108,7 @@ void LedPath::gather(bool weigh) {
     auto& s = sights_[k];
     s.time_s = time_s_[k] + epoch_s_;
     s.information = h;
-    // The ridge, 1 / (10 m)^2, only bounds the step along what this frame does not tell.
+    // The ridge, 1 / (10 m)^2, only bounds the step in directions that this frame does not determine.
     s.position = m.position - (h + 1e-2 * Matrix3d::Identity()).ldlt().solve(g);
   }
 }
@@ -142,8 +143,8 @@ void LedPath::regress_flicker() {
   }
 }
 
-/// Time constants that a gap may last: beyond, its middle is known to metres only, and the filter's digits
-/// run out.
+/// Time constants that a gap may last: in longer ones the middle is known to metres only, and the filter
+/// loses its precision.
 constexpr double kLongestGap = 10.0;
 
 template <int kOrder>
@@ -164,7 +165,7 @@ void LedPath::smooth_with(bool last) {
                     const std::size_t k = first + index;
                     now_[k] = {filter.derivative(x, 0), filter.derivative(x, 1), filter.derivative(x, 2)};
                     if (!last) return;
-                    // From where the states stand to the frame's own time.
+                    // From the epoch of the states to the frame's own time.
                     const auto there = filter.shifted(x, at_frame);
                     const auto spread = filter.shifted(*p, at_frame);
                     Sample& s = result_[k];
@@ -194,7 +195,7 @@ void LedPath::run() {
       gather(true);
     }
     if (pass == 0 || pass == 2) {
-      // The first choice judges a rough path by fewer sights; the second looks near the first.
+      // The first choice evaluates a rough path from fewer sights; the second searches near the first.
       BandwidthOptions how{.order = options_.order, .half_gain_hz = options_.half_gain_hz};
       if (pass == 0)
         how.max_sights /= 2;
@@ -220,7 +221,8 @@ void LedPath::conclude() {
       ++fit_.sightings;
       sum += v.chi2;
     }
-  // Two of six residuals of a frame find the point where all frames stand alone; the path spends far fewer.
+  // Estimating each frame's point separately uses two of six residuals; the path uses far fewer degrees of
+  // freedom.
   fit_.chi2_per_dof = fit_.sightings > 0 ? sum / (3.0 * static_cast<double>(fit_.sightings)) : 0.0;
   fit_.bandwidth = bandwidth_;
 }

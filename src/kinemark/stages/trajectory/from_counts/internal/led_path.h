@@ -63,7 +63,7 @@ class LedPath {
   const data::Rig& rig_;
   const SmoothCountsOptions& options_;
   std::size_t frames_, cameras_;
-  double epoch_s_ = 0.0;        // after the frame's time: where the states stand
+  double epoch_s_ = 0.0;        // after the frame's time: epoch of the states
   std::vector<double> time_s_;  // of each frame
   std::vector<View> views_;
   std::vector<Motion> now_;

@@ -15,7 +15,7 @@
 
 namespace kinemark::trajectory::internal {
 
-/// What one instant says about a position in `kAxes` dimensions: value and inverse covariance, which may be
+/// One observation of a position in `kAxes` dimensions: value and inverse covariance, which may be
 /// singular (one camera sees a line) or zero (nothing seen).
 template <int kAxes>
 struct Sight {

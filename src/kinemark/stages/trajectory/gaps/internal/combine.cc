@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::trajectory::internal {
 namespace {
 
@@ -46,13 +48,12 @@ Eigen::MatrixXd median_fill(const std::vector<Fill>& fills, const std::vector<st
   std::vector<double> v(use.size());
   for (Index i = 0; i < median.size(); ++i) {
     for (std::size_t k = 0; k < use.size(); ++k) v[k] = fills[use[k]].gap(i);
-    std::ranges::sort(v);
-    median(i) = 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
+    median(i) = math::median(v);
   }
   return median;
 }
 
-/// Leave out, in this order, what is far worse than the best and what strays in this gap.
+/// Leave out, in this order, candidates far worse than the best and those that deviate in this gap.
 void guard(const std::vector<Fill>& fills, Pool& pool, std::vector<bool>& guarded) {
   const auto by_rms = [&](std::size_t a, std::size_t b) { return pool.rms[a] < pool.rms[b]; };
   const double best = pool.rms[*std::ranges::min_element(pool.use, by_rms)];
@@ -116,7 +117,7 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
     for (Index r = 0; r < R; ++r)
       profile(r) = (rough(std::max<Index>(0, r - 1)) + rough(r) + rough(std::min(R - 1, r + 1))) / 3.0;
   }
-  // Windows that overlap say less than their number.
+  // Overlapping windows carry less information than their number.
   const double span = static_cast<double>(p.starts.back() - p.starts.front());
   const double independent = std::max(1.0, span / static_cast<double>(p.window.length) + 1.0);
   const Eigen::VectorXd sd =
@@ -164,7 +165,7 @@ Combination combine(const GapProblem& p, const std::vector<Fill>& fills, bool on
   out.weights.assign(fills.size(), 0.0);
   out.guarded.assign(fills.size(), false);
   Pool pool = grow_errors(p, fills);
-  if (pool.use.empty()) {  // nothing to learn from: the most cautious candidate
+  if (pool.use.empty()) {  // no windows: the most conservative candidate
     std::size_t k = 0;
     for (std::size_t i = 0; i < fills.size(); ++i)
       if (fills[i].kind == FillKind::pchip) k = i;

@@ -3,19 +3,20 @@
 #include "kinemark/stages/trajectory/gaps/internal/crossings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
+
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::trajectory::internal {
 namespace {
 
 constexpr double kCrossed = 0.5;    // steps with exchanged labels to steps as labelled
-constexpr double kLeapM = 0.008;    // a leap is at least so far from where the path led, and
+constexpr double kLeapM = 0.008;    // a jump is at least so far from the predicted position, and
 constexpr double kLeapUsual = 6.0;  // so many times the median of that
 constexpr std::size_t kMaxLeaps = 40;
 
-/// Where the path leads: straight on from the two frames before.
+/// Predicted position: linear continuation of the two frames before.
 Eigen::Vector3d ahead(const Recording& r, Index m, Index frame) {
   if (frame < 2 || !r.usable(m, frame - 2)) return r.x(m, frame - 1);
   return 2.0 * r.x(m, frame - 1) - r.x(m, frame - 2);
@@ -24,18 +25,20 @@ Eigen::Vector3d ahead(const Recording& r, Index m, Index frame) {
 /// Frames of leaps and the markers that make them.
 std::map<Index, std::vector<Index>> find_leaps(const Recording& r) {
   std::map<Index, std::vector<Index>> leaps;
-  std::vector<std::pair<double, Index>> off;
+  std::vector<double> off;
+  std::vector<Index> frames;
   for (Index m = 0; m < r.markers(); ++m) {
     off.clear();
-    for (Index f = 1; f < r.frames(); ++f)
-      if (r.complete(m, f - 1, f + 1)) off.emplace_back((r.x(m, f) - ahead(r, m, f)).norm(), f);
+    frames.clear();
+    for (Index f = 1; f < r.frames(); ++f) {
+      if (!r.complete(m, f - 1, f + 1)) continue;
+      off.push_back((r.x(m, f) - ahead(r, m, f)).norm());
+      frames.push_back(f);
+    }
     if (off.empty()) continue;
-    std::vector<std::pair<double, Index>> sorted = off;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    const double least = std::max(kLeapM, kLeapUsual * middle->first);
-    for (const auto& [distance, f] : off)
-      if (distance > least) leaps[f].push_back(m);
+    const double least = std::max(kLeapM, kLeapUsual * math::upper_median(off));
+    for (std::size_t i = 0; i < off.size(); ++i)
+      if (off[i] > least) leaps[frames[i]].push_back(m);
   }
   return leaps;
 }
@@ -54,10 +57,7 @@ double median_distance(const Recording& r, Index a, Index b, Index first, Index 
   std::vector<double> d;
   for (Index f = first; f < end; ++f)
     if (r.usable(a, f) && r.usable(b, f)) d.push_back((r.x(a, f) - r.x(b, f)).norm());
-  if (d.empty()) return 0.0;
-  const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-  std::ranges::nth_element(d, middle);
-  return *middle;
+  return d.empty() ? 0.0 : math::upper_median(d);
 }
 
 std::vector<Swap> find_crossings(const Recording& r) {

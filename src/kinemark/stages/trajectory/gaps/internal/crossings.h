@@ -8,7 +8,7 @@
 
 namespace kinemark::trajectory::internal {
 
-/// Two markers that sit in each other's place from frame `first` to before `end`.
+/// Two markers whose labels are exchanged from frame `first` to before `end`.
 struct Swap {
   Index first_marker = 0;
   Index second_marker = 0;
@@ -24,8 +24,9 @@ struct Swap {
 /// Median distance of two markers over the frames of [first, end) where both are usable.
 [[nodiscard]] double median_distance(const Recording& recording, Index a, Index b, Index first, Index end);
 
-/// Swaps that begin and end in plain sight: two markers leap into each other's paths, and back later, in a
-/// stretch that is complete and at most half of the recording. O(frames markers + leaps^2 per frame).
+/// Swaps that begin and end while both markers are seen: two markers jump to each other's paths, and back
+/// later, in a stretch that is complete and at most half of the recording. O(frames markers + leaps^2 per
+/// frame).
 [[nodiscard]] std::vector<Swap> find_crossings(const Recording& recording);
 
 }  // namespace kinemark::trajectory::internal

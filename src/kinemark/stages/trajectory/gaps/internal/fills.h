@@ -12,17 +12,17 @@
 
 namespace kinemark::trajectory::internal {
 
-/// Every way to fill a gap that `automatic` weighs against the others.
+/// The candidate methods that `automatic` combines.
 enum class FillKind : std::uint8_t {
   chord,
   spline,
   pchip,
   walk,               ///< order 1 or 2
   walk_stiff,         ///< order 3 or 4
-  rigid_untied,       ///< mean place in the local frame
+  rigid_untied,       ///< mean position in the local frame
   rigid_chord,        ///< local frame, chord between both ends
   rigid_walk,         ///< local frame, walk
-  regression_untied,  ///< local frame, neighbours' places
+  regression_untied,  ///< local frame, neighbours' positions
   regression_chord,   ///< ... what the chord leaves unexplained, of target and neighbours
   regression_walk,    ///< ... what the walk leaves unexplained
   regression_stiff,   ///< ... what the walk of order 3 leaves unexplained
@@ -33,9 +33,9 @@ inline constexpr int kFillKinds = 14;
 
 /// "linear", "cubic", "pchip", "walk", "walk, order 3", "rigid, untied", ...
 [[nodiscard]] std::string_view to_string(FillKind kind);
-/// Uses nothing but the marker's own path.
+/// True for methods that use only the marker's own path.
 [[nodiscard]] bool is_temporal(FillKind kind);
-/// Does not pass through the samples beside the gap.
+/// True for methods that do not pass through the samples beside the gap.
 [[nodiscard]] bool is_untied(FillKind kind);
 /// How errors grow with the length of a gap: as length^growth.
 [[nodiscard]] double error_growth(FillKind kind);
@@ -50,7 +50,7 @@ struct Fill {
   [[nodiscard]] double rms_m() const;
 };
 
-/// The candidates that a method needs and that the problem allows. Without windows those that need no
+/// The candidates of a method that the problem allows. Without windows those that need no
 /// training.
 [[nodiscard]] std::vector<Fill> make_fills(const Recording& recording, const GapProblem& problem,
                                            GapMethod method, WalkCache& cache);

@@ -37,7 +37,7 @@ Eigen::VectorX<Index> spread_rows(Index last, Index n) {
   return Eigen::Map<Eigen::VectorX<Index>>(rows.data(), static_cast<Index>(rows.size()));
 }
 
-/// Every place where such a window fits; in long recordings every second, third, ...
+/// Every start at which such a window fits; in long recordings every second, third, ...
 std::vector<Index> find_places(const Recording& recording, Index target, std::span<const Index> predictors,
                                const GapShape& window) {
   std::vector<Index> places;
@@ -52,7 +52,7 @@ std::vector<Index> find_places(const Recording& recording, Index target, std::sp
   return places;
 }
 
-/// One window out of each of n equal parts of the list, at a random place of that part.
+/// One random window out of each of n equal parts of the list.
 std::vector<Index> choose_windows(const std::vector<Index>& places, Index n, Random random) {
   const auto count = static_cast<Index>(places.size());
   if (count <= n) return places;
@@ -149,8 +149,8 @@ GapProblem pose_gap(const Recording& recording, const std::vector<Neighbour>& ne
   p.all_rows = Eigen::VectorX<Index>::LinSpaced(p.shape.length, 0, p.shape.length - 1);
   if (use_neighbours) choose_candidates(recording, neighbours, p);
   const Random random(seed, static_cast<std::uint64_t>(span.first));
-  // As many predictors and windows as long as the recording gives; the length goes first, then the
-  // predictors.
+  // As many predictors and as long windows as the recording allows; the length is reduced first, then the
+  // number of predictors.
   const auto try_with = [&](std::size_t predictors) {
     for (const double part : {1.0, 0.7, 0.5, 0.35, 0.25}) {
       GapShape window = p.shape;

@@ -21,7 +21,7 @@ struct Neighbour {
 /// than half of (up to 300) frames are left out. O(markers).
 [[nodiscard]] std::vector<Neighbour> find_rigid_neighbours(const Recording& recording, Index target);
 
-/// Frames [first, end) of a marker, with `left` and `right` usable samples next to them to lean on.
+/// Frames [first, end) of a marker, with `left` and `right` usable samples next to them as support.
 struct GapSpan {
   Index marker = 0;
   Index first = 0;
@@ -30,19 +30,19 @@ struct GapSpan {
   Index right = 0;
 };
 
-/// Samples on each side that a fill leans on: 0.3 s, 6 to 60 frames.
+/// Number of supporting samples on each side: 0.3 s, 6 to 60 frames.
 [[nodiscard]] Index support_frames(double rate_hz);
 
-/// What is to be filled, from which markers, and the artificial gaps ("windows") that tell how well: places
-/// in the same recording where target and predictors are complete.
+/// The gap to be filled, its predictors, and the artificial gaps ("windows") from which errors are estimated:
+/// stretches of the same recording in which target and predictors are complete.
 struct GapProblem {
   GapSpan span;
   GapShape shape;
-  GapShape window;                 ///< as shape, but shorter where the recording holds too few such places
+  GapShape window;                 ///< as shape, but shorter where the recording has too few such stretches
   std::vector<Index> candidates;   ///< complete over gap and support, not doubtful; at most 24
   std::vector<Index> predictors;   ///< the most rigid of them, at most 12
   std::vector<double> sd_m;        ///< of predictors
-  std::vector<Index> dropped;      ///< would have been a candidate, but sits in the wrong place
+  std::vector<Index> dropped;      ///< would have been a candidate, but is at the wrong position
   std::vector<Index> starts;       ///< W first frames of windows, rising
   Eigen::VectorX<Index> rows;      ///< R rows of a window at which errors are taken
   Eigen::VectorX<Index> all_rows;  ///< 0 to shape.length - 1

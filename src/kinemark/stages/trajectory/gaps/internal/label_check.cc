@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::trajectory::internal {
 namespace {
 
@@ -56,16 +58,10 @@ Partners find_partners(const Recording& r) {
         if (r.usable(a, f) && r.usable(b, f)) d.push_back((r.x(a, f) - r.x(b, f)).norm());
       }
       if (d.size() < 8 || 10 * static_cast<Index>(d.size()) < 3 * sampled) continue;
-      const auto quantile = [&](double q) {
-        const auto at = d.begin() + std::lround(q * static_cast<double>(d.size() - 1));
-        std::ranges::nth_element(d, at);
-        return *at;
-      };
-      const double low = quantile(0.2);
-      const double high = quantile(0.8);
-      const double median = quantile(0.5);
-      keep_steadiest(partners[static_cast<std::size_t>(a)], {b, median, high - low});
-      keep_steadiest(partners[static_cast<std::size_t>(b)], {a, median, high - low});
+      const double range = math::quantile(d, 0.8) - math::quantile(d, 0.2);
+      const double median = math::quantile(d, 0.5);
+      keep_steadiest(partners[static_cast<std::size_t>(a)], {b, median, range});
+      keep_steadiest(partners[static_cast<std::size_t>(b)], {a, median, range});
     }
   return partners;
 }
@@ -80,7 +76,7 @@ class FrameCheck {
  public:
   FrameCheck(const Recording& r, const Partners& partners) : r_(r), partners_(partners) {}
 
-  /// Mean squared deviate of the distances that marker `of` would have at the place of `at`, without
+  /// Mean squared deviate of the distances that marker `of` would have at the position of `at`, without
   /// `without`.
   [[nodiscard]] double misfit(Index of, Index at, Index without, Index frame) const {
     double sum = 0.0;
@@ -125,8 +121,8 @@ class FrameCheck {
     return pairs;
   }
 
-  /// Markers at least half of whose partners are at the wrong distance; the worst goes first, and is then
-  /// nobody's partner.
+  /// Markers at least half of whose partners are at the wrong distance; the worst is removed first and no
+  /// longer used as a partner.
   [[nodiscard]] std::vector<Index> find_out_of_place(Index frame) const {
     std::vector<Index> out;
     const auto is_out = [&](Index m) { return std::ranges::find(out, m) != out.end(); };
@@ -165,7 +161,7 @@ class FrameCheck {
 };
 
 /// Frame in [border - 2, border + 2] from which the two markers have exchanged their paths, or -1. Also where
-/// a sample is missing there, behind which the exchange can have happened unseen.
+/// a sample is missing there, during which the exchange can have happened unseen.
 Index find_exchange(const Recording& r, Index a, Index b, Index border) {
   for (const Index shift : {0, -1, 1, -2, 2}) {
     const Index f = border + shift;

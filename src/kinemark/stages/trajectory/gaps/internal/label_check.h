@@ -9,10 +9,11 @@
 namespace kinemark::trajectory::internal {
 
 /// Compare the distances between markers that usually keep them with their usual values: find swaps, exchange
-/// the samples back in the working copy, and set what remains out of place as doubtful.
+/// the samples back in the working copy, and mark what remains inconsistent as doubtful.
 ///
-/// Swaps that begin and end in plain sight are found by their paths first. Does not see swaps behind missing
-/// samples of markers that are alike to all their neighbours, and single markers that are wrong by
+/// Swaps that begin and end while both markers are seen are found by their paths first. Cannot detect swaps
+/// during gaps between markers with equal distances to all their neighbours, and single markers that are
+/// wrong by
 /// less than 10 mm and the usual spread. O(frames markers), and O(markers^2) once.
 [[nodiscard]] std::vector<Swap> check_labels(Recording& recording);
 

@@ -3,24 +3,14 @@
 #include "kinemark/stages/trajectory/gaps/internal/local_frame.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include "kinemark/math/rotation_fit.h"
 
 namespace kinemark::trajectory::internal {
 namespace {
 
-constexpr double kThinM = 0.005;  // a shape that is nowhere wider than this about a line gives no turn
-
-Eigen::Matrix3d turn_between(const Eigen::Matrix3d& S) {  // S = sum w (local) (world)'
-  Eigen::Matrix4d N;
-  N << S(0, 0) + S(1, 1) + S(2, 2), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0),
-      S(1, 2) - S(2, 1), S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2), S(2, 0) - S(0, 2),
-      S(0, 1) + S(1, 0), S(1, 1) - S(0, 0) - S(2, 2), S(1, 2) + S(2, 1), S(0, 1) - S(1, 0), S(2, 0) + S(0, 2),
-      S(1, 2) + S(2, 1), S(2, 2) - S(0, 0) - S(1, 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(N);
-  const Eigen::Vector4d q = eigen.eigenvectors().col(3);
-  return Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized().toRotationMatrix();
-}
+constexpr double kThinM = 0.005;  // a shape narrower than this about a line gives no rotation
 
 }  // namespace
 
@@ -75,9 +65,9 @@ Placement LocalFrame::at(Index frame) const {
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < markers_.size(); ++k) {
     const auto i = static_cast<Index>(k);
-    S += weight_(i) * shape_.col(i) * (recording_->x(markers_[k], frame) - p.c).transpose();
+    S += weight_(i) * (recording_->x(markers_[k], frame) - p.c) * shape_.col(i).transpose();
   }
-  p.R = turn_between(S);
+  p.R = math::fit_rotation(S).rotation;
   return p;
 }
 

@@ -10,16 +10,17 @@
 
 namespace kinemark::trajectory::internal {
 
-/// Turn and place that map the reference shape onto the markers of one frame: x_in_world = R x_in_local + c.
+/// Rotation and translation that map the reference shape onto the markers of one frame: x_in_world = R
+/// x_in_local + c.
 struct Placement {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
 };
 
-/// A frame that goes with a few markers, as rigidly as they allow.
+/// A local frame attached to a few markers.
 ///
-/// Three markers and more that do not lie on a line give a turn (weighted least squares, Horn 1987, J. Opt.
-/// Soc. Am. A 4(4):629-642); fewer only a place; none leaves the world as it is.
+/// Three or more markers that are not on a line give rotation and translation (weighted least squares,
+/// math::fit_rotation()); fewer give a translation only; none the world frame.
 class LocalFrame {
  public:
   /// @param sd_m  Of the distance to the target, per marker; weights are 1 / (sd^2 + (1 mm)^2).

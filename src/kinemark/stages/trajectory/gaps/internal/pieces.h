@@ -11,13 +11,13 @@ namespace kinemark::trajectory::internal {
 
 /// Cut a gap where the set of complete neighbours changes, if single pieces have clearly more rigid
 /// neighbours than the gap as a whole. One piece, the gap itself, when there is nothing to gain. Only the
-/// first piece leans on the samples before the gap, only the last on those after it.
+/// first piece uses the samples before the gap, only the last one those after it.
 [[nodiscard]] std::vector<GapSpan> split_gap(const Recording& recording,
                                              const std::vector<Neighbour>& neighbours, const GapSpan& gap);
 
 /// Tie consecutive pieces to one another. Errors are taken to grow from the outer end of a piece to the joint
-/// as those of a random walk do; what does not meet there is shared out in proportion to the variances. The
-/// SDs stay as they are, those of pieces that hang free at the joint.
+/// as those of a random walk do; the mismatch is distributed in proportion to the variances. The SDs remain
+/// those of pieces without a constraint at the joint.
 void join_pieces(std::span<Filled> pieces);
 
 }  // namespace kinemark::trajectory::internal

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::trajectory::internal {
 
 Recording::Recording(const data::Trajectories& in) : rate_hz_(in.time.rate_hz), frames_(in.frames()) {
@@ -45,9 +47,8 @@ double Recording::estimate_noise(Index marker) const {
     size.push_back(d.norm());
   }
   if (size.size() < 8) return 0.0;
-  const auto quarter = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 4);
-  std::ranges::nth_element(size, quarter);
-  return *quarter / (1.1011 * std::sqrt(70.0));  // lower quartile of chi(3); 1 + 16 + 36 + 16 + 1
+  return math::nth_smallest(size, size.size() / 4) /
+         (1.1011 * std::sqrt(70.0));  // lower quartile of chi(3); 1 + 16 + 36 + 16 + 1
 }
 
 }  // namespace kinemark::trajectory::internal

@@ -14,7 +14,7 @@ using Eigen::Index;
 
 /// Working copy of a recording for the gap filler: one marker after the other, with questions about stretches
 /// answered in constant time. "Usable" samples are those that were measured (or made by the recorder's own
-/// upsampling); "doubtful" ones are usable but far from where their neighbours say they belong.
+/// upsampling); "doubtful" ones are usable but far from the position predicted by their neighbours.
 class Recording {
  public:
   explicit Recording(const data::Trajectories& in);

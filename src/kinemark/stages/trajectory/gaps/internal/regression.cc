@@ -16,7 +16,7 @@ constexpr std::array kPenalties = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
 constexpr double kLeastPower = 1e-18;    // m^2: all features constant
 constexpr double kLeastPenalty = 1e-15;  // m^2
 
-/// Sums over some windows; later steps need nothing else of the features.
+/// Sums over some windows, sufficient for all later steps.
 struct Sums {
   Eigen::MatrixXd zz;  // P x P
   Eigen::MatrixXd zy;  // P x 3

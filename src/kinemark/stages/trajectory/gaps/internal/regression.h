@@ -19,7 +19,7 @@ struct Fold {
 
 [[nodiscard]] std::vector<Fold> make_folds(const GapProblem& problem);
 
-/// What a temporal fill leaves unexplained, or, untied, the distance from the mean over all windows.
+/// Residual of a temporal fill, or, untied, the distance from the mean over all windows.
 struct Innovation {
   Index width = 0;           ///< P
   Eigen::MatrixXd rows;      ///< R x W P

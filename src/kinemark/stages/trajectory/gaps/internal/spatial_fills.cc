@@ -157,7 +157,7 @@ class LocalFills {
   Eigen::MatrixXd centre_;  // L x 3
 };
 
-/// Weights that let near markers decide: exp(-(d / s)^2 / 2), s twice the distance to the third nearest.
+/// Weights that favour near markers: exp(-(d / s)^2 / 2), s twice the distance to the third nearest.
 Eigen::VectorXd nearness(const Recording& recording, const GapProblem& p, const std::vector<Index>& markers) {
   const auto n = static_cast<Index>(markers.size());
   Eigen::VectorXd d = Eigen::VectorXd::Zero(n);

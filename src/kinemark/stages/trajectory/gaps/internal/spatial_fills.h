@@ -8,7 +8,7 @@
 
 namespace kinemark::trajectory::internal {
 
-/// Append the candidates that lean on other markers. The problem has windows and predictors.
+/// Append the candidates that use other markers. The problem has windows and predictors.
 void spatial_fills(const Recording& recording, const GapProblem& problem, GapMethod method, WalkCache& cache,
                    std::vector<Fill>& fills);
 

@@ -53,7 +53,7 @@ Eigen::MatrixXd spline_operator(const GapShape& s) {
     D(i, i) = -6.0 / h(i - 1) - 6.0 / h(i);
     D(i, i + 1) = 6.0 / h(i);
   }
-  if (n == 3) {  // both ends ask the same: one parabola
+  if (n == 3) {  // both end conditions coincide: one parabola
     C.row(0) << 1.0, -1.0, 0.0;
     C.row(2) << 0.0, 1.0, -1.0;
   } else {

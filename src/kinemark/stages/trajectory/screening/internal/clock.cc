@@ -21,7 +21,8 @@ struct Leap {
   int seen = 0;
 };
 
-/// A clock that loses frames all the time is one finding; most often it was resampled by leaving frames out.
+/// A clock that loses frames all the time is reported as one defect; most often the recording was resampled
+/// by leaving frames out.
 data::Defect describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t) {
   std::vector<double> spacing;
   std::vector<double> times;
@@ -42,7 +43,7 @@ data::Defect describe_many(const std::vector<Leap>& leaps, const data::Trajector
           .evidence = median_of(times),
           .confidence = 0.95,
           .sentence = fmt::format(
-              "At {} places between frames {} and {} all markers go {:.2f} times as far as in the "
+              "At {} instants between frames {} and {} all markers go {:.2f} times as far as in the "
               "frames beside, {}",
               leaps.size(), leaps.front().frame, leaps.back().frame, median_of(times), how)};
 }

@@ -16,13 +16,13 @@ using Defects = std::vector<data::Defect>;
 void find_zeros(const data::Trajectories& t, Defects& out);
 void find_unit_slips(const data::Trajectories& t, Defects& out);
 void find_duplicated_frames(const data::Trajectories& t, Defects& out);
-/// `out` holds the duplicated frames: repeats within them are no news.
+/// `out` holds the duplicated frames: repeats within them are not reported again.
 void find_stuck(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
 void find_clock_jumps(std::span<const double> frame_time_s, Defects& out);
-/// The same from the markers, where nobody wrote the times down.
+/// The same from the markers, for files without recorded times.
 void find_leaps(const data::Trajectories& t, Defects& out);
 void find_swaps(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
-/// `out` holds the swaps: a short one is no spike.
+/// `out` holds the swaps: a short one is not a spike.
 void find_spikes(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
 
 /// "frame 7" or "frames 7 to 9".

@@ -44,7 +44,7 @@ void pchip_slopes(Knots& k) {
   }
 }
 
-/// Chords weighted by how much the other side bends (Akima 1970, J. ACM 17:589).
+/// Chords weighted by the change of slope on the other side (Akima 1970, J. ACM 17:589).
 void akima_slopes(Knots& k) {
   const std::vector<double>& v = k.value;
   for (std::size_t i = 2; i + 2 < v.size(); ++i) {

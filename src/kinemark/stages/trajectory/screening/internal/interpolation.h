@@ -16,12 +16,12 @@ inline constexpr std::array kKernels{
     data::InterpolationKernel::lagrange, data::InterpolationKernel::pchip,
     data::InterpolationKernel::akima};
 
-/// Knots without use at both ends of a stretch: the end condition of a spline is unknown and fades by 0.27
-/// per knot; the others lean on two neighbours.
+/// Knots not used at both ends of a stretch: the end condition of a spline is unknown and its effect decays
+/// by 0.27 per knot; the others depend on two neighbours.
 [[nodiscard]] constexpr int edge_knots(data::InterpolationKernel kernel) {
   return kernel == data::InterpolationKernel::spline ? 8 : 2;
 }
-/// Frames that a stretch needs to be worth a look.
+/// Fewest frames of a stretch that is tested.
 [[nodiscard]] constexpr int min_stretch(int factor, data::InterpolationKernel kernel) {
   return factor * (kernel == data::InterpolationKernel::spline ? 24 : 12);
 }

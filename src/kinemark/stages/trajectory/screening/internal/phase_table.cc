@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "kinemark/math/statistics.h"
+
 namespace kinemark::trajectory::internal {
 namespace {
 
@@ -16,14 +18,7 @@ constexpr std::int64_t kBlockKnots = 16;
 constexpr std::int64_t kPieceFrames = 2048;
 constexpr std::int64_t kMinBlocks = 6;
 constexpr float kChangeCost = 8.0F;
-constexpr float kMostCost = 2.0F;  // of one block that says something else: an outlier cannot force a change
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
+constexpr float kMostCost = 2.0F;  // of one contradicting block, so that an outlier cannot force a change
 
 std::vector<std::size_t> rows_in_time(const PhaseTable& table) {
   std::vector<std::size_t> order(table.rows());
@@ -84,9 +79,9 @@ Candidate weigh(const PhaseTable& table, InterpolationKernel kernel, const std::
   c.phase = static_cast<int>(std::ranges::max_element(share) - share.begin());
   c.blocks = static_cast<std::int64_t>(order.size());
   c.agreement = static_cast<double>(won) / static_cast<double>(order.size());
-  c.ratio = std::exp(median(ratio));
-  c.residual_m = std::exp(median(residual));
-  c.rounding_m = std::exp(median(rounding));
+  c.ratio = std::exp(math::median(ratio));
+  c.residual_m = std::exp(math::median(residual));
+  c.rounding_m = std::exp(math::median(rounding));
   return c;
 }
 
@@ -106,9 +101,8 @@ double rounding_step_m(std::span<const double> y) {
     difference.pop_back();
   }
   if (steps.empty()) return std::min(single, 1e-3);
-  const auto low = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 100);
-  std::ranges::nth_element(steps, low);
-  return std::clamp(*low, std::min(single, 1e-3), 1e-3);
+  const double low = math::nth_smallest(steps, steps.size() / 100);
+  return std::clamp(low, std::min(single, 1e-3), 1e-3);
 }
 
 std::vector<Piece> pieces_of(const data::Trajectories& t, std::int64_t marker, std::int64_t max_frames) {
@@ -212,7 +206,7 @@ Candidate judge(const PhaseTable& table, InterpolationKernel kernel) {
   for (std::size_t i = 1; i < path.size(); ++i) changes += path[i] != path[i - 1] ? 1 : 0;
   if (changes == 0) return c;
   Candidate s = weigh(table, kernel, order, path);
-  // Each change could be placed to please: it must pay for itself several times over.
+  // The times of changes are free parameters: each change must gain several times its cost.
   const double paid = static_cast<double>(s.blocks - 12 * changes) * std::log(static_cast<double>(f));
   s.fires = s.ratio < 0.5 && s.agreement >= 0.9 && paid > 14.0;
   s.slips = true;

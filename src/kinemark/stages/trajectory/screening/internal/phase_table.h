@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// How well each phase of a supposed low rate predicts a stream, block by block, and what that says.
+// Prediction residuals of each phase of a supposed low rate, block by block, and the verdict from them.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,8 @@ struct Candidate {
 /// The phase that wins most blocks, and whether it wins as only an interpolated stream lets it.
 [[nodiscard]] Candidate judge(const PhaseTable& table, data::InterpolationKernel kernel);
 
-/// Phase in force along time: cheapest path through the blocks where each change costs as much as four blocks
-/// that say something else. Starts at frame 0. Sorts nothing away: any order of rows will do.
+/// Phase in force along time: path of least cost through the blocks, where each change costs as much as four
+/// contradicting blocks. Starts at frame 0. Rows may be in any order.
 [[nodiscard]] std::vector<data::PhaseRun> follow_phase(const PhaseTable& table);
 
 }  // namespace kinemark::trajectory::internal

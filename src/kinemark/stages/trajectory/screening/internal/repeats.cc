@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Values that say nothing new: zeros for "not seen", a last value held, whole frames repeated.
+// Repeated values: zeros for "not seen", a last value held, whole frames repeated.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 
 namespace kinemark::trajectory::internal {
@@ -169,9 +170,9 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& ou
       if (repeated >= shortest) runs.emplace_back(first, f);
     }
     if (runs.empty()) continue;
-    // What the marker does anyway: a held stream has runs of its factor, a coarse one at rest has long ones.
-    std::ranges::sort(lengths);
-    const double usual = lengths[lengths.size() * 9 / 10];
+    // Usual runs of the marker: an upsampled stream by holding has runs of its factor, a coarse one at rest
+    // has long ones.
+    const double usual = math::nth_smallest(lengths, lengths.size() * 9 / 10);
     const double rounding = rounding_of(t, m);
     for (const auto& [first, last] : runs) {
       const auto length = static_cast<double>(last - first + 1);
@@ -179,7 +180,7 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& ou
       const std::int64_t reach = std::max<std::int64_t>(10, last - first + 1);
       const std::vector<double> beside = steps(t, m, first - reach, last + 1 + reach);
       const double step = median_of(beside);
-      // Held from one frame to the next, not come to rest: normal steps lead in and out.
+      // Held, as opposed to at rest: normal steps precede and follow.
       const std::vector<double> in = steps(t, m, first, first);
       const std::vector<double> away = steps(t, m, last + 1, last + 1);
       const double least = std::max(0.3 * step, 4.0 * rounding);

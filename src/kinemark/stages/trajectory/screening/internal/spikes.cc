@@ -21,7 +21,7 @@ constexpr int kBeside = 4;  // samples on each side
 constexpr int kMostSamples = 3;
 constexpr double kLeastRatio = 20.0;
 
-/// Weights that turn the samples beside a gap of `width` into the cubic through them (least squares): rows
+/// Weights of the least-squares cubic through the samples beside a gap of `width`: rows
 /// are the samples in the gap, then the eight beside it.
 struct Cubic {
   Eigen::Matrix<double, kMostSamples, 2 * kBeside> inside;

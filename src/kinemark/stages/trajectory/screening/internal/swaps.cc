@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Labels that jump: two markers that exchange theirs, and one that visits the path of another.
+// Labels that jump: two markers exchange theirs, or one jumps to the path of another and back.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::int64_t frames_in(const Trajectories& t, double time_s) {
       1, std::llround(std::min(time_s * t.time.rate_hz, static_cast<double>(t.frames()))));
 }
 
-/// Paths continued by a straight line from their last two samples. Told of samples frame by frame.
+/// Paths continued by a straight line from their last two samples, updated frame by frame.
 class Continuation {
  public:
   explicit Continuation(const Trajectories& t) : t_(t), gap_(frames_in(t, kLongestGap)) {
@@ -43,7 +43,7 @@ class Continuation {
     paths_.resize(usual_.size());
   }
 
-  /// Where the marker should be, from what was seen before the frame and not too long ago.
+  /// Predicted position of the marker from its recent samples before the frame.
   [[nodiscard]] std::optional<Vector3d> at(std::int64_t frame, std::int64_t marker) const {
     const Path& p = paths_[static_cast<std::size_t>(marker)];
     if (p.last < 0 || frame - p.last > gap_) return std::nullopt;
@@ -52,7 +52,7 @@ class Continuation {
   [[nodiscard]] std::int64_t last_seen(std::int64_t marker) const {
     return paths_[static_cast<std::size_t>(marker)].last;
   }
-  /// What continuations of this marker miss by, m, median.
+  /// Median prediction error of this marker, m.
   [[nodiscard]] double usual(std::int64_t marker) const { return usual_[static_cast<std::size_t>(marker)]; }
 
   void see(std::int64_t frame) {
@@ -172,7 +172,7 @@ void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Defect
                        "their paths {:.0f} times better{}.",
                        t.names[static_cast<std::size_t>(start.one)],
                        t.names[static_cast<std::size_t>(start.other)], frames_in_words(first, last), ratio,
-                       ends ? "" : "; which side is right cannot be told, the shorter one is named")});
+                       ends ? "" : "; which side is right cannot be decided, the shorter one is named")});
   }
 }
 
@@ -216,7 +216,7 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
       const Jump& back = jumps[b];
       if (back.marker != there.marker) continue;
       const std::int64_t m = there.marker;
-      // Home again: on the line that its own samples before and after draw.
+      // Back on its own path: on the line through its samples before and after.
       if (back.frame + 1 >= t.frames() || !t.present(back.frame + 1, m) || left < 1 ||
           !t.present(left - 1, m))
         break;

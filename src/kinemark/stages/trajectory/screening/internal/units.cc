@@ -90,7 +90,7 @@ void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Defects& ou
 }
 
 /// True when some other marker goes along with this one once it is scaled: their distance hardly changes.
-/// Forces and angles that a file keeps as points are small or large, but go along with nothing.
+/// Forces and angles that a file stores as points are small or large, but do not move with any marker.
 bool goes_along(const data::Trajectories& t, std::int64_t marker, double scale, double spread) {
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     if (m == marker) continue;
@@ -106,7 +106,7 @@ bool goes_along(const data::Trajectories& t, std::int64_t marker, double scale, 
   return false;
 }
 
-/// Findings of all markers over the same frames are one finding about the recording.
+/// Defects of all markers over the same frames are one defect of the recording.
 void merge_common(const data::Trajectories& t, Defects& slips) {
   for (std::size_t i = 0; i < slips.size(); ++i) {
     if (slips[i].marker < 0) continue;
@@ -168,7 +168,7 @@ void find_unit_slips(const data::Trajectories& t, Defects& out) {
                            t.names[static_cast<std::size_t>(m)], e.distance, e.spread, distance, spread)});
     }
   }
-  // Nobody is recorded at 200 m, nor within 2 mm of the origin.
+  // Markers are neither 200 m away nor all within 2 mm of the origin.
   if (!distances.empty() && (distance > 200.0 || (distance < 0.002 && distance > 0.0)))
     slips.push_back(
         {.kind = DefectKind::unit_slip,

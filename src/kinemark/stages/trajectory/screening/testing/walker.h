@@ -22,7 +22,7 @@ struct WalkerOptions {
   std::uint64_t seed = 1;
 };
 
-/// Noise-free place of one marker, m. Markers are 0.15 m apart and more.
+/// Noise-free position of one marker, m. Markers are 0.15 m apart and more.
 inline Eigen::Vector3d place(int marker, double time_s) {
   const double w = 2.0 * std::numbers::pi * 0.9;
   const double own = 0.7 * marker;

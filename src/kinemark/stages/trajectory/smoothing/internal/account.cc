@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kAccountLags = 10;
 constexpr std::int64_t kFewestPairs = 30;
-constexpr double kMuch = 0.15;  ///< autocorrelation that matters however long the recording is
+constexpr double kMuch = 0.15;  ///< autocorrelation that is relevant for any length of recording
 constexpr std::int64_t kShortestSegment = 32, kLongestSegment = 512;
 constexpr int kMostFrequencies = 24;
 
@@ -147,13 +147,13 @@ void judge_residuals(const MarkerSamples& samples, double rate_hz, MarkerResult&
   account.spectrum = spectrum(samples, residual, rate_hz);
   if (account.used.method == "none" || account.autocorrelation.empty()) return;
   account.words +=
-      account.white
-          ? fmt::format(" What it took away ({:.2g} mm rms) looks like noise.", 1e3 * account.residual_rms_m)
-          : fmt::format(
-                " What it took away ({:.2g} mm rms) is not white (autocorrelation {:.2f} at one "
-                "frame): the noise has colour, the recording was filtered before, or movement was "
-                "lost; the bars are too small then.",
-                1e3 * account.residual_rms_m, account.autocorrelation.front());
+      account.white ? fmt::format(" The residual ({:.2g} mm rms) is consistent with white noise.",
+                                  1e3 * account.residual_rms_m)
+                    : fmt::format(
+                          " The residual ({:.2g} mm rms) is not white (autocorrelation {:.2f} at one "
+                          "frame): the noise is coloured, the recording was filtered before, or movement was "
+                          "lost; the error bars are then too small.",
+                          1e3 * account.residual_rms_m, account.autocorrelation.front());
 }
 
 }  // namespace kinemark::trajectory::smoothing

@@ -7,8 +7,8 @@
 
 namespace kinemark::trajectory::smoothing {
 
-/// Fill in what the residuals show: their size, autocorrelation, whiteness and spectrum, and the words about
-/// them. Ljung & Box (1978), Biometrika 65(2):297-303.
+/// Fill in size, autocorrelation, whiteness and spectrum of the residuals, and their description. Ljung & Box
+/// (1978), Biometrika 65(2):297-303.
 void judge_residuals(const MarkerSamples& samples, double rate_hz, MarkerResult& result);
 
 }  // namespace kinemark::trajectory::smoothing

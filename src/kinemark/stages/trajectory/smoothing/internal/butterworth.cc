@@ -93,7 +93,7 @@ Plan make_plan(const MarkerSamples& samples, const SmoothOptions& options, doubl
   return plan;
 }
 
-/// Noise per axis from what the filter took away, as if that were all noise; NaN when nothing was measured.
+/// Noise per axis from the residual, assuming that it is all noise; NaN without measured samples.
 double noise_from(const MarkerSamples& samples, const MarkerResult& result, double taken) {
   double sum = 0.0, count = 0.0;
   for (std::int64_t f = 0; f < samples.frames; ++f) {

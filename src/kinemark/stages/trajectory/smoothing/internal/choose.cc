@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/math/golden_section.h"
+
 namespace kinemark::trajectory::smoothing {
 namespace {
 
@@ -56,25 +58,8 @@ Best minimise(Family& family, Criterion criterion, double sigma, double low, dou
   const int steps = std::max(1, static_cast<int>(std::ceil((high - low) / kGrid)));
   const double step = (high - low) / steps;
   for (int i = 0; i <= steps; ++i) look(low + i * step);
-  double a = std::max(low, best.log_cutoff - step), b = std::min(high, best.log_cutoff + step);
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  double c = b - golden * (b - a), d = a + golden * (b - a);
-  double at_c = look(c), at_d = look(d);
-  while (b - a > kRefined) {
-    if (at_c < at_d) {
-      b = d;
-      d = c;
-      at_d = at_c;
-      c = b - golden * (b - a);
-      at_c = look(c);
-    } else {
-      a = c;
-      c = d;
-      at_c = at_d;
-      d = a + golden * (b - a);
-      at_d = look(d);
-    }
-  }
+  (void)math::golden_section(look, std::max(low, best.log_cutoff - step),
+                             std::min(high, best.log_cutoff + step), {.width = kRefined});
   return best;
 }
 

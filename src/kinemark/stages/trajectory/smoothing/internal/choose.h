@@ -29,15 +29,15 @@ struct ChooseOptions {
 struct Choice {
   int order = 0;
   double cutoff_hz = 0.0;
-  double noise_sd_m = 0.0;  ///< as given or found; NaN when there are too few samples to tell
+  double noise_sd_m = 0.0;  ///< as given or found; NaN when there are too few samples
   std::vector<data::FilterCandidate> candidates;
   bool enough = true;  ///< false: too few samples to choose by, the defaults were taken
 };
 
-/// Samples below this number do not choose a filter.
+/// Fewer samples than this do not suffice to choose a filter.
 inline constexpr std::int64_t kFewestSamples = 12;
 
-/// Longest stretches that stand for a recording when a filter is chosen: all of it up to 16384 frames, else
+/// Longest stretches from which a filter is chosen: all of it up to 16384 frames, else
 /// eight stretches of 2048, spread evenly over the samples that are seen.
 [[nodiscard]] std::vector<Series> windows(const Series& series);
 

@@ -8,7 +8,7 @@
 
 namespace kinemark::trajectory::smoothing {
 
-/// What the cut-off rules look at: columns (one per stretch and axis) of evenly spaced positions.
+/// Input of the cut-off rules: columns (one per stretch and axis) of evenly spaced positions.
 struct CutoffProblem {
   std::vector<std::vector<double>> columns;
   int order = 2;

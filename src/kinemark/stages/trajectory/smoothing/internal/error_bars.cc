@@ -14,7 +14,7 @@ namespace kinemark::trajectory::smoothing {
 namespace {
 
 constexpr double kWider = 1.6;                 ///< second run's cut-off over the first's
-constexpr double kUsual = 0.9, kSpread = 0.6;  ///< what shares of movement are like, before any data
+constexpr double kUsual = 0.9, kSpread = 0.6;  ///< prior of the shares of movement
 constexpr double kMostMovement = 4.0;
 constexpr double kInterior = 1.2;    ///< variance up to this times the least: samples all around
 constexpr double kPriorHoles = 4.0;  ///< weight of "the model is right" in numbers of hidden stretches

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the residuals say about the smoother's own error bars.
+// Correction of the smoother's error bars from the residuals.
 #pragma once
 
 #include <array>
@@ -18,12 +18,13 @@ struct BarScale {
   std::array<double, 4> interior{};  ///< least variance of the model: what "all around" means, noise units
 };
 
-/// Scale the model's variances to what the data show.
+/// Scale the model's variances to the residuals of the data.
 ///
-/// Seen samples: the model believes that half of what it cuts off at the corner is movement. A second run
-/// with a wider band shows how much was. Gaps and ends: stretches as long as the gaps of this recording
-/// (about one time constant when it has none) are hidden, and what the smoother then says there is compared
-/// with what it says when it sees them. Both are drawn towards what is usual when a recording is short.
+/// Seen samples: the model assumes that half of the signal removed at the corner frequency is movement. A
+/// second run with a wider band measures the true share. Gaps and ends: stretches as long as the gaps of this
+/// recording
+/// (about one time constant when it has none) are hidden, and the smoothed values there are compared with
+/// those from the complete data. For short recordings both factors are shrunk towards usual values.
 /// @param noise_sd_m  > 0, of a sample of variance 1
 [[nodiscard]] BarScale scale_bars(std::span<const Series> parts, int order, double cutoff_hz,
                                   double noise_sd_m);

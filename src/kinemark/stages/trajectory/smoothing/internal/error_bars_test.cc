@@ -60,7 +60,7 @@ TEST(ScaleBars, ShrinkWhereTheMovementEndsFarBelowTheCutoff) {
   const BarScale scale = scale_bars(parts, kOrder, 8.0, kSigma);
   for (const int d : {0, 1})
     EXPECT_NEAR(scale.seen[static_cast<std::size_t>(d)], 1.0 - (2.0 * d + 1.0) / (2.0 * kOrder), 0.2) << d;
-  EXPECT_LT(scale.seen[2], 0.8);  // the higher, the less the data say
+  EXPECT_LT(scale.seen[2], 0.8);  // higher derivatives have less information
   EXPECT_LT(scale.seen[3], 0.9);
   EXPECT_LT(scale.added[0], 1.0);
 }

@@ -20,9 +20,9 @@ namespace kinemark::trajectory::smoothing {
 
 /// Prior standard deviation of every scaled state, in noise units: no prior at all for data of any size.
 inline constexpr double kDiffuse = 1e7;
-/// A variance above this, in noise units, is one that the data do not determine.
+/// Variances above this, in noise units, count as not determined by the data.
 inline constexpr double kUndetermined = 1e8;
-/// Behind a gap longer than this (in 1/w) the filter starts anew: nothing of use reaches across.
+/// After a gap longer than this (in 1/w) the filter is restarted: no information is carried across.
 inline constexpr double kLongestGap = 20.0;
 /// Gains that change less than this (relative) have settled.
 inline constexpr double kSettled = 1e-12;
@@ -37,8 +37,8 @@ inline constexpr double kSettled = 1e-12;
 template <int m>
 using Square = std::array<double, static_cast<std::size_t>(m) * m>;  // row-major
 
-/// What the way back needs of one step forward: the smoother gain and what is left uncertain about the
-/// earlier state once the later one is known.
+/// Data of a forward step for the backward pass: the smoother gain and the covariance of the earlier state
+/// given the later one.
 template <int m>
 struct Step {
   Square<m> gain;
@@ -73,7 +73,7 @@ class Iwp {
   }
 
   /// A position with noise variance r arrives. S is lower triangular with the position first, so only its
-  /// first column knows the position: the update scales that column and loses no digit.
+  /// first column involves the position: the update scales that column without loss of precision.
   static void measure(double r, Square<m>& s, std::array<double, m>& gain) {
     const double alpha = s[0] * s[0] + r;
     const double shrink = std::sqrt(r / alpha);
@@ -84,7 +84,8 @@ class Iwp {
     }
   }
 
-  /// Root of F S S' F' + Q, and, when `step` is not null, what the way back needs. h > 0 in units of 1/w.
+  /// Root of F S S' F' + Q, and, when `step` is not null, the data for the backward pass. h > 0 in units of
+  /// 1/w.
   void advance(double h, Square<m>& s, Step<m>* step) const {
     // [ (F S)'  S' ]   orthogonal    [ S+'  B' ]
     // [ Lq'     0  ]       ->        [ 0    W  ],  gain = B S+^-1,  left = W' W

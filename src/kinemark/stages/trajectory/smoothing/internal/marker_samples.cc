@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/choose.h"
 
@@ -83,8 +84,7 @@ void take_variances(const data::Trajectories& in, std::int64_t marker, MarkerSam
   }
   if (known.empty()) return;
   out.has_covariance = true;
-  std::nth_element(known.begin(), known.begin() + std::ssize(known) / 2, known.end());
-  const double median = known[known.size() / 2];
+  const double median = math::upper_median(known);
   out.typical_sd_m = std::sqrt(median);
   out.variance.assign(static_cast<std::size_t>(3 * out.frames), 1.0);
   bool all_one = true;

@@ -112,7 +112,7 @@ TEST(MarkerSamples, TimesOfEachFrame) {
   t.sample_offset_s[t.index(10, 0)] = 0.008;
   t.set_missing(20, 0);
   t.set_missing(21, 0);
-  t.sample_offset_s[t.index(20, 0)] = 99.0;  // of a frame without a sample: nobody knows
+  t.sample_offset_s[t.index(20, 0)] = 99.0;  // of a frame without a sample: not used
   const auto s = marker_samples(t, 0).value();
   ASSERT_EQ(s.time_s.size(), 30u);
   EXPECT_NEAR(s.time_s[10], 0.208, 1e-12);

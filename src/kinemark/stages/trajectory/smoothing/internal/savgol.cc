@@ -131,7 +131,7 @@ int choose_half(const MarkerSamples& samples, const std::vector<Stretch>& all, i
   const int narrowest = degree / 2 + 1;
   const int widest = static_cast<int>(std::clamp<std::int64_t>((longest - 1) / 2, narrowest, kWidest));
   if (options.cutoff_hz > 0.0) {
-    // The narrowest window that does not let more pass than asked.
+    // The narrowest window whose cut-off is not above the one asked.
     int low = narrowest, high = kWidest;
     while (low < high) {
       const int half = (low + high) / 2;

@@ -33,8 +33,8 @@ struct Stretch {
 /// |central difference|^2 of a frequency in units of the rate, s^-2.
 [[nodiscard]] double difference_power(double frequency, double interval_s);
 
-/// Butterworth, classic and none. Standard deviations hold the noise that passes, not the movement that is
-/// lost. Fails with not_supported when the marker's samples are not evenly spaced.
+/// Butterworth, classic and none. Standard deviations contain the noise that passes the filter, not the
+/// movement that it removes. Fails with not_supported when the marker's samples are not evenly spaced.
 [[nodiscard]] Status smooth_butterworth(const MarkerSamples& samples, const SmoothOptions& options,
                                         double rate_hz, MarkerResult& result);
 

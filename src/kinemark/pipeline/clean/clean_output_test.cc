@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/clean/internal/clean_output.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline::internal {
+namespace {
+
+using data::SampleState;
+using ::testing::ElementsAre;
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kFrames = 4;
+
+/// Two markers; the second has a gap in frame 1 and a sample that somebody filled in frame 2.
+data::Trial recorded() {
+  data::Trial trial;
+  trial.source = "walk.c3d";
+  trial.markers =
+      data::Trajectories::all_missing({"A", "B"}, {.rate_hz = 50.0, .t0_s = 0.0, .frames = kFrames});
+  for (std::int64_t f = 0; f < kFrames; ++f)
+    for (std::int64_t m = 0; m < 2; ++m) {
+      if (m == 1 && f == 1) continue;
+      trial.markers.x(f, m) = Eigen::Vector3d(static_cast<double>(f), static_cast<double>(m), 0.0);
+      trial.markers.state[trial.markers.index(f, m)] = SampleState::measured;
+    }
+  trial.markers.state[trial.markers.index(2, 1)] = SampleState::interpolated;
+  trial.markers.set_method(2, 1, "cubic");
+  return trial;
+}
+
+/// What a smoother makes of one marker: everything bridged, 1 mm everywhere, velocity 50 m/s in x.
+trajectory::MarkerResult smoothed(std::int64_t marker) {
+  trajectory::MarkerResult result;
+  result.marker = marker;
+  result.account.used.method = "kalman";
+  for (std::int64_t f = 0; f < kFrames; ++f) {
+    for (const double x : {static_cast<double>(f), static_cast<double>(marker), 0.0}) result.x.push_back(x);
+    for (const double c : {1e-6, 0.0, 0.0, 1e-6, 0.0, 1e-6}) result.covariance.push_back(c);
+    for (const double v : {50.0, 0.0, 0.0}) result.velocity.push_back(v);
+    for (int axis = 0; axis < 3; ++axis) result.velocity_sd.push_back(0.5);
+    result.state.push_back(marker == 1 && f != 0 && f != 3 ? SampleState::interpolated
+                                                           : SampleState::measured);
+  }
+  return result;
+}
+
+TEST(MarkerPiece, KeepsWhoMadeASampleAndNamesTheFilterForItsOwn) {
+  const auto trial = recorded();
+  const MarkerPiece piece(smoothed(1), trial.markers);
+  EXPECT_THAT(piece.markers.names, ElementsAre("B"));
+  EXPECT_EQ(piece.markers.time, trial.markers.time);
+  EXPECT_EQ(piece.markers.made_by(0, 0), "") << "measured";
+  EXPECT_EQ(piece.markers.made_by(1, 0), "kalman") << "bridged by the filter";
+  EXPECT_EQ(piece.markers.made_by(2, 0), "cubic") << "filled before";
+  EXPECT_EQ(piece.derivatives.filters.at(0).method, "kalman");
+  EXPECT_EQ(piece.derivatives.velocity.size(), 12U);
+}
+
+TEST(MarkerPiece, SampleTimesComeAlong) {
+  auto trial = recorded();
+  trial.markers.sample_offset_s.assign({0.001, 0.002});
+  EXPECT_THAT(MarkerPiece(smoothed(1), trial.markers).markers.sample_offset_s, ElementsAre(0.002));
+  trial.markers.sample_offset_s.assign({0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7});
+  EXPECT_THAT(MarkerPiece(smoothed(1), trial.markers).markers.sample_offset_s,
+              ElementsAre(0.1, 0.3, 0.5, 0.7));
+}
+
+TEST(DerivativesTable, HasAColumnAndADeviationForEachAxisAndOrder) {
+  const auto trial = recorded();
+  DerivativesTable table(trial.markers);
+  ASSERT_EQ(table.table().columns.size(), 36U);
+  EXPECT_EQ(table.table().columns[0], "A_vx");
+  EXPECT_EQ(table.table().columns[1], "A_vx_sd");
+  EXPECT_EQ(table.table().columns[35], "B_jz_sd");
+  table.add(MarkerPiece(smoothed(1), trial.markers).derivatives, 1);
+  const auto& filled = table.table();
+  EXPECT_DOUBLE_EQ(filled.time_s[3], 0.06);
+  EXPECT_EQ(filled(2, filled.find("B_vx")), 50.0);
+  EXPECT_EQ(filled(2, filled.find("B_vz_sd")), 0.5);
+  EXPECT_TRUE(std::isnan(filled(2, filled.find("B_ax")))) << "not given";
+  EXPECT_TRUE(std::isnan(filled(2, filled.find("A_vx")))) << "not yet added";
+}
+
+class CleanOutputTest : public ::testing::Test {
+ protected:
+  CleanOutput output(const fs::path& file, bool derivatives) {
+    job_.derivatives = derivatives;
+    auto made = CleanOutput::create(job_, file, trial_, {});
+    EXPECT_TRUE(made) << (made ? "" : made.error().message);
+    return std::move(made.value());
+  }
+  void take_both(CleanOutput& output) const {
+    for (const std::int64_t m : {1, 0}) EXPECT_TRUE(output.take(MarkerPiece(smoothed(m), trial_.markers), m));
+  }
+  testing_support::ScratchFolder scratch_;
+  data::Trial trial_ = recorded();
+  CleanJob job_;
+};
+
+TEST_F(CleanOutputTest, MarkersInAnyOrderBecomeOneRecording) {
+  auto out = output(scratch_ / "a.csv", true);
+  take_both(out);
+  data::Trial trial = trial_;
+  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto"));
+  EXPECT_EQ(trial.markers.count_missing(), 0);
+  EXPECT_EQ(trial.markers.made_by(1, 1), "kalman");
+  EXPECT_EQ(trial.markers.covariance.at(6 * trial.markers.index(2, 0)), 1e-6);
+  const auto back = io::read_markers(scratch_ / "a.csv").value().markers;
+  EXPECT_EQ(back.state, trial.markers.state);
+  EXPECT_EQ(io::read_table(scratch_ / "a.sto").value().rows(), kFrames);
+}
+
+TEST_F(CleanOutputTest, WithoutDerivativesThereIsNoTable) {
+  auto out = output(scratch_ / "a.trc", false);
+  take_both(out);
+  data::Trial trial = trial_;
+  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto"));
+  EXPECT_TRUE(fs::exists(scratch_ / "a.trc"));
+  EXPECT_FALSE(fs::exists(scratch_ / "a.sto"));
+}
+
+TEST_F(CleanOutputTest, AnNwbIsWrittenMarkerByMarkerAndSeenAtTheEnd) {
+  const fs::path file = scratch_ / "a.NWB";
+  auto out = output(file, true);
+  EXPECT_TRUE(is_nwb(file)) << "in any case of letters";
+  take_both(out);
+  EXPECT_FALSE(fs::exists(file));
+  data::Trial trial = trial_;
+  ASSERT_TRUE(out.finish(trial, {}));
+  const auto back = io::read_nwb(file);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->trajectories.made_by(2, 1), "cubic");
+  ASSERT_TRUE(back->derivatives);
+  EXPECT_EQ(back->derivatives->velocity.at(0), 50.0);
+  EXPECT_TRUE(std::isnan(back->derivatives->jerk.at(0))) << "promised, but not known";
+  EXPECT_TRUE(trial.markers.covariance.empty()) << "it is in the file, not kept twice";
+}
+
+TEST_F(CleanOutputTest, AFileThatCannotBeMadeIsSaid) {
+  const auto refused = CleanOutput::create(job_, scratch_ / "none/a.nwb", trial_, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::io);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline::internal

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/info_job.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/recording/counts_recording.h"
+#include "kinemark/io/recording/survey.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/marker_input.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+Status describe_markers(const InfoJob& job, InfoOutcome& out) {
+  const auto input =
+      read_marker_input({.path = job.file, .rate_hz = job.rate_hz, .rate = RateRule::or_unknown});
+  if (!input) return std::unexpected(input.error());
+  const auto& trial = input->trial;
+  const auto& markers = trial.markers;
+  out.facts =
+      MarkerFileFacts{.format = trial.format,
+                      .units = trial.units_in_file,
+                      .software = trial.software,
+                      .points = markers.markers(),
+                      .frames = markers.frames(),
+                      .rate_hz = input->rate_known ? std::optional(markers.time.rate_hz) : std::nullopt,
+                      .first_frame = trial.first_frame,
+                      .last_frame = trial.last_frame(),
+                      .missing = markers.count_missing(),
+                      .analog_channels = trial.analog.names.size(),
+                      .analog_rate_hz = trial.analog.rate_hz,
+                      .force_plates = trial.force_plates.size(),
+                      .events = trial.events.size(),
+                      .labels = markers.names};
+  out.warnings = trial.warnings;
+  return {};
+}
+
+Status describe_table(const InfoJob& job, InfoOutcome& out) {
+  auto table = io::read_table(job.file);
+  if (!table) return std::unexpected(table.error());
+  TableFacts facts{
+      .rows = table->rows(), .in_degrees = io::angles_are_degrees(*table), .labels = table->columns};
+  if (facts.rows > 0) {
+    facts.first_time_s = table->time_s.front();
+    facts.last_time_s = table->time_s.back();
+  }
+  out.facts = std::move(facts);
+  out.warnings = std::move(table->warnings);
+  return {};
+}
+
+Status describe_model(const InfoJob& job, InfoOutcome& out) {
+  auto model = io::read_osim(job.file);
+  if (!model) return std::unexpected(model.error());
+  ModelFacts facts{.name = model->name,
+                   .joints = model->joints.size(),
+                   .markers = model->markers.size(),
+                   .couplings = model->couplings.size(),
+                   .point_constraints = model->point_constraints.size()};
+  for (const auto& body : model->bodies) {
+    facts.mass_kg += body.mass;
+    facts.body_names.push_back(body.name);
+  }
+  for (const auto& coordinate : model->coordinates) facts.labels.push_back(coordinate.name);
+  out.facts = std::move(facts);
+  out.warnings = std::move(model->warnings);
+  return {};
+}
+
+/// What the counts of a recording are, and how many of their sightings are flawed.
+Result<CountsFacts> describe_counts(const std::filesystem::path& path) {
+  const auto recording = io::read_counts(path);
+  if (!recording) return std::unexpected(recording.error());
+  const data::Counts& counts = recording->counts;
+  const auto flagged = [&counts](data::CountFlag flag) -> std::int64_t {
+    return std::ranges::count_if(counts.flags, [flag](std::uint8_t flags) { return (flags & flag) != 0; });
+  };
+  return CountsFacts{.frames = counts.frames(),
+                     .rate_hz = counts.time.rate_hz,
+                     .first_time_s = counts.time.t0_s,
+                     .rig = counts.rig_id,
+                     .dark_slot = counts.has_dark_slot(),
+                     .saturated = flagged(data::kCountSaturated),
+                     .occluded = flagged(data::kCountOccluded),
+                     .lost = flagged(data::kCountLost),
+                     .cameras = counts.cameras,
+                     .labels = counts.leds};
+}
+
+Status describe_recording(const InfoJob& job, InfoOutcome& out) {
+  auto survey = io::survey_recording(job.file);
+  if (!survey) return std::unexpected(survey.error());
+  RecordingFacts facts{.end = survey->end, .bytes = survey->bytes, .messages = survey->messages};
+  for (const auto& channel : survey->channels) facts.channels.push_back(channel.topic);
+  for (const auto& metadata : survey->metadata) facts.metadata.push_back(metadata.name);
+  if (std::ranges::any_of(survey->channels, io::carries_counts)) {
+    auto counts = describe_counts(job.file);
+    if (!counts) return std::unexpected(counts.error());
+    facts.counts = std::move(*counts);
+  }
+  out.facts = std::move(facts);
+  out.warnings = std::move(survey->warnings);
+  return {};
+}
+
+}  // namespace
+
+Result<InfoOutcome> run_info(const InfoJob& job) {
+  const std::string ending = ending_of(job.file);
+  const auto describe = ending == ".osim"                      ? describe_model
+                        : ending == ".mot" || ending == ".sto" ? describe_table
+                        : ending == ".mcap"                    ? describe_recording
+                                                               : describe_markers;
+  InfoOutcome out;
+  out.file = job.file;
+  if (auto s = describe(job, out); !s) return std::unexpected(s.error());
+  return out;
+}
+
+}  // namespace kinemark::pipeline

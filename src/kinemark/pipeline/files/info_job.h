@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/io/recording/reader.h"
+#include "kinemark/pipeline/files/job_settings.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark info` is asked to do.
+struct InfoJob : JobSettings {
+  std::filesystem::path file;  ///< to look at
+  double rate_hz = 0.0;        ///< of marker files that tell none; 0: not given, theirs stays unknown
+};
+
+/// Of a marker file (.c3d, .trc, .nwb, .csv, .v3d).
+struct MarkerFileFacts {
+  std::string format, units, software;           ///< as data::Trial has them
+  std::int64_t points = 0, frames = 0;           ///< M and F
+  std::optional<double> rate_hz;                 ///< none: the file does not tell it
+  std::int64_t first_frame = 1, last_frame = 0;  ///< in the file's own counting
+  std::int64_t missing = 0;                      ///< marker frames
+  std::size_t analog_channels = 0;               ///< how many there are
+  double analog_rate_hz = 0.0;                   ///< of each channel; 0 without
+  std::size_t force_plates = 0, events = 0;      ///< how many there are
+  std::vector<std::string> labels;               ///< of the markers
+};
+
+/// Of a table (.mot, .sto).
+struct TableFacts {
+  std::int64_t rows = 0;                            ///< how many there are
+  std::optional<double> first_time_s, last_time_s;  ///< none: no rows
+  bool in_degrees = false;                          ///< as the file says
+  std::vector<std::string> labels;                  ///< columns without the time
+};
+
+/// Of a body model (.osim).
+struct ModelFacts {
+  std::string name;                                                           ///< as the file says
+  std::size_t joints = 0, markers = 0, couplings = 0, point_constraints = 0;  ///< how many there are
+  double mass_kg = 0.0;                                                       ///< of all bodies
+  std::vector<std::string> labels;                                            ///< of the coordinates
+  std::vector<std::string> body_names;                                        ///< in the order of the file
+};
+
+/// Of the counts in a recording.
+struct CountsFacts {
+  std::int64_t frames = 0;                             ///< F
+  double rate_hz = 0.0, first_time_s = 0.0;            ///< frames a second, and time of the first
+  std::string rig;                                     ///< its name; empty when not told
+  bool dark_slot = false;                              ///< a slot of each frame has no LED
+  std::int64_t saturated = 0, occluded = 0, lost = 0;  ///< sightings
+  std::vector<std::string> cameras, labels;            ///< labels: of the LEDs
+};
+
+/// Of a recording (.mcap).
+struct RecordingFacts {
+  io::RecordingEnd end = io::RecordingEnd::closed;  ///< how it ends
+  std::uint64_t bytes = 0;                          ///< size of the file
+  std::int64_t messages = 0;                        ///< of all channels
+  std::vector<std::string> channels, metadata;      ///< topics and names
+  std::optional<CountsFacts> counts;                ///< when it holds any
+};
+
+/// What `kinemark info` found.
+struct InfoOutcome : JobOutcome {
+  std::filesystem::path file;                                                   ///< as asked
+  std::variant<MarkerFileFacts, TableFacts, ModelFacts, RecordingFacts> facts;  ///< by the kind of the file
+};
+
+/// Read a file, by its ending, and say what it holds and what is odd about it. Writes nothing. Fails as the
+/// reader of its format.
+[[nodiscard]] Result<InfoOutcome> run_info(const InfoJob& job);
+
+}  // namespace kinemark::pipeline

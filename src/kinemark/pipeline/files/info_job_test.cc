@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/info_json.h"
+
+#include <gmock/gmock.h>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/testing/test_files.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<nlohmann::ordered_json> facts_of(const std::filesystem::path& file, double rate_hz = 0.0) {
+  InfoJob job;
+  job.file = file;
+  job.rate_hz = rate_hz;
+  const auto found = run_info(job);
+  if (!found) return std::unexpected(found.error());
+  return info_json(*found);
+}
+
+TEST(RunInfo, MarkersTablesAndModels) {
+  const testing_support::ScratchFolder scratch;
+  testing::simulate_into(scratch / "in");
+  const auto markers = io::read_markers(scratch / "in/markers.c3d").value().markers;
+  const auto facts = facts_of(scratch / "in/markers.c3d").value();
+  EXPECT_EQ(facts["kind"], "markers");
+  EXPECT_EQ(facts["points"], markers.markers());
+  EXPECT_EQ(facts["frames"], markers.frames());
+  EXPECT_EQ(facts["rate_hz"], 60.0);
+  EXPECT_EQ(facts["missing"], markers.count_missing());
+  EXPECT_EQ(facts["last_frame"].get<int>() - facts["first_frame"].get<int>() + 1, markers.frames());
+  EXPECT_EQ(facts["labels"].size(), markers.names.size());
+  EXPECT_EQ(facts["analog_channels"], 0);
+
+  const auto table = facts_of(scratch / "in/truth.mot").value();
+  EXPECT_EQ(table["kind"], "table");
+  EXPECT_EQ(table["rows"], markers.frames());
+  EXPECT_EQ(table["in_degrees"], true);
+  EXPECT_NEAR(table["last_time_s"].get<double>(), markers.time.time_s(markers.frames() - 1), 1e-9);
+
+  const auto model = facts_of(scratch / "in/model.osim").value();
+  EXPECT_EQ(model["kind"], "model");
+  EXPECT_GE(model["joints"], 25);
+  EXPECT_EQ(model["coordinates"], 40);
+  EXPECT_EQ(model["markers"], 40);
+  EXPECT_NEAR(model["mass_kg"].get<double>(), 75.0, 25.0);
+}
+
+TEST(RunInfo, AnEmptyTableHasNoTimes) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "none.sto",
+                             "none\nversion=1\nnRows=0\nnColumns=2\ninDegrees=no\nendheader\ntime\ta\n",
+                             false));
+  const auto facts = facts_of(scratch / "none.sto").value();
+  EXPECT_EQ(facts["rows"], 0);
+  EXPECT_TRUE(facts["first_time_s"].is_null());
+  EXPECT_TRUE(facts["last_time_s"].is_null());
+}
+
+TEST(RunInfo, SaysWhatIsWrongWithAFile) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "a.v3d",
+                             "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
+                             "ITEM\tX\tY\tZ\n1\t1\t2\t3\n",
+                             false));
+  EXPECT_TRUE(facts_of(scratch / "a.v3d").value()["rate_hz"].is_null()) << "the file tells none";
+  EXPECT_EQ(facts_of(scratch / "a.v3d", 179.0).value()["rate_hz"], 179.0);
+  EXPECT_EQ(facts_of(scratch / "absent.c3d").error().code, Code::io);
+  ASSERT_TRUE(io::write_text(scratch / "broken.osim", "<OpenSimDocument", false));
+  EXPECT_EQ(facts_of(scratch / "broken.osim").error().code, Code::bad_input);
+  ASSERT_TRUE(io::write_text(scratch / "notes.docx", "hello", false));
+  EXPECT_EQ(facts_of(scratch / "notes.docx").error().code, Code::not_supported);
+}
+
+TEST(InfoText, OneFactALineAndEveryWarning) {
+  InfoOutcome outcome;
+  outcome.file = "a.c3d";
+  outcome.facts = MarkerFileFacts{.points = 3, .labels = {"A", "B"}};
+  outcome.warnings = {"first oddity", "second oddity"};
+  const auto text = info_text(outcome);
+  EXPECT_THAT(text, HasSubstr("kind              markers\n"));
+  EXPECT_THAT(text, HasSubstr("points            3\n"));
+  EXPECT_THAT(text, HasSubstr("labels            A B\n"));
+  EXPECT_THAT(text, HasSubstr("rate_hz           null\n")) << "not known";
+  EXPECT_THAT(text, HasSubstr("warning           first oddity\nwarning           second oddity\n"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

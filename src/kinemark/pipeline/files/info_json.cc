@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/info_json.h"
+
+#include <fmt/core.h>
+
+namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+void add(const MarkerFileFacts& facts, Json& to) {
+  to["kind"] = "markers";
+  to["format"] = facts.format;
+  to["points"] = facts.points;
+  to["frames"] = facts.frames;
+  to["rate_hz"] = or_null(facts.rate_hz);
+  to["first_frame"] = facts.first_frame;
+  to["last_frame"] = facts.last_frame;
+  to["units"] = facts.units;
+  to["missing"] = facts.missing;
+  to["analog_channels"] = facts.analog_channels;
+  to["analog_rate_hz"] = facts.analog_rate_hz;
+  to["force_plates"] = facts.force_plates;
+  to["events"] = facts.events;
+  to["software"] = facts.software;
+  to["labels"] = facts.labels;
+}
+
+void add(const TableFacts& facts, Json& to) {
+  to["kind"] = "table";
+  to["rows"] = facts.rows;
+  to["columns"] = facts.labels.size();
+  to["first_time_s"] = or_null(facts.first_time_s);
+  to["last_time_s"] = or_null(facts.last_time_s);
+  to["in_degrees"] = facts.in_degrees;
+  to["labels"] = facts.labels;
+}
+
+void add(const ModelFacts& facts, Json& to) {
+  to["kind"] = "model";
+  to["name"] = facts.name;
+  to["bodies"] = facts.body_names.size();
+  to["joints"] = facts.joints;
+  to["coordinates"] = facts.labels.size();
+  to["markers"] = facts.markers;
+  to["couplings"] = facts.couplings;
+  to["point_constraints"] = facts.point_constraints;
+  to["mass_kg"] = facts.mass_kg;
+  to["labels"] = facts.labels;
+  to["body_names"] = facts.body_names;
+}
+
+void add(const CountsFacts& facts, Json& to) {
+  to["frames"] = facts.frames;
+  to["rate_hz"] = facts.rate_hz;
+  to["first_time_s"] = facts.first_time_s;
+  to["rig"] = facts.rig;
+  to["dark_slot"] = facts.dark_slot;
+  to["saturated"] = facts.saturated;
+  to["occluded"] = facts.occluded;
+  to["lost"] = facts.lost;
+  to["cameras"] = facts.cameras;
+  to["labels"] = facts.labels;
+}
+
+void add(const RecordingFacts& facts, Json& to) {
+  to["kind"] = "recording";
+  to["end"] = io::to_string(facts.end);
+  to["bytes"] = facts.bytes;
+  to["messages"] = facts.messages;
+  to["channels"] = facts.channels;
+  to["metadata"] = facts.metadata;
+  if (facts.counts) add(*facts.counts, to);
+}
+
+}  // namespace
+
+Json info_json(const InfoOutcome& outcome) {
+  Json json;
+  json["file"] = outcome.file.string();
+  std::visit([&json](const auto& facts) { add(facts, json); }, outcome.facts);
+  json["warnings"] = outcome.warnings;
+  return json;
+}
+
+std::string info_text(const InfoOutcome& outcome) {
+  std::string text;
+  for (const auto& [key, value] : info_json(outcome).items()) {
+    if (key == "warnings") {
+      for (const auto& warning : outcome.warnings) text += fmt::format("warning           {}\n", warning);
+    } else if (value.is_array()) {
+      std::string list;
+      for (const auto& item : value) list += (list.empty() ? "" : " ") + item.get<std::string>();
+      text += fmt::format("{:<17} {}\n", key, list);
+    } else {
+      text += fmt::format("{:<17} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+  return text;
+}
+
+}  // namespace kinemark::pipeline

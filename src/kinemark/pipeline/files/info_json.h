@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kinemark/pipeline/files/info_job.h"
+
+namespace kinemark::pipeline {
+
+/// The facts of a file.
+///
+/// Every answer has "file", "kind" and "warnings". Markers: format, points, frames, rate_hz (null: unknown),
+/// first_frame, last_frame, units, missing (marker frames), analog_channels, analog_rate_hz, force_plates,
+/// events, software, labels. Tables: rows, columns, first_time_s, last_time_s (null without rows),
+/// in_degrees, labels. Models: name, bodies, joints, coordinates, markers, couplings, point_constraints,
+/// mass_kg, labels (of coordinates), body_names. Recordings: end, bytes, messages, channels, metadata, and of
+/// counts also frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (sightings), cameras,
+/// labels.
+[[nodiscard]] nlohmann::ordered_json info_json(const InfoOutcome& outcome);
+
+/// The same for people, one fact a line.
+[[nodiscard]] std::string info_text(const InfoOutcome& outcome);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The one place where jobs read markers: the file, its rate, what it must hold, its record; and the samples
+// of it that a result is about. What the recorder did to them is the matter of marker_screening.h.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/data/trial.h"
+
+namespace kinemark::pipeline {
+
+/// What becomes of a rate that was given for a marker file.
+enum class RateRule : std::uint8_t {
+  given,         ///< it is for a file that tells none; any other refuses it
+  where_needed,  ///< a file that tells its own passes over it: one rate for several files
+  or_unknown,    ///< as `given`, and without one the frames of a file that tells none are only counted
+};
+
+/// A marker file to read (.c3d, .trc, .nwb, .csv or .v3d), and what is asked of it.
+struct MarkerSource {
+  std::filesystem::path path;       ///< file to read
+  double rate_hz = 0.0;             ///< of a file that tells none (.v3d); 0: not given
+  RateRule rate = RateRule::given;  ///< what becomes of rate_hz
+  bool needs_samples = false;       ///< refuse a file without markers or without frames
+  bool record = false;              ///< size and checksum, which reads the file once more
+};
+
+/// Markers as read, in metres.
+struct MarkerInput {
+  data::Trial trial;       ///< as read, m
+  data::InputFile file;    ///< role "markers"; bytes and hash only when asked for
+  bool rate_known = true;  ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
+};
+
+/// Fails as io::read_markers(); Code::bad_input for a file without samples where they are needed.
+[[nodiscard]] Result<MarkerInput> read_marker_input(const MarkerSource& source);
+
+/// Some markers of a recording on some of its frames, with positions and states.
+///
+/// @param from         M indices into the recorded markers
+/// @param names        M names that they get
+/// @param first_frame  of the recording; time.frames frames from there must exist
+/// @param time         clock of the result
+[[nodiscard]] data::Trajectories select_markers(const data::Trajectories& recorded,
+                                                std::span<const std::int64_t> from,
+                                                std::vector<std::string> names, std::int64_t first_frame,
+                                                const TimeBase& time);
+
+}  // namespace kinemark::pipeline

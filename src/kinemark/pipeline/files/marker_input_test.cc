@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/marker_input.h"
+
+#include <gmock/gmock.h>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/files/file_hash.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class ReadMarkerInput : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    data::Trial trial;
+    trial.markers =
+        data::Trajectories::all_missing({"A", "B", "C"}, {.rate_hz = 50.0, .t0_s = 0.0, .frames = 6});
+    for (std::int64_t f = 0; f < 6; ++f)
+      for (std::int64_t m = 0; m < 3; ++m) {
+        if (f == 2 && m == 1) continue;
+        trial.markers.x(f, m) = Eigen::Vector3d(static_cast<double>(f), static_cast<double>(m), 0.25);
+        trial.markers.state[trial.markers.index(f, m)] = data::SampleState::measured;
+      }
+    ASSERT_TRUE(io::write_markers(trc_, trial, false));
+    ASSERT_TRUE(io::write_text(v3d_,
+                               "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
+                               "ITEM\tX\tY\tZ\n1\t1\t2\t3\n2\t1\t2\t3\n",
+                               false));
+  }
+  testing_support::ScratchFolder scratch_;
+  fs::path trc_ = scratch_ / "a.trc", v3d_ = scratch_ / "a.v3d";
+};
+
+TEST_F(ReadMarkerInput, AFileThatTellsItsRateNeedsNone) {
+  const auto input = read_marker_input({.path = trc_}).value();
+  EXPECT_EQ(input.trial.markers.time.rate_hz, 50.0);
+  EXPECT_TRUE(input.rate_known);
+  EXPECT_EQ(input.file.role, "markers");
+  EXPECT_EQ(input.file.path, trc_.string());
+  EXPECT_EQ(input.file.hash, "") << "not asked for";
+}
+
+TEST_F(ReadMarkerInput, RateOfAFileThatTellsNone) {
+  EXPECT_EQ(read_marker_input({.path = v3d_}).error().code, Code::usage);
+  for (const auto rule : {RateRule::given, RateRule::where_needed, RateRule::or_unknown}) {
+    const auto input = read_marker_input({.path = v3d_, .rate_hz = 179.0, .rate = rule}).value();
+    EXPECT_EQ(input.trial.markers.time.rate_hz, 179.0);
+    EXPECT_TRUE(input.rate_known);
+  }
+  const auto unknown = read_marker_input({.path = v3d_, .rate = RateRule::or_unknown}).value();
+  EXPECT_FALSE(unknown.rate_known);
+  EXPECT_EQ(unknown.trial.markers.frames(), 2);
+}
+
+TEST_F(ReadMarkerInput, ARateForAFileThatTellsItsOwn) {
+  EXPECT_EQ(read_marker_input({.path = trc_, .rate_hz = 100.0}).error().code, Code::usage);
+  EXPECT_EQ(read_marker_input({.path = trc_, .rate_hz = 100.0, .rate = RateRule::or_unknown}).error().code,
+            Code::usage);
+  const auto passed_over =
+      read_marker_input({.path = trc_, .rate_hz = 100.0, .rate = RateRule::where_needed}).value();
+  EXPECT_EQ(passed_over.trial.markers.time.rate_hz, 50.0);
+}
+
+TEST_F(ReadMarkerInput, TheRecordHoldsSizeAndChecksum) {
+  const auto input = read_marker_input({.path = trc_, .record = true}).value();
+  const auto hash = hash_file(trc_).value();
+  EXPECT_EQ(input.file.role, "markers");
+  EXPECT_EQ(input.file.bytes, hash.bytes);
+  EXPECT_EQ(input.file.hash, hash.hex);
+  EXPECT_EQ(input.file.hash_kind, "XXH3-64");
+}
+
+TEST_F(ReadMarkerInput, ARecordingOfAnalogChannelsAloneIsRefusedWhereSamplesAreNeeded) {
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 3});
+  trial.analog = {.names = {"EMG"}, .units = {"V"}, .rate_hz = 100.0, .samples = 3};
+  trial.analog.values.assign(3, 0.5);
+  ASSERT_TRUE(io::write_markers(scratch_ / "emg.c3d", trial, false));
+  ASSERT_TRUE(read_marker_input({.path = scratch_ / "emg.c3d"})) << "info and convert can use it";
+  const auto refused = read_marker_input({.path = scratch_ / "emg.c3d", .needs_samples = true});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::bad_input);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("emg.c3d: holds 0 markers and 3 frames; need at least one of each"));
+}
+
+TEST_F(ReadMarkerInput, WhatCannotBeReadIsTheReadersSentence) {
+  EXPECT_EQ(read_marker_input({.path = scratch_ / "none.c3d"}).error().code, Code::io);
+  ASSERT_TRUE(io::write_text(scratch_ / "notes.docx", "hello", false));
+  EXPECT_EQ(read_marker_input({.path = scratch_ / "notes.docx"}).error().code, Code::not_supported);
+}
+
+TEST_F(ReadMarkerInput, SelectedMarkersKeepPlacesAndStatesUnderTheirNewNames) {
+  const auto recorded = read_marker_input({.path = trc_}).value().trial.markers;
+  const std::vector<std::int64_t> from{2, 1};
+  const TimeBase time{.rate_hz = 50.0, .t0_s = 0.02, .frames = 3};
+  const auto selected = select_markers(recorded, from, {"hand", "wrist"}, 1, time);
+  EXPECT_THAT(selected.names, ElementsAre("hand", "wrist"));
+  EXPECT_EQ(selected.time, time);
+  for (std::int64_t f = 0; f < 3; ++f) {
+    EXPECT_LT((selected.x(f, 0) - recorded.x(1 + f, 2)).norm(), 1e-15);
+    EXPECT_EQ(selected.present(f, 1), f != 1) << "the gap of B in frame 2";
+  }
+  EXPECT_TRUE(selected.validate());
+  EXPECT_EQ(select_markers(recorded, {}, {}, 0, time).markers(), 0);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

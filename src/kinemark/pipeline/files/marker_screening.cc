@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/marker_screening.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <utility>
+
+#include "kinemark/core/enum_names.h"
+#include "kinemark/stages/trajectory/screening/real_samples.h"
+#include "kinemark/stages/trajectory/screening/screen.h"
+#include "kinemark/stages/trajectory/screening/upsampling.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+constexpr EnumNames<RecorderMade::decimate> kRecorderMade{"keep", "mark", "missing", "decimate"};
+
+Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
+  if (!rules.find_defects) return {};
+  const auto& markers = trial.markers;
+  auto defects = trajectory::screen(markers);
+  if (!defects) return std::unexpected(defects.error());
+  out.defects = std::move(*defects);
+  double samples = 0.0;
+  for (const data::Defect& defect : out.defects) {
+    if (defect.confidence < rules.sure || defect.kind == data::DefectKind::clock_jump) continue;
+    out.sure.push_back(defect);
+    samples += static_cast<double>(defect.last_frame - defect.first_frame + 1);
+  }
+  if (!out.sure.empty()) out.sure_share = samples / static_cast<double>(markers.state.size());
+  return {};
+}
+
+Status reject_defects(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
+  if (!rules.reject_defects || out.sure.empty() || out.sure_share > rules.most_rejected) return {};
+  auto rest = trajectory::reject_defects(trial.markers, out.sure, rules.sure);
+  if (!rest) return std::unexpected(rest.error());
+  trial.markers = std::move(*rest);
+  out.rejected = true;
+  return {};
+}
+
+Status find_upsampling(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
+  if (!rules.find_upsampling) return {};
+  auto found = trajectory::detect_upsampling(trial.markers);
+  if (!found) return std::unexpected(found.error());
+  out.upsampling = std::move(*found);
+  return {};
+}
+
+/// Analog samples and residuals belong to the old frames.
+void change_frames(data::Trial& trial, data::Trajectories markers, Screening& out) {
+  trial.residual_m.clear();
+  trial.camera_mask.clear();
+  trial.first_frame = 1;
+  if (!trial.analog.names.empty()) {
+    out.warnings.push_back(
+        fmt::format("{} analog channels were left out: they cannot be told by frames of {:g} Hz",
+                    trial.analog.names.size(), markers.time.rate_hz));
+    trial.analog = {};
+    trial.force_plates.clear();
+  }
+  trial.markers = std::move(markers);
+}
+
+Status treat_made(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
+  if (!out.upsampling) return {};
+  const RecorderMade choice = rules.recorder_made;
+  const auto& found = *out.upsampling;
+  if (choice == RecorderMade::keep || found.factor() == 1) return {};
+  const auto made = choice == RecorderMade::mark      ? trajectory::MadeSamples::mark
+                    : choice == RecorderMade::missing ? trajectory::MadeSamples::missing
+                                                      : trajectory::MadeSamples::decimate;
+  auto real = trajectory::keep_real_samples(trial.markers, found, made);
+  if (!real) return std::unexpected(real.error());
+  if (real->frames() != trial.markers.frames()) {
+    change_frames(trial, std::move(*real), out);
+    return {};
+  }
+  out.made_left_out = real->count_missing() - trial.markers.count_missing();
+  trial.markers = std::move(*real);
+  return {};
+}
+
+}  // namespace
+
+std::string_view to_string(RecorderMade made) { return kRecorderMade[made]; }
+
+Result<RecorderMade> parse_recorder_made(std::string_view name) {
+  return kRecorderMade.parse(name, "choice for samples that the recorder made");
+}
+
+Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules) {
+  using Step = Status (*)(data::Trial&, const ScreeningRules&, Screening&);
+  constexpr std::array<Step, 4> kAsRecorded = {find_defects, find_upsampling, reject_defects, treat_made};
+  constexpr std::array<Step, 4> kMadeFirst = {find_upsampling, treat_made, find_defects, reject_defects};
+  Screening out;
+  for (const Step step : rules.made_first ? kMadeFirst : kAsRecorded)
+    if (auto s = step(trial, rules, out); !s) return std::unexpected(s.error());
+  return out;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/marker_screening.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using data::SampleState;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Three markers on smooth paths, 0.5 mm of noise, at the times of the frames.
+data::Trial recording(std::int64_t frames = 400, double rate_hz = 100.0) {
+  data::Trial trial;
+  trial.markers =
+      data::Trajectories::all_missing({"A", "B", "C"}, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = frames});
+  Random noise(5, 0);
+  for (std::int64_t f = 0; f < frames; ++f)
+    for (std::int64_t m = 0; m < 3; ++m) {
+      const double t = static_cast<double>(f) / rate_hz, at = static_cast<double>(m);
+      trial.markers.x(f, m) =
+          Eigen::Vector3d(std::sin(2.0 * t + at), 1.0 + 0.3 * at, 0.4 * std::cos(3.0 * t - at));
+      for (int axis = 0; axis < 3; ++axis) trial.markers.x(f, m)[axis] += 5e-4 * noise.gaussian();
+      trial.markers.state[trial.markers.index(f, m)] = SampleState::measured;
+    }
+  return trial;
+}
+
+/// Every second frame made by the recorder, half-way between its neighbours; analog channels beside.
+data::Trial doubled() {
+  auto trial = recording();
+  auto& markers = trial.markers;
+  for (std::int64_t f = 1; f + 1 < markers.frames(); f += 2)
+    for (std::int64_t m = 0; m < 3; ++m) markers.x(f, m) = 0.5 * (markers.x(f - 1, m) + markers.x(f + 1, m));
+  trial.analog = {.names = {"EMG"}, .units = {"V"}, .rate_hz = 100.0, .samples = markers.frames()};
+  trial.analog.values.assign(static_cast<std::size_t>(markers.frames()), 0.0F);
+  trial.first_frame = 7;
+  return trial;
+}
+
+std::int64_t count(const data::Trial& trial, SampleState state) {
+  return std::ranges::count(trial.markers.state, state);
+}
+
+TEST(ScreenMarkers, ACleanRecordingStaysAsItIs) {
+  auto trial = recording();
+  const auto before = trial.markers.x_in_world;
+  const auto found =
+      screen_markers(trial, {.recorder_made = RecorderMade::missing, .reject_defects = true}).value();
+  EXPECT_THAT(found.sure, IsEmpty());
+  EXPECT_FALSE(found.rejected);
+  EXPECT_EQ(found.made_left_out, 0);
+  ASSERT_TRUE(found.upsampling);
+  EXPECT_FALSE(found.upsampling->recording.found());
+  EXPECT_EQ(trial.markers.x_in_world, before);
+}
+
+TEST(ScreenMarkers, ASpikeIsToldAndRejectedOnlyWhenAsked) {
+  auto trial = recording();
+  trial.markers.x(50, 1).x() += 0.2;
+  auto told = trial;
+  const auto only_told = screen_markers(told, {}).value();
+  ASSERT_EQ(only_told.sure.size(), 1U);
+  EXPECT_EQ(only_told.sure[0].marker, 1);
+  EXPECT_FALSE(only_told.rejected);
+  EXPECT_TRUE(told.markers.present(50, 1));
+  const auto rejected = screen_markers(trial, {.reject_defects = true}).value();
+  EXPECT_TRUE(rejected.rejected);
+  EXPECT_EQ(trial.markers.state[trial.markers.index(50, 1)], SampleState::rejected);
+  EXPECT_EQ(count(trial, SampleState::rejected), 1);
+}
+
+TEST(ScreenMarkers, WhereDefectsTakeTooMuchNothingIsRejected) {
+  auto trial = recording();
+  trial.markers.x(50, 1).x() += 0.2;
+  const auto found = screen_markers(trial, {.reject_defects = true, .most_rejected = 1e-4}).value();
+  EXPECT_NEAR(found.sure_share, 1.0 / 1200.0, 1e-4);
+  EXPECT_FALSE(found.rejected);
+  EXPECT_TRUE(trial.markers.present(50, 1));
+}
+
+TEST(ScreenMarkers, NothingIsLookedForThatWasNotAsked) {
+  auto trial = doubled();
+  trial.markers.x(50, 1).x() += 0.2;
+  const auto found = screen_markers(trial, {.find_upsampling = false,
+                                            .recorder_made = RecorderMade::missing,
+                                            .find_defects = false,
+                                            .reject_defects = true})
+                         .value();
+  EXPECT_THAT(found.defects, IsEmpty());
+  EXPECT_FALSE(found.upsampling);
+  EXPECT_EQ(trial.markers.count_missing(), 0);
+}
+
+TEST(ScreenMarkers, MadeSamplesAreMarkedRemovedOrDecimated) {
+  auto kept = doubled();
+  const auto told = screen_markers(kept, {.recorder_made = RecorderMade::keep}).value();
+  EXPECT_EQ(told.upsampling->recording.factor, 2);
+  EXPECT_EQ(count(kept, SampleState::measured), 1200);
+  auto marked = doubled();
+  ASSERT_TRUE(screen_markers(marked, {.recorder_made = RecorderMade::mark}));
+  EXPECT_NEAR(static_cast<double>(count(marked, SampleState::upsampled)), 600.0, 6.0);
+  auto missing = doubled();
+  const auto left_out = screen_markers(missing, {.recorder_made = RecorderMade::missing}).value();
+  EXPECT_EQ(left_out.made_left_out, missing.markers.count_missing());
+  EXPECT_NEAR(static_cast<double>(left_out.made_left_out), 600.0, 6.0);
+  EXPECT_EQ(missing.analog.names.size(), 1U) << "the frames are the same";
+  EXPECT_EQ(missing.first_frame, 7);
+}
+
+TEST(ScreenMarkers, AnotherRateLeavesOutWhatBelongsToTheOldFrames) {
+  auto trial = doubled();
+  const auto found = screen_markers(trial, {.recorder_made = RecorderMade::decimate}).value();
+  EXPECT_EQ(trial.markers.frames(), 200);
+  EXPECT_DOUBLE_EQ(trial.markers.time.rate_hz, 50.0);
+  EXPECT_TRUE(trial.analog.names.empty());
+  EXPECT_EQ(trial.first_frame, 1);
+  EXPECT_THAT(found.warnings,
+              ElementsAre("1 analog channels were left out: they cannot be told by frames of 50 Hz"));
+}
+
+TEST(ScreenMarkers, MadeFirstLooksForDefectsInWhatIsLeft) {
+  // A made sample that stands out is no defect of the real ones.
+  auto trial = doubled();
+  trial.markers.x(101, 1).x() += 0.2;
+  auto first = trial;
+  const auto as_recorded = screen_markers(trial, {.recorder_made = RecorderMade::missing}).value();
+  EXPECT_EQ(as_recorded.sure.size(), 1U);
+  const auto made_first =
+      screen_markers(first, {.recorder_made = RecorderMade::missing, .made_first = true}).value();
+  EXPECT_THAT(made_first.sure, IsEmpty());
+}
+
+TEST(ScreenMarkers, AnInvalidTrialIsOneSentence) {
+  auto trial = recording();
+  trial.markers.state.pop_back();
+  EXPECT_FALSE(screen_markers(trial, {}));
+}
+
+TEST(RecorderMadeNames, ComeBack) {
+  for (const auto made :
+       {RecorderMade::keep, RecorderMade::mark, RecorderMade::missing, RecorderMade::decimate})
+    EXPECT_EQ(parse_recorder_made(to_string(made)).value(), made);
+  EXPECT_THAT(parse_recorder_made("drop").error().message, HasSubstr("keep, mark, missing and decimate"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

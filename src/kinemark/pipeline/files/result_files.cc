@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/result_files.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/io/text/table_file.h"
+
+namespace kinemark::pipeline {
+
+namespace fs = std::filesystem;
+
+ResultFile text_file(fs::path target, std::function<std::string()> make) {
+  return {std::move(target),
+          [make = std::move(make)](const fs::path& staged) { return io::write_text(staged, make(), false); }};
+}
+
+ResultFile table_file(fs::path target, std::function<data::Table()> make) {
+  return {std::move(target),
+          [make = std::move(make)](const fs::path& staged) { return io::write_table(staged, make(), {}); }};
+}
+
+ResultFile marker_file(fs::path target, const data::Trial& trial) {
+  return {std::move(target),
+          [&trial](const fs::path& staged) { return io::write_markers(staged, trial, false); }};
+}
+
+ResultFile model_file(fs::path target, const data::ModelDescription& model) {
+  return {std::move(target), [&model](const fs::path& staged) { return io::write_osim(staged, model, {}); }};
+}
+
+Result<std::vector<fs::path>> write_results(Staging& staging, const std::vector<ResultFile>& files,
+                                            const Progress& progress, std::string_view what) {
+  const auto total = static_cast<std::int64_t>(files.size());
+  std::int64_t done = 0;
+  for (const auto& file : files) {
+    if (auto s = file.write(staging.path_of(file.target)); !s) return staging.failure(s.error());
+    if (progress && !progress(++done, total))
+      return fail(Code::cancelled, fmt::format("{} was stopped", what));
+  }
+  auto written = staging.written();
+  if (auto s = staging.commit(); !s) return std::unexpected(s.error());
+  return written;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/validate_job.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kinemark/pipeline/files/info_job.h"
+
+namespace kinemark::pipeline {
+
+int CheckedFile::exit_status() const {
+  if (error) return kinemark::exit_status(error->code);
+  return warnings.empty() ? 0 : 1;
+}
+
+int ValidateOutcome::exit_status() const {
+  int worst = 0;
+  for (const auto& checked : files) worst = std::max(worst, checked.exit_status());
+  return worst;
+}
+
+Result<ValidateOutcome> run_validate(const ValidateJob& job) {
+  ValidateOutcome out;
+  const auto total = static_cast<std::int64_t>(job.files.size());
+  for (const auto& file : job.files) {
+    InfoJob info;
+    info.file = file;
+    auto facts = run_info(info);
+    CheckedFile& checked = out.files.emplace_back();
+    checked.file = file;
+    if (facts)
+      checked.warnings = std::move(facts->warnings);
+    else
+      checked.error = std::move(facts.error());
+    if (job.progress && !job.progress(static_cast<std::int64_t>(out.files.size()), total))
+      return fail(Code::cancelled, "the validation was stopped");
+  }
+  return out;
+}
+
+}  // namespace kinemark::pipeline

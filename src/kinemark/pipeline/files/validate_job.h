@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark validate` is asked to do.
+struct ValidateJob : JobSettings {
+  std::vector<std::filesystem::path> files;  ///< to look at
+};
+
+/// One file that was looked at.
+struct CheckedFile {
+  std::filesystem::path file;         ///< as asked
+  std::vector<std::string> warnings;  ///< what is odd about it
+  std::optional<Error> error;         ///< why it cannot be read
+
+  /// 0 nothing to say, 1 readable with warnings, 3 or 4 not readable.
+  [[nodiscard]] int exit_status() const;
+};
+
+/// What `kinemark validate` found.
+struct ValidateOutcome : JobOutcome {
+  std::vector<CheckedFile> files;  ///< in the order asked
+
+  [[nodiscard]] int exit_status() const;  ///< the highest of all files
+};
+
+/// Read every file as run_info() does. Succeeds whatever the files are like; progress counts files, and a
+/// caller that stops it ends with Code::cancelled.
+[[nodiscard]] Result<ValidateOutcome> run_validate(const ValidateJob& job);
+
+}  // namespace kinemark::pipeline

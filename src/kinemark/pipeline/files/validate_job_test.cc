@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/validate_job.h"
+
+#include <gmock/gmock.h>
+
+#include "kinemark/io/file.h"
+#include "kinemark/pipeline/files/outcome_json.h"
+#include "kinemark/pipeline/testing/test_files.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+class RunValidate : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(io::write_text(
+        good_, "good\nversion=1\nnRows=1\nnColumns=2\ninDegrees=no\nendheader\ntime\ta\n0\t1\n", false));
+    ASSERT_TRUE(io::write_text(
+        odd_, "odd\nversion=1\nnRows=5\nnColumns=2\ninDegrees=no\nendheader\ntime\ta\n0\t1\n", false));
+    ASSERT_TRUE(io::write_text(broken_, "<OpenSimDocument", false));
+  }
+  testing_support::ScratchFolder scratch_;
+  std::filesystem::path good_ = scratch_ / "good.sto", odd_ = scratch_ / "odd.sto",
+                        broken_ = scratch_ / "broken.osim", absent_ = scratch_ / "absent.c3d";
+  static ValidateOutcome validate(std::vector<std::filesystem::path> files) {
+    ValidateJob job;
+    job.files = std::move(files);
+    return run_validate(job).value();
+  }
+};
+
+TEST_F(RunValidate, EveryFileHasItsOwnStatusAndTheWorstCounts) {
+  const auto outcome = validate({good_, odd_, broken_, absent_});
+  ASSERT_EQ(outcome.files.size(), 4U);
+  EXPECT_EQ(outcome.files[0].exit_status(), 0);
+  EXPECT_EQ(outcome.files[1].exit_status(), 1);
+  EXPECT_EQ(outcome.files[2].exit_status(), 3);
+  EXPECT_EQ(outcome.files[3].exit_status(), 4);
+  EXPECT_EQ(outcome.exit_status(), 4);
+  EXPECT_THAT(outcome.files[1].warnings.at(0), HasSubstr("5"));
+  ASSERT_TRUE(outcome.files[2].error);
+  EXPECT_THAT(outcome.files[2].error->message, HasSubstr("broken.osim"));
+  EXPECT_EQ(validate({good_}).exit_status(), 0);
+  EXPECT_EQ(validate({}).exit_status(), 0);
+}
+
+TEST_F(RunValidate, TheJsonHasWarningsOrAnError) {
+  const auto json = validate_json(validate({good_, odd_, broken_}));
+  ASSERT_EQ(json.size(), 3U);
+  EXPECT_EQ(json[0], nlohmann::ordered_json({{"file", good_.string()},
+                                             {"exit_status", 0},
+                                             {"warnings", nlohmann::ordered_json::array()}}));
+  EXPECT_EQ(json[1]["warnings"].size(), 1U);
+  EXPECT_FALSE(json[1].contains("error"));
+  EXPECT_EQ(json[2]["exit_status"], 3);
+  EXPECT_THAT(json[2]["error"].get<std::string>(), HasSubstr("broken.osim"));
+  EXPECT_FALSE(json[2].contains("warnings"));
+}
+
+TEST_F(RunValidate, ProgressCountsFilesAndMayStop) {
+  ValidateJob job;
+  job.files = {good_, good_, good_};
+  std::int64_t seen = 0;
+  job.progress = [&](std::int64_t done, std::int64_t total) {
+    EXPECT_EQ(total, 3);
+    seen = done;
+    return done < 2;
+  };
+  EXPECT_EQ(run_validate(job).error().code, Code::cancelled);
+  EXPECT_EQ(seen, 2);
+}
+
+TEST(OutcomeJson, TellsWhatWasWrittenAndWarned) {
+  JobOutcome outcome;
+  EXPECT_EQ(outcome_json(outcome).dump(), R"({"written":[],"warnings":[]})");
+  outcome.written = {"a/b.trc"};
+  outcome.warnings = {"odd"};
+  EXPECT_EQ(outcome_json(outcome).dump(), R"({"written":["a/b.trc"],"warnings":["odd"]})");
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

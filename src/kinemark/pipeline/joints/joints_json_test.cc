@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/joints/joints_json.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/core/units.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using data::CentreState;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Two segments, a hinge and a ball, four frames.
+data::Skeleton small() {
+  data::Skeleton s;
+  s.time = {.rate_hz = 50.0, .t0_s = 0.0, .frames = 4};
+  s.markers = {"A", "B", "C"};
+  s.noise_sd_m = 0.001;
+  s.segments.resize(2);
+  s.segments[0].name = "thigh";
+  s.segments[0].markers = {0, 2};
+  s.segments[0].x_in_segment = Eigen::Matrix3Xd::Zero(3, 2);
+  s.segments[0].x_in_segment.col(1) = Eigen::Vector3d(0.1, 0.2, 0.3);
+  s.segments[1].name = "shank";
+  s.joints.resize(2);
+  auto& knee = s.joints[0];
+  knee.name = "knee";
+  knee.kind = data::JointKind::hinge;
+  knee.parent_segment = 0;
+  knee.child_segment = 1;
+  knee.method = "SARA";
+  knee.words = "a hinge";
+  knee.range_of_motion_rad = 90.0 * kRadPerDeg;
+  knee.axis_in_parent = knee.axis_in_child = Eigen::Vector3d::UnitZ();
+  knee.axis_sd_rad = 1.0 * kRadPerDeg;
+  knee.centre_in_parent = Eigen::Vector3d(0.0, -0.4, 0.0);
+  knee.covariance_in_parent = 1e-6 * Eigen::Matrix3d::Identity();
+  knee.covariance_in_child = Eigen::Matrix3d::Constant(kNaN);
+  s.joints[1].name = "lost";
+  s.joints[1].kind = data::JointKind::ball;
+  s.joints[1].parent_segment = 1;
+  s.joints[1].child_segment = 0;
+  s.joints[1].covariance_in_parent = s.joints[1].covariance_in_child = Eigen::Matrix3d::Constant(kNaN);
+  s.centre_in_world.assign(3 * 4 * 2, kNaN);
+  s.covariance.assign(6 * 4 * 2, kNaN);
+  s.state.assign(8, CentreState::undetermined);
+  const CentreState states[] = {CentreState::determined, CentreState::bridged, CentreState::ambiguous};
+  for (std::int64_t f = 0; f < 3; ++f) {
+    const auto i = static_cast<std::size_t>(s.index(f, 0));
+    s.state[i] = states[f];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      s.centre_in_world[3 * i + axis] = static_cast<double>(f) + 0.1 * static_cast<double>(axis);
+      s.covariance[6 * i + axis] = 0.0;
+      s.covariance[6 * i + 3 + axis] = 0.0;
+    }
+  }
+  s.lengths.push_back({.name = "knee to lost", .joint_a = 0, .joint_b = 1, .length_m = 0.4, .sd_m = 0.002});
+  s.warnings = {"odd"};
+  return s;
+}
+
+TEST(SkeletonJson, UnknownNumbersAreNullAndAnglesDegrees) {
+  const auto json = skeleton_json(small());
+  EXPECT_EQ(json["schema"], "kinemark.skeleton");
+  EXPECT_EQ(json["frames"], 4);
+  EXPECT_EQ(json["segments"][0]["markers"][1]["name"], "C");
+  EXPECT_EQ(json["segments"][0]["markers"][1]["x_in_segment_m"], nlohmann::json({0.1, 0.2, 0.3}));
+  const auto& knee = json["joints"][0];
+  EXPECT_EQ(knee["parent"], "thigh");
+  EXPECT_NEAR(knee["range_of_motion_deg"].get<double>(), 90.0, 1e-12);
+  EXPECT_NEAR(knee["axis_sd_deg"].get<double>(), 1.0, 1e-12);
+  EXPECT_EQ(knee["centre_in_parent_m"], nlohmann::json({0.0, -0.4, 0.0}));
+  EXPECT_EQ(knee["covariance_in_parent_m2"][1][1], 1e-6);
+  EXPECT_TRUE(knee["centre_in_child_m"].is_null());
+  EXPECT_TRUE(knee["covariance_in_child_m2"].is_null());
+  EXPECT_EQ(knee["frames"].dump(), R"({"determined":1,"bridged":1,"ambiguous":1,"undetermined":1})");
+  const auto& lost = json["joints"][1];
+  EXPECT_TRUE(lost["centre_sd_m"].is_null()) << "placed nowhere";
+  EXPECT_FALSE(lost.contains("axis_in_parent")) << "a ball has no axis";
+  EXPECT_EQ(json["lengths"][0]["to"], "lost");
+  EXPECT_EQ(json["warnings"], nlohmann::json({"odd"}));
+}
+
+TEST(SkeletonWords, OneLineAJointAndALength) {
+  const auto lines = skeleton_words(small());
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[0], HasSubstr("knee (hinge, SARA): a hinge; placed in 3 of 4 frames"));
+  EXPECT_THAT(lines[0], HasSubstr("across the axis"));
+  EXPECT_THAT(lines[0], HasSubstr("1 ambiguous"));
+  EXPECT_THAT(lines[1], HasSubstr("lost (ball, not found): ; placed in 0 of 4 frames"));
+  EXPECT_EQ(lines[2], "knee to lost: 400.0 mm (SD 2.0)");
+}
+
+TEST(CentreTrajectories, StatesSayHowEachCentreWasFound) {
+  const auto centres = centre_trajectories(small());
+  EXPECT_THAT(centres.names, ElementsAre("knee", "lost"));
+  EXPECT_EQ(centres.state[centres.index(0, 0)], data::SampleState::model_filled);
+  EXPECT_EQ(centres.made_by(0, 0), "SARA: determined");
+  EXPECT_EQ(centres.state[centres.index(1, 0)], data::SampleState::interpolated);
+  EXPECT_EQ(centres.made_by(1, 0), "SARA: bridged");
+  EXPECT_EQ(centres.made_by(2, 0), "SARA: ambiguous");
+  EXPECT_FALSE(centres.present(3, 0));
+  EXPECT_NEAR(centres.x(2, 0).y(), 2.1, 1e-15);
+  for (std::int64_t f = 0; f < 4; ++f) EXPECT_FALSE(centres.present(f, 1));
+}
+
+TEST(JointsJson, TellsHowTheSkeletonWasFound) {
+  JointsJob job;
+  job.method = "sara";
+  job.command_line = "kinemark joints walk.c3d";
+  JointsOutcome outcome;
+  outcome.skeleton = small();
+  outcome.input = {.role = "markers", .path = "walk.c3d", .bytes = 3, .hash = "00ff", .hash_kind = "XXH3-64"};
+  outcome.warnings = {"Left out: a spike"};
+  auto json = joints_json(job, outcome);
+  EXPECT_EQ(json["command"], job.command_line);
+  EXPECT_EQ(json["input"].dump(), R"({"path":"walk.c3d","xxh3_64":"00ff"})");
+  EXPECT_EQ(json["method"], "sara");
+  EXPECT_EQ(json["notes"], nlohmann::json({"Left out: a spike"}));
+  EXPECT_EQ(json["slips"].dump(), "[]");
+  EXPECT_FALSE(json.contains("topology")) << "the segments were given";
+  EXPECT_FALSE(json.contains("marker_noise"));
+  outcome.marker_noise_sd_m = {0.001, kNaN, 0.002};
+  outcome.topology.emplace();
+  outcome.topology->markers.resize(3);
+  outcome.topology->markers[1].doubtful = true;
+  outcome.topology->joints.resize(1);
+  outcome.topology->joints[0].margin = std::numeric_limits<double>::infinity();
+  outcome.topology->layout.joints.push_back({"knee", 0, 1});
+  json = joints_json(job, outcome);
+  ASSERT_EQ(json["marker_noise"].size(), 2U) << "that of B is not known";
+  EXPECT_EQ(json["marker_noise"][1]["name"], "C");
+  EXPECT_EQ(json["topology"]["markers"][1]["doubtful"], true);
+  EXPECT_EQ(json["topology"]["joints"][0]["name"], "knee");
+  EXPECT_TRUE(json["topology"]["joints"][0]["margin"].is_null()) << "no other tree was possible";
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/report_job.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/motion/ik_job.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class RunReport : public testing::RecordedTest<IkJob> {
+ protected:
+  static Result<ReportOutcome> page(const fs::path& solved, const fs::path& target, bool force = false) {
+    ReportJob job;
+    job.solved = solved;
+    job.page = target;
+    job.force = force;
+    return run_report(job);
+  }
+  /// What a page carries for its script.
+  static nlohmann::json data_of(const fs::path& file) {
+    const auto text = io::read_text(file).value();
+    const std::string begin = "id=\"kinemark-data\">";
+    const auto first = text.find(begin) + begin.size();
+    return nlohmann::json::parse(text.substr(first, text.find("</script>", first) - first));
+  }
+};
+
+TEST_F(RunReport, AReportMadeLaterIsTheReportMadeAtOnce) {
+  auto with_page = job("R.mot");
+  with_page.report = at("at_once.html");
+  ASSERT_TRUE(run_ik(with_page));
+  ASSERT_TRUE(page(at("R.mot"), at("later.html")));
+  ASSERT_TRUE(page(at("R_report.json"), at("from_json.html")));
+  EXPECT_EQ(io::read_text(at("later.html")).value(), io::read_text(at("from_json.html")).value());
+  const auto once = io::read_text(at("at_once.html")).value(),
+             later = io::read_text(at("later.html")).value();
+  EXPECT_NEAR(static_cast<double>(once.size()), static_cast<double>(later.size()),
+              0.05 * static_cast<double>(once.size()));
+  EXPECT_EQ(once.find("http://"), later.find("http://"));
+  EXPECT_EQ(page(at("R.mot"), at("later.html")).error().code, Code::io) << "exists already";
+}
+
+TEST_F(RunReport, AReportOfMissingOrForeignFilesIsOneSentence) {
+  EXPECT_EQ(page(at("nothing.mot"), at("n.html")).error().code, Code::io);
+  ASSERT_TRUE(io::write_text(at("X_report.json"), "{ not json", false));
+  EXPECT_THAT(page(at("X.mot"), at("n.html")).error().message, HasSubstr("is not JSON"));
+  EXPECT_FALSE(fs::exists(at("n.html")));
+}
+
+TEST_F(RunReport, TheGapMapNeedsTheRecordingAndTheRestDoesNot) {
+  fs::copy_file(at("in/markers.c3d"), at("lent.c3d"));
+  ASSERT_TRUE(run_ik(job("lent.mot", "lent.c3d")));
+  ASSERT_TRUE(page(at("lent.mot"), at("with.html")));
+  fs::remove(at("lent.c3d"));
+  const auto without = page(at("lent.mot"), at("without.html"));
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_THAT(without->written, ElementsAre(at("without.html")));
+  EXPECT_EQ(without->exit_status(), 0);
+  const auto there = data_of(at("with.html"))["summary"], gone = data_of(at("without.html"))["summary"];
+  EXPECT_EQ(there["frames"], gone["frames"]);
+  EXPECT_EQ(there["coordinates"], gone["coordinates"]);
+}
+
+TEST_F(RunReport, FilesThatDoNotBelongTogetherAreBadInput) {
+  ASSERT_TRUE(run_ik(job("mixed.mot")));
+  auto shorter = io::read_table(at("mixed_marker_errors.sto")).value();
+  shorter.time_s.pop_back();
+  shorter.values.resize(shorter.values.size() - shorter.columns.size());
+  ASSERT_TRUE(io::write_table(at("mixed_marker_errors.sto"), shorter, {.force = true}));
+  const auto refused = page(at("mixed.mot"), at("mixed.html"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::bad_input);
+  EXPECT_THAT(refused.error().message, HasSubstr("mixed.mot"));
+  ASSERT_TRUE(io::write_text(at("mixed_report.json"), "{}", true));
+  EXPECT_EQ(page(at("mixed.mot"), at("mixed.html")).error().code, Code::bad_input);
+  fs::remove(at("mixed_marker_errors.sto"));
+  EXPECT_FALSE(page(at("mixed.mot"), at("mixed.html")));
+  EXPECT_FALSE(fs::exists(at("mixed.html")));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/rig/reconstruct_json.h"
+
+#include <utility>
+
+namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json summary_of(const reconstruction::LedSummary& led) {
+  return {{"name", led.name},          {"frames", led.frames},       {"located", led.located},
+          {"occluded", led.occluded},  {"saturated", led.saturated}, {"inconsistent", led.inconsistent},
+          {"near_edge", led.near_edge}};
+}
+
+void add_fit(const trajectory::LedFit& fit, Json& to) {
+  to["order"] = fit.bandwidth.order;
+  to["cutoff_hz"] = fit.bandwidth.cutoff_hz;
+  to["chi2_per_dof"] = fit.chi2_per_dof;
+  to["rejected"] = fit.rejected;
+  to["held_down"] = fit.held_down;
+  to["flicker_counts"] = fit.flicker_counts;
+}
+
+}  // namespace
+
+Json reconstruct_json(const ReconstructOutcome& outcome) {
+  Json leds = Json::array();
+  for (const auto& led : outcome.leds) leds.push_back(summary_of(led));
+  for (std::size_t i = 0; i < outcome.fits.size(); ++i) add_fit(outcome.fits[i], leds[i]);
+  return Json{{"method", method_name(outcome.method)},
+              {"frames", outcome.frames},
+              {"written", outcome.written.front().string()},
+              {"warnings", outcome.warnings},
+              {"leds", std::move(leds)}};
+}
+
+}  // namespace kinemark::pipeline

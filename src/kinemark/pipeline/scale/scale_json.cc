@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/scale/scale_json.h"
+
+#include "kinemark/core/version.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json numbers(const Eigen::Vector3d& v) { return ordered_json::array({v.x(), v.y(), v.z()}); }
+
+const char* word(motion::ParameterKind kind) {
+  if (kind == motion::ParameterKind::body_scale) return "size";
+  return kind == motion::ParameterKind::joint_offset ? "joint place" : "marker place";
+}
+
+ordered_json measurements(const motion::ScaleResult& scaled) {
+  ordered_json list = ordered_json::array();
+  for (const auto& measurement : scaled.measurements) {
+    ordered_json pairs = ordered_json::array();
+    for (const auto& pair : measurement.pairs)
+      pairs.push_back({{"markers", {pair.first, pair.second}},
+                       {"measured_m", pair.measured_m},
+                       {"measured_sd_m", pair.measured_sd_m},
+                       {"model_m", pair.model_m}});
+    list.push_back({{"name", measurement.name}, {"factor", measurement.factor}, {"pairs", std::move(pairs)}});
+  }
+  return list;
+}
+
+ordered_json adapted(const motion::AdaptResult& result) {
+  ordered_json parameters = ordered_json::array(), lengths = ordered_json::array();
+  for (const auto& p : result.parameters)
+    parameters.push_back({{"name", p.name},
+                          {"kind", word(p.kind)},
+                          {"initial", p.initial},
+                          {"value", p.value},
+                          {"sd", p.interval()},
+                          {"prior_sd", p.prior_sd},
+                          {"determined", p.determined}});
+  for (const auto& length : result.lengths)
+    lengths.push_back({{"name", length.name},
+                       {"initial_m", length.initial_m},
+                       {"length_m", length.length_m},
+                       {"sd_m", length.sd_m},
+                       {"determined", length.determined}});
+  return {{"frames", result.frames},
+          {"iterations", result.iterations},
+          {"converged", result.converged},
+          {"rms_before_m", result.rms_before_m},
+          {"rms_after_m", result.rms_after_m},
+          {"noise_sd_m", result.noise_sd_m},
+          {"soft_tissue_sd_m", result.tissue_sd_m},
+          {"lengths", std::move(lengths)},
+          {"parameters", std::move(parameters)},
+          {"not_determined", result.not_determined},
+          {"recommendations", result.recommendations}};
+}
+
+}  // namespace
+
+ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
+  ordered_json factors = ordered_json::object();
+  double mass = 0.0;
+  for (const auto& body : outcome.factors) factors[body.body] = numbers(body.factors);
+  for (const auto& body : outcome.model.bodies) mass += body.mass;
+  ordered_json report{{"format", "kinemark-scale"},
+                      {"version", 1},
+                      {"program", kVersion},
+                      {"command", job.command_line},
+                      {"model", outcome.model.name},
+                      {"mass_kg", mass},
+                      {"exit_status", outcome.exit_status()},
+                      {"notes", outcome.warnings},
+                      {"clavicles", outcome.clavicles},
+                      {"factors", std::move(factors)}};
+  if (outcome.scaled) report["measurements"] = measurements(*outcome.scaled);
+  if (outcome.placed) {
+    ordered_json placed = ordered_json::array();
+    for (const auto& marker : outcome.placed->markers)
+      placed.push_back({{"name", marker.name},
+                        {"body", marker.body},
+                        {"before_in_body_m", numbers(marker.before_in_body)},
+                        {"after_in_body_m", numbers(marker.after_in_body)},
+                        {"fixed", marker.fixed}});
+    report["placed"] = {{"rms_m", outcome.placed->rms_m},
+                        {"not_in_static_trial", outcome.placed->unseen},
+                        {"markers", std::move(placed)}};
+  }
+  if (outcome.from_static) report["static"] = adapted(*outcome.from_static);
+  if (outcome.from_motion) report["motion"] = adapted(*outcome.from_motion);
+  return report;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/error_bars.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/math/nonnegative_least_squares.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/problem.h"
+
+namespace kinemark::motion {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::int64_t kSampledFrames = 300;
+constexpr double kBlindRotation =
+    1.0 / 0.003;  // rad of error per m of marker error beyond which a coordinate is not determined
+constexpr double kBlindTranslation = 20.0;  // m per m
+constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar is not valid
+constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
+constexpr double kBlindFloor = 1e-13;  // lower: even a small share of an undetermined direction must show
+
+/// One thread's view of one frame: pose, visible markers, inverse normal matrices.
+struct Frame {
+  explicit Frame(const internal::Problem& p)
+      : problem(p),
+        w(p.model),
+        y(3, p.model.marker_count()),
+        weight(p.model.marker_count()),
+        x(p.model.state_count()),
+        q(p.model.coordinate_count()) {}
+
+  void visit(const data::Trajectories& markers, const MatrixXd& states, std::int64_t f) {
+    frame = f;
+    problem.observe(markers, f, y, weight);
+    x = states.col(f);
+    model::kinematics(problem.model, w, x);
+    if (!problem.model.point_constraints().empty()) model::point_constraint_jacobian(problem.model, w, C);
+  }
+
+  /// Inverse of H on the speeds that may move and within the closed loops.
+  void invert(MatrixXd& H, double floor, MatrixXd& K) {
+    const Eigen::Index n = H.rows();
+    H.diagonal().array() += floor;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!problem.fixed_speed[at(i)]) continue;
+      H.row(i).setZero();
+      H.col(i).setZero();
+      H(i, i) = 1.0;
+    }
+    llt.compute(H);
+    while (llt.info() != Eigen::Success) {  // rounding made the pivot of an undetermined direction negative
+      floor = std::max(10.0 * floor, 1e-16);
+      if (floor > 1e6) break;
+      H.diagonal().array() += floor;
+      llt.compute(H);
+    }
+    K.setIdentity(n, n);
+    llt.solveInPlace(K);
+    if (C.rows() > 0) {
+      MatrixXd free_C = C;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (problem.fixed_speed[at(i)]) free_C.col(i).setZero();
+      const MatrixXd KC = K * free_C.transpose();
+      MatrixXd loop = free_C * KC;
+      loop.diagonal().array() += 1e-12 * loop.trace() + 1e-300;
+      K -= KC * loop.llt().solve(KC.transpose());
+    }
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (problem.fixed_speed[at(i)]) {
+        K.row(i).setZero();
+        K.col(i).setZero();
+      }
+  }
+
+  /// K = (J'WJ + tasks)^-1; q must be set when there are tasks.
+  void inverse_normal_matrix() {
+    model::marker_normal_matrix(problem.model, w, weight, H);
+    const double total = weight.sum();
+    if (!problem.pulls.empty()) {
+      model::coordinate_jacobian(problem.model, w, q, E);
+      for (const auto& pull : problem.pulls)
+        H.noalias() += total * pull.weight * E.row(pull.coordinate).transpose() * E.row(pull.coordinate);
+    }
+    invert(H, kFloor * total, K);
+  }
+
+  const internal::Problem& problem;
+  model::Workspace w;
+  std::int64_t frame = 0;
+  Eigen::Matrix3Xd y;
+  VectorXd weight, x, q;
+  MatrixXd H, K, C, E, J;
+  Eigen::LLT<MatrixXd> llt;
+};
+
+/// Sums of the normal equations for the variances.
+struct Sums {
+  MatrixXd N;
+  VectorXd b, information, seen;
+  double squares = 0.0, freedom = 0.0;
+};
+
+/// Add one frame's equations: for markers and for pairs of markers on one segment, expected against observed
+/// products.
+void add_equations(Frame& frame, const std::vector<int>& segment_of_body, const std::vector<int>& bodies,
+                   Sums& sums) {
+  const auto& model = frame.problem.model;
+  std::vector<int> visible;
+  for (int m = 0; m < model.marker_count(); ++m)
+    if (frame.weight[m] > 0.0 && model.markers()[at(m)].body >= 0) visible.push_back(m);
+  const auto V = static_cast<Eigen::Index>(visible.size());
+  if (V == 0) return;
+  model::marker_jacobian(model, frame.w, frame.J);
+  MatrixXd J(3 * V, model.speed_count()), WJ;
+  VectorXd r(3 * V);
+  for (Eigen::Index i = 0; i < V; ++i) {
+    const int m = visible[at(i)];
+    J.middleRows<3>(3 * i) = frame.J.middleRows<3>(3 * m);
+    r.segment<3>(3 * i) = frame.y.col(m) - frame.w.marker.col(m);
+  }
+  WJ = J;
+  for (Eigen::Index i = 0; i < V; ++i) WJ.middleRows<3>(3 * i) *= frame.weight[visible[at(i)]];
+  MatrixXd P = -J * (frame.K * WJ.transpose());
+  P.diagonal().array() += 1.0;
+  sums.squares += r.squaredNorm();
+  sums.freedom += P.squaredNorm();
+
+  const auto S = static_cast<Eigen::Index>(bodies.size());
+  std::vector<MatrixXd> common(at(S), MatrixXd::Zero(3 * V, 3));
+  std::vector<std::vector<Eigen::Index>> members(at(S));
+  for (Eigen::Index i = 0; i < V; ++i) {
+    const int s = segment_of_body[at(model.markers()[at(visible[at(i)])].body)];
+    if (s < 0) continue;
+    common[at(s)] += P.middleCols<3>(3 * i);
+    members[at(s)].push_back(i);
+  }
+  const Eigen::Index M = model.marker_count(), unknowns = M + S;
+  const auto add_row = [&](Eigen::Index i, Eigen::Index j, double count) {
+    VectorXd row = VectorXd::Zero(unknowns);
+    for (Eigen::Index k = 0; k < V; ++k)
+      row[visible[at(k)]] = P.block<3, 3>(3 * i, 3 * k).cwiseProduct(P.block<3, 3>(3 * j, 3 * k)).sum();
+    for (Eigen::Index s = 0; s < S; ++s)
+      if (members[at(s)].size() > 1)
+        row[M + s] =
+            common[at(s)].middleRows<3>(3 * i).cwiseProduct(common[at(s)].middleRows<3>(3 * j)).sum();
+    sums.N.selfadjointView<Eigen::Lower>().rankUpdate(row, count);
+    sums.b += count * r.segment<3>(3 * i).dot(r.segment<3>(3 * j)) * row;
+  };
+  for (Eigen::Index i = 0; i < V; ++i) {
+    add_row(i, i, 1.0);
+    sums.information[visible[at(i)]] += P.block<3, 3>(3 * i, 3 * i).squaredNorm();
+    sums.seen[visible[at(i)]] += 1.0;
+  }
+  for (const auto& member : members)
+    for (std::size_t a = 0; a < member.size(); ++a)
+      for (std::size_t b = a + 1; b < member.size(); ++b) add_row(member[a], member[b], 2.0);
+}
+
+}  // namespace
+
+MarkerVariances estimate_variances(const internal::Problem& problem, const data::Trajectories& markers,
+                                   const MatrixXd& states, int threads) {
+  const auto& model = problem.model;
+  const Eigen::Index M = model.marker_count();
+  std::vector<int> on_body(model.bodies().size(), 0), segment_of_body(model.bodies().size(), -1), bodies;
+  for (const auto& marker : model.markers())
+    if (marker.body >= 0) ++on_body[at(marker.body)];
+  for (std::size_t b = 0; b < on_body.size(); ++b)
+    if (on_body[b] > 1) {
+      segment_of_body[b] = static_cast<int>(bodies.size());
+      bodies.push_back(static_cast<int>(b));
+    }
+  const Eigen::Index unknowns = M + static_cast<Eigen::Index>(bodies.size());
+
+  const std::int64_t stride = (problem.frames + kSampledFrames - 1) / kSampledFrames;
+  const std::int64_t sampled = (problem.frames + stride - 1) / stride, grain = 16;
+  std::vector<Sums> partial(at((sampled + grain - 1) / grain));
+  parallel_for(sampled, grain, threads, [&](std::int64_t begin, std::int64_t end) {
+    Sums& sums = partial[at(begin / grain)];
+    sums.N.setZero(unknowns, unknowns);
+    for (auto* v : {&sums.b}) v->setZero(unknowns);
+    for (auto* v : {&sums.information, &sums.seen}) v->setZero(M);
+    Frame frame(problem);
+    for (std::int64_t i = begin; i < end; ++i) {
+      frame.visit(markers, states, i * stride);
+      if (frame.weight.sum() == 0.0) continue;
+      if (!problem.pulls.empty()) {
+        frame.q.setZero();
+        model::coordinates_from_state(model, frame.x, frame.q, frame.q);
+      }
+      frame.inverse_normal_matrix();
+      add_equations(frame, segment_of_body, bodies, sums);
+    }
+  });
+  Sums total = std::move(partial.front());
+  for (std::size_t i = 1; i < partial.size(); ++i) {
+    total.N += partial[i].N;
+    total.b += partial[i].b;
+    total.information += partial[i].information;
+    total.seen += partial[i].seen;
+    total.squares += partial[i].squares;
+    total.freedom += partial[i].freedom;
+  }
+
+  MarkerVariances variances;
+  const double pooled = total.freedom > 1e-6 ? total.squares / total.freedom : 0.0;
+  variances.own.setConstant(M, pooled);
+  variances.common.setZero(static_cast<Eigen::Index>(model.bodies().size()));
+  if (total.freedom < 5.0 * static_cast<double>(unknowns))
+    return variances;  // too few data for variances of single markers
+  const MatrixXd N = total.N.selfadjointView<Eigen::Lower>();
+  const VectorXd v = math::nonnegative_least_squares(N, total.b);
+  for (Eigen::Index m = 0; m < M; ++m)
+    if (total.seen[m] > 0.0 && total.information[m] / (3.0 * total.seen[m]) > 0.02) variances.own[m] = v[m];
+  for (std::size_t s = 0; s < bodies.size(); ++s)
+    variances.common[bodies[s]] = v[M + static_cast<Eigen::Index>(s)];
+  return variances;
+}
+
+void compute_error_bars(const internal::Problem& problem, const data::Trajectories& markers,
+                        const MatrixXd& states, const MarkerVariances& variances, int threads,
+                        data::JointMotion& motion) {
+  const auto& model = problem.model;
+  const int n = model.coordinate_count(), M = model.marker_count();
+  motion.q_sd.assign(motion.q.size(), std::numeric_limits<double>::quiet_NaN());
+  motion.determined.assign(motion.q.size(), 0);
+  parallel_for(problem.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
+    Frame frame(problem);
+    MatrixXd unit_H, unit_K, B, rows, segment;
+    VectorXd seen(M), spread(M);
+    for (std::int64_t f = begin; f < end; ++f) {
+      frame.visit(markers, states, f);
+      frame.q = Eigen::Map<const VectorXd>(motion.q.data() + motion.index(f, 0), n);
+      model::coordinate_jacobian(model, frame.w, frame.q, frame.E);
+
+      // The coordinates that these markers determine.
+      for (int m = 0; m < M; ++m) seen[m] = frame.weight[m] > 0.0 ? 1.0 : 0.0;
+      if (seen.sum() == 0.0) continue;
+      model::marker_normal_matrix(model, frame.w, seen, unit_H);
+      frame.invert(unit_H, kBlindFloor * seen.sum(), unit_K);
+      rows.noalias() = frame.E * unit_K;
+      std::uint8_t* determined = motion.determined.data() + motion.index(f, 0);
+      for (int c = 0; c < n; ++c) {
+        const double per_metre = std::sqrt(std::max(0.0, rows.row(c).dot(frame.E.row(c))));
+        const bool rotation = motion.is_rotation[at(c)];
+        determined[c] = per_metre <= (rotation ? kBlindRotation : kBlindTranslation);
+      }
+
+      // Sandwich: K (J'W S W J) K.
+      frame.inverse_normal_matrix();
+      for (int m = 0; m < M; ++m) spread[m] = frame.weight[m] * frame.weight[m] * variances.own[m];
+      model::marker_normal_matrix(model, frame.w, spread, B);
+      for (Eigen::Index b = 0; b < variances.common.size(); ++b) {
+        if (variances.common[b] == 0.0) continue;
+        segment.setZero(3, model.speed_count());
+        for (int m = 0; m < M; ++m) {
+          if (model.markers()[at(m)].body != b || frame.weight[m] == 0.0) continue;
+          for (const int column : model.bodies()[at(b)].support) {
+            const auto& s = frame.w.column[at(column)];
+            segment.col(model.columns()[at(column)].speed) +=
+                frame.weight[m] * (s.v + s.w.cross(Eigen::Vector3d(frame.w.marker.col(m))));
+          }
+        }
+        B.noalias() += variances.common[b] * segment.transpose() * segment;
+      }
+      rows.noalias() = frame.E * frame.K;
+      for (int c = 0; c < n; ++c) {
+        if (!determined[c]) continue;
+        const double sd = std::sqrt(std::max(0.0, rows.row(c).dot(B * rows.row(c).transpose())));
+        if (sd <= kLargestSd)
+          motion.q_sd[motion.index(f, c)] = sd;
+        else
+          determined[c] = 0;
+      }
+    }
+  });
+}
+
+}  // namespace kinemark::motion

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/frame/modes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
+#include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
+
+namespace kinemark::skeleton::articulated {
+namespace {
+
+using testing_limbs::hide;
+using testing_limbs::make_random_chain;
+using testing_limbs::RandomChain;
+
+constexpr double kNoise_m = 0.001;
+
+/// A frame's modes, from the true geometry.
+struct Found {
+  PoseSolver solver;
+  ModeFinder finder;
+  std::vector<ChainMode> modes;
+  int count = 0;
+
+  Found(const RandomChain& limb, int frame) : solver(limb.chain), finder(limb.chain) {
+    solver.set(limb.samples.frame(frame));
+    count = finder.find(solver, limb.samples.frame(frame), kNoise_m, nullptr, 40, modes);
+  }
+  [[nodiscard]] Matrix3d covariance() {
+    Eigen::MatrixXd H;
+    Eigen::VectorXd b;
+    Eigen::Matrix3Xd by_frame, by_geometry;
+    solver.normal(modes[0].pose, {}, false, H, b);
+    FrameInformation information;
+    information.set(solver.chain(), H);
+    solver.joint_jacobian(modes[0].pose, 0, by_frame, by_geometry);
+    return kNoise_m * kNoise_m * by_frame * information.inverse() * by_frame.transpose();
+  }
+};
+
+TEST(ModeFinder, ThreeMarkersLeaveTwoMirroredPlacesOfEqualWeight) {
+  RandomChain limb = make_random_chain({.frames = 30, .noise_sd_m = 0.0});
+  int pairs = 0;
+  for (int f = 0; f < 30; ++f) {
+    for (const int k : {0, 3, 4}) hide(limb.samples, f, k);
+    const Found found(limb, f);
+    ASSERT_GE(found.count, 1);
+    double sum = 0.0;
+    for (int i = 0; i < found.count; ++i) {
+      sum += found.modes[static_cast<std::size_t>(i)].weight;
+      if (i > 0) {
+        EXPECT_GE(found.modes[static_cast<std::size_t>(i)].cost,
+                  found.modes[static_cast<std::size_t>(i - 1)].cost);
+      }
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    if (found.count < 2 || found.modes[1].cost > 1e-12) continue;
+    ++pairs;
+    EXPECT_NEAR(found.modes[0].weight, found.modes[1].weight, 0.02) << f;
+    // Both at the same distance from each of the three markers.
+    for (const int k : {1, 2, 5}) {
+      const Eigen::Map<const Vector3d> x(limb.samples.frame(f) + 3 * k);
+      EXPECT_NEAR((found.modes[0].centre[0] - x).norm(), (found.modes[1].centre[0] - x).norm(), 1e-6);
+    }
+  }
+  EXPECT_GT(pairs, 22);
+}
+
+TEST(ModeFinder, AFrameWithoutMarkersHasNone) {
+  RandomChain limb = make_random_chain({.frames = 1});
+  for (int k = 0; k < 6; ++k) hide(limb.samples, 0, k);
+  EXPECT_EQ(Found(limb, 0).count, 0);
+}
+
+TEST(Profile, IsAGaussianWhereAllIsSeen) {
+  const RandomChain limb = make_random_chain({.frames = 5});
+  for (int f = 0; f < 5; ++f) {
+    Found found(limb, f);
+    const Matrix3d C = found.covariance();
+    const ChainMode& best = found.modes[0];
+    EXPECT_TRUE(profile_is_gaussian(found.solver, best.pose, best.cost, 0, C, kNoise_m));
+    const auto moments = profile_moments(found.solver, best.pose, best.cost, 0, C, kNoise_m);
+    ASSERT_TRUE(moments.has_value());
+    EXPECT_NEAR(moments->variance_ratio, 1.0, 0.1);
+    EXPECT_LT(moments->shift.norm(), 0.1 * std::sqrt(C.trace()));
+    EXPECT_LT(moments->more.norm(), 0.1 * C.norm());
+  }
+}
+
+// Three markers whose two mirrored places have grown into one: the likelihood there is a flat trough, but
+// where noise has driven the two far past each other.
+TEST(Profile, AFoldIsNoGaussian) {
+  RandomChain limb = make_random_chain({.frames = 200, .stagger_m = 0.01});
+  int folds = 0, noticed = 0;
+  for (int f = 0; f < 200; ++f) {
+    for (const int k : {0, 3, 4}) hide(limb.samples, f, k);
+    Found found(limb, f);
+    if (found.count != 1) continue;
+    const ChainMode& best = found.modes[0];
+    ++folds;
+    if (!profile_is_gaussian(found.solver, best.pose, best.cost, 0, found.covariance(), kNoise_m)) ++noticed;
+  }
+  EXPECT_GT(folds, 10);
+  EXPECT_GT(noticed, folds * 8 / 10);
+}
+
+TEST(ModeFinder, AnExtraStartIsTriedToo) {
+  RandomChain limb = make_random_chain({.frames = 10});
+  for (int f = 0; f < 10; ++f) {
+    for (const int k : {0, 3, 4}) hide(limb.samples, f, k);
+    Found found(limb, f);
+    ASSERT_GE(found.count, 1);
+    const double before = found.modes[0].cost;
+    found.count = found.finder.find(found.solver, limb.samples.frame(f), kNoise_m,
+                                    &limb.pose[static_cast<std::size_t>(f)], 40, found.modes);
+    EXPECT_GE(found.count, 1);
+    EXPECT_LE(found.modes[0].cost, before * (1.0 + 1e-6) + 1e-12) << "never worse for it";
+  }
+}
+
+TEST(ModeFinder, WholeSegmentsLeaveOneModeOfAllWeight) {
+  const RandomChain limb = make_random_chain({.markers_per_segment = 4, .frames = 10});
+  for (int f = 0; f < 10; ++f) {
+    const Found found(limb, f);
+    ASSERT_GE(found.count, 1);
+    EXPECT_GT(found.modes[0].weight, 0.999) << f;
+    EXPECT_LT((found.modes[0].centre[0] - limb.pose[static_cast<std::size_t>(f)].joint0).norm(), 0.01);
+  }
+}
+
+// A covariance a hundred times too small makes steps within which nothing can be seen.
+TEST(Profile, HasNoMomentsWhereItsStepsAreWrong) {
+  const RandomChain limb = make_random_chain({.frames = 3});
+  for (int f = 0; f < 3; ++f) {
+    Found found(limb, f);
+    const ChainMode& best = found.modes[0];
+    const Matrix3d C = found.covariance();
+    EXPECT_FALSE(profile_moments(found.solver, best.pose, best.cost, 0, 1e-4 * C, kNoise_m).has_value())
+        << "open ends";
+    EXPECT_FALSE(profile_moments(found.solver, best.pose, best.cost, 0, 100.0 * C, kNoise_m).has_value())
+        << "too coarse";
+    EXPECT_FALSE(profile_is_gaussian(found.solver, best.pose, best.cost, 0, 100.0 * C, kNoise_m));
+  }
+}
+
+}  // namespace
+}  // namespace kinemark::skeleton::articulated

@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/data/joint_choice.h"
+#include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
+#include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
+#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
+
+namespace kinemark::skeleton::articulated {
+
+namespace {
+
+constexpr double kUnknownPosition = 1.0;  // m, SD of a parameter that no frame shows
+constexpr double kDifference = 1e-5;      // m, for derivatives of log det H
+constexpr double kShrinkage = 300.0;      // residuals' degrees of freedom that the common noise weighs
+
+// Rotations without information get a trace of it; their part of G is zero, so nothing else changes.
+void hold_loose_rotations(const Chain& chain, Eigen::MatrixXd& H) {
+  double largest = 0.0;
+  for (Eigen::Index i = 3; i < H.rows(); ++i) largest = std::max(largest, H(i, i));
+  largest = std::max(largest, 1e-6 * chain.scale() * chain.scale());
+  for (Eigen::Index i = 0; i < H.rows(); ++i) H(i, i) += i < 3 ? 1e-12 : 1e-10 * largest;
+}
+
+}  // namespace
+
+Vector3d joint_from_markers(const Chain& chain, int joint, bool in_parent) {
+  const std::vector<int> markers =
+      chain.layout.markers_of(in_parent ? chain.layout.parent[joint] : joint + 1);
+  Vector3d mean = Vector3d::Zero();
+  for (const int k : markers) mean += chain.marker.col(k);
+  const Vector3d position = in_parent ? Vector3d(chain.joint.col(joint)) : Vector3d(Vector3d::Zero());
+  return position - mean / static_cast<double>(markers.size());
+}
+
+GeometryFit::GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames& frames, double sigma_m)
+    : chain_(chain), samples_(samples), frames_(frames), solver_(chain) {
+  set_noise(sigma_m);
+}
+
+void GeometryFit::set_noise(double sigma_m) { prior_weight_ = std::pow(sigma_m / data::kJointPriorSd_m, 2); }
+
+Matrix3d GeometryFit::prior_information(int j, bool in_parent) const {
+  Matrix3d out = prior_weight_ * Matrix3d::Identity();
+  const double hold = prior_weight_ * std::pow(data::kJointPriorSd_m / kHingeHold_m, 2);
+  for (const HingeAxis& hinge : hinges_) {
+    const Vector3d& axis = in_parent ? hinge.in_parent : hinge.in_child;
+    if (hinge.joint == j) out += hold * axis * axis.transpose();
+  }
+  return out;
+}
+
+double GeometryFit::prior_cost(const Chain& chain) const {
+  if (!(prior_weight_ > 0.0)) return 0.0;
+  double sum = 0.0;
+  for (int j = 0; j < chain.joints(); ++j)
+    for (const bool in_parent : {true, false}) {
+      const Vector3d d = joint_from_markers(chain, j, in_parent);
+      sum += d.dot(prior_information(j, in_parent) * d);
+    }
+  return sum;
+}
+
+void GeometryFit::add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const {
+  if (!(prior_weight_ > 0.0)) return;
+  const auto& parameters = chain_.geometry_parameters();
+  Eigen::Matrix3Xd by_geometry(3, static_cast<Eigen::Index>(parameters.size()));
+  for (int j = 0; j < chain_.joints(); ++j)
+    for (const bool in_parent : {true, false}) {
+      const int s = in_parent ? chain_.layout.parent[j] : j + 1;
+      const auto count = static_cast<double>(chain_.layout.markers_of(s).size());
+      by_geometry.setZero();
+      for (std::size_t g = 0; g < parameters.size(); ++g) {
+        if (parameters[g].segment != s) continue;
+        if (parameters[g].marker >= 0)
+          by_geometry(parameters[g].axis, static_cast<Eigen::Index>(g)) = -1.0 / count;
+        else if (in_parent && parameters[g].joint == j)
+          by_geometry(parameters[g].axis, static_cast<Eigen::Index>(g)) = 1.0;
+      }
+      const Eigen::MatrixX3d weighed = by_geometry.transpose() * prior_information(j, in_parent);
+      S.noalias() += weighed * by_geometry;
+      right.noalias() -= weighed * joint_from_markers(chain_, j, in_parent);
+    }
+}
+
+double GeometryFit::refine_all(PoseSolver& solver, std::vector<ChainPose>& poses, int iterations) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    solver.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
+    total += solver.refine(poses[i], {}, iterations, 1e-12);
+  }
+  return total;
+}
+
+void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep) {
+  const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
+  S.setZero(n, n);
+  right.setZero(n);
+  Eigen::MatrixXd H;
+  Eigen::MatrixXd G;
+  Eigen::VectorXd b;
+  by_geometry_.resize(keep ? frames_.size() : 0);
+  step_.resize(keep ? frames_.size() : 0);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const double* x = samples_.frame(frames_.frame[i]);
+    solver_.set(x, frames_.weight[i]);
+    solver_.normal(frames_.pose[i], {}, false, H, b);
+    solver_.linearize_geometry(frames_.pose[i], x, frames_.weight[i], G, &S, &right);
+    hold_loose_rotations(chain_, H);
+    if (!cholesky(H)) continue;
+    if (keep) {
+      step_[i] = b;
+      solve_cholesky(H, step_[i]);
+    }
+    for (Eigen::Index c = 0; c < n; ++c) solve_lower(H, G.col(c));
+    solve_lower(H, b);
+    S.noalias() -= G.transpose() * G;
+    right.noalias() -= G.transpose() * b;
+    if (!keep) continue;
+    for (Eigen::Index c = 0; c < n; ++c) solve_upper(H, G.col(c));
+    by_geometry_[i] = G;
+  }
+  add_prior(S, right);
+}
+
+double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
+  const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
+  double cost = refine_all(solver_, frames_.pose, 40) + prior_cost(chain_);
+  double lambda = 1e-6;
+  Eigen::MatrixXd S;
+  Eigen::VectorXd right;
+  Chain trial = chain_;
+  PoseSolver trial_solver(trial);
+  std::vector<ChainPose> poses;
+  Eigen::VectorXd frame_step;
+  for (int round = 0; round < iterations; ++round) {
+    accumulate(S, right, true);
+    if (extra_gradient.size() == n) right -= extra_gradient;
+    const Eigen::MatrixXd gauge = chain_.gauge();
+    const double mean = S.trace() / static_cast<double>(n);
+    S.noalias() += mean * gauge * gauge.transpose();
+    bool better = false;
+    double gain = 0.0;
+    while (lambda < 1e5) {
+      Eigen::MatrixXd damped = S;
+      damped.diagonal().array() += (lambda + 1e-10) * mean;
+      const Eigen::VectorXd step = damped.ldlt().solve(right);
+      if (!step.allFinite()) break;
+      trial.marker = chain_.marker;
+      trial.joint = chain_.joint;
+      trial.move_geometry(step);
+      poses = frames_.pose;
+      for (std::size_t i = 0; i < frames_.size(); ++i) {
+        if (by_geometry_[i].size() == 0) continue;
+        frame_step = step_[i] - by_geometry_[i] * step;
+        const double big = frame_step.tail(frame_step.size() - 3).cwiseAbs().maxCoeff();
+        if (big > 0.5) frame_step *= 0.5 / big;
+        move_pose(trial, frame_step, poses[i]);
+      }
+      const double value = refine_all(trial_solver, poses, 20) + prior_cost(trial);
+      const double extra_cost = extra_gradient.size() == n ? 2.0 * extra_gradient.dot(step) : 0.0;
+      if (value + extra_cost <= cost + 1e-18) {
+        gain = cost - value - extra_cost;
+        chain_.marker = trial.marker;
+        chain_.joint = trial.joint;
+        frames_.pose.swap(poses);
+        cost = value;
+        lambda = std::max(lambda / 6.0, 1e-10);
+        better = true;
+        break;
+      }
+      lambda = std::max(5.0 * lambda, 1e-6);
+    }
+    if (!better || gain < 1e-9 * cost + 1e-20) break;
+  }
+  return cost - prior_cost(chain_);
+}
+
+Eigen::VectorXd GeometryFit::integrated_gradient(double sigma_m) {
+  const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
+  Eigen::VectorXd gradient(n);
+  Chain trial = chain_;
+  PoseSolver trial_solver(trial);
+  Eigen::MatrixXd H;
+  Eigen::VectorXd b;
+  FrameInformation information;
+  const auto half_log_det = [&](Eigen::Index g, double change) {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+    step[g] = change;
+    trial.marker = chain_.marker;
+    trial.joint = chain_.joint;
+    trial.move_geometry(step);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      trial_solver.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
+      ChainPose pose = frames_.pose[i];
+      trial_solver.refine(pose, {}, 8, 1e-14);
+      trial_solver.normal(pose, {}, true, H, b);
+      // Rotations of a segment that is not seen are left out: their pivot is set to a constant.
+      for (Eigen::Index k = 3; k < H.rows(); ++k) {
+        if (H(k, k) < 1e-15) H(k, k) = 1.0;
+      }
+      if (cholesky(H)) sum += H.diagonal().array().log().sum();
+    }
+    return sum;
+  };
+  for (Eigen::Index g = 0; g < n; ++g) {
+    const double up = half_log_det(g, kDifference);
+    const double down = half_log_det(g, -kDifference);
+    gradient[g] = sigma_m * sigma_m * (up - down) / (2.0 * kDifference);
+  }
+  return gradient;
+}
+
+Eigen::MatrixXd GeometryFit::covariance(double sigma_m) {
+  Eigen::MatrixXd S;
+  Eigen::VectorXd right;
+  accumulate(S, right, false);
+  const Eigen::MatrixXd gauge = chain_.gauge();
+  const double mean = S.trace() / static_cast<double>(S.rows());
+  S.diagonal().array() += std::pow(sigma_m / kUnknownPosition, 2);
+  S.noalias() += mean * gauge * gauge.transpose();
+  Eigen::MatrixXd inverse = S.ldlt().solve(Eigen::MatrixXd::Identity(S.rows(), S.cols()));
+  // Take the gauge off on both sides.
+  const Eigen::MatrixXd seen = Eigen::MatrixXd::Identity(S.rows(), S.cols()) - gauge * gauge.transpose();
+  inverse = (seen * inverse * seen).eval();
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+double GeometryFit::cost() { return refine_all(solver_, frames_.pose, 20); }
+
+double GeometryFit::degrees_of_freedom() {
+  double dof = 0.0;
+  Eigen::MatrixXd H;
+  Eigen::VectorXd b;
+  FrameInformation information;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    solver_.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
+    solver_.normal(frames_.pose[i], {}, false, H, b);
+    information.set(chain_, H);
+    dof += 3.0 * solver_.sums().seen - information.rank();
+  }
+  return dof - static_cast<double>(chain_.geometry_parameters().size()) +
+         static_cast<double>(chain_.gauge().cols());
+}
+
+std::vector<double> GeometryFit::marker_variance(double sigma_m) {
+  const Chain& c = chain_;
+  std::vector<double> squares(c.markers(), 0.0);
+  std::vector<double> dof(c.markers(), 0.0);
+  Eigen::MatrixXd H;
+  Eigen::VectorXd b;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(c.frame_parameters(), 3);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const double* x = samples_.frame(frames_.frame[i]);
+    const ChainPose& pose = frames_.pose[i];
+    solver_.set(x, frames_.weight[i]);
+    solver_.normal(pose, {}, false, H, b);
+    hold_loose_rotations(c, H);
+    if (!cholesky(H)) continue;
+    for (int k = 0; k < c.markers(); ++k) {
+      if (std::isnan(x[3 * k])) continue;
+      const int q = c.layout.segment_of_marker[k];
+      const Vector3d m = c.marker.col(k);
+      rows.setZero();
+      rows.topRows<3>().setIdentity();
+      // Transposed derivative of the marker's position by the frame's parameters.
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d own = m.cross(pose.rotation[q].transpose() * Vector3d::Unit(axis));
+        for (int r = 0; r < c.rotation_size(q); ++r) rows(c.rotation_offset(q) + r, axis) = own[r];
+        for (const int j : c.joints_to(q)) {
+          const int p = c.layout.parent[j];
+          const Vector3d lever =
+              Vector3d(c.joint.col(j)).cross(pose.rotation[p].transpose() * Vector3d::Unit(axis));
+          for (int r = 0; r < c.rotation_size(p); ++r) rows(c.rotation_offset(p) + r, axis) = lever[r];
+        }
+        solve_lower(H, rows.col(axis));
+      }
+      const double w = frames_.weight[i][k];
+      squares[k] += w * (Eigen::Map<const Vector3d>(x + 3 * k) - c.predict(pose, k)).squaredNorm();
+      dof[k] += std::max(3.0 - w * rows.squaredNorm(), 0.0);
+    }
+  }
+  const double variance = sigma_m * sigma_m;
+  std::vector<double> ratio(c.markers(), 1.0);
+  for (int k = 0; k < c.markers(); ++k) {
+    ratio[k] = (squares[k] / variance + kShrinkage) / (dof[k] + kShrinkage);
+  }
+  return ratio;
+}
+
+void GeometryFit::reweigh(const std::vector<double>& own, double dof, double sigma_m) {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    robust_weights(chain_, frames_.pose[i], samples_.frame(frames_.frame[i]), own, dof, sigma_m,
+                   frames_.weight[i]);
+  }
+}
+
+}  // namespace kinemark::skeleton::articulated

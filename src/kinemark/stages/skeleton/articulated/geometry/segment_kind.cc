@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/articulated/geometry/segment_kind.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
+#include "kinemark/stages/skeleton/articulated/geometry/start_geometry.h"
+
+namespace kinemark::skeleton::articulated {
+
+namespace {
+
+using data::SegmentKind;
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();  // a trial that was not made
+constexpr double kPi = std::numbers::pi;
+constexpr double kFirm = 50.0;  // information beyond which a rotation's integral is Gaussian
+constexpr double kLineBonusOfFrame = 0.5;
+constexpr double kLineBonus = 15.0;  // nats that another kind must be better than a line
+constexpr double kPlaneBonus = 3.0;  // nats that a solid must be better than a plane
+constexpr double kSurelyLine = 2.5;  // deviates of across_line()
+constexpr double kSurelyWide = 60.0;
+constexpr int kFrames = 400;
+
+/// Modified Bessel function I_0 by its power series, all of whose terms are positive: h from 0 to kFirm.
+/// (std::cyl_bessel_i is not in libc++.)
+double bessel_i0(double h) {
+  double term = 1.0, sum = 1.0;
+  for (double k = 1.0; term > 1e-17 * sum; k += 1.0) {
+    term *= 0.25 * h * h / (k * k);
+    sum += term;
+  }
+  return sum;
+}
+
+struct Candidate {
+  double evidence = -std::numeric_limits<double>::infinity();
+  double noise_m = 0.0;
+};
+
+Candidate try_kinds(const ChainSamples& samples, const ChainLayout& layout,
+                    const std::vector<SegmentKind>& kind, double sigma_m,
+                    const std::vector<std::int64_t>& frames) {
+  Candidate out;
+  const auto start = start_geometry(samples, layout, kind, sigma_m);
+  if (!start) return out;
+  Chain chain = *start;
+  const std::vector<double> weights(chain.markers(), 1.0);
+  PosedFrames poses = first_poses(samples, chain, frames, weights, sigma_m > 0.0 ? sigma_m : 1e-3, 15);
+  if (poses.size() < 5) return out;
+  GeometryFit fit(chain, samples, poses);
+  const double cost = fit.run(20);
+  out.noise_m = std::sqrt(cost / std::max(fit.degrees_of_freedom(), 1.0));
+  if (sigma_m > 0.0) out.evidence = log_evidence(chain, samples, poses, sigma_m);
+  return out;
+}
+
+}  // namespace
+
+double log_evidence(const Chain& chain, const ChainSamples& samples, const PosedFrames& frames,
+                    double sigma_m) {
+  PoseSolver solver(chain);
+  Eigen::MatrixXd H;
+  Eigen::VectorXd b;
+  const double variance = sigma_m * sigma_m;
+  double evidence = 0.0;
+  double seen = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    solver.set(samples.frame(frames.frame[i]), frames.weight[i]);
+    solver.normal(frames.pose[i], {}, false, H, b);
+    seen += solver.sums().seen;
+    evidence -= solver.cost(frames.pose[i]) / (2.0 * variance);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H / variance, Eigen::EigenvaluesOnly);
+    for (const double value : eigen.eigenvalues()) {
+      const double h = std::max(value, 1e-12);
+      evidence +=
+          h > kFirm ? 0.5 * std::log(2.0 * kPi / h) : std::log(2.0 * kPi * bessel_i0(h) * std::exp(-h));
+    }
+    for (const SegmentKind kind : chain.kind) {
+      evidence -= kind == SegmentKind::line ? std::log(4.0 * kPi) : std::log(8.0 * kPi * kPi);
+    }
+  }
+  const double free =
+      static_cast<double>(chain.geometry_parameters().size()) - static_cast<double>(chain.gauge().cols());
+  return evidence - 0.5 * free * std::log(std::max(3.0 * seen, 1.0));
+}
+
+double across_line(const ChainSamples& samples, std::span<const int> markers, double sigma_m) {
+  const auto n = static_cast<double>(markers.size());
+  if (markers.size() < 3) return 0.0;
+  double squares = 0.0;
+  double dof = 0.0;
+  for (std::int64_t f = 0; f < samples.frames; ++f) {
+    if (!std::all_of(markers.begin(), markers.end(), [&](int k) { return samples.seen(f, k); })) continue;
+    Vector3d mean = Vector3d::Zero();
+    for (const int k : markers) mean += Eigen::Map<const Vector3d>(samples.frame(f) + 3 * k);
+    mean /= n;
+    Matrix3d scatter = Matrix3d::Zero();
+    for (const int k : markers) {
+      const Vector3d d = Eigen::Map<const Vector3d>(samples.frame(f) + 3 * k) - mean;
+      scatter += d * d.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(scatter, Eigen::EigenvaluesOnly);
+    squares += std::max(eigen.eigenvalues()[0], 0.0) + std::max(eigen.eigenvalues()[1], 0.0);
+    dof += 2.0 * (n - 2.0);
+  }
+  if (dof < 6.0 * (n - 2.0)) return 0.0;
+  return (squares / (sigma_m * sigma_m) - dof) / std::sqrt(2.0 * dof);
+}
+
+Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const ChainLayout& layout,
+                                              double sigma_m, const std::function<bool()>& stopped) {
+  // Kinds that a segment may have: what two markers and a joint show is never more than a plane.
+  const int segments = layout.segments();
+  std::vector<std::vector<SegmentKind>> allowed(segments);
+  std::vector<SegmentKind> general(segments);
+  for (int s = 0; s < segments; ++s) {
+    const std::size_t n = layout.markers_of(s).size();
+    const auto joints = std::count(layout.parent.begin(), layout.parent.end(), s) + (s > 0 ? 1 : 0);
+    const std::size_t points = n + static_cast<std::size_t>(joints);
+    general[s] = points >= 4 ? SegmentKind::solid : points == 3 ? SegmentKind::plane : SegmentKind::line;
+    allowed[s].push_back(general[s]);
+  }
+  std::vector<std::int64_t> frames;
+  {
+    const auto start = start_geometry(samples, layout, general, sigma_m);
+    std::vector<SegmentKind> lines(segments, SegmentKind::line);
+    if (!start) {
+      // Too few markers on one segment for anything but lines.
+      const auto straight = start_geometry(samples, layout, lines, sigma_m);
+      if (!straight) return std::unexpected(start.error());
+      return lines;
+    }
+    frames = first_frames(samples, *start);
+    std::vector<std::int64_t> some;
+    const std::size_t take = std::min<std::size_t>(frames.size(), kFrames);
+    for (std::size_t i = 0; i < take; ++i) some.push_back(frames[i * frames.size() / take]);
+    frames.swap(some);
+  }
+  if (frames.size() < 5) return general;
+  double sigma = sigma_m;
+  if (sigma <= 0.0) sigma = try_kinds(samples, layout, general, 0.0, frames).noise_m;
+  if (!(sigma > 0.0)) return general;
+  bool open = false;
+  for (int s = 0; s < segments; ++s) {
+    const std::vector<int> markers = layout.markers_of(s);
+    const double across = across_line(samples, markers, sigma);
+    if (markers.size() >= 2 && general[s] != SegmentKind::line && across < kSurelyWide) {
+      allowed[s].push_back(SegmentKind::line);
+    }
+    if (general[s] == SegmentKind::solid && across > kSurelyLine) allowed[s].push_back(SegmentKind::plane);
+    open = open || allowed[s].size() > 1;
+  }
+  if (!open) return general;
+  // All alike first, then segment by segment.
+  const double line_bonus = std::max(kLineBonus, kLineBonusOfFrame * static_cast<double>(frames.size()));
+  const auto bonus = [line_bonus](const std::vector<SegmentKind>& kind) {
+    double sum = 0.0;
+    for (const SegmentKind k : kind)
+      sum += k == SegmentKind::line ? line_bonus : k == SegmentKind::plane ? kPlaneBonus : 0.0;
+    return sum;
+  };
+  bool cancelled = false;
+  std::vector<std::pair<std::vector<SegmentKind>, double>> known;
+  const auto value = [&](const std::vector<SegmentKind>& kind) {
+    for (const auto& [tried, worth] : known) {
+      if (tried == kind) return worth;
+    }
+    cancelled = cancelled || (stopped && stopped());
+    const double worth =
+        cancelled ? kNever : try_kinds(samples, layout, kind, sigma, frames).evidence + bonus(kind);
+    known.emplace_back(kind, worth);
+    return worth;
+  };
+  std::vector<SegmentKind> best = general;
+  double best_value = value(general);
+  for (const SegmentKind kind : {SegmentKind::line, SegmentKind::plane}) {
+    std::vector<SegmentKind> alike = general;
+    for (int s = 0; s < segments; ++s) {
+      if (std::find(allowed[s].begin(), allowed[s].end(), kind) != allowed[s].end()) alike[s] = kind;
+    }
+    if (const double v = value(alike); v > best_value) {
+      best_value = v;
+      best = alike;
+    }
+  }
+  for (int s = 0; s < segments; ++s) {
+    for (const SegmentKind kind : allowed[s]) {
+      std::vector<SegmentKind> other = best;
+      other[s] = kind;
+      if (const double v = value(other); v > best_value) {
+        best_value = v;
+        best = other;
+      }
+    }
+  }
+  if (cancelled) return fail(Code::cancelled, "stopped while choosing the kinds of segments");
+  return best;
+}
+
+}  // namespace kinemark::skeleton::articulated

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/core/progress.h"
+#include "kinemark/core/result.h"
+#include "kinemark/stages/skeleton/articulated/chain/fitted_chain.h"
+#include "kinemark/stages/skeleton/articulated/recording/path_smoother.h"
+
+namespace kinemark::skeleton::articulated {
+
+/// Positions of all joints that fit a frame, where others fit as well.
+struct FlaggedMode {
+  std::vector<Vector3d> centre;  ///< J, m
+  double log_weight = 0.0;       ///< of the frame's probability
+};
+
+/// A frame in which some joint is not determined by the frame's own markers.
+struct FlaggedFrame {
+  std::int64_t frame = 0;
+  std::vector<FlaggedMode> modes;  ///< best first
+};
+
+/// A frame's pose, kept for findings about the whole recording.
+struct SampledPose {
+  std::int64_t frame = 0;
+  ChainPose pose;
+  double cost = 0.0;                ///< m^2
+  std::vector<std::uint8_t> known;  ///< J: determined in this frame
+};
+
+/// What every frame determines by itself; J joints of the chain, F frames.
+struct RecordingPass {
+  std::vector<std::vector<PathPoint>> points;         ///< J of F; no information where not determined
+  std::vector<std::vector<data::CentreState>> state;  ///< J of F
+  std::vector<Array<double>> covariance;              ///< J of F x 6, m^2, with the geometry's part
+  std::vector<Array<double>> common;                  ///< J of F x 6, m^2: the geometry's part alone
+  std::vector<FlaggedFrame> flagged;                  ///< in order of time
+  std::vector<SampledPose> sampled;                   ///< up to 4,000, evenly spread
+  std::vector<std::int64_t> misfits;                  ///< frames that the geometry does not explain
+};
+
+/// Upper triangle of a symmetric matrix, as data::Skeleton stores it.
+void store_symmetric(double* to, const Matrix3d& C);
+[[nodiscard]] Matrix3d load_symmetric(const double* from);
+
+/// Solve all frames of a recording with a fitted geometry, in chunks that do not depend on `threads`. Every
+/// frame costs the same however long the recording is.
+[[nodiscard]] Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samples,
+                                              int threads, const Progress& progress);
+
+/// True where a frame's cost is beyond what noise explains: six standard deviations of its chi-square.
+[[nodiscard]] bool is_misfit(const Chain& chain, double cost_m2, double noise_sd_m, int seen);
+
+}  // namespace kinemark::skeleton::articulated

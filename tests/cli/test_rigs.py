@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""From counts to points: `simulate rig`, `calibrate` and `reconstruct`, what they print and how they refuse."""
+
+import json
+import unittest
+
+from support import CommandTest, run
+
+LED_KEYS = ["name", "frames", "located", "occluded", "saturated", "inconsistent", "near_edge"]
+FIT_KEYS = ["order", "cutoff_hz", "chi2_per_dof", "rejected", "held_down", "flicker_counts"]
+BUNDLE_KEYS = "method chi2_per_dof warp_degree crosstalk iterations poses sightings outliers side_rms_mm alignment written warnings".split()
+QUICK = ("--warp-degree", 6, "--no-crosstalk")
+
+
+class Rigs(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.lab = cls.recorded.parent / "lab"
+        ran = run("simulate", "rig", "sign", "-o", cls.lab, "--duration", 0.5, "--grid", "--tree-poses", "--occlude", "hand:B:10-14", cwd=cls.shared.name)
+        assert ran.status == 0, ran.err
+
+    def calibrate(self, *arguments, **options):
+        shown = [self.lab / name for name in ("tree_poses.mcap", "grid_A.mcap", "grid_B.mcap")]
+        return self.good("calibrate", *shown, "--nominal", self.lab / "rig_nominal.toml", *arguments, **options)
+
+    def reconstruct(self, output, *arguments, rig=None):
+        return ["reconstruct", self.lab / "recording.mcap", "--rig", rig or self.lab / "rig_true.toml", "-o", output, *arguments]
+
+    def test_the_bundle_finds_the_rig_and_says_how_well(self):
+        ran = self.calibrate("-o", "rig.toml", "--json", *QUICK)
+        told = json.loads(ran.out)
+        self.assertEqual(list(told), BUNDLE_KEYS)
+        self.assertEqual((told["method"], told["poses"], told["written"]), ("bundle", 300, "rig.toml"))
+        self.assertLess(told["chi2_per_dof"], 1.2)
+        self.assertEqual([camera["camera"] for camera in told["alignment"]["cameras"]], ["A", "B"])
+        self.assertRegex(ran.err, r"(?m)^300 poses, chi2/dof \d\.\d\d, warp of degree \d+; tree sides right to \d\.\d\d mm RMS$")
+        self.assertRegex(ran.err, r"(?m)^camera A: -?\d+\.\d mm right, ")
+        self.assertRegex(ran.err, r"(?m)^next: \S")
+        self.assertIn("wrote rig.toml", ran.err)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["rig.toml"])
+        points = json.loads(self.good(*self.reconstruct("p.csv", "--method", "frames", "--json", rig="rig.toml")).out)
+        self.assertGreater(sum(led["located"] for led in points["leds"]), 180)
+
+    def test_alignment_alone_writes_nothing(self):
+        ran = self.calibrate("--align", "--json")
+        self.assertEqual(list(json.loads(ran.out)), ["method", "alignment", "warnings"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_model_that_is_too_poor_is_a_missed_gate(self):
+        ran = self.calibrate("-o", "rig.toml", "--warp-degree", 2, "--no-crosstalk", "--no-escalate", status=1)
+        self.assertRegex(ran.err, r"^kinemark: calibration refused: chi2 per degree of freedom is \d+")
+        self.assertEqual(len(ran.err.splitlines()), 1)
+        self.assertEqual(list(self.folder.iterdir()), [], "nothing is written")
+
+    def test_calibrate_refuses_in_one_sentence(self):
+        nominal = ("--nominal", self.lab / "rig_nominal.toml")
+        tree, grid = self.lab / "tree_poses.mcap", self.lab / "grid_A.mcap"
+        self.refused(2, "--output or --align", "calibrate", tree, *nominal)
+        self.refused(2, "a grid for 1 of 2 cameras", "calibrate", tree, grid, *nominal, "-o", "rig.toml")
+        self.refused(2, "needs a recording of the tree", "calibrate", grid, self.lab / "grid_B.mcap", *nominal, "-o", "rig.toml")
+        self.refused(2, "needs a recording of the grid", "calibrate", tree, *nominal, "-o", "rig.toml", "--method", "grid-lut")
+        self.refused(3, "a tree, a grid or a scan was expected", "calibrate", self.lab / "recording.mcap", *nominal, "-o", "rig.toml")
+        self.refused(4, "none.toml", "calibrate", tree, "--nominal", "none.toml", "-o", "rig.toml")
+        self.refused(2, "--method", "calibrate", tree, *nominal, "-o", "rig.toml", "--method", "guess")
+
+    def test_reconstruct_tells_every_led_and_by_the_smoother_its_fit(self):
+        ran = self.good(*self.reconstruct("frames.csv", "--method", "frames", "--json"))
+        told = json.loads(ran.out)
+        self.assertEqual(list(told), ["method", "frames", "written", "warnings", "leds"])
+        self.assertEqual((told["method"], told["frames"], told["written"]), ("frames", 50, "frames.csv"))
+        self.assertTrue(all(list(led) == LED_KEYS for led in told["leds"]))
+        hand = next(led for led in told["leds"] if led["name"] == "hand")
+        self.assertEqual((hand["located"], hand["occluded"]), (45, 5))
+        self.assertIn("hand: 45 of 50 frames located, 5 occluded, ", ran.err)
+        smooth = json.loads(self.good(*self.reconstruct("smooth.csv", "--json")).out)
+        self.assertEqual(smooth["method"], "smoother")
+        self.assertTrue(all(list(led) == LED_KEYS + FIT_KEYS for led in smooth["leds"]))
+        facts = json.loads(self.good("info", "smooth.csv", "--json").out)
+        self.assertEqual((facts["points"], facts["frames"], facts["missing"]), (4, 50, 0))
+
+    def test_reconstruct_is_quiet_when_asked_and_replaces_nothing(self):
+        ran = self.good(*self.reconstruct("a.trc", "--method", "frames", "--quiet"))
+        self.assertEqual((ran.out, ran.err), ("", ""))
+        self.refused(4, ["a.trc", "use --force"], *self.reconstruct("a.trc", "--method", "frames"))
+        self.good(*self.reconstruct("a.trc", "--method", "frames", "--force"))
+        one, two = (self.good(*self.reconstruct(name, "--threads", n)) for name, n in (("one.csv", 1), ("two.csv", 2)))
+        self.assertEqual(one.out, two.out)
+        self.assertEqual((self.folder / "one.csv").read_bytes(), (self.folder / "two.csv").read_bytes())
+
+    def test_reconstruct_refuses_in_one_sentence(self):
+        self.refused(4, "none.mcap", "reconstruct", "none.mcap", "--rig", self.lab / "rig_true.toml", "-o", "p.csv")
+        self.refused(4, "none.toml", *self.reconstruct("p.csv", rig="none.toml"))
+        self.refused(2, ".xyz", *self.reconstruct("p.xyz", "--method", "frames"))
+        self.refused(2, "--flicker", *self.reconstruct("p.csv", "--flicker", "much"))
+        self.refused(3, "no look-up table", *self.reconstruct("p.csv", "--method", "classic"))
+
+
+class SimulatedRigs(CommandTest):
+    def test_the_seed_draws_rig_and_noise_and_threads_change_nothing(self):
+        for name, options in (("a", []), ("b", ["--threads", 2]), ("c", ["--seed", 2])):
+            self.good("simulate", "rig", "tree", "-o", name, "--duration", 0.2, *options)
+
+        def read(name, file):
+            return (self.folder / name / file).read_bytes()
+
+        for file in ("rig_true.toml", "recording.mcap", "truth.trc"):
+            self.assertEqual(read("a", file), read("b", file), file)
+        self.assertNotEqual(read("a", "rig_true.toml"), read("c", "rig_true.toml"))
+
+    def test_a_folder_that_cannot_be_made_or_filled_stays_as_it_is(self):
+        self.write("taken", "mine")
+        self.refused(4, "cannot be", "simulate", "rig", "tree", "-o", "taken/deeper", "--duration", 0.1)
+        self.refused(4, "taken", "simulate", "subject", "-o", "taken", "--duration", 0.1)
+        (self.folder / "full").mkdir()
+        self.write("full/truth.trc", "mine")
+        self.refused(4, ["truth.trc", "use --force"], "simulate", "rig", "tree", "-o", "full", "--duration", 0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()
