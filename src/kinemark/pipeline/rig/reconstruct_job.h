@@ -27,7 +27,8 @@ struct ReconstructJob : JobSettings {
   trajectory::SmoothCountsOptions smoother;   ///< for Method::smoother
 };
 
-[[nodiscard]] std::string_view method_name(ReconstructJob::Method method);  ///< "smoother", "frames", "classic"
+[[nodiscard]] std::string_view method_name(
+    ReconstructJob::Method method);  ///< "smoother", "frames", "classic"
 
 /// What `kinemark reconstruct` made.
 struct ReconstructOutcome : JobOutcome {

@@ -27,7 +27,8 @@ double distance_error(const Eigen::Matrix3Xd& found, const Eigen::Matrix3Xd& tru
 }
 
 Eigen::Matrix3Xd find_shape(const TestChain& chain) {
-  RigidShape shape({chain.markers, {}}, chain.layout.segments[0].markers);
+  const Samples samples{chain.markers, {}};
+  RigidShape shape(samples, chain.layout.segments[0].markers);
   EXPECT_TRUE(shape.find());
   return shape.places();
 }
@@ -71,7 +72,8 @@ TEST(RigidShape, DoesNotChangeWithTheRoom) {
 TEST(RigidShape, PosesPutTheShapeOntoTheMarkers) {
   const TestChain chain = make_chain({.frames = 40, .per_segment = 4});
   const std::vector<int>& markers = chain.layout.segments[1].markers;
-  RigidShape shape({chain.markers, {}}, markers);
+  const Samples samples{chain.markers, {}};
+  RigidShape shape(samples, markers);
   ASSERT_TRUE(shape.find());
   for (std::int64_t f = 0; f < 40; ++f) {
     const FramePose pose = shape.pose(f);
@@ -95,7 +97,8 @@ TEST(RigidShape, AMarkerThatIsElsewhereInFewFramesDoesNotBendTheShape) {
 TEST(RigidShape, TwoMarkersAFrameAreNone) {
   TestChain chain = make_chain({.frames = 20});
   for (std::int64_t f = 0; f < 20; ++f) chain.markers.set_missing(f, f % 3);
-  RigidShape shape({chain.markers, {}}, chain.layout.segments[0].markers);
+  const Samples samples{chain.markers, {}};
+  RigidShape shape(samples, chain.layout.segments[0].markers);
   EXPECT_FALSE(shape.find());
   EXPECT_TRUE(shape.places().hasNaN());
   shape.set_places(chain.x_in_segment[0]);
@@ -104,8 +107,10 @@ TEST(RigidShape, TwoMarkersAFrameAreNone) {
 
 TEST(RigidShape, MarkersOnALineHaveNoInertiaAboutIt) {
   const TestChain line = make_chain({.frames = 20, .stagger_m = 0.0}), wide = make_chain({.frames = 20});
-  RigidShape on_line({line.markers, {}}, line.layout.segments[0].markers);
-  RigidShape off_line({wide.markers, {}}, wide.layout.segments[0].markers);
+  const Samples on_line_samples{line.markers, {}};
+  RigidShape on_line(on_line_samples, line.layout.segments[0].markers);
+  const Samples off_line_samples{wide.markers, {}};
+  RigidShape off_line(off_line_samples, wide.layout.segments[0].markers);
   ASSERT_TRUE(on_line.find());
   ASSERT_TRUE(off_line.find());
   EXPECT_EQ(on_line.least_inertia(), 0.0);
