@@ -20,9 +20,9 @@ using namespace kinemark;
 Result<data::Trial> simulated() {
   const auto model = model::Model::compile(pipeline::human_model().value()).value();
   const simulation::SubjectOptions options{.duration_s = 2.0, .dropout_random = 0.05};
-  return simulation::simulate_subject(model, options).transform([](auto&& subject) {
-    return data::Trial{.source = "simulated", .markers = std::move(subject.markers)};
-  });
+  auto subject = simulation::simulate_subject(model, options);
+  if (!subject) return std::unexpected(subject.error());
+  return data::Trial{.source = "simulated", .markers = std::move(subject->markers)};
 }
 
 int main(int argc, char** argv) {
