@@ -148,9 +148,9 @@ TEST(RigFile, FailuresNameThePlace) {
   EXPECT_THAT(message(spoilt("dark_slot = true", "dark_slot = 1")),
               HasSubstr("timing: dark_slot must be true or"));
   EXPECT_THAT(message(spoilt("kind = \"pinhole\"", "kind = \"fisheye\"")),
-              HasSubstr("camera 'video': 'fisheye' is"));
+              HasSubstr("camera 'video': there is no kind of camera 'fisheye'; there are"));
   EXPECT_THAT(message(spoilt("kind = \"generic\"", "kind = \"ccd\"")),
-              HasSubstr("camera 'B', detector: 'ccd' is"));
+              HasSubstr("camera 'B', detector: there is no kind of detector 'ccd'; there are"));
   EXPECT_THAT(message(spoilt("warp_degree = 3", "warp_degree = 4")), HasSubstr("has 7 terms; need 12"));
   EXPECT_THAT(message(spoilt("gain = [1.0,", "gain = [")), HasSubstr("gain must be a list of 4 numbers"));
   EXPECT_THAT(message(spoilt("rotation = [", "rotation = [[1, 0, 0], ")), HasSubstr("3 lists of 3 numbers"));

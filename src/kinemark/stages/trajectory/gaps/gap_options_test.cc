@@ -22,7 +22,7 @@ TEST(GapMethodNames, ReadBackAndTheFailureListsThem) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().code, Code::usage);
   EXPECT_THAT(wrong.error().message, HasSubstr("'magic'"));
-  EXPECT_THAT(wrong.error().message, HasSubstr("regression, pca, auto"));
+  EXPECT_THAT(wrong.error().message, HasSubstr("regression, pca and auto"));
 }
 
 TEST(GapOptionsCheck, RefusesWhatMakesNoSense) {

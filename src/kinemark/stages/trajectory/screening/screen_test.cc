@@ -223,7 +223,7 @@ TEST(Screen, AnExchangeThatNeverEndsNamesTheShorterSide) {
   }
   const data::Defect f = only(t);
   expect(f, DefectKind::label_swap, 0, 0, 89, 7);
-  EXPECT_THAT(f.sentence, HasSubstr("cannot be told"));
+  EXPECT_THAT(f.sentence, HasSubstr("cannot be decided"));
 }
 
 TEST(Screen, AMarkerThatVisitsThePathOfALostOne) {
