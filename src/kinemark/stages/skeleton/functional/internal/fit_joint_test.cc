@@ -54,8 +54,8 @@ TEST(FitJoint, AHingeIsFoundOrForced) {
   std::string why;
   EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {}, why)->kind, JointKind::hinge);
   EXPECT_EQ(fit_joint(ball.samples, ball.task, {}, why)->kind, JointKind::ball);
-  EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {.kind = KindChoice::ball}, why)->kind, JointKind::ball);
-  EXPECT_EQ(fit_joint(ball.samples, ball.task, {.kind = KindChoice::hinge}, why)->kind, JointKind::hinge);
+  EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {.kind = data::JointChoice::ball}, why)->kind, JointKind::ball);
+  EXPECT_EQ(fit_joint(ball.samples, ball.task, {.kind = data::JointChoice::hinge}, why)->kind, JointKind::hinge);
   for (const auto method : {FunctionalMethod::sara, FunctionalMethod::cylinder}) {
     const auto fit = fit_joint(hinge.samples, hinge.task, {.method = method}, why);
     ASSERT_TRUE(fit.has_value());
@@ -123,7 +123,7 @@ TEST(FitJoint, SegmentsThatAreNeverSeenTogetherAreFittedOneByOne) {
   const JointSetup s(std::move(chain));
   ASSERT_TRUE(s.task.motion.frames.empty());
   std::string why;
-  const auto fit = fit_joint(s.samples, s.task, {.kind = KindChoice::ball}, why);
+  const auto fit = fit_joint(s.samples, s.task, {.kind = data::JointChoice::ball}, why);
   ASSERT_TRUE(fit.has_value()) << why;
   EXPECT_THAT(why, HasSubstr("too few frames show both segments' poses at once"));
   EXPECT_LT(worst_error(s, *fit, true), 1e-4);
