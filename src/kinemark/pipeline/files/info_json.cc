@@ -88,7 +88,8 @@ Json info_json(const InfoOutcome& outcome) {
 
 std::string info_text(const InfoOutcome& outcome) {
   std::string text;
-  for (const auto& [key, value] : info_json(outcome).items()) {
+  const auto json = info_json(outcome);
+  for (const auto& [key, value] : json.items()) {
     if (key == "warnings") {
       for (const auto& warning : outcome.warnings) text += fmt::format("warning           {}\n", warning);
     } else if (value.is_array()) {

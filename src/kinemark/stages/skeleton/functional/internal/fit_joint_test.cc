@@ -54,8 +54,10 @@ TEST(FitJoint, AHingeIsFoundOrForced) {
   std::string why;
   EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {}, why)->kind, JointKind::hinge);
   EXPECT_EQ(fit_joint(ball.samples, ball.task, {}, why)->kind, JointKind::ball);
-  EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {.kind = data::JointChoice::ball}, why)->kind, JointKind::ball);
-  EXPECT_EQ(fit_joint(ball.samples, ball.task, {.kind = data::JointChoice::hinge}, why)->kind, JointKind::hinge);
+  EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {.kind = data::JointChoice::ball}, why)->kind,
+            JointKind::ball);
+  EXPECT_EQ(fit_joint(ball.samples, ball.task, {.kind = data::JointChoice::hinge}, why)->kind,
+            JointKind::hinge);
   for (const auto method : {FunctionalMethod::sara, FunctionalMethod::cylinder}) {
     const auto fit = fit_joint(hinge.samples, hinge.task, {.method = method}, why);
     ASSERT_TRUE(fit.has_value());
