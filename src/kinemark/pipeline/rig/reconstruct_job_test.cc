@@ -43,20 +43,22 @@ class RunReconstruct : public ::testing::Test {
     out.method = method;
     return out;
   }
-  /// RMS distance to the truth over the samples that are there, mm; and how many there are.
+  /// RMS distance to the truth over the samples that were seen, mm; and how many there are, seen or bridged.
   static std::pair<double, std::int64_t> error_of(const fs::path& file) {
     const auto points = io::read_markers(file).value().markers;
     const auto truth = io::read_markers(at("lab/truth.trc")).value().markers;
     double squares = 0.0;
-    std::int64_t n = 0;
+    std::int64_t n = 0, seen = 0;
     for (std::int64_t f = 0; f < points.frames(); ++f)
       for (std::int64_t m = 0; m < points.markers(); ++m) {
         if (!points.present(f, m)) continue;
+        ++n;
+        if (points.state[points.index(f, m)] != data::SampleState::measured) continue;
+        ++seen;
         squares += (points.x(f, m) - truth.x(f, truth.find(points.names[static_cast<std::size_t>(m)])))
                        .squaredNorm();
-        ++n;
       }
-    return {1e3 * std::sqrt(squares / static_cast<double>(n)), n};
+    return {1e3 * std::sqrt(squares / static_cast<double>(seen)), n};
   }
 
  private:
