@@ -109,7 +109,7 @@ TEST(Functional, TwoMarkersOnOneSideAreEnoughForASphere) {
   ASSERT_TRUE(skeleton) << skeleton.error().message;
   EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 1e-6);
   ASSERT_EQ(skeleton->warnings.size(), 1U);
-  EXPECT_NE(skeleton->warnings[0].find("'s1' shows no pose"), std::string::npos) << skeleton->warnings[0];
+  EXPECT_NE(skeleton->warnings[0].find("'s1' has no pose"), std::string::npos) << skeleton->warnings[0];
   EXPECT_EQ(skeleton->joints[0].method, "Gamage-Lasenby");
 }
 
