@@ -16,7 +16,9 @@ inline constexpr std::array<std::size_t, 3> kSymmetric3Diagonal{0, 3, 5};
 
 /// An element off the diagonal among the six, and the two diagonal ones of its row and column.
 struct Symmetric3Pair {
-  std::size_t place, row, column;
+  std::size_t place;   ///< index of the element
+  std::size_t row;     ///< index of the diagonal element of its row
+  std::size_t column;  ///< index of the diagonal element of its column
 };
 /// xy, xz and yz.
 inline constexpr std::array<Symmetric3Pair, 3> kSymmetric3Pairs{{{1, 0, 3}, {2, 0, 5}, {4, 3, 5}}};
@@ -33,10 +35,12 @@ inline void pack_isotropic3(double value, double* six) {
   for (const std::size_t k : kSymmetric3Diagonal) six[k] = value;
 }
 
+/// The full matrix of the six.
 [[nodiscard]] inline Eigen::Matrix3d unpack_symmetric3(const double* six) {
   return Eigen::Matrix3d{{six[0], six[1], six[2]}, {six[1], six[3], six[4]}, {six[2], six[4], six[5]}};
 }
 
+/// xx + yy + zz.
 [[nodiscard]] inline double symmetric3_trace(const double* six) { return six[0] + six[3] + six[5]; }
 
 }  // namespace kinemark::math
