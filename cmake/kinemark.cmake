@@ -18,7 +18,8 @@ if(KINEMARK_DEVELOPER)
   target_compile_options(kinemark_flags INTERFACE
     -Wall -Wextra -Wpedantic ${kinemark_shadow} -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    target_compile_options(kinemark_flags INTERFACE -Wno-shadow)
+    # Precompiled, libstdc++'s own use of what it deprecates is no longer seen as the system's.
+    target_compile_options(kinemark_flags INTERFACE -Wno-shadow -Wno-deprecated-declarations)
   else()
     # GCC 12 reports uninitialised and out-of-range reads inside Eigen's own expression templates.
     target_compile_options(kinemark_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
