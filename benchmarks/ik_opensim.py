@@ -91,9 +91,9 @@ class OpenSimProblem:
         self.x_m = self.x_m[:, [names.index(name) for name in self.weights]]
 
     def read_tasks(self, seen):
-        """weights: {marker: weight} of what takes part; pulls: {coordinate: (weight, value)}."""
+        """weights: {marker: weight} of what takes part; coordinate_tasks: {coordinate: (weight, value)}."""
         known = {marker.getName() for marker in self.model.getMarkerSet()}
-        self.weights, self.pulls = {}, {}
+        self.weights, self.coordinate_tasks = {}, {}
         tasks = self.tool.getIKTaskSet()
         for task in (tasks.get(i) for i in range(tasks.getSize())):
             name, weight = task.getName(), task.getWeight()
@@ -103,12 +103,12 @@ class OpenSimProblem:
                 if name in seen & known:
                     self.weights[name] = weight
                 continue
-            pull = osim.IKCoordinateTask.safeDownCast(task)
-            if pull.getValueType() == osim.IKCoordinateTask.FromFile:
+            coordinate_task = osim.IKCoordinateTask.safeDownCast(task)
+            if coordinate_task.getValueType() == osim.IKCoordinateTask.FromFile:
                 raise NotImplementedError(f"{name}: coordinate values from a file")
             default = self.model.getCoordinateSet().get(name).getDefaultValue()
-            manual = pull.getValueType() == osim.IKCoordinateTask.ManualValue
-            self.pulls[name] = (weight, pull.getValue() if manual else default)
+            manual = coordinate_task.getValueType() == osim.IKCoordinateTask.ManualValue
+            self.coordinate_tasks[name] = (weight, coordinate_task.getValue() if manual else default)
 
     def references(self):
         weights = osim.SetMarkerWeights()
@@ -118,7 +118,7 @@ class OpenSimProblem:
         markers.set_default_weight(0.0)
         markers.initializeFromMarkersFile(self.markers_path, weights)
         coordinates = osim.SimTKArrayCoordinateReference()
-        for name, (weight, value) in self.pulls.items():
+        for name, (weight, value) in self.coordinate_tasks.items():
             reference = osim.CoordinateReference(name, osim.Constant(value))
             reference.setWeight(weight)
             coordinates.push_back(reference)
@@ -147,27 +147,27 @@ class OpenSimProblem:
             solve_s.append(seconds)
         return Motion(f"OpenSim at {accuracy:g}", self.time_s, [c.getName() for c in coordinates], q, solve_s)
 
-    def marker_places(self, motion):
+    def marker_positions(self, motion):
         """F x M x 3, m: where OpenSim's model has its markers in the given pose, taken exactly as given."""
         coordinates = [self.model.getCoordinateSet().get(name) for name in motion.coordinates]
         for coordinate in coordinates:
             coordinate.setLocked(self.state, False)
             coordinate.setClamped(self.state, False)
         markers = [self.model.getMarkerSet().get(name) for name in self.weights]
-        places = np.empty((len(motion.q), len(markers), 3))
+        positions = np.empty((len(motion.q), len(markers), 3))
         for frame, q in enumerate(motion.q):
             for coordinate, value in zip(coordinates, q):
                 coordinate.setValue(self.state, float(value), False)
             self.model.realizePosition(self.state)
-            places[frame] = [marker.getLocationInGround(self.state).to_numpy() for marker in markers]
-        return places
+            positions[frame] = [marker.getLocationInGround(self.state).to_numpy() for marker in markers]
+        return positions
 
     def cost(self, motion):
         """Sum over frames of sum(w |r|^2) / sum(w) + sum(W (q - q0)^2), over the markers seen in each frame, m^2."""
-        squares = np.sum((self.x_m - self.marker_places(motion)) ** 2, axis=2)
+        squares = np.sum((self.x_m - self.marker_positions(motion)) ** 2, axis=2)
         w = np.where(np.isnan(squares), 0.0, np.array(list(self.weights.values())))
         cost = np.sum(np.sum(w * np.nan_to_num(squares), axis=1) / np.sum(w, axis=1))
-        for name, (weight, value) in self.pulls.items():
+        for name, (weight, value) in self.coordinate_tasks.items():
             cost += weight * np.sum((motion.q[:, motion.coordinates.index(name)] - value) ** 2)
         return float(cost)
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include <map>
 #include <memory>
 
+#include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/rig/calibrate_json.h"
@@ -10,20 +10,20 @@
 namespace kinemark::cli {
 namespace {
 
-void say_alignment(const Globals& globals, const calibration::Alignment& alignment) {
+void say_alignment(const CommonOptions& common, const calibration::Alignment& alignment) {
   for (const auto& c : alignment.cameras) {
     const Eigen::Vector3d shift_mm = 1e3 * c.shift_m;
-    say(globals, fmt::format("camera {}: {:.1f} mm right, {:.1f} mm down, {:.1f} mm forward of the nominal "
-                             "position; to be tilted {:.2f}, "
-                             "panned {:.2f}, rolled {:.2f} deg",
-                             c.camera, shift_mm.x(), shift_mm.y(), shift_mm.z(), c.turn_deg.x(),
-                             c.turn_deg.y(), c.turn_deg.z()));
+    say(common, fmt::format("camera {}: {:.1f} mm right, {:.1f} mm down, {:.1f} mm forward of the nominal "
+                            "position; to be tilted {:.2f}, "
+                            "panned {:.2f}, rolled {:.2f} deg",
+                            c.camera, shift_mm.x(), shift_mm.y(), shift_mm.z(), c.rotation_deg.x(),
+                            c.rotation_deg.y(), c.rotation_deg.z()));
   }
-  say(globals, "next: " + alignment.next);
+  say(common, "next: " + alignment.next);
 }
 
-int run_command(const Globals& globals, pipeline::CalibrateJob& job) {
-  settle(globals, "steps", job);
+int run_command(const CommonOptions& common, pipeline::CalibrateJob& job) {
+  settle(common, "steps", job);
   const auto outcome = pipeline::run_calibrate(job);
   if (!outcome) return report_error(outcome.error());
   if (const int status = outcome->exit_status(); status != 0) {
@@ -31,20 +31,19 @@ int run_command(const Globals& globals, pipeline::CalibrateJob& job) {
     (void)report_error({Code::bad_input, outcome->gates.back().sentence});
     return status;
   }
-  for (const auto& warning : outcome->warnings) say(globals, warning);
+  for (const auto& warning : outcome->warnings) say(common, warning);
   if (const auto& found = outcome->bundle)
-    say(globals,
-        fmt::format("{} poses, chi2/dof {:.2f}, warp of degree {}; tree sides right to {:.2f} mm RMS",
-                    found->poses, found->chi2_per_dof, found->warp_degree, 1e3 * found->side_rms_m));
-  if (outcome->alignment) say_alignment(globals, *outcome->alignment);
-  say_written(globals, *outcome);
-  if (globals.json) fmt::print("{}\n", pipeline::calibrate_json(*outcome).dump(2));
+    say(common, fmt::format("{} poses, chi2/dof {:.2f}, warp of degree {}; tree sides right to {:.2f} mm RMS",
+                            found->poses, found->chi2_per_dof, found->warp_degree, 1e3 * found->side_rms_m));
+  if (outcome->alignment) say_alignment(common, *outcome->alignment);
+  say_written(common, *outcome);
+  if (common.json) fmt::print("{}\n", pipeline::calibrate_json(*outcome).dump(2));
   return 0;
 }
 
 }  // namespace
 
-void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
+void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("calibrate", "A rig from recordings of a tree or a grid of known size");
   command->footer(
       "Each recording describes the object that it shows (see 'kinemark simulate rig --grid --tree-poses'). "
@@ -52,10 +51,7 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
       "when the\n"
       "model of the cameras does not fit the counts.");
   const auto job = std::make_shared<pipeline::CalibrateJob>();
-  const std::map<std::string, pipeline::CalibrateJob::Method> methods{
-      {"bundle", pipeline::CalibrateJob::Method::bundle},
-      {"grid-lut", pipeline::CalibrateJob::Method::grid_lut},
-      {"scan", pipeline::CalibrateJob::Method::scan}};
+  using Method = pipeline::CalibrateJob::Method;
   command
       ->add_option("INPUT", job->inputs,
                    "Recordings (.mcap) of the tree, of the grid before each camera, or of both")
@@ -66,12 +62,10 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
       "--align", job->align_only,
       "Only report how far the cameras are from their nominal poses, and the next adjustment");
   output->excludes(align);
-  command
-      ->add_option("--method", job->method,
-                   "bundle: tree and grid, everything at once; scan: an LED on a motor stage; grid-lut: the "
-                   "table of 1986")
-      ->transform(CLI::CheckedTransformer(methods, CLI::ignore_case))
-      ->default_str("bundle");
+  add_choice<Method>(*command, "--method", job->method,
+                     {{"bundle", Method::bundle}, {"grid-lut", Method::grid_lut}, {"scan", Method::scan}},
+                     "bundle: tree and grid, everything at once; scan: an LED on a motor stage; grid-lut: "
+                     "the table of 1986");
   command
       ->add_option("--sides", job->sides_m,
                    "Sides of the tree between LEDs 1-2, 1-3 and 2-3, m; as recorded when absent")
@@ -84,9 +78,9 @@ void add_calibrate(CLI::App& app, const Globals& globals, Run& run) {
                     "Leave terms between electrodes out");
   command->add_flag("--no-escalate{false},--escalate", job->bundle.escalate,
                     "Keep the model as it is, fit or not");
-  command->callback([&globals, job, output, align, &run] {
+  command->callback([&common, job, output, align, &run] {
     if (output->count() == 0 && align->count() == 0) throw CLI::RequiredError("--output or --align");
-    run = [&globals, job] { return run_command(globals, *job); };
+    run = [&common, job] { return run_command(common, *job); };
   });
 }
 

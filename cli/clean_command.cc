@@ -10,7 +10,7 @@ namespace kinemark::cli {
 namespace {
 
 /// With more markers than this the details are in the report only.
-constexpr std::size_t kMarkersTold = 12;
+constexpr std::size_t kMarkersListed = 12;
 
 struct CleanArguments {
   pipeline::CleanJob job;
@@ -19,7 +19,7 @@ struct CleanArguments {
   bool uncorrected = false;
 };
 
-void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome) {
+void print_clean_outcome(const CommonOptions& common, const pipeline::CleanOutcome& outcome) {
   const auto& report = outcome.report;
   const auto& markers = outcome.trial.markers;
   std::int64_t open = 0, filled = 0, measured = 0;
@@ -28,19 +28,18 @@ void print_outcome(const Globals& globals, const pipeline::CleanOutcome& outcome
     open += state == data::SampleState::missing || state == data::SampleState::rejected;
   }
   filled = static_cast<std::int64_t>(markers.state.size()) - open - measured;
-  say(globals,
-      fmt::format("{} markers, {} frames at {:g} Hz; of {} samples {} measured, {} made, {} missing.",
-                  markers.markers(), markers.frames(), markers.time.rate_hz, markers.state.size(), measured,
-                  filled, open));
-  if (report.account.markers.size() <= kMarkersTold)
+  say(common, fmt::format("{} markers, {} frames at {:g} Hz; of {} samples {} measured, {} made, {} missing.",
+                          markers.markers(), markers.frames(), markers.time.rate_hz, markers.state.size(),
+                          measured, filled, open));
+  if (report.account.markers.size() <= kMarkersListed)
     for (const auto& marker : report.account.markers)
-      say(globals, fmt::format("{}: {}", marker.name, marker.words));
+      say(common, fmt::format("{}: {}", marker.name, marker.description));
   for (const auto& finding : report::clean_findings(report))
-    say(globals,
+    say(common,
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
-  for (const auto& note : outcome.warnings) say(globals, fmt::format("note: {}", note));
-  say_written(globals, outcome);
-  if (globals.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
+  for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
+  say_written(common, outcome);
+  if (common.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
 }
 
 Status read_names(CleanArguments& arguments) {
@@ -60,22 +59,18 @@ Status read_names(CleanArguments& arguments) {
   return {};
 }
 
-int run_command(const Globals& globals, CleanArguments& arguments) {
+int run_command(const CommonOptions& common, CleanArguments& arguments) {
   if (auto s = read_names(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   job.gaps.max_sd_m = 1e-3 * arguments.max_gap_sd_mm;
   job.gaps.noise_sd_m = job.filter.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.filter.correct_cutoff = !arguments.uncorrected;
-  settle(globals, "markers", job);
-  const auto outcome = pipeline::run_clean(job);
-  if (!outcome) return report_error(outcome.error());
-  print_outcome(globals, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "markers", job, pipeline::run_clean, print_clean_outcome);
 }
 
 }  // namespace
 
-void add_clean(CLI::App& app, const Globals& globals, Run& run) {
+void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("clean", "Gaps filled, noise smoothed, derivatives, provenance kept");
   command->footer(
       "Reads and writes .c3d, .trc, .csv, .nwb. Nothing is filled unless --gaps says how; every sample "
@@ -120,9 +115,8 @@ void add_clean(CLI::App& app, const Globals& globals, Run& run) {
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
   command->add_option("--report", job.report, "Page to write, .html");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_command(globals, *arguments); };
-  });
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

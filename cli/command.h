@@ -10,7 +10,7 @@
 namespace kinemark::cli {
 
 /// Options that every command takes.
-struct Globals {
+struct CommonOptions {
   int threads = 0;
   std::uint64_t seed = 1;
   bool force = false;
@@ -22,21 +22,21 @@ struct Globals {
 /// A command adds itself to the program and stores its action in `run`, which returns the exit status.
 using Run = std::function<int()>;
 
-void add_calibrate(CLI::App& app, const Globals& globals, Run& run);
-void add_reconstruct(CLI::App& app, const Globals& globals, Run& run);
-void add_study(CLI::App& app, const Globals& globals, Run& run);
-void add_info(CLI::App& app, const Globals& globals, Run& run);
-void add_clean(CLI::App& app, const Globals& globals, Run& run);
-void add_convert(CLI::App& app, const Globals& globals, Run& run);
-void add_validate(CLI::App& app, const Globals& globals, Run& run);
-void add_simulate(CLI::App& app, const Globals& globals, Run& run);
-void add_simulate_limb(CLI::App& simulate, const Globals& globals, Run& run);
-void add_simulate_rig(CLI::App& simulate, const Globals& globals, Run& run);
-void add_ik(CLI::App& app, const Globals& globals, Run& run);
-void add_track(CLI::App& app, const Globals& globals, Run& run);
-void add_joints(CLI::App& app, const Globals& globals, Run& run);
-void add_recover(CLI::App& app, const Globals& globals, Run& run);
-void add_report(CLI::App& app, const Globals& globals, Run& run);
-void add_scale(CLI::App& app, const Globals& globals, Run& run);
+void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run);
+void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run);
+void add_study(CLI::App& app, const CommonOptions& common, Run& run);
+void add_info(CLI::App& app, const CommonOptions& common, Run& run);
+void add_clean(CLI::App& app, const CommonOptions& common, Run& run);
+void add_convert(CLI::App& app, const CommonOptions& common, Run& run);
+void add_validate(CLI::App& app, const CommonOptions& common, Run& run);
+void add_simulate(CLI::App& app, const CommonOptions& common, Run& run);
+void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run);
+void add_simulate_rig(CLI::App& simulate, const CommonOptions& common, Run& run);
+void add_ik(CLI::App& app, const CommonOptions& common, Run& run);
+void add_track(CLI::App& app, const CommonOptions& common, Run& run);
+void add_joints(CLI::App& app, const CommonOptions& common, Run& run);
+void add_recover(CLI::App& app, const CommonOptions& common, Run& run);
+void add_report(CLI::App& app, const CommonOptions& common, Run& run);
+void add_scale(CLI::App& app, const CommonOptions& common, Run& run);
 
 }  // namespace kinemark::cli

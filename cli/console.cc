@@ -25,26 +25,26 @@ extern "C" void note_signal(int number) {
 
 }  // namespace
 
-void say(const Globals& globals, std::string_view line) {
-  if (!globals.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+void say(const CommonOptions& common, std::string_view line) {
+  if (!common.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
 }
 
-void settle(const Globals& globals, std::string counts, pipeline::JobSettings& job) {
-  job.threads = globals.threads;
-  job.seed = globals.seed;
-  job.force = globals.force;
-  job.command_line = globals.command_line;
-  job.progress = show_progress(globals, std::move(counts));
+void settle(const CommonOptions& common, std::string counts, pipeline::JobSettings& job) {
+  job.threads = common.threads;
+  job.seed = common.seed;
+  job.force = common.force;
+  job.command_line = common.command_line;
+  job.progress = show_progress(common, std::move(counts));
 }
 
-void say_written(const Globals& globals, const pipeline::JobOutcome& outcome) {
-  for (const auto& path : outcome.written) say(globals, fmt::format("wrote {}", path.string()));
+void say_written(const CommonOptions& common, const pipeline::JobOutcome& outcome) {
+  for (const auto& path : outcome.written) say(common, fmt::format("wrote {}", path.string()));
 }
 
-void print_written(const Globals& globals, const pipeline::JobOutcome& outcome) {
-  for (const auto& warning : outcome.warnings) say(globals, fmt::format("note: {}", warning));
-  say_written(globals, outcome);
-  if (globals.json) fmt::print("{}\n", pipeline::outcome_json(outcome).dump(2));
+void print_written(const CommonOptions& common, const pipeline::JobOutcome& outcome) {
+  for (const auto& warning : outcome.warnings) say(common, fmt::format("note: {}", warning));
+  say_written(common, outcome);
+  if (common.json) fmt::print("{}\n", pipeline::outcome_json(outcome).dump(2));
 }
 
 int report_error(const Error& error) {
@@ -53,13 +53,13 @@ int report_error(const Error& error) {
   return exit_status(error.code);
 }
 
-Progress show_progress(const Globals& globals, std::string what) {
+Progress show_progress(const CommonOptions& common, std::string what) {
   using Clock = std::chrono::steady_clock;
   struct State {
     Clock::time_point start = Clock::now(), next = start + std::chrono::seconds(1);
   };
   const auto state = std::make_shared<State>();
-  const bool quiet = globals.quiet, terminal = isatty(STDERR_FILENO) != 0;
+  const bool quiet = common.quiet, terminal = isatty(STDERR_FILENO) != 0;
   return [quiet, terminal, state, what = std::move(what)](std::int64_t done, std::int64_t total) {
     if (caught_signal() != 0) return false;
     const auto now = Clock::now();

@@ -8,7 +8,7 @@
 
 namespace kinemark::cli {
 
-void add_convert(CLI::App& app, const Globals& globals, Run& run) {
+void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("convert", "A file in another format of its kind");
   command->footer(
       "Markers: .c3d, .trc, .nwb, .csv, and .v3d in. Tables: .mot, .sto. Models: .osim of any version in, "
@@ -17,14 +17,8 @@ void add_convert(CLI::App& app, const Globals& globals, Run& run) {
   command->add_option("IN", job->in, "File to read")->required();
   command->add_option("OUT", job->out, "File to write; its ending names the format")->required();
   command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
-  command->callback([&globals, job, &run] {
-    run = [&globals, job] {
-      settle(globals, "files", *job);
-      const auto outcome = pipeline::run_convert(*job);
-      if (!outcome) return report_error(outcome.error());
-      print_written(globals, *outcome);
-      return outcome->exit_status();
-    };
+  command->callback([&common, job, &run] {
+    run = [&common, job] { return run_job(common, "files", *job, pipeline::run_convert, print_written); };
   });
 }
 

@@ -22,21 +22,21 @@ std::string coordinates_partly_determined(const report::IkSummary& summary, std:
   return fmt::format("note: Not determined by the visible markers in so many of {} frames: {}", frames, list);
 }
 
-void print_outcome(const Globals& globals, const pipeline::IkOutcome& outcome) {
+void print_ik_outcome(const CommonOptions& common, const pipeline::IkOutcome& outcome) {
   const auto& result = outcome.result;
   const auto& motion = result.motion;
   const auto& summary = outcome.summary;
-  say(globals,
+  say(common,
       fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; solved in {:.3f} s ({:.0f} frames/s).",
                   motion.frames(), motion.time.rate_hz, result.fit.markers.size(), motion.size(),
                   result.solve_seconds, static_cast<double>(motion.frames()) / result.solve_seconds));
-  say(globals,
+  say(common,
       fmt::format("Marker error {:.2f} mm RMS, {:.1f} mm at most; {:.1f} % of the coordinates determined.",
                   1e3 * result.fit.rms_error_m, 1e3 * result.fit.max_error_m,
                   100.0 * summary.determined_fraction));
   const auto partly = coordinates_partly_determined(summary, motion.frames());
-  if (!partly.empty()) say(globals, partly);
-  print_motion(globals, outcome);
+  if (!partly.empty()) say(common, partly);
+  print_motion(common, outcome);
 }
 
 struct IkArguments {
@@ -46,7 +46,7 @@ struct IkArguments {
   double loss_scale_mm = 20.0;
 };
 
-int run_command(const Globals& globals, IkArguments& arguments) {
+int run_command(const CommonOptions& common, IkArguments& arguments) {
   auto& job = arguments.job;
   if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   for (const auto& text : arguments.coordinate_weights) {
@@ -55,16 +55,12 @@ int run_command(const Globals& globals, IkArguments& arguments) {
     job.options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
   }
   job.options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
-  settle(globals, "frames", job);
-  const auto outcome = pipeline::run_ik(job);
-  if (!outcome) return report_error(outcome.error());
-  print_outcome(globals, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
 }
 
 }  // namespace
 
-void add_ik(CLI::App& app, const Globals& globals, Run& run) {
+void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand(
       "ik", "Joint angles from markers by least squares, each with its standard deviation");
   command->footer(
@@ -103,6 +99,17 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Estimate");
   command
       ->add_option_function<std::string>(
+          "--outliers",
+          [&options](const std::string& what) {
+            if (what != "reject" && what != "keep")
+              throw CLI::ValidationError("--outliers", fmt::format("'{}' is not reject or keep", what));
+            options.judge_samples = what == "reject";
+          },
+          "reject: leave out samples that neither the model nor the frames beside explain; keep: believe all")
+      ->default_str("reject")
+      ->group("Estimate");
+  command
+      ->add_option_function<std::string>(
           "--estimator",
           [&job](const std::string& name) {
             if (name == "smoother")
@@ -121,9 +128,8 @@ void add_ik(CLI::App& app, const Globals& globals, Run& run) {
   command->add_option("--loss-scale", arguments->loss_scale_mm, "Threshold of huber, scale of cauchy, mm")
       ->capture_default_str()
       ->group("Estimate");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_command(globals, *arguments); };
-  });
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

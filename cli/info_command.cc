@@ -8,18 +8,18 @@
 
 namespace kinemark::cli {
 
-void add_info(CLI::App& app, const Globals& globals, Run& run) {
+void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("info", "What a marker, motion, model or recording file holds");
   const auto job = std::make_shared<pipeline::InfoJob>();
   command->add_option("FILE", job->file, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
       ->required();
   command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
-  command->callback([&globals, job, &run] {
-    run = [&globals, job] {
-      settle(globals, "files", *job);
+  command->callback([&common, job, &run] {
+    run = [&common, job] {
+      settle(common, "files", *job);
       const auto outcome = pipeline::run_info(*job);
       if (!outcome) return report_error(outcome.error());
-      if (globals.json)
+      if (common.json)
         fmt::print("{}\n", pipeline::info_json(*outcome).dump(2));
       else
         fmt::print("{}", pipeline::info_text(*outcome));

@@ -27,29 +27,29 @@ Status read_names(JointsArguments& arguments) {
   return {};
 }
 
-int run_command(const Globals& globals, JointsArguments& arguments) {
+int run_command(const CommonOptions& common, JointsArguments& arguments) {
   if (auto s = read_names(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.continuity = !arguments.no_continuity;
-  settle(globals, "frames", job);
+  settle(common, "frames", job);
   const auto outcome = pipeline::run_joints(job);
   if (!outcome) return report_error(outcome.error());
   const auto& skeleton = outcome->skeleton;
-  say(globals, fmt::format("{} frames at {:g} Hz, {} segments, {} joints; marker noise {:.2f} mm per axis.",
-                           skeleton.frames(), skeleton.time.rate_hz, skeleton.segments.size(),
-                           skeleton.joints.size(), 1e3 * skeleton.noise_sd_m));
-  for (const auto& line : pipeline::skeleton_words(skeleton)) say(globals, line);
-  for (const auto& warning : skeleton.warnings) say(globals, "attention: " + warning);
-  for (const auto& note : outcome->warnings) say(globals, "note: " + note);
-  say_written(globals, *outcome);
-  if (globals.json) fmt::print("{}\n", pipeline::joints_json(job, *outcome).dump(2));
+  say(common, fmt::format("{} frames at {:g} Hz, {} segments, {} joints; marker noise {:.2f} mm per axis.",
+                          skeleton.frames(), skeleton.time.rate_hz, skeleton.segments.size(),
+                          skeleton.joints.size(), 1e3 * skeleton.noise_sd_m));
+  for (const auto& line : pipeline::skeleton_description(skeleton)) say(common, line);
+  for (const auto& warning : skeleton.warnings) say(common, "attention: " + warning);
+  for (const auto& note : outcome->warnings) say(common, "note: " + note);
+  say_written(common, *outcome);
+  if (common.json) fmt::print("{}\n", pipeline::joints_json(job, *outcome).dump(2));
   return outcome->exit_status();
 }
 
 }  // namespace
 
-void add_joints(CLI::App& app, const Globals& globals, Run& run) {
+void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command =
       app.add_subcommand("joints", "Joint centres and axes from markers, each with its covariance");
   command->footer(
@@ -98,9 +98,8 @@ void add_joints(CLI::App& app, const Globals& globals, Run& run) {
   command
       ->add_flag("--keep-defects", job.keep_defects, "Use samples that screening calls swapped or false, too")
       ->group("Input");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_command(globals, *arguments); };
-  });
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <new>
+#include <string>
+#include <system_error>
 
 #include "cli/command.h"
 #include "cli/console.h"
@@ -10,7 +15,7 @@
 
 namespace {
 
-using kinemark::cli::Globals;
+using kinemark::cli::CommonOptions;
 using kinemark::cli::Run;
 
 constexpr const char* kFooter =
@@ -19,17 +24,27 @@ constexpr const char* kFooter =
     "--help'\n"
     "those that every command takes.";
 
-void add_globals(CLI::App& app, Globals& globals) {
-  app.add_option("--threads", globals.threads, "Threads; 0 uses all cores. Any number gives the same bits.")
+/// CLI11 takes -1 and numbers beyond 64 bits for others.
+std::string whole_number(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return "";
+  return fmt::format("'{}' is not a whole number from 0 to {}", text,
+                     std::numeric_limits<std::uint64_t>::max());
+}
+
+void add_common_options(CLI::App& app, CommonOptions& common) {
+  app.add_option("--threads", common.threads, "Threads; 0 uses all cores. Any number gives the same bits.")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str()
       ->group("Everywhere");
-  app.add_option("--seed", globals.seed, "Seed of everything random")
+  app.add_option("--seed", common.seed, "Seed of everything random")
+      ->check(whole_number)
       ->capture_default_str()
       ->group("Everywhere");
-  app.add_flag("--force", globals.force, "Replace files that exist")->group("Everywhere");
-  app.add_flag("--quiet", globals.quiet, "Say nothing but errors")->group("Everywhere");
-  app.add_flag("--json", globals.json, "Print the result as JSON on stdout")->group("Everywhere");
+  app.add_flag("--force", common.force, "Replace files that exist")->group("Everywhere");
+  app.add_flag("--quiet", common.quiet, "Say nothing but errors")->group("Everywhere");
+  app.add_flag("--json", common.json, "Print the result as JSON on stdout")->group("Everywhere");
 }
 
 /// One sentence on the error in the command line and on where the options are explained.
@@ -44,31 +59,31 @@ int report_usage(const CLI::App& app, const std::string& what) {
 }
 
 int run_program(int argc, char** argv) {
-  Globals globals;
+  CommonOptions common;
   for (int i = 0; i < argc; ++i)
-    globals.command_line += (i ? std::string(" ") : std::string()) + (i ? argv[i] : "kinemark");
+    common.command_line += (i ? std::string(" ") : std::string()) + (i ? argv[i] : "kinemark");
   CLI::App app("From detector counts to joint angles, with an error bar on every number.", "kinemark");
   app.set_version_flag("--version", std::string("kinemark ") + kinemark::kVersion);
   app.footer(kFooter);
   app.require_subcommand(1);
   app.fallthrough();
   app.get_formatter()->column_width(36);
-  add_globals(app, globals);
+  add_common_options(app, common);
   Run run;
-  kinemark::cli::add_simulate(app, globals, run);
-  kinemark::cli::add_calibrate(app, globals, run);
-  kinemark::cli::add_reconstruct(app, globals, run);
-  kinemark::cli::add_clean(app, globals, run);
-  kinemark::cli::add_joints(app, globals, run);
-  kinemark::cli::add_scale(app, globals, run);
-  kinemark::cli::add_ik(app, globals, run);
-  kinemark::cli::add_track(app, globals, run);
-  kinemark::cli::add_report(app, globals, run);
-  kinemark::cli::add_study(app, globals, run);
-  kinemark::cli::add_info(app, globals, run);
-  kinemark::cli::add_convert(app, globals, run);
-  kinemark::cli::add_validate(app, globals, run);
-  kinemark::cli::add_recover(app, globals, run);
+  kinemark::cli::add_simulate(app, common, run);
+  kinemark::cli::add_calibrate(app, common, run);
+  kinemark::cli::add_reconstruct(app, common, run);
+  kinemark::cli::add_clean(app, common, run);
+  kinemark::cli::add_joints(app, common, run);
+  kinemark::cli::add_scale(app, common, run);
+  kinemark::cli::add_ik(app, common, run);
+  kinemark::cli::add_track(app, common, run);
+  kinemark::cli::add_report(app, common, run);
+  kinemark::cli::add_study(app, common, run);
+  kinemark::cli::add_info(app, common, run);
+  kinemark::cli::add_convert(app, common, run);
+  kinemark::cli::add_validate(app, common, run);
+  kinemark::cli::add_recover(app, common, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

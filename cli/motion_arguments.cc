@@ -14,14 +14,14 @@ Result<std::pair<std::string, double>> parse_pair(const std::string& text, const
   return std::pair{text.substr(0, equals), *number};
 }
 
-void print_motion(const Globals& globals, const pipeline::MotionOutcome& outcome) {
+void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& outcome) {
   for (const auto& notice : outcome.summary.notices) {
     const bool note = notice.level == report::Verdict::good;
     if (note && notice.about == "coordinate") continue;
-    say(globals, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
+    say(common, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
-  say_written(globals, outcome);
-  if (globals.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
+  say_written(common, outcome);
+  if (common.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
 }
 
 }  // namespace kinemark::cli

@@ -92,6 +92,6 @@ template <class Job>
 }
 
 /// Findings, files, and the summary with --json.
-void print_motion(const Globals& globals, const pipeline::MotionOutcome& outcome);
+void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& outcome);
 
 }  // namespace kinemark::cli

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include <map>
 #include <memory>
 
+#include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/rig/reconstruct_json.h"
@@ -10,43 +10,38 @@
 namespace kinemark::cli {
 namespace {
 
-int run_command(const Globals& globals, pipeline::ReconstructJob& job) {
-  settle(globals, "LEDs", job);
+int run_command(const CommonOptions& common, pipeline::ReconstructJob& job) {
+  settle(common, "LEDs", job);
   const auto outcome = pipeline::run_reconstruct(job);
   if (!outcome) return report_error(outcome.error());
-  for (const auto& warning : outcome->warnings) say(globals, warning);
+  for (const auto& warning : outcome->warnings) say(common, warning);
   for (const auto& led : outcome->leds)
-    say(globals,
+    say(common,
         fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge", led.name,
                     led.located, led.frames, led.occluded, led.inconsistent, led.near_edge));
-  say_written(globals, *outcome);
-  if (globals.json) fmt::print("{}\n", pipeline::reconstruct_json(*outcome).dump(2));
+  say_written(common, *outcome);
+  if (common.json) fmt::print("{}\n", pipeline::reconstruct_json(*outcome).dump(2));
   return outcome->exit_status();
 }
 
 }  // namespace
 
-void add_reconstruct(CLI::App& app, const Globals& globals, Run& run) {
+void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run) {
   using Method = pipeline::ReconstructJob::Method;
   auto* command = app.add_subcommand("reconstruct", "Points in space from counts and a calibrated rig");
   const auto job = std::make_shared<pipeline::ReconstructJob>();
-  const std::map<std::string, Method> methods{
-      {"smoother", Method::smoother}, {"frames", Method::frames}, {"classic", Method::classic}};
-  const std::map<std::string, trajectory::Flicker> flickers{{"regress", trajectory::Flicker::regress},
-                                                            {"dark-slot", trajectory::Flicker::dark_slot},
-                                                            {"ignore", trajectory::Flicker::ignore}};
+  using trajectory::Flicker;
   command->add_option("INPUT", job->recording, "Recording of counts (.mcap)")->required();
   command->add_option("--rig", job->rig, "Calibrated rig, rig.toml")->required();
   command->add_option("-o,--output", job->output, "Markers to write: .c3d, .trc or .csv")->required();
-  command
-      ->add_option("--method", job->method,
-                   "smoother: every count at its own time; frames: each frame alone; classic: look-up table "
-                   "and midpoint")
-      ->transform(CLI::CheckedTransformer(methods, CLI::ignore_case))
-      ->default_str("smoother");
-  command->add_option("--flicker", job->smoother.flicker, "Light of the room: regress, dark-slot or ignore")
-      ->transform(CLI::CheckedTransformer(flickers, CLI::ignore_case))
-      ->default_str("regress");
+  add_choice<Method>(
+      *command, "--method", job->method,
+      {{"smoother", Method::smoother}, {"frames", Method::frames}, {"classic", Method::classic}},
+      "smoother: every count at its own time; frames: each frame alone; classic: look-up table and midpoint");
+  add_choice<Flicker>(
+      *command, "--flicker", job->smoother.flicker,
+      {{"regress", Flicker::regress}, {"dark-slot", Flicker::dark_slot}, {"ignore", Flicker::ignore}},
+      "Light of the room: regress, dark-slot or ignore");
   command->add_option("--order", job->smoother.order, "smoother: integrations, 3 to 5; 0 chooses")
       ->capture_default_str();
   command
@@ -58,10 +53,10 @@ void add_reconstruct(CLI::App& app, const Globals& globals, Run& run) {
   command
       ->add_option("--dim", job->frames.dim_share, "Light below this share of the LED's median is not used")
       ->capture_default_str();
-  command->callback([&globals, job, &run] {
-    run = [&globals, job] {
+  command->callback([&common, job, &run] {
+    run = [&common, job] {
       job->smoother.dim_share = job->frames.dim_share;
-      return run_command(globals, *job);
+      return run_command(common, *job);
     };
   });
 }

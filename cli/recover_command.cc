@@ -9,7 +9,7 @@
 
 namespace kinemark::cli {
 
-void add_recover(CLI::App& app, const Globals& globals, Run& run) {
+void add_recover(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command =
       app.add_subcommand("recover", "A whole recording from one that was cut, damaged or never closed");
   command->footer(
@@ -18,15 +18,15 @@ void add_recover(CLI::App& app, const Globals& globals, Run& run) {
   const auto job = std::make_shared<pipeline::RecoverJob>();
   command->add_option("IN", job->in, "Recording to read (.mcap)")->required();
   command->add_option("OUT", job->out, "Recording to write")->required();
-  command->callback([&globals, job, &run] {
-    run = [&globals, job] {
-      settle(globals, "messages", *job);
+  command->callback([&common, job, &run] {
+    run = [&common, job] {
+      settle(common, "messages", *job);
       const auto outcome = pipeline::run_recover(*job);
       if (!outcome) return report_error(outcome.error());
       for (const auto& warning : outcome->warnings)
-        say(globals, fmt::format("{}: {}", job->in.string(), warning));
-      say(globals, fmt::format("wrote {}: {} messages", job->out.string(), outcome->messages));
-      if (globals.json) fmt::print("{}\n", pipeline::recover_json(*outcome).dump(2));
+        say(common, fmt::format("{}: {}", job->in.string(), warning));
+      say(common, fmt::format("wrote {}: {} messages", job->out.string(), outcome->messages));
+      if (common.json) fmt::print("{}\n", pipeline::recover_json(*outcome).dump(2));
       return outcome->exit_status();
     };
   });

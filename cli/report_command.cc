@@ -8,20 +8,14 @@
 
 namespace kinemark::cli {
 
-void add_report(CLI::App& app, const Globals& globals, Run& run) {
+void add_report(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("report", "One self-contained page of a solved trial");
   const auto job = std::make_shared<pipeline::ReportJob>();
   command->add_option("IN", job->solved, "Q.mot as written by 'kinemark ik', with its companions beside it")
       ->required();
   command->add_option("-o,--output", job->page, "Page to write, R.html")->required();
-  command->callback([&globals, job, &run] {
-    run = [&globals, job] {
-      settle(globals, "pages", *job);
-      const auto outcome = pipeline::run_report(*job);
-      if (!outcome) return report_error(outcome.error());
-      print_written(globals, *outcome);
-      return outcome->exit_status();
-    };
+  command->callback([&common, job, &run] {
+    run = [&common, job] { return run_job(common, "pages", *job, pipeline::run_report, print_written); };
   });
 }
 

@@ -10,65 +10,62 @@
 namespace kinemark::cli {
 namespace {
 
-void print_adapted(const Globals& globals, const motion::AdaptResult& result, const char* what) {
-  say(globals,
+void print_adapted(const CommonOptions& common, const motion::AdaptResult& result, const char* what) {
+  say(common,
       fmt::format("{}: {} frames, {} steps; marker error {:.2f} mm RMS, {:.2f} mm before.", what,
                   result.frames, result.iterations, 1e3 * result.rms_after_m, 1e3 * result.rms_before_m));
   if (!result.converged)
-    say(globals, "attention: the adaptation did not converge; its numbers are intermediate");
+    say(common, "attention: the adaptation did not converge; its numbers are intermediate");
   if (result.tissue_sd_m > 0.0)
-    say(globals,
+    say(common,
         fmt::format("Markers slide on the body with the posture, {:.1f} mm per axis; deviations include it.",
                     1e3 * result.tissue_sd_m));
   for (const auto& p : result.parameters)
     if (p.kind == motion::ParameterKind::body_scale && p.determined)
-      say(globals, fmt::format("  {:16} x {:.4f} +- {:.4f}", p.name, p.value, p.sd));
+      say(common, fmt::format("  {:16} x {:.4f} +- {:.4f}", p.name, p.value, p.sd));
   std::vector<std::string> open;
   for (const auto& p : result.parameters)
-    if (p.kind != motion::ParameterKind::marker_place && !p.determined) open.push_back(p.name);
-  if (!open.empty()) say(globals, fmt::format("note: Not determined by these data: {}", join(open)));
-  for (const auto& sentence : result.recommendations) say(globals, fmt::format("attention: {}", sentence));
+    if (p.kind != motion::ParameterKind::marker_position && !p.determined) open.push_back(p.name);
+  if (!open.empty()) say(common, fmt::format("note: Not determined by these data: {}", join(open)));
+  for (const auto& sentence : result.recommendations) say(common, fmt::format("attention: {}", sentence));
 }
 
-void print_outcome(const Globals& globals, const pipeline::ScaleJob& job,
-                   const pipeline::ScaleOutcome& outcome) {
-  if (!outcome.clavicles.empty()) say(globals, fmt::format("Set free: {}.", join(outcome.clavicles)));
+void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& job,
+                         const pipeline::ScaleOutcome& outcome) {
+  if (!outcome.clavicles.empty()) say(common, fmt::format("Set free: {}.", join(outcome.clavicles)));
   if (outcome.scaled)
     for (const auto& m : outcome.scaled->measurements)
-      say(globals, fmt::format("measured {:16} x {:.4f}", m.name, m.factor));
-  if (outcome.from_static) print_adapted(globals, *outcome.from_static, "Static trial");
+      say(common, fmt::format("measured {:16} x {:.4f}", m.name, m.factor));
+  if (outcome.from_static) print_adapted(common, *outcome.from_static, "Static trial");
   if (outcome.placed)
-    say(globals, fmt::format("{} markers placed; the pose fitted the model's markers to {:.1f} mm RMS.",
-                             outcome.placed->markers.size(), 1e3 * outcome.placed->rms_m));
-  if (outcome.from_motion) print_adapted(globals, *outcome.from_motion, "Motion");
-  for (const auto& note : outcome.warnings) say(globals, fmt::format("attention: {}", note));
-  say_written(globals, outcome);
-  if (globals.json) fmt::print("{}\n", pipeline::scale_json(job, outcome).dump(2));
+    say(common, fmt::format("{} markers placed; the pose fitted the model's markers to {:.1f} mm RMS.",
+                            outcome.placed->markers.size(), 1e3 * outcome.placed->rms_m));
+  if (outcome.from_motion) print_adapted(common, *outcome.from_motion, "Motion");
+  for (const auto& note : outcome.warnings) say(common, fmt::format("attention: {}", note));
+  say_written(common, outcome);
+  if (common.json) fmt::print("{}\n", pipeline::scale_json(job, outcome).dump(2));
 }
 
 struct ScaleArguments {
   pipeline::ScaleJob job;
-  double noise_mm = 0.0, place_prior_mm = 10.0, size_prior_percent = 10.0, max_rms_mm = 50.0;
+  double noise_mm = 0.0, position_prior_mm = 10.0, size_prior_percent = 10.0, max_rms_mm = 50.0;
   bool no_soft_tissue = false;
 };
 
-int run_command(const Globals& globals, ScaleArguments& arguments) {
+int run_command(const CommonOptions& common, ScaleArguments& arguments) {
   auto& job = arguments.job;
   job.adapt.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
   job.adapt.soft_tissue = !arguments.no_soft_tissue;
-  job.place_prior_sd_m = 1e-3 * arguments.place_prior_mm;
+  job.position_prior_sd_m = 1e-3 * arguments.position_prior_mm;
   job.size_prior_sd = 1e-2 * arguments.size_prior_percent;
   job.max_rms_m = 1e-3 * arguments.max_rms_mm;
-  settle(globals, "steps", job);
-  const auto outcome = pipeline::run_scale(job);
-  if (!outcome) return report_error(outcome.error());
-  print_outcome(globals, job, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "steps", job, pipeline::run_scale,
+                 [&](const auto&, const auto& outcome) { print_scale_outcome(common, job, outcome); });
 }
 
 }  // namespace
 
-void add_scale(CLI::App& app, const Globals& globals, Run& run) {
+void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command =
       app.add_subcommand("scale", "A model made to fit a subject, with the uncertainty of every size");
   command->footer(
@@ -108,7 +105,7 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
       ->capture_default_str()
       ->group("Estimate");
   command
-      ->add_option("--place-prior", arguments->place_prior_mm,
+      ->add_option("--place-prior", arguments->position_prior_mm,
                    "How far a marker may be from its position in the model so far, mm per axis (1 SD)")
       ->capture_default_str()
       ->group("Estimate");
@@ -125,9 +122,8 @@ void add_scale(CLI::App& app, const Globals& globals, Run& run) {
   command->add_option("--max-rms", arguments->max_rms_mm, "Gate: RMS marker error, mm")
       ->capture_default_str()
       ->group("Quality gates");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_command(globals, *arguments); };
-  });
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

@@ -14,19 +14,15 @@ struct SubjectArguments {
   double noise_mm = 1.0;
 };
 
-int run_subject(const Globals& globals, SubjectArguments& arguments) {
+int run_subject(const CommonOptions& common, SubjectArguments& arguments) {
   auto& job = arguments.job;
   job.options.noise_sd_m = 1e-3 * arguments.noise_mm;
-  settle(globals, "files", job);
-  const auto outcome = pipeline::run_simulate_subject(job);
-  if (!outcome) return report_error(outcome.error());
-  print_written(globals, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "files", job, pipeline::run_simulate_subject, print_written);
 }
 
 }  // namespace
 
-void add_simulate(CLI::App& app, const Globals& globals, Run& run) {
+void add_simulate(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("simulate", "Recordings with known truth");
   command->require_subcommand(1);
   auto* subject = command->add_subcommand(
@@ -57,11 +53,10 @@ void add_simulate(CLI::App& app, const Globals& globals, Run& run) {
       ->add_option("--dropout-sight", options.dropout_sight,
                    "Share of samples lost because the body hides the marker")
       ->capture_default_str();
-  subject->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_subject(globals, *arguments); };
-  });
-  add_simulate_limb(*command, globals, run);
-  add_simulate_rig(*command, globals, run);
+  subject->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_subject(common, *arguments); }; });
+  add_simulate_limb(*command, common, run);
+  add_simulate_rig(*command, common, run);
 }
 
 }  // namespace kinemark::cli

@@ -20,7 +20,7 @@ struct LimbArguments {
   bool missing_given = false;
 };
 
-int run_limb(const Globals& globals, LimbArguments& arguments) {
+int run_limb(const CommonOptions& common, LimbArguments& arguments) {
   auto& job = arguments.job;
   job.arm.noise_sd_m = job.macaque.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.arm.stagger_m = 1e-3 * arguments.stagger_mm;
@@ -36,11 +36,7 @@ int run_limb(const Globals& globals, LimbArguments& arguments) {
   job.macaque.line_of_sight = !arguments.all_seen;
   job.upsample.how =
       arguments.interpolation == "cubic" ? simulation::Upsampling::cubic : simulation::Upsampling::linear;
-  settle(globals, "files", job);
-  const auto outcome = pipeline::run_simulate_limb(job);
-  if (!outcome) return report_error(outcome.error());
-  print_written(globals, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "files", job, pipeline::run_simulate_limb, print_written);
 }
 
 /// What both have in common.
@@ -62,7 +58,7 @@ void add_common(CLI::App& command, LimbArguments& arguments, double& missing) {
 
 }  // namespace
 
-void add_simulate_limb(CLI::App& simulate, const Globals& globals, Run& run) {
+void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run) {
   auto* arm = simulate.add_subcommand(
       "arm", "Segments in a chain in any pose, as the macaque report simulated its arm, and the truth");
   const auto chain = std::make_shared<LimbArguments>();
@@ -79,7 +75,7 @@ void add_simulate_limb(CLI::App& simulate, const Globals& globals, Run& run) {
   arm->add_option("--stagger", chain->stagger_mm, "Distance of the markers from the bone, mm")
       ->capture_default_str();
   arm->add_flag("--planar", options.planar, "Staggered to both sides, not all around the bone");
-  arm->callback([&globals, chain, &run] { run = [&globals, chain] { return run_limb(globals, *chain); }; });
+  arm->callback([&common, chain, &run] { run = [&common, chain] { return run_limb(common, *chain); }; });
 
   auto* macaque = simulate.add_subcommand(
       "macaque", "A monkey's arm in a sleeve of LEDs, reaching for food and bringing it to the mouth");
@@ -97,9 +93,9 @@ void add_simulate_limb(CLI::App& simulate, const Globals& globals, Run& run) {
       ->excludes(all_seen);
   macaque->add_flag("--obstacles", worn.obstacles, "Head, trunk and cage bars stand in the way as well")
       ->excludes(all_seen);
-  macaque->callback([&globals, macaque, sleeve, &run] {
+  macaque->callback([&common, macaque, sleeve, &run] {
     sleeve->missing_given = macaque->count("--missing") > 0;
-    run = [&globals, sleeve] { return run_limb(globals, *sleeve); };
+    run = [&common, sleeve] { return run_limb(common, *sleeve); };
   });
 }
 

@@ -14,7 +14,7 @@ struct RigArguments {
   pipeline::SimulateRigJob job;
   std::string scene = "sign", detector = "tetra-lateral";
   std::vector<std::string> intensity;
-  bool glint = false, z_is_up = false, keep_place = false, no_noise = false;
+  bool glint = false, z_is_up = false, keep_position = false, no_noise = false;
 };
 
 /// "0.5" for all LEDs or "hand=0.5" for one.
@@ -41,26 +41,22 @@ Status complete(RigArguments& arguments) {
   job.recording.noise = !arguments.no_noise;
   job.wheel.glint_share = arguments.glint ? 0.04 : 0.0;
   job.marker_options.z_is_up = arguments.z_is_up;
-  job.marker_options.centred = !arguments.keep_place;
+  job.marker_options.centred = !arguments.keep_position;
   for (const auto& text : arguments.intensity)
     if (auto s = add_intensity(text, job); !s) return s;
   return {};
 }
 
-int run_rig(const Globals& globals, RigArguments& arguments) {
+int run_rig(const CommonOptions& common, RigArguments& arguments) {
   if (auto s = complete(arguments); !s) return report_error(s.error());
-  settle(globals, "files", arguments.job);
-  const auto outcome = pipeline::run_simulate_rig(arguments.job);
-  if (!outcome) return report_error(outcome.error());
-  print_written(globals, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "files", arguments.job, pipeline::run_simulate_rig, print_written);
 }
 
 void add_scene_options(CLI::App& rig, RigArguments& arguments) {
   auto& job = arguments.job;
   rig.add_option("scene", arguments.scene, "tree, wheel, sign or markers")->capture_default_str();
   rig.add_option("--pose", job.tree_pose, "tree: place, 0 to 9")->capture_default_str();
-  rig.add_option("--turned", job.wheel.turned_deg, "wheel: about the vertical, degrees")
+  rig.add_option("--turned", job.wheel.rotation_deg, "wheel: about the vertical, degrees")
       ->capture_default_str();
   rig.add_option("--leds", job.wheel.leds, "wheel: LEDs on the rim, 1 to 8")
       ->check(CLI::Range(1, 8))
@@ -70,7 +66,7 @@ void add_scene_options(CLI::App& rig, RigArguments& arguments) {
   rig.add_option("--marker", job.marker_options.markers, "markers: use this one; repeat for up to 8")
       ->allow_extra_args(false);
   rig.add_flag("--z-up", arguments.z_is_up, "markers: the laboratory's Z points up, not its Y");
-  rig.add_flag("--keep-place", arguments.keep_place, "markers: do not move them to the middle of the rig");
+  rig.add_flag("--keep-place", arguments.keep_position, "markers: do not move them to the middle of the rig");
 }
 
 void add_recording_options(CLI::App& rig, RigArguments& arguments) {
@@ -108,7 +104,7 @@ void add_rig_options(CLI::App& rig, RigArguments& arguments) {
 
 }  // namespace
 
-void add_simulate_rig(CLI::App& simulate, const Globals& globals, Run& run) {
+void add_simulate_rig(CLI::App& simulate, const CommonOptions& common, Run& run) {
   auto* rig =
       simulate.add_subcommand("rig", "Two lateral-effect cameras and pulsed LEDs: counts, and the truth");
   rig->footer(
@@ -122,7 +118,7 @@ void add_simulate_rig(CLI::App& simulate, const Globals& globals, Run& run) {
   add_recording_options(*rig, *arguments);
   add_rig_options(*rig, *arguments);
   rig->callback(
-      [&globals, arguments, &run] { run = [&globals, arguments] { return run_rig(globals, *arguments); }; });
+      [&common, arguments, &run] { run = [&common, arguments] { return run_rig(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

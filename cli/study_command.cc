@@ -37,9 +37,9 @@ void add_options(CLI::App& command, StudyArguments& arguments, const std::string
 /// @param run      seeds in, Result of a study out
 /// @param page_of  its page, a Result
 template <class RunStudy, class PageOf>
-int run_study(const Globals& globals, const StudyArguments& arguments, const RunStudy& run,
+int run_study(const CommonOptions& common, const StudyArguments& arguments, const RunStudy& run,
               const PageOf& page_of) {
-  std::vector<std::uint64_t> seeds{globals.seed};
+  std::vector<std::uint64_t> seeds{common.seed};
   if (!arguments.seeds.empty()) {
     auto parsed = studies::parse_seeds(arguments.seeds);
     if (!parsed) return report_error(parsed.error());
@@ -47,7 +47,7 @@ int run_study(const Globals& globals, const StudyArguments& arguments, const Run
   }
   std::optional<io::OutputFile> file;
   if (!arguments.figures.empty()) {
-    auto created = io::OutputFile::create(arguments.figures, globals.force);
+    auto created = io::OutputFile::create(arguments.figures, common.force);
     if (!created) return report_error(created.error());
     file.emplace(std::move(*created));
   }
@@ -59,48 +59,47 @@ int run_study(const Globals& globals, const StudyArguments& arguments, const Run
     if (auto s = file->write(studies::study_html(*page)); !s) return report_error(s.error());
     if (auto s = file->commit(); !s) return report_error(s.error());
   }
-  say(globals, studies::study_text(study->table));
-  if (file) say(globals, "wrote " + arguments.figures);
-  if (globals.json) fmt::print("{}\n", studies::study_json(study->table).dump(2));
+  say(common, studies::study_text(study->table));
+  if (file) say(common, "wrote " + arguments.figures);
+  if (common.json) fmt::print("{}\n", studies::study_json(study->table).dump(2));
   return study->table.pass() ? 0 : 1;
 }
 
-int run_poizner(const Globals& globals, const StudyArguments& arguments) {
+int run_poizner(const CommonOptions& common, const StudyArguments& arguments) {
   return run_study(
-      globals, arguments,
+      common, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
-        return studies::study_poizner({.seeds = seeds, .threads = globals.threads},
-                                      show_progress(globals, "rigs"));
+        return studies::study_poizner({.seeds = seeds, .threads = common.threads},
+                                      show_progress(common, "rigs"));
       },
       [](const studies::PoiznerStudy& study) -> Result<studies::StudyPage> {
         return studies::study_page(study);
       });
 }
 
-void add_poizner(CLI::App& command, const Globals& globals, Run& run) {
+void add_poizner(CLI::App& command, const CommonOptions& common, Run& run) {
   auto* poizner =
       command.add_subcommand("poizner", "Poizner, Wooten & Salot 1986: still tree, wheel, signing arm");
   poizner->footer("The worst of all rigs is held against each bound. Exit status 1 when a row fails.");
   const auto arguments = std::make_shared<StudyArguments>();
   add_options(*poizner, *arguments, "Rigs to draw");
-  poizner->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_poizner(globals, *arguments); };
-  });
+  poizner->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_poizner(common, *arguments); }; });
 }
 
-int run_macaque(const Globals& globals, const StudyArguments& arguments) {
+int run_macaque(const CommonOptions& common, const StudyArguments& arguments) {
   return run_study(
-      globals, arguments,
+      common, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
         studies::MacaqueJob job;
         job.seeds = seeds;
-        job.threads = globals.threads;
-        return studies::study_macaque(job, show_progress(globals, "recordings"));
+        job.threads = common.threads;
+        return studies::study_macaque(job, show_progress(common, "recordings"));
       },
       studies::macaque_page);
 }
 
-void add_macaque(CLI::App& command, const Globals& globals, Run& run) {
+void add_macaque(CLI::App& command, const CommonOptions& common, Run& run) {
   auto* macaque = command.add_subcommand(
       "macaque", "The macaque report's elbow (after Kirk, O'Brien & Forsyth 2005): noise x missing data");
   macaque->footer(
@@ -108,34 +107,33 @@ void add_macaque(CLI::App& command, const Globals& globals, Run& run) {
       "pooled. About a minute a seed on one core. Exit status 1 when a row fails.");
   const auto arguments = std::make_shared<StudyArguments>();
   add_options(*macaque, *arguments, "Recordings of each cell");
-  macaque->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_macaque(globals, *arguments); };
-  });
+  macaque->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_macaque(common, *arguments); }; });
 }
 
 struct TaiChiArguments : StudyArguments {
   studies::TaiChiFiles files;
 };
 
-int run_tai_chi(const Globals& globals, const TaiChiArguments& arguments) {
+int run_tai_chi(const CommonOptions& common, const TaiChiArguments& arguments) {
   if (!arguments.seeds.empty() && !arguments.files.data.empty())
     return report_error({Code::usage, "--seeds draws simulated subjects; it does not go with --data"});
   return run_study(
-      globals, arguments,
+      common, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
         auto files = arguments.files;
-        files.threads = globals.threads;
+        files.threads = common.threads;
         files.seeds = seeds;
         if (files.data.empty())
-          say(globals, "note: no recording was named (--data); simulated subjects stand in for it");
-        return studies::run_study_taichi(files, show_progress(globals, "parts"));
+          say(common, "note: no recording was named (--data); simulated subjects stand in for it");
+        return studies::run_study_taichi(files, show_progress(common, "parts"));
       },
       [](const studies::TaiChiStudy& study) -> Result<studies::StudyPage> {
         return studies::taichi_page(study);
       });
 }
 
-void add_tai_chi(CLI::App& command, const Globals& globals, Run& run) {
+void add_tai_chi(CLI::App& command, const CommonOptions& common, Run& run) {
   auto* taichi = command.add_subcommand(
       "taichi", "Demircan, Sentis, De Sapio & Khatib 2008: tai chi by direct marker control");
   taichi->footer(
@@ -150,19 +148,18 @@ void add_tai_chi(CLI::App& command, const Globals& globals, Run& run) {
                    "Frame rate of a recording that stores none (.v3d), Hz; 179 when absent")
       ->check(CLI::PositiveNumber);
   add_options(*taichi, *arguments, "Subjects to simulate");
-  taichi->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_tai_chi(globals, *arguments); };
-  });
+  taichi->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_tai_chi(common, *arguments); }; });
 }
 
 }  // namespace
 
-void add_study(CLI::App& app, const Globals& globals, Run& run) {
+void add_study(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("study", "The founding papers' tables beside ours");
   command->require_subcommand(1);
-  add_poizner(*command, globals, run);
-  add_macaque(*command, globals, run);
-  add_tai_chi(*command, globals, run);
+  add_poizner(*command, common, run);
+  add_macaque(*command, common, run);
+  add_tai_chi(*command, common, run);
 }
 
 }  // namespace kinemark::cli

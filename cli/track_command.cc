@@ -64,42 +64,38 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   return {};
 }
 
-void print_outcome(const Globals& globals, const pipeline::TrackOutcome& outcome) {
+void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutcome& outcome) {
   const auto& result = outcome.result;
   const auto& motion = result.motion;
-  say(globals,
+  say(common,
       fmt::format("{} frames at {:g} Hz, {} markers, {} coordinates; {} steps of {:.3g} ms in {:.3f} s.",
                   motion.frames(), motion.time.rate_hz, result.fit.markers.size(), motion.size(),
                   result.steps, 1e3 * result.step_s, result.solve_seconds));
-  say(globals,
+  say(common,
       fmt::format("Marker error {:.2f} mm RMS against the recording, {:.2f} mm against the goals; rank "
                   "{} to {} of {}.",
                   1e3 * result.fit.rms_error_m, 1e3 * result.rms_goal_error_m,
                   *std::min_element(result.rank.begin(), result.rank.end()),
                   *std::max_element(result.rank.begin(), result.rank.end()), result.free_speeds));
   if (!result.locked_coordinates.empty())
-    say(globals, fmt::format("note: Held at rest because no tracked marker moves them: {}",
-                             join(result.locked_coordinates)));
+    say(common, fmt::format("note: Held at rest because no tracked marker moves them: {}",
+                            join(result.locked_coordinates)));
   if (!result.undetermined_coordinates.empty())
-    say(globals, fmt::format("note: Determined in fewer than 95 % of the frames: {}",
-                             join(result.undetermined_coordinates)));
-  print_motion(globals, outcome);
+    say(common, fmt::format("note: Determined in fewer than 95 % of the frames: {}",
+                            join(result.undetermined_coordinates)));
+  print_motion(common, outcome);
 }
 
-int run_command(const Globals& globals, const TrackArguments& arguments) {
+int run_command(const CommonOptions& common, const TrackArguments& arguments) {
   pipeline::TrackJob job = arguments.job;
   if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   if (auto status = apply(arguments, job); !status) return report_error(status.error());
-  settle(globals, "frames", job);
-  const auto outcome = pipeline::run_track(job);
-  if (!outcome) return report_error(outcome.error());
-  print_outcome(globals, *outcome);
-  return outcome->exit_status();
+  return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);
 }
 
 }  // namespace
 
-void add_track(CLI::App& app, const Globals& globals, Run& run) {
+void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand(
       "track", "Joint angles and torques from markers by direct marker control, with bounds");
   command->footer(
@@ -140,9 +136,8 @@ void add_track(CLI::App& app, const Globals& globals, Run& run) {
       ->group("Control");
   command->add_flag("--no-feed-forward", a.no_feed_forward, "Use positions only, not their rates")
       ->group("Control");
-  command->callback([&globals, arguments, &run] {
-    run = [&globals, arguments] { return run_command(globals, *arguments); };
-  });
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
   // Defects of recorders and exporters. They are told; samples of sure ones are rejected, not deleted.
   const auto defects = trajectory::screen(trial->markers);
   if (!defects) return std::fprintf(stderr, "%s\n", defects.error().message.c_str()), 1;
-  for (const auto& defect : *defects) std::printf("defect: %s\n", defect.sentence.c_str());
+  for (const auto& defect : *defects)
+    std::printf("defect: %s\n", data::sentence_of(defect, trial->markers.time).c_str());
   const auto screened = trajectory::reject_defects(trial->markers, *defects);
   if (!screened) return std::fprintf(stderr, "%s\n", screened.error().message.c_str()), 1;
 
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
   auto smoothed = trajectory::smooth(filled->trajectories);
   if (!smoothed) return std::fprintf(stderr, "%s\n", smoothed.error().message.c_str()), 1;
   const auto& marker = smoothed->markers.front();
-  std::printf("%s: %s\n", marker.name.c_str(), marker.words.c_str());
+  std::printf("%s: %s\n", marker.name.c_str(), marker.description.c_str());
 
   if (argc != 3) return 0;
   trial->markers = std::move(smoothed->trajectories);

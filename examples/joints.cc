@@ -45,7 +45,7 @@ int main() {
                 skeleton.joints[j].name.c_str(), static_cast<long long>(known),
                 static_cast<long long>(skeleton.frames()), 1e3 * std::sqrt(squares / frames),
                 1e3 * std::sqrt(expected / frames));
-    std::printf("  %s\n", skeleton.joints[j].words.c_str());
+    std::printf("  %s\n", skeleton.joints[j].description.c_str());
   }
   return 0;
 }

@@ -111,7 +111,7 @@ def add_pair(name, parent, offset, mass, com, inertia, joint, axes, paired_paren
             f'{joint}_{side}', [({**c, 'name': f"{c['name']}_{side}"}, axis(a), r) for c, a, r in axes])
 
 
-def turn(name, axis, low, high, default=0.0):
+def rotation(name, axis, low, high, default=0.0):
     return (coordinate(name, low, high, default), unit(axis), True)
 
 
@@ -141,7 +141,7 @@ def build_trunk():
     length = DIAPHRAGM - LUMBAR
     add('abdomen', 'pelvis', (-0.070, LUMBAR - PELVIS, 0.0), mass, (0.035, length * (1 - WINTER['abdomen'][1]), 0.0),
         elliptic_cylinder(mass, 0.105, 0.15, length), 'back',
-        [turn('lumbar_extension', Z, -1.2, 0.6), turn('lumbar_bending', X, -0.6, 0.6), turn('lumbar_rotation', Y, -0.8, 0.8)])
+        [rotation('lumbar_extension', Z, -1.2, 0.6), rotation('lumbar_bending', X, -0.6, 0.6), rotation('lumbar_rotation', Y, -0.8, 0.8)])
 
     # The shoulder girdles (own: 1 % of the body each) are taken out of the thorax so that all three together have the table's
     # mass and mass centre.
@@ -157,7 +157,7 @@ def build_trunk():
     # Own: the cylinder of this short length would be too thick about the long axis; a head is nearly as wide as deep.
     inertia = (inertia[0], 0.8 * inertia[0], inertia[2])
     add('head', 'thorax', (-0.005, NECK - DIAPHRAGM, 0.0), mass, (0.025, (EAR - NECK) * WINTER['head_and_neck'][1], 0.0), inertia,
-        'neck', [turn('neck_extension', Z, -1.0, 1.0), turn('neck_bending', X, -0.7, 0.7), turn('neck_rotation', Y, -1.3, 1.3)])
+        'neck', [rotation('neck_extension', Z, -1.0, 1.0), rotation('neck_bending', X, -0.7, 0.7), rotation('neck_rotation', Y, -1.3, 1.3)])
     add_pair('clavicle', 'thorax', girdle_at, girdle, girdle_com, box(girdle, 0.10, 0.10, 0.15), 'sternoclavicular', [],
              paired_parent=False)
     return girdle_at
@@ -167,15 +167,15 @@ def build_arms(girdle_at):
     shoulder = (0.0 - girdle_at[0], SHOULDER - DIAPHRAGM - girdle_at[1], height(0.259) / 2 - 0.04 - girdle_at[2])
     mass, inertia = rod('upper_arm', UPPER_ARM)
     add_pair('humerus', 'clavicle', shoulder, mass, (0.0, -WINTER['upper_arm'][1] * UPPER_ARM, 0.0), inertia, 'acromial',
-             [turn('arm_flex', Z, -1.2, 2.8, 0.0), turn('arm_add', X, -2.2, 0.8, 0.0), turn('arm_rot', Y, -1.6, 1.6)])
+             [rotation('arm_flex', Z, -1.2, 2.8, 0.0), rotation('arm_add', X, -2.2, 0.8, 0.0), rotation('arm_rot', Y, -1.6, 1.6)])
     # Own: half of the forearm to each bone.
     mass, inertia = rod('forearm', FOREARM, 0.5)
     com = -WINTER['forearm'][1] * FOREARM
     radius_at = (-0.007, -0.013, 0.026)
     add_pair('ulna', 'humerus', (0.0, -UPPER_ARM, 0.0), mass, (0.0, com, 0.010), inertia, 'elbow',
-             [turn('elbow_flex', (0.226, 0.022, 0.974), 0.0, 2.6, 0.0)])
+             [rotation('elbow_flex', (0.226, 0.022, 0.974), 0.0, 2.6, 0.0)])
     add_pair('radius', 'ulna', radius_at, mass, (-radius_at[0], com - radius_at[1], -0.006), inertia, 'radioulnar',
-             [turn('pro_sup', (0.056, 0.998, 0.002), -0.2, 1.9, 0.0)])
+             [rotation('pro_sup', (0.056, 0.998, 0.002), -0.2, 1.9, 0.0)])
     # Own: 60 % of the hand to the palm. The mass centre of palm and fingers lies at 0.506 of wrist to knuckle II, 0.78 of HAND.
     mass, com = WINTER['hand'][0] * MASS_KG, WINTER['hand'][1] * 0.78 * HAND
     palm, fingers = 0.6 * mass, 0.4 * mass
@@ -183,7 +183,7 @@ def build_arms(girdle_at):
     fingers_com = (mass * com - palm * palm_com) / fingers - PALM
     wrist = (-radius_at[0], -FOREARM - radius_at[1], -0.009)
     add_pair('hand', 'radius', wrist, palm, (0.0, -palm_com, 0.0), box(palm, 0.03, PALM, 0.085), 'radius_hand',
-             [turn('wrist_flex', Z, -1.3, 1.3), turn('wrist_dev', X, -0.5, 0.7)])
+             [rotation('wrist_flex', Z, -1.3, 1.3), rotation('wrist_dev', X, -0.5, 0.7)])
     add_pair('fingers', 'hand', (0.0, -PALM, 0.0), fingers, (0.008, -fingers_com, 0.0), box(fingers, 0.02, HAND - PALM, 0.08),
              'knuckles', [])
 
@@ -191,11 +191,11 @@ def build_arms(girdle_at):
 def build_legs():
     mass, inertia = rod('thigh', THIGH)
     add_pair('femur', 'pelvis', (-0.060, HIP - PELVIS, 0.085), mass, (0.0, -WINTER['thigh'][1] * THIGH, 0.0), inertia, 'hip',
-             [turn('hip_flexion', Z, -0.8, 2.2), turn('hip_adduction', X, -0.9, 0.6), turn('hip_rotation', Y, -0.8, 0.8)],
+             [rotation('hip_flexion', Z, -0.8, 2.2), rotation('hip_adduction', X, -0.9, 0.6), rotation('hip_rotation', Y, -0.8, 0.8)],
              paired_parent=False)
     mass, inertia = rod('leg', SHANK)
     add_pair('tibia', 'femur', (0.0, -THIGH, 0.0), mass, (0.0, -WINTER['leg'][1] * SHANK, 0.0), inertia, 'knee',
-             [turn('knee_angle', (0.0, 0.0, -1.0), 0.0, 2.4)])
+             [rotation('knee_angle', (0.0, 0.0, -1.0), 0.0, 2.4)])
     # Own: a tenth of the foot to the talus and a fifth to the toes. Foot from 60 mm behind the ankle, mass centre of all
     # three midway between the malleolus and the head of metatarsal II (130 mm ahead).
     mass = WINTER['foot'][0] * MASS_KG
@@ -205,11 +205,11 @@ def build_legs():
     wanted = WINTER['foot'][1] * 0.130
     calcn_x = (mass * wanted - talus * 0.005 - toes * (calcn_at[0] + toes_at[0] + toes_com[0])) / calcn - calcn_at[0]
     add_pair('talus', 'tibia', (0.0, -SHANK, 0.0), talus, (0.005, -0.005, 0.0), box(talus, 0.05, 0.04, 0.04), 'ankle',
-             [turn('ankle_angle', (-0.105, -0.174, 0.979), -0.9, 0.6)])
+             [rotation('ankle_angle', (-0.105, -0.174, 0.979), -0.9, 0.6)])
     add_pair('calcn', 'talus', calcn_at, calcn, (calcn_x, 0.025, 0.0), box(calcn, 0.75 * FOOT, 0.07, 0.08), 'subtalar',
-             [turn('subtalar_angle', (0.787, 0.605, -0.121), -0.5, 0.5)])
+             [rotation('subtalar_angle', (0.787, 0.605, -0.121), -0.5, 0.5)])
     add_pair('toes', 'calcn', toes_at, toes, toes_com, box(toes, 0.07, 0.03, 0.09), 'mtp',
-             [turn('mtp_angle', (-0.581, 0.0, 0.815), -0.7, 0.9)])
+             [rotation('mtp_angle', (-0.581, 0.0, 0.815), -0.7, 0.9)])
 
 
 def build_markers():
@@ -280,19 +280,19 @@ def joint_xml(j):
     translations = [a for a in j['axes'] if not a[2]]
     pin = len(rotations) == 1 and not translations
     kind = 'PinJoint' if pin else 'CustomJoint' if rotations else 'WeldJoint'
-    turned = frame_angles(rotations[0][1]) if pin else (0.0, 0.0, 0.0)
+    angles = frame_angles(rotations[0][1]) if pin else (0.0, 0.0, 0.0)
     lines = [f'        <{kind} name="{j["name"]}">',
              f'          <socket_parent_frame>{j["parent"]}_offset</socket_parent_frame>',
              f'          <socket_child_frame>{j["child"]}_offset</socket_child_frame>']
     if j['axes']:
         lines += ['          <coordinates>', *(coordinate_xml(c) for c, _, _ in j['axes']), '          </coordinates>']
     lines.append('          <frames>')
-    for body, place in ((j['parent'], j['offset']), (j['child'], (0.0, 0.0, 0.0))):
+    for body, position in ((j['parent'], j['offset']), (j['child'], (0.0, 0.0, 0.0))):
         path = '/ground' if body == 'ground' else f'/bodyset/{body}'
         lines += [f'            <PhysicalOffsetFrame name="{body}_offset">',
                   f'              <socket_parent>{path}</socket_parent>',
-                  f'              <translation>{numbers(place)}</translation>',
-                  f'              <orientation>{numbers(turned)}</orientation>',
+                  f'              <translation>{numbers(position)}</translation>',
+                  f'              <orientation>{numbers(angles)}</orientation>',
                   '            </PhysicalOffsetFrame>']
     lines.append('          </frames>')
     if kind == 'CustomJoint':

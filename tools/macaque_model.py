@@ -20,7 +20,7 @@ import sys
 from pathlib import Path
 
 import human_model as osim
-from human_model import X, Z, turn
+from human_model import X, Z, rotation
 
 DOWN_Y = (0.0, -1.0, 0.0)  # turning about it moves what hangs forward
 UPPER_ARM, FOREARM, HAND = 0.150, 0.160, 0.090
@@ -44,20 +44,20 @@ def segment(name, parent, at, body, joint, axes):
 def sleeve(body, prefix, length):
     for k in range(LEDS):
         angle = 3 * 2 * math.pi * k / LEDS
-        place = (-SLEEVE_RADIUS * math.sin(angle), -SLEEVE_RADIUS * math.cos(angle), -length * (k + 1) / (LEDS + 1))
-        osim.mark(f'{prefix}{k}', body, tuple(0.0 if abs(v) < 1e-15 else v for v in place))
+        position = (-SLEEVE_RADIUS * math.sin(angle), -SLEEVE_RADIUS * math.cos(angle), -length * (k + 1) / (LEDS + 1))
+        osim.mark(f'{prefix}{k}', body, tuple(0.0 if abs(v) < 1e-15 else v for v in position))
 
 
 def document():
     # Adduction first: near the mouth the elbow points to the other side, where flexion first would leave the rotation open.
     segment('humerus', 'ground', 0.0, cylinder(UPPER_ARM, UPPER_ARM_RADIUS), 'shoulder',
-            [turn('shoulder_adduction', X, -1.6, 2.4), turn('shoulder_flexion', DOWN_Y, -1.4, 1.4),
-             turn('shoulder_rotation', Z, -3.1, 3.1)])
+            [rotation('shoulder_adduction', X, -1.6, 2.4), rotation('shoulder_flexion', DOWN_Y, -1.4, 1.4),
+             rotation('shoulder_rotation', Z, -3.1, 3.1)])
     segment('ulna', 'humerus', -UPPER_ARM, cylinder(FOREARM, FOREARM_RADIUS, 0.5), 'elbow',
-            [turn('elbow_flexion', DOWN_Y, 0.0, 2.7, 0.6)])
-    segment('radius', 'ulna', 0.0, cylinder(FOREARM, FOREARM_RADIUS, 0.5), 'radioulnar', [turn('pronation', Z, -1.6, 1.6)])
+            [rotation('elbow_flexion', DOWN_Y, 0.0, 2.7, 0.6)])
+    segment('radius', 'ulna', 0.0, cylinder(FOREARM, FOREARM_RADIUS, 0.5), 'radioulnar', [rotation('pronation', Z, -1.6, 1.6)])
     segment('hand', 'radius', -FOREARM, cylinder(HAND, HAND_RADIUS), 'wrist',
-            [turn('wrist_flexion', DOWN_Y, -1.5, 1.5), turn('wrist_deviation', X, -0.6, 0.6)])
+            [rotation('wrist_flexion', DOWN_Y, -1.5, 1.5), rotation('wrist_deviation', X, -0.6, 0.6)])
     sleeve('humerus', 'u', UPPER_ARM)
     sleeve('radius', 'f', FOREARM)
     return osim.osim_document(

@@ -47,7 +47,7 @@ std::string study_table_html(const StudyTable& table, std::string_view classic) 
       html_text(classic));
   for (const auto& row : table.rows)
     out += fmt::format("<tr{}><th>{}</th><td>{}</td>", row.pass() ? "" : " class=\"fails\"",
-                       html_text(row.quantity), html_text(unit_words(row))) +
+                       html_text(row.quantity), html_text(unit_text(row))) +
            cell(row.paper) + cell(row.classic) + cell(row.ours) + cell(row.limit) + cell(row.at_least) +
            cell(row.at_most) + "</tr>";
   return out + "</table>";
@@ -57,7 +57,7 @@ std::string study_html(const StudyPage& page) {
   std::string out = fmt::format(
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>{}</head><body><h1>{}"
       "</h1><p class=\"words\">{}</p><div class=\"figures\">",
-      html_text(page.title), kStyle, html_text(page.heading), html_text(page.words));
+      html_text(page.title), kStyle, html_text(page.heading), html_text(page.description));
   for (const auto& figure : page.figures)
     out +=
         fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", html_text(figure.caption), figure.body);

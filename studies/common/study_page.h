@@ -18,9 +18,9 @@ struct StudyFigure {
 
 /// A study as one page. Words are plain text: `<` and `&` mean themselves.
 struct StudyPage {
-  std::string title;                ///< of the window
-  std::string heading, words;       ///< on top of the page
-  std::string classic = "classic";  ///< name of that column
+  std::string title;                 ///< of the window
+  std::string heading, description;  ///< on top of the page
+  std::string classic = "classic";   ///< name of that column
   std::vector<StudyFigure> figures;
   StudyTable table;
 };

@@ -19,13 +19,20 @@ StudyPage example() {
   StudyPage page;
   page.title = "Study: arms & legs";
   page.heading = "Arms";
-  page.words = "a < b";
+  page.description = "a < b";
   page.classic = "1986 method";
   page.figures = {{"Errors", "<svg id=\"one\"></svg>"}};
   page.table.seeds = {1};
   page.table.rows = {{.quantity = "error", .unit = "mm", .paper = 30.0, .ours = 2.0, .at_most = 3.0},
                      {.quantity = "share", .unit = "%", .ours = 1.0, .at_least = 2.0}};
   return page;
+}
+
+TEST(HtmlText, EscapesWhatMarksUpAndNothingElse) {
+  EXPECT_EQ(html_text("a < b && c > \"d\""), "a &lt; b &amp;&amp; c &gt; &quot;d&quot;");
+  EXPECT_EQ(html_text("&lt;"), "&amp;lt;") << "what is escaped already is text, too";
+  EXPECT_EQ(html_text("5 % of 'x'\n\u00b5m"), "5 % of 'x'\n\u00b5m");
+  EXPECT_EQ(html_text(""), "");
 }
 
 TEST(StudyPage, HoldsFiguresAndTheTable) {

@@ -79,14 +79,14 @@ nlohmann::ordered_json study_json(const StudyTable& table) {
   return {{"seeds", table.seeds}, {"rows", rows}, {"pass", table.pass()}};
 }
 
-std::string_view unit_words(const StudyRow& row) { return row.unit == "1" ? std::string_view() : row.unit; }
+std::string_view unit_text(const StudyRow& row) { return row.unit == "1" ? std::string_view() : row.unit; }
 
 std::string study_text(const StudyTable& table) {
   constexpr std::size_t kColumns = 7;
   std::vector<std::array<std::string, kColumns>> lines{
       {"", "unit", "paper", "classic", "ours", "limit", "bound"}};
   for (const auto& row : table.rows)
-    lines.push_back({row.quantity, std::string(unit_words(row)), table_cell(row.paper),
+    lines.push_back({row.quantity, std::string(unit_text(row)), table_cell(row.paper),
                      table_cell(row.classic), table_cell(row.ours), table_cell(row.limit), bound(row)});
   std::array<std::size_t, kColumns> width{};
   for (const auto& line : lines)

@@ -40,7 +40,7 @@ struct StudyTable {
 /// is a number (at most) or [at least, at most]; what is absent is null.
 [[nodiscard]] nlohmann::ordered_json study_json(const StudyTable& table);
 /// The unit as displayed: empty for a plain number, whose unit is "1".
-[[nodiscard]] std::string_view unit_words(const StudyRow& row);
+[[nodiscard]] std::string_view unit_text(const StudyRow& row);
 /// The table as text with aligned columns, and a line that explains them.
 [[nodiscard]] std::string study_text(const StudyTable& table);
 

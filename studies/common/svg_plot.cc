@@ -75,9 +75,9 @@ void make_equal(Axis& x, Axis& y) {
   narrow.high = middle + half;
 }
 
-std::string text(double x, double y, const char* anchor, const std::string& words) {
+std::string text(double x, double y, const char* anchor, const std::string& label) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
-                     html_text(words));
+                     html_text(label));
 }
 
 std::string ticks(const Axis& x, const Axis& y) {
@@ -113,14 +113,14 @@ void SvgPlot::box(const Eigen::Vector2d& low, const Eigen::Vector2d& high) { box
 std::string SvgPlot::svg() const {
   // Names that do not fit beside each other go below each other, and the plot begins further down.
   std::vector<Eigen::Vector2d> legend;
-  Eigen::Vector2d place(kLeft, kTop - 12.0);
+  Eigen::Vector2d position(kLeft, kTop - 12.0);
   for (const auto& l : lines_) {
     const double width = l.name.empty() ? 0.0 : 40.0 + 7.0 * static_cast<double>(l.name.size());
-    if (place.x() + width > kWidth && place.x() > kLeft) place = {kLeft, place.y() + kLegendLine};
-    legend.push_back(place);
-    place.x() += width;
+    if (position.x() + width > kWidth && position.x() > kLeft) position = {kLeft, position.y() + kLegendLine};
+    legend.push_back(position);
+    position.x() += width;
   }
-  Axis x{.from = kLeft, .to = kWidth - kRight}, y{.from = kHeight - kBottom, .to = place.y() + 12.0};
+  Axis x{.from = kLeft, .to = kWidth - kRight}, y{.from = kHeight - kBottom, .to = position.y() + 12.0};
   y.logarithmic = log_y_;
   const auto include = [&](const Eigen::VectorXd& xs, const Eigen::VectorXd& ys) {
     for (Eigen::Index i = 0; i < xs.size(); ++i)

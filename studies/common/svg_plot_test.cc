@@ -91,9 +91,9 @@ TEST(SvgPlot, WordsMeanThemselves) {
   SvgPlot plot("a & b", "x < 1", "\"y\"");
   plot.line("p > q", "red", Eigen::VectorXd::LinSpaced(2, 0.0, 1.0), Eigen::VectorXd::LinSpaced(2, 0.0, 1.0));
   const auto svg = plot.svg();
-  for (const char* words :
+  for (const char* label :
        {"<title>a &amp; b</title>", ">x &lt; 1</text>", ">&quot;y&quot;</text>", ">p &gt; q</text>"})
-    EXPECT_THAT(svg, HasSubstr(words));
+    EXPECT_THAT(svg, HasSubstr(label));
 }
 
 TEST(SvgPlot, EverythingDrawnLiesWithinTheFrame) {

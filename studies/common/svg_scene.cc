@@ -59,7 +59,7 @@ void SvgScene::dot(std::string colour, const Vector3d& x, double radius, bool ho
   things_.push_back({std::move(colour), "", x, radius, hollow});
 }
 
-void SvgScene::words(std::string text, const Vector3d& x) {
+void SvgScene::label(std::string text, const Vector3d& x) {
   things_.push_back({"#222", std::move(text), x, 0.0, false});
 }
 

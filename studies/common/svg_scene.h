@@ -26,7 +26,7 @@ class SvgScene {
   /// hollow: a ring instead of a disc.
   void dot(std::string colour, const Eigen::Vector3d& x, double radius, bool hollow = false);
   /// A label beside a point.
-  void words(std::string text, const Eigen::Vector3d& x);
+  void label(std::string text, const Eigen::Vector3d& x);
 
   /// The element, 640 x 480 pixels, scaled so that everything fits. Non-finite points are left out.
   [[nodiscard]] std::string svg() const;

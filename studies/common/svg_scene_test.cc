@@ -52,7 +52,7 @@ TEST(SvgScene, DotsAndWords) {
   SvgScene scene("", 0.0, 0.0);
   scene.dot("#cc0000", {0, 0, 0}, 4.0);
   scene.dot("#00cc00", {0, 1, 1}, 4.0, true);
-  scene.words("elbow", {0, 0, 0});
+  scene.label("elbow", {0, 0, 0});
   const auto svg = scene.svg();
   EXPECT_THAT(svg, HasSubstr("fill=\"#cc0000\" stroke=\"#fff\""));
   EXPECT_THAT(svg, HasSubstr("fill=\"#fff\" stroke=\"#00cc00\""));
@@ -77,7 +77,7 @@ TEST(SvgScene, SquaresOfTheFloorAreRoundAndLieUnderEverything) {
 
 TEST(SvgScene, WordsMeanThemselves) {
   SvgScene scene("a & b", 0.0, 0.0);
-  scene.words("x < y", {0, 0, 0});
+  scene.label("x < y", {0, 0, 0});
   EXPECT_THAT(scene.svg(), HasSubstr("<title>a &amp; b</title>"));
   EXPECT_THAT(scene.svg(), HasSubstr(">x &lt; y</text>"));
 }

@@ -34,7 +34,7 @@ constexpr double kPerM = 1e3;    // mm
 constexpr double kLeast = 0.01;  // shown: without noise SCoRE is right to rounding, which dwarfs all the rest
 
 /// A paragraph below a picture.
-std::string words(const std::string& text) { return fmt::format("<p>{}</p>", html_text(text)); }
+std::string paragraph(const std::string& text) { return fmt::format("<p>{}</p>", html_text(text)); }
 
 /// A curve over cells: what to show of each, NaN where there is nothing.
 struct Curve {
@@ -90,7 +90,7 @@ StudyFigure against_noise(const MacaqueStudy& study, bool staggered) {
           [](const ElbowCell& c) { return kPerM * c.noise_m; });
   return {
       fmt::format("Figure 6, {}: error against noise", staggered ? "markers staggered" : "markers collinear"),
-      plot.svg() + words("Nothing missing, and 40 % (dashed).")};
+      plot.svg() + paragraph("Nothing missing, and 40 % (dashed).")};
 }
 
 StudyFigure against_missing(const MacaqueStudy& study, bool staggered, double noise_mm) {
@@ -108,8 +108,8 @@ StudyFigure against_missing(const MacaqueStudy& study, bool staggered, double no
           [](const ElbowCell& c) { return 100.0 * c.missing; });
   return {fmt::format("Figure 7, {}: error against missing data",
                       staggered ? "markers staggered" : "markers collinear"),
-          plot.svg() + words(fmt::format("{} mm of noise; losses uniform, and going with the pose (dashed).",
-                                         noise_mm))};
+          plot.svg() + paragraph(fmt::format(
+                           "{} mm of noise; losses uniform, and going with the pose (dashed).", noise_mm))};
 }
 
 StudyFigure shares(const MacaqueStudy& study) {
@@ -131,7 +131,7 @@ StudyFigure shares(const MacaqueStudy& study) {
           },
           [](const ElbowCell& c) { return 100.0 * c.missing; });
   return {"Frames with an answer",
-          plot.svg() + words("1 mm of noise; markers collinear, and staggered (dashed).")};
+          plot.svg() + paragraph("1 mm of noise; markers collinear, and staggered (dashed).")};
 }
 
 Vector3d at(const Array<double>& values, std::size_t index) {
@@ -178,13 +178,13 @@ Result<StudyFigure> arm_picture(std::uint64_t seed) {
   scene.floor(-0.20);
   draw_arm(scene, *limb, frame);
   scene.dot(kReport, theirs->centre(frame, 0), 7.0);
-  scene.words("elbow by the report's method", theirs->centre(frame, 0));
+  scene.label("elbow by the report's method", theirs->centre(frame, 0));
   scene.dot(kOurs, ours->skeleton.centre(frame, 0), 7.0);
   const Vector3d truth = at(limb->centre_in_world, static_cast<std::size_t>(frame));
   return StudyFigure{
       "The report's arm",
       scene.svg() +
-          words(fmt::format(
+          paragraph(fmt::format(
               "Collinear markers, 2 mm of noise, frame {} of {}, the one of median error: the elbow is "
               "{:.1f} mm off by "
               "the report's method (gold) and {:.1f} mm by ours (blue). Squares of the floor: {:.0f} mm.",
@@ -210,13 +210,13 @@ Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
     path.col(f) = at(limb->end_in_world, static_cast<std::size_t>(f));
   scene.line("#9ec3e6", path, 1.0);
   for (const auto frame : {low.second, halfway.second, high.second}) draw_arm(scene, *limb, frame);
-  scene.words("shoulder", Vector3d::Zero());
-  scene.words("at the food", path.col(low.second));
-  scene.words("at the mouth", path.col(high.second));
+  scene.label("shoulder", Vector3d::Zero());
+  scene.label("at the food", path.col(low.second));
+  scene.label("at the mouth", path.col(high.second));
   return StudyFigure{
       "The sleeve",
       scene.svg() +
-          words(fmt::format(
+          paragraph(fmt::format(
               "A monkey's arm reaching for food, on the way, and at the mouth. LEDs that the cameras see are "
               "full, the others hollow; blue: the wrist's path. Squares of the floor: {:.0f} mm.",
               kPerM * scene.square()))};
@@ -230,7 +230,7 @@ Result<StudyPage> macaque_page(const MacaqueStudy& study) {
   StudyPage page{
       .title = "Study: joint centres of a macaque's arm",
       .heading = "The elbow of a macaque",
-      .words = fmt::format(
+      .description = fmt::format(
           "Where is the elbow, when only markers on the skin are seen? Curves and table: {} recording{} a "
           "cell. Single frames: seed {}. Bound: Cramer-Rao, in the frames called determined.",
           study.table.seeds.size(), study.table.seeds.size() == 1 ? "" : "s", seed),

@@ -5,11 +5,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
-#include "kinemark/core/parallel.h"
+#include "studies/common/each_seed.h"
 #include "studies/macaque/macaque_rows.h"
 
 namespace kinemark::studies {
@@ -80,31 +79,21 @@ Result<MacaqueStudy> study_macaque(const MacaqueJob& job, const Progress& progre
   Outcomes outcomes{std::vector<Result<ElbowErrors>>(elbows),
                     std::vector<Result<SleeveErrors>>(sleeve.size() * seeds)};
   const auto count = static_cast<std::int64_t>(elbows + outcomes.sleeve.size());
-  std::atomic<std::int64_t> done = 0;
-  std::atomic<bool> stopped = false;
-  parallel_for(count, 1, job.threads, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last && !stopped; ++i) {
-      if (progress && !progress(done, count)) {
-        stopped = true;
-        break;
-      }
-      // Long recordings first, so that no thread is left alone with one at the end.
-      const auto at = static_cast<std::size_t>(i);
-      if (at < outcomes.sleeve.size())
-        outcomes.sleeve[at] = study_sleeve(sleeve[at / seeds], job.seeds[at % seeds]);
-      else
-        outcomes.elbow[at - outcomes.sleeve.size()] = study_elbow(
-            elbow[(at - outcomes.sleeve.size()) / seeds], job.seeds[(at - outcomes.sleeve.size()) % seeds]);
-      ++done;
-    }
+  auto status = run_each(count, job.threads, progress, [&](std::size_t i) {
+    // Long recordings first, so that no thread is left alone with one at the end.
+    if (i < outcomes.sleeve.size())
+      outcomes.sleeve[i] = study_sleeve(sleeve[i / seeds], job.seeds[i % seeds]);
+    else
+      outcomes.elbow[i - outcomes.sleeve.size()] = study_elbow(
+          elbow[(i - outcomes.sleeve.size()) / seeds], job.seeds[(i - outcomes.sleeve.size()) % seeds]);
   });
-  if (stopped) return fail(Code::cancelled, "the study was stopped");
+  if (!status) return std::unexpected(status.error());
   MacaqueStudy out;
-  auto status = collect(elbow, job.seeds, outcomes.elbow,
-                        [&](const ElbowCell& cell, const ElbowErrors& errors, bool is_new) {
-                          if (is_new) out.elbow.push_back({cell, {}, 0.0});
-                          out.elbow.back().add(errors);
-                        });
+  status = collect(elbow, job.seeds, outcomes.elbow,
+                   [&](const ElbowCell& cell, const ElbowErrors& errors, bool is_new) {
+                     if (is_new) out.elbow.push_back({cell, {}, 0.0});
+                     out.elbow.back().add(errors);
+                   });
   if (!status) return std::unexpected(status.error());
   status = collect(sleeve, job.seeds, outcomes.sleeve,
                    [&](const SleeveCell& cell, const SleeveErrors& errors, bool is_new) {

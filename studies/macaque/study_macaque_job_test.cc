@@ -109,9 +109,9 @@ MacaqueStudy made_up(double error_mm, double share_determined) {
   return out;
 }
 
-const StudyRow* row(const std::vector<StudyRow>& rows, const std::string& words) {
+const StudyRow* row(const std::vector<StudyRow>& rows, const std::string& part) {
   for (const auto& r : rows)
-    if (r.quantity.find(words) != std::string::npos) return &r;
+    if (r.quantity.find(part) != std::string::npos) return &r;
   return nullptr;
 }
 

@@ -75,7 +75,7 @@ Result<ArmOutcome> study_arm(const CalibratedRig& rig) {
     const auto l = static_cast<std::size_t>(led);
     const Matrix3Xd truth = columns(recorded->truth.x_in_world, led, leds);
     const Matrix3Xd velocity = columns(recorded->derivatives.velocity, led, leds);
-    auto path = turned_path(smooth->points, smooth->derivatives, led, rig.truth_from_ours);
+    auto path = aligned_path(smooth->points, smooth->derivatives, led, rig.truth_from_ours);
     const Matrix3Xd old = (align.rotation * classic[l].filtered).colwise() + align.translation;
     const Matrix3Xd old_velocity = align.rotation * classic[l].velocity;
     const Extremes real(velocity), ours(path.velocity), theirs(old_velocity);
@@ -85,7 +85,7 @@ Result<ArmOutcome> study_arm(const CalibratedRig& rig) {
                                 recorded->derivatives, led, first, last);
     one.ours = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth,
                              recorded->derivatives, led, first, last);
-    one.told = told_errors(path, first, last);
+    one.predicted = predicted_errors(path, first, last);
     one.gap_rms_m = gap_rms(path.position, truth, recorded->hidden, led, leds);
     one.fastest_error_m_s = ours.fastest - real.fastest;
     one.slowest_error_m_s = ours.slowest - real.slowest;

@@ -15,7 +15,7 @@ namespace kinemark::studies {
 /// One LED of the arm, by both methods.
 struct ArmLed {
   std::string name;
-  MotionErrors classic, ours, told;
+  MotionErrors classic, ours, predicted;
   double gap_rms_m = 0.0;  ///< ours, in frames that a camera or both did not see; 0 without any
   double fastest_error_m_s = 0.0,
          slowest_error_m_s = 0.0;  ///< ours: of the largest and smallest speed, signed
@@ -29,7 +29,7 @@ struct ArmOutcome {
   std::array<double, 3> classic_length_sd_m{}, our_length_sd_m{};  ///< upper arm, forearm, hand
   Coverage positions, rates;
   std::vector<Eigen::Matrix3Xd> classic_paths;  ///< per LED, true world, m
-  std::vector<TurnedPath> our_paths;
+  std::vector<AlignedPath> our_paths;
   std::vector<Eigen::Matrix3Xd> true_paths, true_velocity, true_acceleration;
 };
 

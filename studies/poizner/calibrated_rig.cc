@@ -77,10 +77,10 @@ Result<CalibratedRig> calibrate_rig(std::uint64_t seed, CalibratedRigOptions opt
   const auto tree = simulation::record_tree_poses(*physical, poses);
   if (!tree) return std::unexpected(tree.error());
 
-  std::vector<calibration::GridSightings> grids;
+  std::vector<calibration::GridObservations> grids;
   for (int c = 0; c < physical->nominal.camera_count(); ++c) {
-    auto seen = calibration::grid_sightings(grid->counts[static_cast<std::size_t>(c)], physical->nominal, c,
-                                            {grid->nodes, grid->spacing_m, grid->distance_m});
+    auto seen = calibration::grid_observations(grid->counts[static_cast<std::size_t>(c)], physical->nominal,
+                                               c, {grid->nodes, grid->spacing_m, grid->distance_m});
     if (!seen) return std::unexpected(seen.error());
     grids.push_back(std::move(*seen));
   }

@@ -17,8 +17,8 @@ struct ClassicPath {
   Eigen::Matrix3Xd velocity, acceleration;  ///< of the filtered path, two-point differences, m/s and m/s^2
 };
 
-/// Look-up tables, occluded sightings bridged by a spline on each camera's plane, Butterworth at 12 Hz there,
-/// midpoint of the rays, differences. Uses only the frame's time, as the paper did.
+/// Look-up tables, occluded observations bridged by a spline on each camera's plane, Butterworth at 12 Hz
+/// there, midpoint of the rays, differences. Uses only the frame's time, as the paper did.
 [[nodiscard]] std::vector<ClassicPath> classic_paths(const data::Counts& counts, const data::Rig& classic,
                                                      const std::vector<std::uint8_t>& usable);
 

@@ -147,9 +147,9 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         if (!ours->points.present(f, l)) continue;
         const Vector3d error = rig.truth_from_ours * ours->points.x(f, l) - truth;
-        const Matrix3d told = rig.truth_from_ours.rotation * covariance_of(ours->points, f, l) *
-                              rig.truth_from_ours.rotation.transpose();
-        for (int a = 0; a < 3; ++a) out.points.add(error[a], std::sqrt(told(a, a)));
+        const Matrix3d predicted = rig.truth_from_ours.rotation * covariance_of(ours->points, f, l) *
+                                   rig.truth_from_ours.rotation.transpose();
+        for (int a = 0; a < 3; ++a) out.points.add(error[a], std::sqrt(predicted(a, a)));
       }
     }
     out.classic.over_cramer_rao += std::sqrt(classic_scatter / bound) / static_cast<double>(poses.size());

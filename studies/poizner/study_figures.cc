@@ -94,7 +94,7 @@ StudyPage study_page(const PoiznerStudy& study) {
   const Matrix3Xd classic_velocity = rates(arm.classic_paths[hand]);
   StudyPage out{.title = "Study: Poizner, Wooten and Salot 1986",
                 .heading = "The rig of 1986",
-                .words = fmt::format("Figures: rig {}. Table: {} rigs.", seed.seed, study.seeds.size()),
+                .description = fmt::format("Figures: rig {}. Table: {} rigs.", seed.seed, study.seeds.size()),
                 .classic = "1986 method",
                 .figures = {},
                 .table = study.table};

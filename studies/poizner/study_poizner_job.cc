@@ -5,9 +5,8 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <atomic>
 
-#include "kinemark/core/parallel.h"
+#include "studies/common/each_seed.h"
 #include "studies/poizner/study_rows.h"
 
 namespace kinemark::studies {
@@ -22,9 +21,9 @@ Result<PoiznerSeed> study_seed(std::uint64_t seed) {
   if (!tree) return fail_at(fmt::format("seed {}", seed), tree.error());
   out.tree = std::move(*tree);
   for (int wheel = 0; wheel < kWheels; ++wheel) {
-    auto turned = study_wheel(*rig, study_wheel_options(wheel));
-    if (!turned) return fail_at(fmt::format("seed {}", seed), turned.error());
-    out.wheels.push_back(std::move(*turned));
+    auto study = study_wheel(*rig, study_wheel_options(wheel));
+    if (!study) return fail_at(fmt::format("seed {}", seed), study.error());
+    out.wheels.push_back(std::move(*study));
   }
   auto arm = study_arm(*rig);
   if (!arm) return fail_at(fmt::format("seed {}", seed), arm.error());
@@ -36,7 +35,7 @@ Result<PoiznerSeed> study_seed(std::uint64_t seed) {
 
 simulation::WheelOptions study_wheel_options(int wheel) {
   simulation::WheelOptions out;
-  out.turned_deg = wheel % 2 == 0 ? 8.0 : 35.0;
+  out.rotation_deg = wheel % 2 == 0 ? 8.0 : 35.0;
   out.glint_share = wheel < 2 ? 0.0 : 0.04;
   return out;
 }
@@ -51,19 +50,9 @@ Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progre
   if (job.seeds.empty()) return fail(Code::usage, "the study needs one seed or more");
   const auto count = static_cast<std::int64_t>(job.seeds.size());
   std::vector<Result<PoiznerSeed>> outcomes(job.seeds.size());
-  std::atomic<std::int64_t> done = 0;
-  std::atomic<bool> stopped = false;
-  parallel_for(count, 1, job.threads, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last && !stopped; ++i) {
-      if (progress && !progress(done, count)) {
-        stopped = true;
-        break;
-      }
-      outcomes[static_cast<std::size_t>(i)] = study_seed(job.seeds[static_cast<std::size_t>(i)]);
-      ++done;
-    }
-  });
-  if (stopped) return fail(Code::cancelled, "the study was stopped");
+  auto status =
+      run_each(count, job.threads, progress, [&](std::size_t i) { outcomes[i] = study_seed(job.seeds[i]); });
+  if (!status) return std::unexpected(status.error());
   PoiznerStudy out;
   for (auto& outcome : outcomes) {
     if (!outcome) return std::unexpected(outcome.error());

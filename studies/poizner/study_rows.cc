@@ -81,15 +81,15 @@ void add_tree(const Seeds& seeds, std::vector<StudyRow>& rows) {
        .classic = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.classic.max_error_m(); })),
        .ours = largest(over(seeds, kMillimetres, [](auto& s) { return s.tree.ours.max_error_m(); })),
        .at_most = 0.8});
-  const auto told = over(seeds, 1.0, [](auto& s) { return s.tree.error_over_predicted; });
+  const auto ratios = over(seeds, 1.0, [](auto& s) { return s.tree.error_over_predicted; });
   rows.push_back({.quantity = "still tree: error / predicted, smallest",
                   .unit = "1",
-                  .ours = smallest(told),
+                  .ours = smallest(ratios),
                   .limit = 1.0,
                   .at_least = 0.6});
   rows.push_back({.quantity = "still tree: error / predicted, largest",
                   .unit = "1",
-                  .ours = largest(told),
+                  .ours = largest(ratios),
                   .limit = 1.0,
                   .at_most = 1.3});
   const auto chi2 = over(seeds, 1.0, [](auto& s) { return s.chi2_per_dof; });
@@ -107,7 +107,7 @@ void add_tree(const Seeds& seeds, std::vector<StudyRow>& rows) {
 
 void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
   const auto w = static_cast<std::size_t>(wheel);
-  const bool steep = study_wheel_options(wheel).turned_deg > 20.0;
+  const bool steep = study_wheel_options(wheel).rotation_deg > 20.0;
   struct Line {
     const char* what;
     double WheelMeasures::* field;
@@ -136,7 +136,7 @@ void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
        .classic =
            median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].classic_errors.position; })),
        .ours = largest(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].our_errors.position; })),
-       .limit = median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].told.position; })),
+       .limit = median(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].predicted.position; })),
        .at_most = steep ? 0.65 : 0.40});
 }
 
@@ -162,7 +162,8 @@ void add_arm(const Seeds& seeds, std::vector<StudyRow>& rows) {
            .classic =
                median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].classic.*rate.field; })),
            .ours = largest(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].ours.*rate.field; })),
-           .limit = median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].told.*rate.field; })),
+           .limit =
+               median(over(seeds, rate.unit, [&](auto& s) { return s.arm.leds[led].predicted.*rate.field; })),
            .at_most = kMost[led][r]});
     }
   const std::size_t hand = names.size() - 1;

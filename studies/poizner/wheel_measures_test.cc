@@ -15,13 +15,13 @@ namespace {
 
 /// An ellipse with these axes, tilted and moved.
 Eigen::Matrix3Xd ellipse(double long_m, double short_m, int n) {
-  const Eigen::Matrix3d turn =
+  const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   Eigen::Matrix3Xd out(3, n);
   for (int i = 0; i < n; ++i) {
     const double phase = 2.0 * std::numbers::pi * i / n;
     out.col(i) =
-        turn * Eigen::Vector3d(0.5 * long_m * std::cos(phase), 0.5 * short_m * std::sin(phase), 0.0) +
+        rotation * Eigen::Vector3d(0.5 * long_m * std::cos(phase), 0.5 * short_m * std::sin(phase), 0.0) +
         Eigen::Vector3d(0.3, -1.0, 2.0);
   }
   return out;

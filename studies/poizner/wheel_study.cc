@@ -41,15 +41,15 @@ MotionErrors motion_errors(const Eigen::Matrix3Xd& position, const Eigen::Matrix
           error(acceleration, rates.acceleration)};
 }
 
-TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives& rates, std::int64_t led,
-                       const math::SE3& truth_from_world) {
+AlignedPath aligned_path(const data::Trajectories& points, const data::Derivatives& rates, std::int64_t led,
+                         const math::SE3& truth_from_world) {
   const auto leds = points.markers(), frames = points.frames();
-  const Eigen::Matrix3d& turn = truth_from_world.rotation;
-  TurnedPath out;
+  const Eigen::Matrix3d& rotation = truth_from_world.rotation;
+  AlignedPath out;
   out.position =
-      (turn * of_led(points.x_in_world, led, leds, frames)).colwise() + truth_from_world.translation;
-  out.velocity = turn * of_led(rates.velocity, led, leds, frames);
-  out.acceleration = turn * of_led(rates.acceleration, led, leds, frames);
+      (rotation * of_led(points.x_in_world, led, leds, frames)).colwise() + truth_from_world.translation;
+  out.velocity = rotation * of_led(rates.velocity, led, leds, frames);
+  out.acceleration = rotation * of_led(rates.acceleration, led, leds, frames);
   out.velocity_sd = of_led(rates.velocity_sd, led, leds, frames);
   out.acceleration_sd = of_led(rates.acceleration_sd, led, leds, frames);
   out.position_sd.resize(3, frames);
@@ -60,12 +60,12 @@ TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives
   return out;
 }
 
-MotionErrors told_errors(const TurnedPath& path, std::int64_t first, std::int64_t last) {
+MotionErrors predicted_errors(const AlignedPath& path, std::int64_t first, std::int64_t last) {
   const auto of = [&](const Eigen::Matrix3Xd& sd) { return rms(sd.middleCols(first, last - first)); };
   return {of(path.position_sd), of(path.velocity_sd), of(path.acceleration_sd)};
 }
 
-void add_coverage(const TurnedPath& path, const data::Trajectories& truth, const data::Derivatives& rates,
+void add_coverage(const AlignedPath& path, const data::Trajectories& truth, const data::Derivatives& rates,
                   std::int64_t led, std::int64_t first, std::int64_t last, Coverage& positions,
                   Coverage& derivatives) {
   const auto leds = truth.markers(), frames = truth.frames();
@@ -84,7 +84,7 @@ Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::Whe
   simulation::RigRecordingOptions how;
   how.frames = kWheelFrames;
   how.seed = rig.physical.seed;
-  how.stream = kWheelStream + (wheel.turned_deg > 20.0 ? 1 : 0);
+  how.stream = kWheelStream + (wheel.rotation_deg > 20.0 ? 1 : 0);
   const auto recorded = simulation::record(rig.physical, simulation::rotating_wheel(wheel), how);
   if (!recorded) return std::unexpected(recorded.error());
   const auto start = reconstruction::reconstruct(recorded->counts, rig.bundle.rig);
@@ -95,21 +95,21 @@ Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::Whe
   WheelOutcome out;
   const auto classic =
       classic_paths(recorded->counts, rig.classic, {start->used.begin(), start->used.end()}).front();
-  const auto path = turned_path(smooth->points, smooth->derivatives, 0, rig.truth_from_ours);
+  const auto path = aligned_path(smooth->points, smooth->derivatives, 0, rig.truth_from_ours);
   out.classic_raw = measure_wheel(classic.raw, wheel.diameter_m);
   out.classic = measure_wheel(classic.filtered, wheel.diameter_m);
   out.ours = measure_wheel(path.position, wheel.diameter_m);
-  const Eigen::Matrix3d& turn = rig.truth_from_classic.rotation;
-  out.classic_path = (turn * classic.filtered).colwise() + rig.truth_from_classic.translation;
+  const Eigen::Matrix3d& rotation = rig.truth_from_classic.rotation;
+  out.classic_path = (rotation * classic.filtered).colwise() + rig.truth_from_classic.translation;
   out.our_path = path.position;
   // The old pipeline is compared with the truth in the middle of the conversions, ours at the time of the
   // frame.
   out.classic_errors =
-      motion_errors(out.classic_path, turn * classic.velocity, turn * classic.acceleration,
+      motion_errors(out.classic_path, rotation * classic.velocity, rotation * classic.acceleration,
                     recorded->when_lit, recorded->derivatives, 0, kWheelEnds, kWheelFrames - kWheelEnds);
   out.our_errors = motion_errors(path.position, path.velocity, path.acceleration, recorded->truth,
                                  recorded->derivatives, 0, kWheelEnds, kWheelFrames - kWheelEnds);
-  out.told = told_errors(path, kWheelEnds, kWheelFrames - kWheelEnds);
+  out.predicted = predicted_errors(path, kWheelEnds, kWheelFrames - kWheelEnds);
   add_coverage(path, recorded->truth, recorded->derivatives, 0, kWheelEnds, kWheelFrames - kWheelEnds,
                out.positions, out.rates);
   out.order = smooth->leds.front().bandwidth.order;

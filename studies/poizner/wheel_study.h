@@ -19,7 +19,7 @@ struct MotionErrors {
 
 struct WheelOutcome {
   WheelMeasures classic_raw, classic, ours;
-  MotionErrors classic_errors, our_errors, told;  ///< told: standard deviations that came with ours
+  MotionErrors classic_errors, our_errors, predicted;  ///< predicted: standard deviations that came with ours
   Coverage positions, rates;
   Eigen::Matrix3Xd classic_path, our_path;  ///< m, true world
   double cutoff_hz = 0.0;
@@ -37,19 +37,19 @@ struct WheelOutcome {
                                          std::int64_t led, std::int64_t first, std::int64_t last);
 
 /// An LED's smoothed motion with its standard deviations, turned into the true world; columns: frames.
-struct TurnedPath {
+struct AlignedPath {
   Eigen::Matrix3Xd position, velocity, acceleration;
   Eigen::Matrix3Xd position_sd, velocity_sd, acceleration_sd;
 };
 
-[[nodiscard]] TurnedPath turned_path(const data::Trajectories& points, const data::Derivatives& rates,
-                                     std::int64_t led, const math::SE3& truth_from_world);
+[[nodiscard]] AlignedPath aligned_path(const data::Trajectories& points, const data::Derivatives& rates,
+                                       std::int64_t led, const math::SE3& truth_from_world);
 
 /// Standard deviations in the form of the errors: root mean square over frames of the 3-D length.
-[[nodiscard]] MotionErrors told_errors(const TurnedPath& path, std::int64_t first, std::int64_t last);
+[[nodiscard]] MotionErrors predicted_errors(const AlignedPath& path, std::int64_t first, std::int64_t last);
 
 /// Count errors of position, and of velocity and acceleration, against their standard deviations.
-void add_coverage(const TurnedPath& path, const data::Trajectories& truth, const data::Derivatives& rates,
+void add_coverage(const AlignedPath& path, const data::Trajectories& truth, const data::Derivatives& rates,
                   std::int64_t led, std::int64_t first, std::int64_t last, Coverage& positions,
                   Coverage& derivatives);
 

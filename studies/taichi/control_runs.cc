@@ -103,9 +103,9 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
   if (setting.first_frame > 0) options.first_time_s = goals.time.time_s(setting.first_frame) - 0.5 * frame_s;
   if (setting.last_frame >= 0) options.last_time_s = goals.time.time_s(setting.last_frame) + 0.5 * frame_s;
   for (int c = 0; c < model.coordinate_count(); ++c) {
-    const auto& place = model.coordinates()[static_cast<std::size_t>(c)];
+    const auto& coordinate = model.coordinates()[static_cast<std::size_t>(c)];
     const auto& described = model.description().coordinates[static_cast<std::size_t>(c)];
-    if (place.free_joint < 0 && place.source < 0 && !described.locked)
+    if (coordinate.free_joint < 0 && coordinate.source < 0 && !described.locked)
       options.rest_pose.push_back({.coordinate = described.name, .value = rest[c]});
   }
   return motion::track_markers(model, goals, options);
@@ -134,14 +134,14 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
     const bool root = model.coordinates()[static_cast<std::size_t>(c)].free_joint >= 0;
     if (root || described.locked) continue;
     ++out.coordinates;
-    const bool told =
+    const bool is_determined =
         !contains(control.undetermined_coordinates, name) && !contains(control.locked_coordinates, name);
-    out.determined += told;
+    out.determined += is_determined;
     for (std::int64_t f = first; f < ours.frames(); ++f) {
       const double error = std::remainder(ours.q[ours.index(f, c)] - theirs.q[theirs.index(f + shift, c)],
                                           2.0 * std::numbers::pi);
       all.add(error);
-      if (told) determined.add(error);
+      if (is_determined) determined.add(error);
     }
   }
   out.angle_rms_rad = determined.rms();

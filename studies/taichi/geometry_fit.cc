@@ -19,7 +19,7 @@ constexpr double kPrior_m = 0.02;
 
 /// Joints whose positions the landmarks determine. The parts of a foot and bodies welded together are not
 /// independent.
-bool is_told(const data::JointDescription& joint) {
+bool is_determined(const data::JointDescription& joint) {
   if (joint.parent_body_idx == data::kGround) return false;
   if (joint.name.starts_with("subtalar") || joint.name.starts_with("mtp")) return false;
   return std::ranges::any_of(joint.axes, [](const auto& axis) { return axis.coordinate_idx >= 0; });
@@ -33,13 +33,13 @@ Result<std::vector<motion::GeometryParameter>> landmark_geometry(const data::Mod
   if (freedom == Freedom::none) return out;
   std::vector<std::string> joints, landmarks;
   for (const auto& joint : model.joints)
-    if (is_told(joint)) joints.push_back(joint.name);
+    if (is_determined(joint)) joints.push_back(joint.name);
   std::vector<motion::MarkerOnJoint> tied;
-  for (const auto& place : landmark_places())
-    if (freedom == Freedom::centres && !place.joint.empty())
-      tied.push_back({.marker = place.landmark, .joint = place.joint});
+  for (const auto& attachment : landmark_attachments())
+    if (freedom == Freedom::centres && !attachment.joint.empty())
+      tied.push_back({.marker = attachment.landmark, .joint = attachment.joint});
     else
-      landmarks.push_back(place.landmark);
+      landmarks.push_back(attachment.landmark);
   auto of_joints = motion::joint_parameters(model, joints, kPrior_m, tied);
   if (!of_joints) return std::unexpected(of_joints.error());
   auto of_landmarks = motion::marker_parameters(model, landmarks, kPrior_m);
@@ -70,11 +70,11 @@ Result<GeometryFit> fit_geometry(const data::ModelDescription& model, const data
   if (freedom != Freedom::none) {
     auto best = adapt(model, freedom);
     if (!best) return std::unexpected(best.error());
-    if (freedom == Freedom::places) {
+    if (freedom == Freedom::positions) {
       // With so many parameters there is more than one minimum: start a second time from adapted joints.
       const auto centres = adapt(model, Freedom::centres);
       if (!centres) return std::unexpected(centres.error());
-      auto second = adapt(centres->model, Freedom::places);
+      auto second = adapt(centres->model, Freedom::positions);
       if (!second) return std::unexpected(second.error());
       if (second->rms_after_m < best->rms_after_m) best = std::move(second);
     }

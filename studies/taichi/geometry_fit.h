@@ -14,9 +14,9 @@ namespace kinemark::studies {
 
 /// Geometry parameters that may change to fit the landmarks.
 enum class Freedom : std::uint8_t {
-  none,     ///< as scaled by medians
-  centres,  ///< joints; landmarks that are joint centres stay joint centres (72 numbers; 78 with clavicles)
-  places    ///< joints, and the position of every landmark (111; 117)
+  none,      ///< as scaled by medians
+  centres,   ///< joints; landmarks that are joint centres stay joint centres (72 numbers; 78 with clavicles)
+  positions  ///< joints, and the position of every landmark (111; 117)
 };
 
 /// The geometry parameters of a model with landmarks, each with a prior of 20 mm: three per joint of
@@ -32,8 +32,8 @@ struct GeometryFit {
 };
 
 /// Adapt the geometry to the landmarks of frames [first, last) and solve all frames. Freedom::none adapts
-/// nothing; Freedom::places keeps the better of two starts, the model as it is and with its centres adapted.
-/// About 5 s for a whole body and 334 frames.
+/// nothing; Freedom::positions keeps the better of two starts, the model as it is and with its centres
+/// adapted. About 5 s for a whole body and 334 frames.
 [[nodiscard]] Result<GeometryFit> fit_geometry(const data::ModelDescription& model,
                                                const data::Trajectories& landmarks, Freedom freedom,
                                                std::int64_t first, std::int64_t last, int threads = 1);

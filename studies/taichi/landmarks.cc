@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 constexpr double kMostFrames = 1e6;  // 4.6 hours at 60 Hz, half a gigabyte of landmarks
 
 /// Mean of one landmark over its samples.
-Vector3d mean_place(const Trajectories& markers, std::int64_t m) {
+Vector3d mean_position(const Trajectories& markers, std::int64_t m) {
   Vector3d sum = Vector3d::Zero();
   double count = 0.0;
   for (std::int64_t f = 0; f < markers.frames(); ++f)
@@ -33,7 +33,7 @@ Vector3d mean_place(const Trajectories& markers, std::int64_t m) {
 
 /// True: z points up; false: y does.
 Result<bool> z_is_up(const Trajectories& markers) {
-  const auto at = [&](std::string_view name) { return mean_place(markers, markers.find(name)); };
+  const auto at = [&](std::string_view name) { return mean_position(markers, markers.find(name)); };
   const Vector3d up = 0.5 * (at("FHead") + at("BHead")) - 0.5 * (at("LAnkle") + at("RAnkle"));
   if (!up.allFinite()) return fail(Code::bad_input, "head or ankles are never seen");
   if (up.z() > 0.8 * up.norm()) return true;
@@ -71,38 +71,38 @@ Status resample(const Run& run, Trajectories& out, std::int64_t m) {
 
 }  // namespace
 
-std::vector<LandmarkPlace> landmark_places() {
-  std::vector<LandmarkPlace> places;
+std::vector<LandmarkAttachment> landmark_attachments() {
+  std::vector<LandmarkAttachment> attachments;
   for (const auto name : kTaiChiLandmarks) {
     const std::string landmark(name);
     const std::string side = landmark[0] == 'R' ? "_r" : "_l";
     const std::string part = landmark.substr(1);
     if (landmark == "FHead" || landmark == "BHead")
-      places.push_back({landmark, "head", ""});
+      attachments.push_back({landmark, "head", ""});
     else if (landmark == "Neck")
-      places.push_back({landmark, "thorax", "neck"});
+      attachments.push_back({landmark, "thorax", "neck"});
     else if (landmark == "Thorax")
-      places.push_back({landmark, "thorax", ""});
+      attachments.push_back({landmark, "thorax", ""});
     else if (landmark == "Pelvis")
-      places.push_back({landmark, "pelvis", ""});
+      attachments.push_back({landmark, "pelvis", ""});
     else if (part == "Shoulder")
-      places.push_back({landmark, "clavicle" + side, "acromial" + side});
+      attachments.push_back({landmark, "clavicle" + side, "acromial" + side});
     else if (part == "Elbow")
-      places.push_back({landmark, "humerus" + side, "elbow" + side});
+      attachments.push_back({landmark, "humerus" + side, "elbow" + side});
     else if (part == "Wrist")
-      places.push_back({landmark, "radius" + side, "radius_hand" + side});
+      attachments.push_back({landmark, "radius" + side, "radius_hand" + side});
     else if (part == "Hand")
-      places.push_back({landmark, "hand" + side, ""});
+      attachments.push_back({landmark, "hand" + side, ""});
     else if (part == "Hip")
-      places.push_back({landmark, "pelvis", "hip" + side});
+      attachments.push_back({landmark, "pelvis", "hip" + side});
     else if (part == "Knee")
-      places.push_back({landmark, "femur" + side, "knee" + side});
+      attachments.push_back({landmark, "femur" + side, "knee" + side});
     else if (part == "Ankle")
-      places.push_back({landmark, "tibia" + side, "ankle" + side});
+      attachments.push_back({landmark, "tibia" + side, "ankle" + side});
     else
-      places.push_back({landmark, "calcn" + side, ""});
+      attachments.push_back({landmark, "calcn" + side, ""});
   }
-  return places;
+  return attachments;
 }
 
 Result<Trajectories> prepare_landmarks(const Trajectories& recorded, double rate_hz) {
@@ -114,8 +114,8 @@ Result<Trajectories> prepare_landmarks(const Trajectories& recorded, double rate
                 fmt::format("the recording lacks {}; the 21 landmarks of the tai chi recording were expected",
                             join(absent)));
   if (recorded.frames() < 2) return fail(Code::bad_input, "the recording holds fewer than two frames");
-  const auto turn = z_is_up(recorded);
-  if (!turn) return std::unexpected(turn.error());
+  const auto z_up = z_is_up(recorded);
+  if (!z_up) return std::unexpected(z_up.error());
 
   const double duration_s = static_cast<double>(recorded.frames() - 1) / recorded.time.rate_hz;
   if (!(rate_hz > 0.0 && recorded.time.rate_hz > 0.0 && duration_s * rate_hz + 1.0 <= kMostFrames))
@@ -137,8 +137,8 @@ Result<Trajectories> prepare_landmarks(const Trajectories& recorded, double rate
         const Vector3d x = recorded.x(f, from);
         run.time_s.push_back(recorded.time.time_s(f));
         run.x[0].push_back(x.x());
-        run.x[1].push_back(*turn ? x.z() : x.y());
-        run.x[2].push_back(*turn ? -x.y() : x.z());
+        run.x[1].push_back(*z_up ? x.z() : x.y());
+        run.x[2].push_back(*z_up ? -x.y() : x.z());
       } else if (!run.time_s.empty()) {
         if (auto status = resample(run, out, m); !status) return std::unexpected(status.error());
         run = {};

@@ -20,12 +20,12 @@ inline constexpr std::array<std::string_view, 21> kTaiChiLandmarks{
     "RHip",   "LKnee",  "RKnee",  "LAnkle", "RAnkle",    "LFoot",     "RFoot"};
 
 /// Attachment of a landmark to kinemark's human.
-struct LandmarkPlace {
+struct LandmarkAttachment {
   std::string landmark, body;
   std::string joint;  ///< whose centre the landmark is, a child joint of the body; empty: a point of its own
 };
 /// One per landmark, in the order of kTaiChiLandmarks. Shoulders hang on the clavicles.
-[[nodiscard]] std::vector<LandmarkPlace> landmark_places();
+[[nodiscard]] std::vector<LandmarkAttachment> landmark_attachments();
 
 /// The landmarks of a recording, ready for the human model: y up, in the order of kTaiChiLandmarks, at
 /// `rate_hz` by natural cubic splines through each run of samples. Where the recording has z up (the head

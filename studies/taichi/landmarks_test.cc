@@ -55,8 +55,8 @@ TEST(PrepareLandmarks, LeavesARecordingWithYUpAsItIs) {
       const Vector3d x = recorded.x(f, m);
       recorded.x(f, m) = Vector3d(x.x(), x.z(), -x.y());
     }
-  const auto turned = prepare_landmarks(standing()).value();
-  EXPECT_EQ(prepare_landmarks(recorded)->x_in_world, turned.x_in_world);
+  const auto rotated = prepare_landmarks(standing()).value();
+  EXPECT_EQ(prepare_landmarks(recorded)->x_in_world, rotated.x_in_world);
 }
 
 TEST(PrepareLandmarks, GapsStayGaps) {
@@ -108,19 +108,19 @@ TEST(MedianDistance, IsRobustAndSaysWhenThereIsNone) {
   EXPECT_TRUE(std::isnan(median_distance(recorded, "RFoot", "LFoot")));
 }
 
-TEST(LandmarkPlaces, AreInTheHumanModel) {
+TEST(LandmarkAttachments, AreInTheHumanModel) {
   const auto human = io::read_osim(testing_support::project_folder() / "models/human.osim").value();
-  const auto places = landmark_places();
-  ASSERT_EQ(places.size(), kTaiChiLandmarks.size());
+  const auto attachments = landmark_attachments();
+  ASSERT_EQ(attachments.size(), kTaiChiLandmarks.size());
   std::set<std::string> joints;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    EXPECT_EQ(places[i].landmark, kTaiChiLandmarks[i]);
-    const int body = human.find_body(places[i].body);
-    EXPECT_GE(body, 0) << places[i].body;
-    if (places[i].joint.empty()) continue;
-    EXPECT_TRUE(joints.insert(places[i].joint).second) << places[i].joint;
-    const auto joint = std::ranges::find(human.joints, places[i].joint, &data::JointDescription::name);
-    ASSERT_NE(joint, human.joints.end()) << places[i].joint;
+  for (std::size_t i = 0; i < attachments.size(); ++i) {
+    EXPECT_EQ(attachments[i].landmark, kTaiChiLandmarks[i]);
+    const int body = human.find_body(attachments[i].body);
+    EXPECT_GE(body, 0) << attachments[i].body;
+    if (attachments[i].joint.empty()) continue;
+    EXPECT_TRUE(joints.insert(attachments[i].joint).second) << attachments[i].joint;
+    const auto joint = std::ranges::find(human.joints, attachments[i].joint, &data::JointDescription::name);
+    ASSERT_NE(joint, human.joints.end()) << attachments[i].joint;
     EXPECT_EQ(joint->parent_body_idx, body) << "a joint centre is fixed in the parent";
   }
   EXPECT_EQ(joints.size(), 13U);

@@ -20,6 +20,7 @@ motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
   motion::IkOptions options;
   options.limits = false;
   options.error_bars = false;
+  options.judge_samples = false;  // control follows every sample
   const auto count = landmarks.empty() ? model.markers.size() : landmarks.size();
   if (!landmarks.empty()) {
     options.default_marker_weight = 0.0;

@@ -36,7 +36,7 @@ class Parts {
 std::unexpected<Error> stopped() { return fail(Code::cancelled, "the study was stopped"); }
 
 Status adapt(const ModelDescription& medians, const Trajectories& landmarks, int threads, Parts& parts,
-             GeometryFit& plain, GeometryFit& centres, GeometryFit& places, GeometryFit& held_out) {
+             GeometryFit& plain, GeometryFit& centres, GeometryFit& positions, GeometryFit& held_out) {
   const auto frames = landmarks.frames();
   struct Task {
     GeometryFit* out;
@@ -45,7 +45,7 @@ Status adapt(const ModelDescription& medians, const Trajectories& landmarks, int
   };
   for (const auto& [out, freedom, last] : {Task{&plain, Freedom::none, frames},
                                            {&centres, Freedom::centres, frames},
-                                           {&places, Freedom::places, frames},
+                                           {&positions, Freedom::positions, frames},
                                            {&held_out, Freedom::centres, frames / 2}}) {
     if (!parts.next()) return stopped();
     auto fit = fit_geometry(medians, landmarks, freedom, 0, last, threads);
@@ -93,13 +93,14 @@ Result<TaiChiSubject> study_subject(const ModelDescription& human, const Traject
   TaiChiSubject out{.seed = seed};
   const auto medians = scale_by_medians(human, landmarks);
   if (!medians) return std::unexpected(medians.error());
-  if (auto s = adapt(*medians, landmarks, threads, parts, out.medians, out.centres, out.places, out.held_out);
+  if (auto s =
+          adapt(*medians, landmarks, threads, parts, out.medians, out.centres, out.positions, out.held_out);
       !s)
     return std::unexpected(s.error());
   auto clavicles = *medians;
   if (const auto added = motion::add_clavicles(clavicles); !added) return std::unexpected(added.error());
   if (auto s = adapt(clavicles, landmarks, threads, parts, out.clavicle_medians, out.clavicle_centres,
-                     out.clavicle_places, out.clavicle_held_out);
+                     out.clavicle_positions, out.clavicle_held_out);
       !s)
     return std::unexpected(s.error());
   const auto tracked = scale_by_medians(human, landmarks, {.lock_unseen = true});

@@ -41,8 +41,8 @@ struct TaiChiDrawing {
 /// Results of one subject.
 struct TaiChiSubject {
   std::uint64_t seed = 0;
-  GeometryFit medians, centres, places;                             ///< 40 coordinates
-  GeometryFit clavicle_medians, clavicle_centres, clavicle_places;  ///< 44
+  GeometryFit medians, centres, positions;                             ///< 40 coordinates
+  GeometryFit clavicle_medians, clavicle_centres, clavicle_positions;  ///< 44
   GeometryFit held_out, clavicle_held_out;  ///< Freedom::centres from the first half of the frames
   SetOutcome whole, three, paper, pelvis_paper, upper;
   double forearm_min_m = 0.0, forearm_max_m = 0.0;  ///< recorded distance of left elbow and wrist

@@ -16,8 +16,8 @@ Result<TaiChiStudy> run_study_taichi(const TaiChiFiles& files, const Progress& p
   if (!human) return std::unexpected(human.error());
   job.human = std::move(*human);
   if (!files.data.empty()) {
-    const bool untold = io::needs_rate(files.data) && files.rate_hz == 0.0;
-    auto trial = io::read_markers(files.data, {.rate_hz = untold ? kRecorded_hz : files.rate_hz});
+    const bool no_rate = io::needs_rate(files.data) && files.rate_hz == 0.0;
+    auto trial = io::read_markers(files.data, {.rate_hz = no_rate ? kRecorded_hz : files.rate_hz});
     if (!trial) return std::unexpected(trial.error());
     job.recording = std::move(trial->markers);
   }

@@ -153,7 +153,7 @@ TEST(LandmarkGeometry, HasAsManyNumbersAsThePlanSays) {
   const auto model = with_landmarks(human()).value();
   EXPECT_EQ(landmark_geometry(model, Freedom::none)->size(), 0U);
   EXPECT_EQ(landmark_geometry(model, Freedom::centres)->size(), 72U);
-  EXPECT_EQ(landmark_geometry(model, Freedom::places)->size(), 111U);
+  EXPECT_EQ(landmark_geometry(model, Freedom::positions)->size(), 111U);
 }
 
 TEST(FitGeometry, WithoutFreedomOnlySolves) {
@@ -184,8 +184,8 @@ TaiChiSubject numbered(double scale) {
   const SetOutcome set{
       .recorded_fine = c, .recorded_coarse = c, .reachable_fine = reached, .reachable_coarse = reached};
   TaiChiSubject out;
-  for (auto fit : {&out.medians, &out.centres, &out.places, &out.clavicle_medians, &out.clavicle_centres,
-                   &out.clavicle_places, &out.held_out, &out.clavicle_held_out})
+  for (auto fit : {&out.medians, &out.centres, &out.positions, &out.clavicle_medians, &out.clavicle_centres,
+                   &out.clavicle_positions, &out.held_out, &out.clavicle_held_out})
     *fit = {.rms_m = 0.001 * scale, .rms_first_m = 0.001, .rms_second_m = 0.002};
   out.whole = out.three = out.paper = out.pelvis_paper = out.upper = set;
   out.forearm_min_m = 0.274 - 0.01 * scale;
@@ -222,7 +222,7 @@ TEST(TaiChiRows, FailWhatIsTooMuch) {
   EXPECT_EQ(fails([](auto& s) { s.medians.rms_m = 0.0121; }), 1);
   EXPECT_EQ(fails([](auto& s) { s.medians.rms_m = 0.0121; }, false), 0)
       << "a simulated subject is another one";
-  EXPECT_EQ(fails([](auto& s) { s.clavicle_places.rms_m = 0.0031; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.clavicle_positions.rms_m = 0.0031; }), 1);
   EXPECT_EQ(fails([](auto& s) { s.whole.recorded_fine.angle_rms_rad = 0.6 * kRadPerDeg; }), 1);
   EXPECT_EQ(fails([](auto& s) { s.whole.recorded_coarse.angle_rms_rad = 0.6 * kRadPerDeg; }), 0);
   EXPECT_EQ(fails([](auto& s) { s.whole.reachable_fine.control_rms_m = 6e-5; }), 1);
@@ -252,8 +252,8 @@ TEST(TaiChiPage, DrawsEveryFigureAndTheTable) {
     EXPECT_THAT(figure.body, HasSubstr("<svg"));
     EXPECT_THAT(figure.body, testing::Not(HasSubstr("nan"))) << figure.caption;
   }
-  EXPECT_THAT(page.words, HasSubstr("Simulated subjects"));
-  EXPECT_THAT(page.words, HasSubstr("264 to 303 mm"));
+  EXPECT_THAT(page.description, HasSubstr("Simulated subjects"));
+  EXPECT_THAT(page.description, HasSubstr("264 to 303 mm"));
   EXPECT_THAT(study_html(page), HasSubstr("Figure 4: margin of joint error"));
   EXPECT_THROW((void)taichi_page(TaiChiStudy{}), ContractError);
 }

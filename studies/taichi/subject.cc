@@ -41,8 +41,10 @@ class Body {
     return static_cast<std::size_t>(at - model_.joints.begin());
   }
   /// Position of a joint in its parent, m. with_landmarks() has checked that the joint exists.
-  Vector3d& place(std::string_view name) { return model_.joints[*joint(name)].parent_from_joint.translation; }
-  void stretch(std::string_view name, double length_m) { place(name) *= length_m / place(name).norm(); }
+  Vector3d& position(std::string_view name) {
+    return model_.joints[*joint(name)].parent_from_joint.translation;
+  }
+  void stretch(std::string_view name, double length_m) { position(name) *= length_m / position(name).norm(); }
   void mark(std::string_view landmark, const Vector3d& x_in_body) {
     model_.markers[static_cast<std::size_t>(model_.find_marker(landmark))].x_in_body = x_in_body;
   }
@@ -115,24 +117,24 @@ void scale_trunk(Body& body, Medians& median, double size, double shoulder_heigh
   const double reach = median("Pelvis", "RHip");
   const double depth = std::sqrt(std::max(0.0, reach * reach - half_width * half_width));
   // The generic pelvis, sized; the landmark's position follows from the hips.
-  const Vector3d hip = size * Vector3d(body.place("hip_r").x(), body.place("hip_r").y(), 0.0);
-  body.place("hip_r") = hip + Vector3d(0.0, 0.0, half_width);
-  body.place("hip_l") = hip - Vector3d(0.0, 0.0, half_width);
+  const Vector3d hip = size * Vector3d(body.position("hip_r").x(), body.position("hip_r").y(), 0.0);
+  body.position("hip_r") = hip + Vector3d(0.0, 0.0, half_width);
+  body.position("hip_l") = hip - Vector3d(0.0, 0.0, half_width);
   const Vector3d pelvis = hip - depth * kHipDirection;
   body.mark("Pelvis", pelvis);
   // The trunk bends half way between pelvis and thorax.
   const double rise = median("Pelvis", "Thorax");
-  body.place("back") = pelvis + Vector3d(0.0, 0.5 * rise, 0.0);
-  body.place("diaphragm") = Vector3d(0.0, 0.5 * rise, 0.0);
+  body.position("back") = pelvis + Vector3d(0.0, 0.5 * rise, 0.0);
+  body.position("diaphragm") = Vector3d(0.0, 0.5 * rise, 0.0);
   const double trunk = median("Thorax", "Neck");
   body.mark("Thorax", Vector3d::Zero());
-  body.place("neck") = Vector3d(0.0, trunk, 0.0);
+  body.position("neck") = Vector3d(0.0, trunk, 0.0);
   const double aside = 0.5 * median("LShoulder", "RShoulder");
   for (const double sign : {1.0, -1.0}) {
     const std::string side = sign > 0.0 ? "_r" : "_l";
-    body.place("sternoclavicular" + side) =
+    body.position("sternoclavicular" + side) =
         Vector3d(kClavicleForward_m, shoulder_height_m, sign * kClavicleAside_m);
-    body.place("acromial" + side) = Vector3d(-kClavicleForward_m, 0.0, sign * (aside - kClavicleAside_m));
+    body.position("acromial" + side) = Vector3d(-kClavicleForward_m, 0.0, sign * (aside - kClavicleAside_m));
   }
   // The head's two points lie on a line along x; the nearer one by its distances to neck and front.
   const double back_of_head = median("BHead", "Neck"), deep = median("FHead", "BHead");
@@ -149,13 +151,13 @@ void scale_limbs(Body& body, Medians& median) {
     body.stretch("elbow" + side, median(s + "Shoulder", s + "Elbow"));
     // The forearm's two bones keep their proportion.
     const double forearm = median(s + "Elbow", s + "Wrist") /
-                           (body.place("radioulnar" + side) + body.place("radius_hand" + side)).norm();
-    body.place("radioulnar" + side) *= forearm;
-    body.place("radius_hand" + side) *= forearm;
+                           (body.position("radioulnar" + side) + body.position("radius_hand" + side)).norm();
+    body.position("radioulnar" + side) *= forearm;
+    body.position("radius_hand" + side) *= forearm;
     body.mark(s + "Hand", Vector3d(0.0, -median(s + "Wrist", s + "Hand"), 0.0));
     body.stretch("knee" + side, median(s + "Hip", s + "Knee"));
     body.stretch("ankle" + side, median(s + "Knee", s + "Ankle"));
-    const Vector3d heel = body.place("subtalar" + side);
+    const Vector3d heel = body.position("subtalar" + side);
     const Vector3d foot = heel + kFoot;
     body.mark(s + "Foot", foot * (median(s + "Ankle", s + "Foot") / foot.norm()) - heel);
   }
@@ -164,8 +166,8 @@ void scale_limbs(Body& body, Medians& median) {
 /// Landmarks that are joint centres, where their joints now are.
 void settle_centres(ModelDescription& model) {
   Body body(model);
-  for (const auto& place : landmark_places())
-    if (!place.joint.empty()) body.mark(place.landmark, body.place(place.joint));
+  for (const auto& attachment : landmark_attachments())
+    if (!attachment.joint.empty()) body.mark(attachment.landmark, body.position(attachment.joint));
 }
 
 }  // namespace
@@ -181,14 +183,14 @@ Result<ModelDescription> with_landmarks(const ModelDescription& human, const Tai
   model.name += "_tai_chi";
   model.markers.clear();
   Body body(model);
-  for (const auto& place : landmark_places()) {
-    const int b = model.find_body(place.body);
+  for (const auto& attachment : landmark_attachments()) {
+    const int b = model.find_body(attachment.body);
     if (b < 0)
       return fail(Code::not_supported,
-                  fmt::format("the model has no body '{}'; kinemark's human was expected", place.body));
-    if (!place.joint.empty())
-      if (const auto joint = body.joint(place.joint); !joint) return std::unexpected(joint.error());
-    model.markers.push_back({.name = place.landmark, .body_idx = b, .x_in_body = Vector3d::Zero()});
+                  fmt::format("the model has no body '{}'; kinemark's human was expected", attachment.body));
+    if (!attachment.joint.empty())
+      if (const auto joint = body.joint(attachment.joint); !joint) return std::unexpected(joint.error());
+    model.markers.push_back({.name = attachment.landmark, .body_idx = b, .x_in_body = Vector3d::Zero()});
   }
   for (const char* name : {"back", "diaphragm", "sternoclavicular_r", "sternoclavicular_l", "radioulnar_r",
                            "radioulnar_l", "subtalar_r", "subtalar_l"})
@@ -225,7 +227,7 @@ Result<ModelDescription> scale_by_medians(const ModelDescription& human, const T
     return median(s + "Hip", s + "Knee") + median(s + "Knee", s + "Ankle");
   };
   const double size =
-      0.5 * (leg("R") + leg("L")) / (body.place("knee_r").norm() + body.place("ankle_r").norm());
+      0.5 * (leg("R") + leg("L")) / (body.position("knee_r").norm() + body.position("ankle_r").norm());
   scale_trunk(body, median, size, shoulder_height(landmarks));
   scale_limbs(body, median);
   settle_centres(model);

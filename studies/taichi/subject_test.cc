@@ -51,13 +51,14 @@ TEST(WithLandmarks, PutsJointCentresWhereTheJointsAre) {
   const auto compiled = model::Model::compile(model).value();
   model::Workspace w(compiled);
   model::kinematics(compiled, w, compiled.default_state());
-  for (const auto& place : landmark_places()) {
-    if (place.joint.empty()) continue;
-    const int child = compiled.body_of(joint(model, place.joint).child_body_idx);
-    EXPECT_LT((w.marker.col(model.find_marker(place.landmark)) - w.position[static_cast<std::size_t>(child)])
-                  .norm(),
-              1e-12)
-        << place.landmark;
+  for (const auto& attachment : landmark_attachments()) {
+    if (attachment.joint.empty()) continue;
+    const int child = compiled.body_of(joint(model, attachment.joint).child_body_idx);
+    EXPECT_LT(
+        (w.marker.col(model.find_marker(attachment.landmark)) - w.position[static_cast<std::size_t>(child)])
+            .norm(),
+        1e-12)
+        << attachment.landmark;
   }
   EXPECT_GT(w.marker(1, model.find_marker("FHead")), w.marker(1, model.find_marker("Neck")));
   EXPECT_LT(w.marker(1, model.find_marker("LFoot")), 0.1);
@@ -103,10 +104,10 @@ TEST(ScaleByMedians, FindsTheLengthsOfASubject) {
   };
   at("ankle_l").parent_from_joint.translation *= 0.9;
   at("elbow_r").parent_from_joint.translation *= 1.1;
-  for (const auto& place : landmark_places())
-    if (!place.joint.empty())
-      subject.markers[static_cast<std::size_t>(subject.find_marker(place.landmark))].x_in_body =
-          at(place.joint).parent_from_joint.translation;
+  for (const auto& attachment : landmark_attachments())
+    if (!attachment.joint.empty())
+      subject.markers[static_cast<std::size_t>(subject.find_marker(attachment.landmark))].x_in_body =
+          at(attachment.joint).parent_from_joint.translation;
   const auto landmarks = posed(subject);
   const auto sized = scale_by_medians(human(), landmarks);
   ASSERT_TRUE(sized) << sized.error().message;

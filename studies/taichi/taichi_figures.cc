@@ -132,7 +132,7 @@ double determined_share(const data::JointMotion& motion, std::string_view coordi
   return 100.0 * sum / static_cast<double>(motion.frames());
 }
 
-std::string determined_words(const TaiChiDrawing& drawing, std::string_view coordinate) {
+std::string determined_text(const TaiChiDrawing& drawing, std::string_view coordinate) {
   return fmt::format(
       "<p>Determined in {:.0f} % of the frames by all 21 landmarks, {:.0f} % by the upper body, "
       "{:.0f} % by the four.</p>",
@@ -151,7 +151,7 @@ StudyPage taichi_page(const TaiChiStudy& study) {
   StudyPage out{
       .title = "Study: Demircan, Sentis, De Sapio and Khatib 2008",
       .heading = "Tai chi by direct marker control",
-      .words = fmt::format(
+      .description = fmt::format(
           "{}. The paper's four landmarks fix {} of the {} directions that they can move and determine {} of "
           "{} joint "
           "angles: they are tracked well by any arm that reaches them, so good tracking proves nothing about "
@@ -170,7 +170,7 @@ StudyPage taichi_page(const TaiChiStudy& study) {
       .table = study.table};
   for (const char* coordinate : {"arm_flex_r", "arm_add_r", "elbow_flex_r", "elbow_flex_l"})
     out.figures.push_back({fmt::format("Figure 2: joint angles, {}", coordinate),
-                           angles(drawing, coordinate) + determined_words(drawing, coordinate)});
+                           angles(drawing, coordinate) + determined_text(drawing, coordinate)});
   for (const char* landmark : {"RShoulder", "LWrist", "LElbow", "RWrist"})
     out.figures.push_back(
         {fmt::format("Figure 3: tracked against goal, {}", landmark), path(drawing, landmark, 1)});

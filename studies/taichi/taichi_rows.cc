@@ -35,10 +35,10 @@ void add_geometry(const Subjects& subjects, bool recorded, std::vector<StudyRow>
   for (const auto& [what, fit, most] :
        {Line{"as scaled by medians", &TaiChiSubject::medians, 12.0},
         {"joints adapted", &TaiChiSubject::centres, 9.0},
-        {"joints and landmark places adapted", &TaiChiSubject::places, 7.5},
+        {"joints and landmark positions adapted", &TaiChiSubject::positions, 7.5},
         {"clavicles, as scaled by medians", &TaiChiSubject::clavicle_medians, 7.5},
         {"clavicles, joints adapted", &TaiChiSubject::clavicle_centres, 4.5},
-        {"clavicles, joints and landmark places adapted", &TaiChiSubject::clavicle_places, 3.0}}) {
+        {"clavicles, joints and landmark positions adapted", &TaiChiSubject::clavicle_positions, 3.0}}) {
     StudyRow row{.quantity = fmt::format("least squares, 21 landmarks: RMS, {}", what),
                  .unit = "mm",
                  .ours = worst(subjects, kMillimetres, [&](auto& s) { return (s.*fit).rms_m; })};

@@ -173,7 +173,8 @@ void run(Case& c) {
   const auto check = trajectory::fill_gaps(c.markers, {.method = trajectory::GapMethod::none});
   if (!check) throw std::runtime_error(check.error().message);
   for (const auto& s : check->swaps)
-    c.flagged |= s.marker == c.swapped.first && s.other_marker == c.swapped.second &&
+    c.flagged |= s.subject == c.markers.names[static_cast<std::size_t>(c.swapped.first)] &&
+                 s.partner == c.markers.names[static_cast<std::size_t>(c.swapped.second)] &&
                  s.first_frame < c.first + c.frames && s.last_frame >= c.first;
 }
 

@@ -230,7 +230,7 @@ void hip(const fs::path& data) {
             fmt::format("{:.2f} mm away on average, SD {:.2f} mm, chi-square {:.2f} of 7.81; in {:.0f} % of "
                         "frames one by one; {}",
                         kMm * covered.mean_distance_m, kMm * covered.sd_m, covered.largest_z2,
-                        100.0 * covered.within, ours->skeleton.joints[0].words));
+                        100.0 * covered.within, ours->skeleton.joints[0].description));
 }
 
 // The functional knee
@@ -280,7 +280,7 @@ void knee(const fs::path& data) {
   sd /= n;
   print_row(angle <= 6.0, "functional right knee, axis against the epicondyles", "within 6 deg",
             fmt::format("{:.2f} deg; SD of each tilt {:.2f} deg; {}", angle, joint.axis_sd_rad * kDegPerRad,
-                        joint.words));
+                        joint.description));
   print_row(
       distance <= 10e-3, "functional right knee, axis past the epicondyle line", "within 10 mm",
       fmt::format(
@@ -294,9 +294,10 @@ void knee(const fs::path& data) {
   print_row(distance <= 1.96 * sd, "functional right knee, interval of the axis' place",
             "covers the epicondyle line",
             fmt::format("{:.2f} mm away, 95 % within {:.2f} mm", kMm * distance, kMm * 1.96 * sd));
-  print_row(automatic.joints[0].kind == data::JointKind::hinge,
-            "functional right knee, kind chosen by the data", "hinge",
-            fmt::format("{}; {}", data::to_string(automatic.joints[0].kind), automatic.joints[0].words));
+  print_row(
+      automatic.joints[0].kind == data::JointKind::hinge, "functional right knee, kind chosen by the data",
+      "hinge",
+      fmt::format("{}; {}", data::to_string(automatic.joints[0].kind), automatic.joints[0].description));
 }
 
 int run_check(int argc, char** argv) {

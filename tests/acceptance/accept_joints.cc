@@ -83,7 +83,7 @@ void collinear(const Run& run, Tally& pooled) {
       std::string asked = fmt::format("{}; determined >= {:.0f} %", ratio_asked(run), 100.0 * share);
       if (most_mm < 1e9) asked += fmt::format("; RMS <= {} mm", most_mm);
       print_row(at_bound(t, run) && t.share() >= share - (run.quick ? 0.02 : 0.0) && t.rms_mm() <= most_mm,
-                cell_name("collinear", noise, missing), asked, t.words());
+                cell_name("collinear", noise, missing), asked, t.description());
       all.add(t);
     }
   pooled.add(all);
@@ -102,7 +102,7 @@ void staggered(const Run& run, Tally& pooled) {
                 cell_name("staggered 20 mm", noise, missing),
                 fmt::format("{}; determined >= {:.0f} %; every frame with a whole segment", ratio_asked(run),
                             100.0 * share),
-                fmt::format("{}; {} of {} whole ones flagged", t.words(), t.whole_flagged, t.whole));
+                fmt::format("{}; {} of {} whole ones flagged", t.description(), t.whole_flagged, t.whole));
       all.add(t);
     }
   pooled.add(all);
@@ -129,7 +129,7 @@ void weak(const Run& run, Tally& pooled) {
             cell_name(fmt::format("staggered {} mm", stagger).c_str(), noise, missing),
             fmt::format("{} of solid segments; determined >= {:.0f} %; every frame with a whole segment",
                         ratio_asked(run), 100.0 * share),
-            fmt::format("{}; {} of {} whole ones flagged", t.words(), t.whole_flagged, t.whole));
+            fmt::format("{}; {} of {} whole ones flagged", t.description(), t.whole_flagged, t.whole));
         pooled.add(t);
       }
 }
@@ -146,7 +146,7 @@ void chain(const Run& run, Tally& pooled) {
                                             .missing = missing},
                                            SegmentKind::solid, run.seeds, alone());
       print_row(at_bound(t, run), cell_name("three joints, 4 markers a segment", noise, missing),
-                ratio_asked(run), t.words());
+                ratio_asked(run), t.description());
       all.add(t);
     }
   pooled.add(all);

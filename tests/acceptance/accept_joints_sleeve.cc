@@ -51,7 +51,7 @@ void frame_by_frame(const Run& run) {
               fmt::format("sleeve, {} mm, each frame by itself", noise),
               run.quick ? "every seed <= 1.15 x bound; none beyond 5 SD unflagged"
                         : "<= 1.1 x bound, every seed <= 1.15; none beyond 5 SD unflagged",
-              t.words());
+              t.description());
     all.add(t);
   }
   const double one = Tally::part(all.in_1sd, all.coordinates), two = Tally::part(all.in_2sd, all.coordinates);

@@ -15,7 +15,7 @@
 #include "kinemark/core/units.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/model/model.h"
-#include "kinemark/stages/motion/smoother/camera_sightings.h"
+#include "kinemark/stages/motion/smoother/camera_observations.h"
 #include "kinemark/stages/simulation/subject.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
@@ -28,16 +28,16 @@ using Eigen::Vector3d;
 constexpr double kNoise_px = 0.3;
 constexpr std::int64_t kFirst = 240, kLast = 300;  // the second in the dark, at 60 Hz
 
-data::Camera camera_at(const Vector3d& place, const Vector3d& target) {
+data::Camera camera_at(const Vector3d& position, const Vector3d& target) {
   data::Camera camera;
   camera.kind = data::CameraKind::pinhole;
   camera.focal = 1500.0;
-  const Vector3d z = (target - place).normalized(), x = Vector3d::UnitY().cross(z).normalized(),
+  const Vector3d z = (target - position).normalized(), x = Vector3d::UnitY().cross(z).normalized(),
                  y = z.cross(x);
   camera.cam_from_world.rotation.row(0) = x.transpose();
   camera.cam_from_world.rotation.row(1) = y.transpose();
   camera.cam_from_world.rotation.row(2) = z.transpose();
-  camera.cam_from_world.translation = -camera.cam_from_world.rotation * place;
+  camera.cam_from_world.translation = -camera.cam_from_world.rotation * position;
   return camera;
 }
 

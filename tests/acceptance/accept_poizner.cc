@@ -192,14 +192,14 @@ void stress() {
     studies::Coverage positions, rates;
     double worst = 0.0;
     for (std::int64_t led = 0; led < recorded.counts.led_count(); ++led) {
-      const auto path = studies::turned_path(smooth.points, smooth.derivatives, led, rig.truth_from_ours);
+      const auto path = studies::aligned_path(smooth.points, smooth.derivatives, led, rig.truth_from_ours);
       studies::add_coverage(path, recorded.truth, recorded.derivatives, led, 10, how.frames - 10, positions,
                             rates);
       const auto errors =
           studies::motion_errors(path.position, path.velocity, path.acceleration, recorded.truth,
                                  recorded.derivatives, led, 10, how.frames - 10);
-      const auto told = studies::told_errors(path, 10, how.frames - 10);
-      worst = std::max(worst, errors.position / told.position);
+      const auto predicted = studies::predicted_errors(path, 10, how.frames - 10);
+      worst = std::max(worst, errors.position / predicted.position);
     }
     print_row(worst <= 1.3,
               fmt::format("{} LEDs at {} Hz, dark slot {}", wheel.leds, how.rate_hz, dark ? "on" : "off"),

@@ -148,13 +148,13 @@ void exact(const std::string& what, int wrong, int of) {
 
 void recordings(const json& golden, const simulation::PhysicalRig& rig) {
   const auto& pose = simulation::tree_test_poses()[3];
-  Worst places;
+  Worst positions;
   for (int l = 0; l < 3; ++l)
-    places.compare(
+    positions.compare(
         (pose.leds_in_world().col(l) - metres(golden["tree_pose3_points"][static_cast<std::size_t>(l)]))
             .norm(),
         0.0);
-  places.row("tree pose 3", 1e-15, "m");
+  positions.row("tree pose 3", 1e-15, "m");
   exact("tree pose 3, counts",
         different(recorded(rig, simulation::still_tree(pose), 3, 303).counts, 0,
                   golden["tree_pose3_raw_first_frame_of_3"]),
@@ -199,21 +199,22 @@ void grid(const json& golden, const simulation::PhysicalRig& rig) {
 
 /// The study's scenes stay on both sheets for all its rigs, so that nothing depends on what lies beyond.
 void scenes_in_sight() {
-  int off = 0, sightings = 0;
+  int off = 0, observations = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto rig = simulation::draw_rig({.seed = seed}).value();
-    const auto look = [&](const simulation::RigScene& scene, std::int64_t frames) {
+    const auto check_scene = [&](const simulation::RigScene& scene, std::int64_t frames) {
       const auto hidden = recorded(rig, scene, frames, 1).hidden;
-      sightings += static_cast<int>(hidden.size());
+      observations += static_cast<int>(hidden.size());
       off += static_cast<int>(std::ranges::count_if(
           hidden, [](std::uint8_t why) { return (why & simulation::kHiddenOffSheet) != 0; }));
     };
-    for (const auto& pose : simulation::tree_test_poses()) look(simulation::still_tree(pose), 1);
-    for (const double turned : {8.0, 35.0}) look(simulation::rotating_wheel({.turned_deg = turned}), 67);
-    look(simulation::signing_arm(), 400);
+    for (const auto& pose : simulation::tree_test_poses()) check_scene(simulation::still_tree(pose), 1);
+    for (const double rotated : {8.0, 35.0})
+      check_scene(simulation::rotating_wheel({.rotation_deg = rotated}), 67);
+    check_scene(simulation::signing_arm(), 400);
   }
   print_row(off == 0, "study scenes, ten rigs, off the sheet", "none",
-            fmt::format("{} of {}", off, sightings));
+            fmt::format("{} of {}", off, observations));
 }
 
 int run_check(int /*argc*/, char** /*argv*/) {

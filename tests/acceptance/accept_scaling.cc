@@ -24,7 +24,7 @@ using namespace kinemark;
 using Eigen::VectorXd;
 using testing_support::print_row;
 
-constexpr double kScatter = 0.04, kPlaceError_m = 0.005, kNoise_m = 0.001;
+constexpr double kScatter = 0.04, kPositionError_m = 0.005, kNoise_m = 0.001;
 constexpr int kLengths = 17;
 
 struct World {
@@ -39,7 +39,7 @@ struct Outcome {
   std::vector<std::string> names;
   Eigen::MatrixXd error, sd, interval, data_sd;
   Eigen::MatrixXi determined;
-  double place_rms_m = 0.0, residual_m = 0.0, noise_m = 0.0, tissue_m = 0.0;
+  double position_rms_m = 0.0, residual_m = 0.0, noise_m = 0.0, tissue_m = 0.0;
 };
 
 bool of_leg(const std::string& coordinate) {
@@ -69,7 +69,7 @@ Outcome simulate(const data::ModelDescription& human, int subjects, const World&
   Outcome out;
   for (auto* m : {&out.error, &out.sd, &out.interval, &out.data_sd}) m->setZero(kLengths, subjects);
   out.determined.setZero(kLengths, subjects);
-  double place_squares = 0.0, places = 0.0;
+  double position_squares = 0.0, positions = 0.0;
   for (int s = 0; s < subjects; ++s) {
     Random random(4000, static_cast<std::uint64_t>(s));
     const double height = random.uniform(1.4, 2.1);
@@ -82,7 +82,7 @@ Outcome simulate(const data::ModelDescription& human, int subjects, const World&
     for (int k = 0; k < kLengths; ++k) truth[k] = kScatter * random.gaussian();
     data::ModelDescription subject = motion::apply_geometry(start, parameters, truth);
     for (auto& marker : subject.markers)
-      for (int axis = 0; axis < 3; ++axis) marker.x_in_body[axis] += kPlaceError_m * random.gaussian();
+      for (int axis = 0; axis < 3; ++axis) marker.x_in_body[axis] += kPositionError_m * random.gaussian();
     data::ModelDescription moving = subject;
     restrict_motion(moving, world);
     const auto recording = simulation::simulate_subject(model::Model::compile(std::move(moving)).value(),
@@ -93,8 +93,8 @@ Outcome simulate(const data::ModelDescription& human, int subjects, const World&
                                                          .noise_sd_m = kNoise_m,
                                                          .soft_tissue = world.soft_tissue})
                                .value();
-    const auto places_free = motion::marker_parameters(start, {}, kPlaceError_m).value();
-    parameters.insert(parameters.end(), places_free.begin(), places_free.end());
+    const auto free_positions = motion::marker_parameters(start, {}, kPositionError_m).value();
+    parameters.insert(parameters.end(), free_positions.begin(), free_positions.end());
     const auto result = motion::adapt_model(start, recording.markers, parameters,
                                             {.max_frames = world.max_frames, .threads = 0})
                             .value();
@@ -110,8 +110,8 @@ Outcome simulate(const data::ModelDescription& human, int subjects, const World&
       out.determined(k, s) = p.determined;
     }
     for (std::size_t m = 0; m < subject.markers.size(); ++m) {
-      place_squares += (result.model.markers[m].x_in_body - subject.markers[m].x_in_body).squaredNorm();
-      places += 3.0;
+      position_squares += (result.model.markers[m].x_in_body - subject.markers[m].x_in_body).squaredNorm();
+      positions += 3.0;
     }
     out.residual_m += result.rms_after_m / subjects;
     out.noise_m += result.noise_sd_m / subjects;
@@ -119,7 +119,7 @@ Outcome simulate(const data::ModelDescription& human, int subjects, const World&
     fmt::print(stderr, "subject {} {} iterations, noise {:.3f} mm, tissue {:.3f} mm\n", s, result.iterations,
                1e3 * result.noise_sd_m, 1e3 * result.tissue_sd_m);
   }
-  out.place_rms_m = std::sqrt(place_squares / places);
+  out.position_rms_m = std::sqrt(position_squares / positions);
   return out;
 }
 
@@ -135,8 +135,8 @@ void print_table(const Outcome& o) {
         o.names[static_cast<std::size_t>(k)], rms(o.error, k), o.error.row(k).cwiseAbs().maxCoeff(),
         rms(o.sd, k), rms(o.data_sd, k), o.determined.row(k).sum(), o.determined.cols());
   fmt::print(
-      "  marker places {:.2f} mm RMS per axis, residual {:.2f} mm, noise {:.2f} mm, tissue {:.2f} mm\n",
-      1e3 * o.place_rms_m, 1e3 * o.residual_m, 1e3 * o.noise_m, 1e3 * o.tissue_m);
+      "  marker positions {:.2f} mm RMS per axis, residual {:.2f} mm, noise {:.2f} mm, tissue {:.2f} mm\n",
+      1e3 * o.position_rms_m, 1e3 * o.residual_m, 1e3 * o.noise_m, 1e3 * o.tissue_m);
 }
 
 struct Coverage {
@@ -176,9 +176,9 @@ void rich(const data::ModelDescription& human, int subjects) {
   int refused = 0, wrongly = 0;
   for (int k = 0; k < kLengths; ++k) {
     const auto& name = o.names[static_cast<std::size_t>(k)];
-    const int told = o.determined.row(k).sum();
-    if (name == "head" || name.starts_with("hand")) refused += subjects - told;
-    if (!is_end(name)) wrongly += subjects - told;
+    const int called_determined = o.determined.row(k).sum();
+    if (name == "head" || name.starts_with("hand")) refused += subjects - called_determined;
+    if (!is_end(name)) wrongly += subjects - called_determined;
   }
   print_row(refused == 3 * subjects && wrongly == 0, "rich motion: what is not determined",
             "head and hands always, bones between joints never",
@@ -205,14 +205,14 @@ void still(const data::ModelDescription& human, int subjects) {
   const Outcome o = simulate(human, subjects, {.legs_still = true});
   print_table(o);
   const Coverage c = coverage(o.error, o.interval);
-  int told = 0;
+  int called_determined = 0;
   for (int k = 0; k < kLengths; ++k) {
     const auto& name = o.names[static_cast<std::size_t>(k)];
     if (name.starts_with("thigh") || name.starts_with("shank") || name.starts_with("foot"))
-      told += o.determined.row(k).sum();
+      called_determined += o.determined.row(k).sum();
   }
-  print_row(told == 0, "still legs: thigh, shank and foot", "never called determined",
-            fmt::format("{} of {} called determined", told, 6 * subjects));
+  print_row(called_determined == 0, "still legs: thigh, shank and foot", "never called determined",
+            fmt::format("{} of {} called determined", called_determined, 6 * subjects));
   print_row(c.one >= 62.0 && c.two >= 91.0, "still legs: intervals cover", ">= 62 / 91 %", say(c));
   // The intervals of what is not determined are those of the sizes' prior, far wider than the errors. The
   // deviations, which assume the prior of the marker positions, are smaller and have the same bounds.
@@ -249,13 +249,13 @@ void quick(const data::ModelDescription& human) {
   print_row(right == 2 * 15, "2 subjects: bones told, head and hands not", "30 of 30",
             fmt::format("{} of 30", right));
   const Outcome still_legs = simulate(human, 1, {.legs_still = true, .max_frames = 150});
-  int told = 0;
+  int called_determined = 0;
   for (int k = 0; k < kLengths; ++k)
     for (const char* segment : {"thigh", "shank", "foot"})
       if (still_legs.names[static_cast<std::size_t>(k)].starts_with(segment))
-        told += still_legs.determined(k, 0);
-  print_row(told == 0, "a subject with still legs: thigh, shank and foot", "never called determined",
-            fmt::format("{} of 6 called determined", told));
+        called_determined += still_legs.determined(k, 0);
+  print_row(called_determined == 0, "a subject with still legs: thigh, shank and foot",
+            "never called determined", fmt::format("{} of 6 called determined", called_determined));
   const double worst = std::max(worst_of(moving), worst_of(still_legs));
   print_row(worst <= 4.5, "3 subjects: error over deviation, worst of 51", "<= 4.5",
             fmt::format("{:.2f}", worst));

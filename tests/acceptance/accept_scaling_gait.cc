@@ -108,16 +108,19 @@ int run_check(int /*argc*/, char** /*argv*/) {
             fmt::format("{:.2g} ({}), {:.2g} mm, {} of {} bodies", masses.value, masses.where,
                         1e3 * centres.value, masses.seen, bodies));
 
-  Worst places;
+  Worst positions;
   for (const auto& marker : placed.markers) {
     const int m = ours.find_marker(marker.name);
     if (m < 0) continue;
-    places.see((ours.markers[static_cast<std::size_t>(m)].x_in_body - marker.x_in_body).norm(), marker.name);
+    positions.see((ours.markers[static_cast<std::size_t>(m)].x_in_body - marker.x_in_body).norm(),
+                  marker.name);
   }
-  print_row(places.value <= 5e-4 && places.seen > 0 && places.seen == static_cast<int>(placed.markers.size()),
-            fmt::format("opensim-gait2354: places of {} markers", placed.markers.size()),
-            "within 0.5 mm of OpenSim's",
-            fmt::format("{:.3f} mm ({}), {} compared", 1e3 * places.value, places.where, places.seen));
+  print_row(
+      positions.value <= 5e-4 && positions.seen > 0 &&
+          positions.seen == static_cast<int>(placed.markers.size()),
+      fmt::format("opensim-gait2354: positions of {} markers", placed.markers.size()),
+      "within 0.5 mm of OpenSim's",
+      fmt::format("{:.3f} mm ({}), {} compared", 1e3 * positions.value, positions.where, positions.seen));
   return testing_support::exit_status();
 }
 

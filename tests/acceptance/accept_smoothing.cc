@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // Filters and derivatives: the five movements of the reference, Butterworth, cross-validation, the online
-// twin.
+// counterpart.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "support/acceptance.h"
 #include "support/dense_spline.h"
+#include "support/scipy_filtfilt.h"
 
 namespace {
 
@@ -130,15 +131,15 @@ data::Trajectories cubic_fill(data::Trajectories t) {
       a(i, i + 1) = gap(i);
       b.row(i) = 6.0 * ((x(i + 1) - x(i)) / gap(i) - (x(i) - x(i - 1)) / gap(i - 1)).transpose();
     }
-    const Eigen::MatrixXd bend = a.partialPivLu().solve(b);
+    const Eigen::MatrixXd curvature = a.partialPivLu().solve(b);
     for (Eigen::Index i = 0; i + 1 < n; ++i) {
       const double h = gap(i);
       const Eigen::Vector3d from = x(i), to = x(i + 1);
       for (std::int64_t f = at[static_cast<std::size_t>(i)] + 1; f < at[static_cast<std::size_t>(i + 1)];
            ++f) {
         const double u = static_cast<double>(f - at[static_cast<std::size_t>(i)]), w = h - u;
-        t.x(f, m) = (w * from + u * to) / h + ((w * w * w / h - h * w) * bend.row(i).transpose() +
-                                               (u * u * u / h - h * u) * bend.row(i + 1).transpose()) /
+        t.x(f, m) = (w * from + u * to) / h + ((w * w * w / h - h * w) * curvature.row(i).transpose() +
+                                               (u * u * u / h - h * u) * curvature.row(i + 1).transpose()) /
                                                   6.0;
         t.state[t.index(f, m)] = data::SampleState::interpolated;
       }
@@ -234,47 +235,23 @@ void against_the_table(const std::vector<Movement>& movements) {
 }
 
 void butterworth() {
-  // scipy.signal: b, a = butter(order, 2 cutoff); filtfilt(b, a, x).
-  struct Reference {
-    int order;
-    double cutoff;
-    double y[7];
-  };
-  constexpr int kAt[7] = {0, 1, 17, 60, 101, 118, 119};
-  constexpr Reference kScipy[] = {
-      {2,
-       0.06,
-       {0.29920467596381783, 0.27221682140058917, 0.94740475732209839, -0.72841241357596609,
-        0.92699963392738383, 0.94264596269433842, 0.84071827868535443}},
-      {4,
-       0.06,
-       {0.30542945257119342, 0.28784555116766303, 0.97751315751281809, -0.74825552968259568,
-        0.89966758819672332, 0.9463211996552805, 0.8430732984636522}},
-      {6,
-       0.11,
-       {0.29645227366780225, 0.17378512015221337, 0.8660164018384926, -0.59598392839825454,
-        1.0379519551526113, 0.94394793295147761, 0.82338514461891432}},
-      {8,
-       0.2,
-       {0.29391688717321413, 0.26025003645167277, 0.83876328098549713, -0.56488469189508717,
-        1.0664516473040593, 0.86523587661604751, 0.83125871371002857}},
-  };
   double worst = 0.0;
+  const auto signal = testing_support::filtfilt_signal();
   auto in = data::Trajectories::all_missing({"x"}, {100.0, 0.0, 120});
   for (int i = 0; i < 120; ++i) {
-    in.x(i, 0).setConstant(std::sin(0.07 * i) + 0.3 * std::cos(0.61 * i + 0.2) + 0.1 * std::sin(2.3 * i) +
-                           0.002 * i);
+    in.x(i, 0).setConstant(signal[static_cast<std::size_t>(i)]);
     in.state[static_cast<std::size_t>(i)] = data::SampleState::measured;
   }
   SmoothOptions options;
   options.method = FilterMethod::butterworth;
   options.correct_cutoff = false;
-  for (const Reference& reference : kScipy) {
+  for (const auto& reference : testing_support::kFiltfilt) {
     options.order = reference.order;
     options.cutoff_hz = 100.0 * reference.cutoff;
     const auto out = trajectory::smooth(in, options).value();
     for (int i = 0; i < 7; ++i)
-      worst = std::max(worst, std::abs(out.trajectories.x(kAt[i], 0).x() - reference.y[i]));
+      worst = std::max(worst,
+                       std::abs(out.trajectories.x(testing_support::kFiltfiltAt[i], 0).x() - reference.y[i]));
   }
   print_row(worst <= 1e-9, "Butterworth beside scipy's filtfilt, orders 2, 4, 6, 8", "1e-9",
             fmt::format("{:.1e}", worst));
@@ -355,11 +332,12 @@ void online(const std::vector<Movement>& movements) {
     offline.cutoff_hz = 8.0;
     offline.noise_sd_m = 5e-4;
     const auto expected = trajectory::smooth(in, offline).value();
-    auto twin =
-        trajectory::OnlineSmoother::create(2, kMovementRateHz, {5, 8.0, 5e-4, kMovementFrames, true}).value();
+    auto lagged = trajectory::OnlineTrajectorySmoother::create(2, kMovementRateHz,
+                                                               {5, 8.0, 5e-4, kMovementFrames, true})
+                      .value();
     for (int f = 0; f < kMovementFrames; ++f)
-      (void)twin.push({in.x_in_world.data() + static_cast<std::ptrdiff_t>(6 * f), 6});
-    while (const auto out = twin.drain()) {
+      (void)lagged.push({in.x_in_world.data() + static_cast<std::ptrdiff_t>(6 * f), 6});
+    while (const auto out = lagged.drain()) {
       for (std::size_t i = 0; i < 6; ++i) {
         const std::size_t at = static_cast<std::size_t>(6 * out->frame) + i;
         const double unit = 50.0;  // corner, 1/s: derivatives in units of it
@@ -372,7 +350,7 @@ void online(const std::vector<Movement>& movements) {
     }
   }
   print_row(worst <= 1e-9 && compared == 5 * 6 * kMovementFrames,
-            "online twin that waits for all, beside offline", "1e-9 m", fmt::format("{:.1e} m", worst));
+            "online smoother that waits for all, beside offline", "1e-9 m", fmt::format("{:.1e} m", worst));
 }
 
 int run_check(int argc, char** argv) {

@@ -95,13 +95,14 @@ void hour() {
 void live() {
   constexpr std::int64_t kFrames = 20000, kMarkers = 40;
   const auto in = recording(kFrames, kMarkers);
-  auto twin = trajectory::OnlineSmoother::create(kMarkers, kRateHz, {5, 8.0, kSigma, 24, true}).value();
+  auto lagged =
+      trajectory::OnlineTrajectorySmoother::create(kMarkers, kRateHz, {5, 8.0, kSigma, 24, true}).value();
   std::vector<double> ms;
   double sum = 0.0, count = 0.0;
   for (std::int64_t f = 0; f < kFrames; ++f) {
     const std::span<const double> frame(in.x_in_world.data() + 3 * in.index(f, 0), 3 * kMarkers);
     const auto start = std::chrono::steady_clock::now();
-    const auto out = twin.push(frame);
+    const auto out = lagged.push(frame);
     ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     if (!out || out->frame < 240) continue;
     for (std::int64_t i = 0; i < 3 * kMarkers; ++i) {

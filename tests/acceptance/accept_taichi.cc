@@ -39,15 +39,15 @@ double length_sd(const data::Trajectories& markers, const Pair& pair) {
 }
 
 /// Scatter of the vector between two landmarks in the axes of the first one's segment; its angles are read in
-/// the order that `turn` makes of them.
-template <class Turn>
-double vector_sd(const io::V3dFile& file, const Pair& pair, const Turn& turn) {
+/// the order that `rotation` makes of them.
+template <class Rotation>
+double vector_sd(const io::V3dFile& file, const Pair& pair, const Rotation& rotation) {
   const auto& markers = file.trial.markers;
   const auto from = markers.find(pair[0]), to = markers.find(pair[1]);
   std::array<std::vector<double>, 3> axis;
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
     const Vector3d d =
-        turn(f, file.orientations.find(pair[0])).transpose() * (markers.x(f, to) - markers.x(f, from));
+        rotation(f, file.orientations.find(pair[0])).transpose() * (markers.x(f, to) - markers.x(f, from));
     for (std::size_t a = 0; a < 3; ++a) axis[a].push_back(d[static_cast<Eigen::Index>(a)]);
   }
   return std::sqrt(std::pow(sd(axis[0]), 2) + std::pow(sd(axis[1]), 2) + std::pow(sd(axis[2]), 2));

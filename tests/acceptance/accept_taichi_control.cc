@@ -46,7 +46,7 @@ Scene prepare(const std::filesystem::path& data) {
           .ik = std::move(ik)};
 }
 
-std::string told(const ControlComparison& c) {
+std::string describe(const ControlComparison& c) {
   return fmt::format(
       "{:.3f} mm, at most {:.1f} (least squares {:.3f}, {:.1f}); {} frames flagged; {:.0f} us a step",
       kMillimetres * c.control_rms_m, kMillimetres * c.control_max_m, kMillimetres * c.least_squares_rms_m,
@@ -57,7 +57,7 @@ void check_recorded(const ControlComparison& c, const std::string& step, double 
   constexpr int kDetermined = 30;  // all that is not locked or the root's
   const double above = kMillimetres * (c.control_rms_m - c.least_squares_rms_m);
   print_row(std::abs(above) <= 0.1 && !c.failed(), "whole body, recorded goals, " + step,
-            "landmark RMS within 0.1 mm of least squares", told(c));
+            "landmark RMS within 0.1 mm of least squares", describe(c));
   print_row(
       kDegPerRad * c.angle_rms_rad <= most_deg && c.determined >= kDetermined, "whole body, angles, " + step,
       fmt::format("{} angles or more determined, within {} deg RMS of least squares", kDetermined, most_deg),
@@ -69,7 +69,7 @@ void check_recorded(const ControlComparison& c, const std::string& step, double 
 void check_reachable(const ControlComparison& c, const std::string& step, double most_mm) {
   print_row(kMillimetres * c.control_rms_m <= most_mm && !c.failed(),
             "whole body, goals that the model made, " + step, fmt::format("landmark RMS <= {} mm", most_mm),
-            told(c));
+            describe(c));
 }
 
 void whole(const Scene& scene) {
@@ -112,8 +112,8 @@ void sets(const Scene& scene) {
         paper   ? "no failure, rank 11 or 12 in every frame, undetermined angles marked"
         : upper ? "no failure, rank said, 15 angles or more determined, the others marked"
                 : "no failure, rank said, undetermined angles marked",
-        fmt::format("{}; rank {} to {} of {}; {} of {} coordinates determined; made goals {:.3f} mm", told(c),
-                    c.rank_min, c.rank_max, c.free_speeds, c.determined, c.coordinates,
+        fmt::format("{}; rank {} to {} of {}; {} of {} coordinates determined; made goals {:.3f} mm",
+                    describe(c), c.rank_min, c.rank_max, c.free_speeds, c.determined, c.coordinates,
                     kMillimetres * outcome.reachable_fine.control_rms_m));
   }
 }

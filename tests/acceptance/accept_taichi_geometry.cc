@@ -40,10 +40,10 @@ int run_check(int /*argc*/, char** /*argv*/) {
   const auto landmarks = acceptance::tai_chi_landmarks(*data);
   auto model = studies::scale_by_medians(acceptance::human(), landmarks).value();
   check_fit(model, landmarks, Freedom::centres, "joints adapted", 9.0, 10.0);
-  check_fit(model, landmarks, Freedom::places, "joints and places adapted", 7.5, 9.5);
+  check_fit(model, landmarks, Freedom::positions, "joints and positions adapted", 7.5, 9.5);
   motion::add_clavicles(model).value();
   check_fit(model, landmarks, Freedom::centres, "clavicles, joints adapted", 4.5, 5.0);
-  check_fit(model, landmarks, Freedom::places, "clavicles, joints and places adapted", 3.0, 3.5);
+  check_fit(model, landmarks, Freedom::positions, "clavicles, joints and positions adapted", 3.0, 3.5);
   return testing_support::exit_status();
 }
 

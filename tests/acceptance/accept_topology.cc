@@ -87,7 +87,7 @@ void chains() {
 void sleeve() {
   for (const bool hard : {false, true})
     for (const double noise_mm : {0.5, 2.0, 5.0}) {
-      int right = 0, told = 0, tree = 0, fragments = 0, silent = 0;
+      int right = 0, reported = 0, tree = 0, fragments = 0, silent = 0;
       double least = 1e9;
       for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         simulation::SleeveOptions options{.duration_s = 30.0, .noise_sd_m = 1e-3 * noise_mm, .seed = seed};
@@ -137,64 +137,64 @@ void sleeve() {
           silent += !doubt;
         }
         right += all;
-        told += honest;
+        reported += honest;
         tree += found.layout.joints.size() == found.layout.segments.size() - 1;
       }
       print_row(
-          told == 3 && silent == 0 && tree == 3 && (hard || noise_mm > 0.5 || right == 3),
+          reported == 3 && silent == 0 && tree == 3 && (hard || noise_mm > 0.5 || right == 3),
           fmt::format("sleeve of 16 LEDs, {}{} mm", hard ? "harder sight, " : "", noise_mm),
           hard || noise_mm > 0.5 ? "one tree; wrong markers and pieces of a segment called doubtful"
                                  : "one tree; segments right in 3 of 3",
           fmt::format("two segments, all right in {} of 3, every wrong marker doubtful in {} of 3, {} of "
                       "{} pieces without doubt, one tree in {} of 3, least evidence {:.1f} nats",
-                      right, told, silent, fragments, tree, least));
+                      right, reported, silent, fragments, tree, least));
     }
 }
 
 /// Where a marker of a Plug-in Gait or CMU set may lie: markers over a joint lie on both sides of it.
 const std::map<std::string, std::vector<std::string>>& anatomy() {
-  static const std::map<std::string, std::vector<std::string>> places = {{"FHD", {"head"}},
-                                                                         {"BHD", {"head"}},
-                                                                         {"C7", {"thorax"}},
-                                                                         {"T10", {"thorax"}},
-                                                                         {"CLAV", {"thorax"}},
-                                                                         {"STRN", {"thorax"}},
-                                                                         {"RBAC", {"thorax"}},
-                                                                         {"RBAK", {"thorax"}},
-                                                                         {"SHO", {"thorax", "upper arm"}},
-                                                                         {"UPA", {"upper arm"}},
-                                                                         {"ELB", {"upper arm", "forearm"}},
-                                                                         {"FRM", {"forearm"}},
-                                                                         {"WRA", {"forearm", "hand"}},
-                                                                         {"WRB", {"forearm", "hand"}},
-                                                                         {"FIN", {"hand"}},
-                                                                         {"BWT", {"pelvis"}},
-                                                                         {"FWT", {"pelvis"}},
-                                                                         {"ASI", {"pelvis"}},
-                                                                         {"PSI", {"pelvis"}},
-                                                                         {"THI", {"thigh"}},
-                                                                         {"KNE", {"thigh", "shank"}},
-                                                                         {"SHN", {"shank"}},
-                                                                         {"TIB", {"shank"}},
-                                                                         {"ANK", {"shank", "foot"}},
-                                                                         {"HEE", {"foot"}},
-                                                                         {"MT5", {"foot"}},
-                                                                         {"TOE", {"foot"}}};
-  return places;
+  static const std::map<std::string, std::vector<std::string>> parts = {{"FHD", {"head"}},
+                                                                        {"BHD", {"head"}},
+                                                                        {"C7", {"thorax"}},
+                                                                        {"T10", {"thorax"}},
+                                                                        {"CLAV", {"thorax"}},
+                                                                        {"STRN", {"thorax"}},
+                                                                        {"RBAC", {"thorax"}},
+                                                                        {"RBAK", {"thorax"}},
+                                                                        {"SHO", {"thorax", "upper arm"}},
+                                                                        {"UPA", {"upper arm"}},
+                                                                        {"ELB", {"upper arm", "forearm"}},
+                                                                        {"FRM", {"forearm"}},
+                                                                        {"WRA", {"forearm", "hand"}},
+                                                                        {"WRB", {"forearm", "hand"}},
+                                                                        {"FIN", {"hand"}},
+                                                                        {"BWT", {"pelvis"}},
+                                                                        {"FWT", {"pelvis"}},
+                                                                        {"ASI", {"pelvis"}},
+                                                                        {"PSI", {"pelvis"}},
+                                                                        {"THI", {"thigh"}},
+                                                                        {"KNE", {"thigh", "shank"}},
+                                                                        {"SHN", {"shank"}},
+                                                                        {"TIB", {"shank"}},
+                                                                        {"ANK", {"shank", "foot"}},
+                                                                        {"HEE", {"foot"}},
+                                                                        {"MT5", {"foot"}},
+                                                                        {"TOE", {"foot"}}};
+  return parts;
 }
 
 /// Body segments that a marker may lie on: "L thigh", ...; empty for unknown names.
-std::vector<std::string> places_of(std::string name) {
+std::vector<std::string> parts_of(std::string name) {
   if (const auto colon = name.rfind(':'); colon != std::string::npos) name = name.substr(colon + 1);
   if (const auto whole = anatomy().find(name); whole != anatomy().end()) return whole->second;
   if (name.empty() || (name[0] != 'L' && name[0] != 'R')) return {};
   const auto found = anatomy().find(name.substr(1));
   if (found == anatomy().end()) return {};
-  std::vector<std::string> places;
-  for (const auto& place : found->second)
-    places.push_back(
-        place == "head" || place == "thorax" || place == "pelvis" ? place : name.substr(0, 1) + " " + place);
-  return places;
+  std::vector<std::string> parts;
+  for (const auto& part : found->second)
+    parts.push_back(part == "head" || part == "thorax" || part == "pelvis" ? part
+                                                                           : name.substr(0, 1) + " " + part);
+  return parts;
 }
 
 bool adjacent(const std::string& a, const std::string& b) {
@@ -231,7 +231,7 @@ void person(const fs::path& file, bool moves) {
   // Only the markers of the body: the file may hold computed points as well.
   std::vector<std::string> names;
   for (const auto& name : trial.markers.names)
-    if (!places_of(name).empty()) names.push_back(name);
+    if (!parts_of(name).empty()) names.push_back(name);
   auto markers = data::Trajectories::all_missing(names, trial.markers.time);
   for (std::int64_t f = 0; f < markers.frames(); ++f)
     for (std::int64_t m = 0; m < markers.markers(); ++m) {
@@ -253,22 +253,22 @@ void person(const fs::path& file, bool moves) {
     print_row(false, label + ", segments as anatomy has them", "more than one", "one");
     return;
   }
-  std::vector<std::string> place;  // of each found segment: where most of its markers may lie
+  std::vector<std::string> part;  // of each found segment: where most of its markers may lie
   int wrong = 0, hidden = 0, doubtful = 0, still = 0;
   std::string list;
   for (const auto& segment : found.layout.segments) {
     std::map<std::string, int> votes;
     for (const int m : segment.markers)
-      for (const auto& p : places_of(names[static_cast<std::size_t>(m)])) ++votes[p];
+      for (const auto& p : parts_of(names[static_cast<std::size_t>(m)])) ++votes[p];
     const auto most = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; })->first;
-    place.push_back(most);
+    part.push_back(most);
     for (const int m : segment.markers) {
       const auto& evidence = found.markers[static_cast<std::size_t>(m)];
       doubtful += evidence.doubtful;
-      if (std::ranges::count(places_of(names[static_cast<std::size_t>(m)]), most)) continue;
+      if (std::ranges::count(parts_of(names[static_cast<std::size_t>(m)]), most)) continue;
       // A neighbour that does not move against the segment here: the recording shows one segment.
       bool near = true;
-      for (const auto& p : places_of(names[static_cast<std::size_t>(m)])) near = near && adjacent(p, most);
+      for (const auto& p : parts_of(names[static_cast<std::size_t>(m)])) near = near && adjacent(p, most);
       double spread = 0.0;
       for (const int other : segment.markers) spread = std::max(spread, distance_sd(markers, m, other));
       if (near && spread < kStill_m) {
@@ -292,8 +292,8 @@ void person(const fs::path& file, bool moves) {
   list.clear();
   for (std::size_t j = 0; j < found.layout.joints.size(); ++j) {
     const auto& joint = found.layout.joints[j];
-    const auto& a = place[static_cast<std::size_t>(joint.parent)];
-    const auto& b = place[static_cast<std::size_t>(joint.child)];
+    const auto& a = part[static_cast<std::size_t>(joint.parent)];
+    const auto& b = part[static_cast<std::size_t>(joint.child)];
     unsure += found.joints[j].doubtful;
     if (adjacent(a, b)) continue;
     ++bad;

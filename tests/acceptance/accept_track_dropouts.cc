@@ -30,7 +30,7 @@ using testing_support::print_row;
 constexpr double kMoved = 1e-3;  // m per rad: less, and a coordinate does not move a marker
 
 /// Where the markers of the model are in one frame of a track, and how sure that is.
-struct Places {
+struct MarkerPositions {
   Eigen::Matrix3Xd x;
   VectorXd sd;  ///< m, length; NaN where an undetermined coordinate moves the marker
 };
@@ -39,7 +39,7 @@ class Placing {
  public:
   explicit Placing(const model::Model& model) : model_(model), w_(model), filter_(60.0, 6.0, 0.0, 0.1) {}
 
-  Eigen::Matrix3Xd places(const data::JointMotion& motion, std::int64_t f) {
+  Eigen::Matrix3Xd positions(const data::JointMotion& motion, std::int64_t f) {
     const Eigen::Map<const VectorXd> q(motion.q.data() + motion.index(f, 0), motion.size());
     model::kinematics(model_, w_, model::state_from_coordinates(model_, q));
     return w_.marker;
@@ -47,8 +47,9 @@ class Placing {
 
   /// Deviations from the goals that are there: 1 mm per axis that went through the filter, and what the body
   /// still lacks of the pose that fits them best. Least squares, apart from the tracker's own.
-  Places look(const data::JointMotion& motion, const data::Trajectories& goals, std::int64_t f) {
-    Places out{.x = places(motion, f), .sd = VectorXd::Zero(model_.marker_count())};
+  MarkerPositions deviations(const data::JointMotion& motion, const data::Trajectories& goals,
+                             std::int64_t f) {
+    MarkerPositions out{.x = positions(motion, f), .sd = VectorXd::Zero(model_.marker_count())};
     MatrixXd J;
     model::marker_jacobian(model_, w_, J);
     MatrixXd seen = J;
@@ -94,15 +95,15 @@ struct Jumps {
   std::string where = "none", where_undetermined = "none";
   std::int64_t known = 0;
 
-  void add(double jump, double sd, const std::string& place) {
+  void add(double jump, double sd, const std::string& position) {
     all = larger(all, jump);
     if (std::isnan(sd)) {
-      if (jump > undetermined) where_undetermined = place;
+      if (jump > undetermined) where_undetermined = position;
       undetermined = larger(undetermined, jump);
       return;
     }
     ++known;
-    if (jump - sd > beyond) where = place;
+    if (jump - sd > beyond) where = position;
     beyond = larger(beyond, jump - sd);
   }
   [[nodiscard]] std::string text(double unit, const char* name) const {
@@ -118,14 +119,14 @@ void dropouts(int stride) {
   const auto s = subject(model, 1e-3, 60.0, 4.0, 1);
   const motion::TrackOptions options{.step_s = 2e-3, .threads = 0};
   const auto whole = motion::track_markers(model, s.markers, options).value();
-  Jumps angle, place;
+  Jumps angle, position;
   int lost = 0;
   for (std::int64_t m = 0; m < s.markers.markers(); m += stride, ++lost) {
     auto markers = s.markers;
     for (std::int64_t f = kLost; f < kBack; ++f) markers.set_missing(f, m);
     const auto track = motion::track_markers(model, markers, options).value().motion;
     const auto goals = motion::control_goals(markers, options).value();
-    Places before = placing.look(track, goals, kBefore - 1);
+    MarkerPositions before = placing.deviations(track, goals, kBefore - 1);
     for (std::int64_t f = kBefore; f < kAfter; ++f) {
       for (const auto c : joints(model)) {
         const auto jump = [&](const data::JointMotion& motion) {
@@ -135,12 +136,12 @@ void dropouts(int stride) {
         angle.add(std::abs(jump(track) - jump(whole.motion)), sd,
                   fmt::format("{} without {}, frame {}", track.coordinates[at(c)], markers.names[at(m)], f));
       }
-      const Places now = placing.look(track, goals, f);
+      const MarkerPositions now = placing.deviations(track, goals, f);
       const Eigen::Matrix3Xd moved =
-          (now.x - before.x) - (placing.places(whole.motion, f) - placing.places(whole.motion, f - 1));
+          (now.x - before.x) - (placing.positions(whole.motion, f) - placing.positions(whole.motion, f - 1));
       for (Eigen::Index k = 0; k < moved.cols(); ++k)
-        place.add(moved.col(k).norm(), sd_of_difference(now.sd[k], before.sd[k]),
-                  fmt::format("{} without {}, frame {}", track.markers[at(k)], markers.names[at(m)], f));
+        position.add(moved.col(k).norm(), sd_of_difference(now.sd[k], before.sd[k]),
+                     fmt::format("{} without {}, frame {}", track.markers[at(k)], markers.names[at(m)], f));
       before = now;
     }
   }
@@ -149,8 +150,8 @@ void dropouts(int stride) {
   };
   print_row(angle.known > 0 && kDegPerRad * angle.beyond <= 0.5, what("joints"),
             "no jump > 0.5 deg beyond its SD", angle.text(kDegPerRad, "deg"));
-  print_row(place.known > 0 && 1e3 * place.beyond <= 1.0, what("markers of the model"),
-            "no jump > 1 mm beyond its SD", place.text(1e3, "mm"));
+  print_row(position.known > 0 && 1e3 * position.beyond <= 1.0, what("markers of the model"),
+            "no jump > 1 mm beyond its SD", position.text(1e3, "mm"));
 }
 
 /// accept_motion track_dropouts [STRIDE]: every STRIDE-th marker drops out.

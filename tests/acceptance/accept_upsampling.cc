@@ -232,7 +232,7 @@ void check_limits(int count, const MotionLibrary& library) {
   for (const Limit& limit : {Limit{"linear or spline, then a 10 Hz low-pass", false, 10.0},
                              Limit{"band-limited resampling", true, 0.0}}) {
     int called = 0;
-    int told = 0;
+    int reported = 0;
     for (int i = 0; i < count; ++i) {
       Random random(kSeed + 4, static_cast<std::uint64_t>(i));
       const int factor = i % 4 < 2 ? 4 : 2;
@@ -248,13 +248,13 @@ void check_limits(int count, const MotionLibrary& library) {
       round_to(s, i % 3 == 0 ? 0.01 : 0.0);
       const auto report = trajectory::detect_upsampling(recording({s}, kLowRate * factor)).value();
       called += report.markers.front().found() ? 1 : 0;
-      told += report.band.verdict == BandVerdict::low_passed ? 1 : 0;
+      reported += report.band.verdict == BandVerdict::low_passed ? 1 : 0;
     }
     const bool quiet = limit.sinc || called == 0;
-    print_row(quiet && told >= 0.95 * count, fmt::format("limit: {}, {} streams", limit.what, count),
+    print_row(quiet && reported >= 0.95 * count, fmt::format("limit: {}, {} streams", limit.what, count),
               limit.sinc ? "spectrum says low-passed in >= 95 %"
                          : "spectrum says low-passed in >= 95 %, none called interpolated",
-              fmt::format("low-passed {}, called interpolated {}", told, called));
+              fmt::format("low-passed {}, called interpolated {}", reported, called));
   }
 }
 
@@ -298,7 +298,7 @@ void check_real(const std::filesystem::path& folder) {
     bool filtered;
   };
   std::string wrong;
-  int told = 0;
+  int reported = 0;
   for (const Known& known :
        {Known{"btk-others/PiG_Motion3_FF.c3d", true}, Known{"c3d-org/sample13/Dance.c3d", true},
         Known{"opensim-core-ik/abdbonepin.trc", true}, Known{"opensim-gait2354/subject01_static.trc", true},
@@ -312,13 +312,13 @@ void check_real(const std::filesystem::path& folder) {
     const auto trial = io::read_markers(folder / known.file);
     const auto band = trajectory::detect_upsampling(trial.value().markers).value().band;
     if ((band.verdict == BandVerdict::low_passed) == known.filtered)
-      ++told;
+      ++reported;
     else
       wrong += fmt::format("; {} {} (top {:.4f} mm, middle {:.4f} mm)", known.file, to_string(band.verdict),
                            1e3 * band.top_m, 1e3 * band.middle_m);
   }
   print_row(wrong.empty(), "real recordings: 7 filtered by the vendor or made by a model, 7 not",
-            "each reported as such", fmt::format("{} of 14{}", told, wrong));
+            "each reported as such", fmt::format("{} of 14{}", reported, wrong));
 }
 
 int run_check(int argc, char** argv) {

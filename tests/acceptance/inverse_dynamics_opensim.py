@@ -75,12 +75,12 @@ def make_forces(times):
     columns = {"time": times}
     for k, (foot, side) in enumerate((("r", 0.1), ("l", -0.1))):
         wave = [math.sin(2.0 * math.pi * 0.9 * t + 2.5 * k) for t in times]
-        turn = [math.cos(2.0 * math.pi * 0.6 * t + k) for t in times]
+        cosine = [math.cos(2.0 * math.pi * 0.6 * t + k) for t in times]
         triples = {"v": (lambda w, c: (60.0 * c, 400.0 + 350.0 * w, 30.0 * w)),
                    "p": (lambda w, c, z=side: (0.1 * c, 0.0, z + 0.02 * w)), "t": (lambda w, c: (0.0, 8.0 * c * w, 0.0))}
         for kind, f in triples.items():
             for axis, name in enumerate("xyz"):
-                columns[f"{foot}_{kind}{name}"] = [f(w, c)[axis] for w, c in zip(wave, turn)]
+                columns[f"{foot}_{kind}{name}"] = [f(w, c)[axis] for w, c in zip(wave, cosine)]
     return columns
 
 
@@ -89,7 +89,7 @@ def write_markers(opensim, model_file, motion, path):
     model = opensim.Model(str(model_file))
     state = model.initSystem()
     coordinates = [model.getCoordinateSet().get(name) for name in motion if name != "time"]
-    turns = [c.getMotionType() == opensim.Coordinate.Rotational for c in coordinates]
+    are_rotations = [c.getMotionType() == opensim.Coordinate.Rotational for c in coordinates]
     markers = [model.getMarkerSet().get(i) for i in range(model.getMarkerSet().getSize())]
     names = [m.getName() for m in markers]
     lines = [f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
@@ -98,14 +98,14 @@ def write_markers(opensim, model_file, motion, path):
              "Frame#\tTime\t" + "\t\t\t".join(names),
              "\t\t" + "\t".join(f"X{i}\tY{i}\tZ{i}" for i in range(1, len(names) + 1)), ""]
     for f, time in enumerate(motion["time"]):
-        for coordinate, turn in zip(coordinates, turns):
+        for coordinate, is_rotation in zip(coordinates, are_rotations):
             value = motion[coordinate.getName()][f]
-            coordinate.setValue(state, math.radians(value) if turn else value, False)
+            coordinate.setValue(state, math.radians(value) if is_rotation else value, False)
         model.realizePosition(state)
         cells = []
         for marker in markers:
-            place = marker.getLocationInGround(state)
-            cells += [repr(place.get(axis)) for axis in range(3)]
+            position = marker.getLocationInGround(state)
+            cells += [repr(position.get(axis)) for axis in range(3)]
         lines.append("\t".join([str(f + 1), repr(time), *cells]))
     path.write_text("\n".join(lines) + "\n")
 

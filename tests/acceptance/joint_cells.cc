@@ -82,7 +82,7 @@ void Tally::add(const Tally& o) {
   worst_m = std::max(worst_m, o.worst_m);
 }
 
-std::string Tally::words() const {
+std::string Tally::description() const {
   return fmt::format(
       "ratio {:.3f} (worst seed {:.3f}), RMS {:.2f} mm, bound {:.2f} mm, determined {:.1f} %, {} of {} "
       "beyond 5 SD "

@@ -44,7 +44,7 @@ struct Tally {
   void add(const Tally& other);
   /// RMS and bound are those of the frames that are determined and have a bound:
   /// "ratio 1.003 (worst seed 1.05), RMS 2.75 mm, bound 2.74 mm, determined 98.8 %, ..."
-  [[nodiscard]] std::string words() const;
+  [[nodiscard]] std::string description() const;
 };
 
 /// Fit one recording and add it. The bound is that of `kind` for all segments.

@@ -32,8 +32,8 @@ class SigningArm {
     const double phase = 2.0 * M_PI * t / kPeriod;
     const double angle = M_PI / 3.0 + phase + kRhythm * std::sin(phase) + 0.06 * std::sin(2.0 * phase);
     return Eigen::Vector3d(-60.0, 40.0, 150.0 + 6.0 * std::sin(2.0 * M_PI * 0.31 * t)) +
-           170.0 * std::cos(angle) * (turn_ * Eigen::Vector3d::UnitX()) +
-           80.0 * std::sin(angle) * (turn_ * tilt_ * Eigen::Vector3d::UnitY());
+           170.0 * std::cos(angle) * (rotation_ * Eigen::Vector3d::UnitX()) +
+           80.0 * std::sin(angle) * (rotation_ * tilt_ * Eigen::Vector3d::UnitY());
   }
   [[nodiscard]] Eigen::Vector3d elbow(double t) const {
     const double phase = 2.0 * M_PI * t / kPeriod;
@@ -55,7 +55,8 @@ class SigningArm {
   static constexpr double kRhythm =
       0.73597096096748993;  ///< these two give 0.5 m/s at least, 2.7 m/s at most
   static constexpr double kPeriod = 0.71888537933151841;  ///< s
-  Eigen::Matrix3d turn_ = Eigen::AngleAxisd(25.0 * M_PI / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Eigen::Matrix3d rotation_ =
+      Eigen::AngleAxisd(25.0 * M_PI / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   Eigen::Matrix3d tilt_ = Eigen::AngleAxisd(40.0 * M_PI / 180.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
 };
 

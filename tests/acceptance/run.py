@@ -223,8 +223,8 @@ def main(arguments, here=HERE):
         print("\nKnown shortfalls:")
         print_table(shortfalls)
     counts = {verdict: sum(row[0] == verdict for row in rows) for verdict in ("PASS", "FAIL", "SKIP", "KNOWN")}
-    told = f"{counts['PASS']} passed, {counts['FAIL']} failed, {counts['SKIP']} skipped, {counts['KNOWN']} known"
-    print(f"acceptance: {told}")
+    summary = f"{counts['PASS']} passed, {counts['FAIL']} failed, {counts['SKIP']} skipped, {counts['KNOWN']} known"
+    print(f"acceptance: {summary}")
     return 1 if counts["FAIL"] else 0
 
 

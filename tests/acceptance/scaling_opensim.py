@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""Marker places of gait2354 after scaling beside OpenSim's, whose static pose is solved to the end.
+"""Marker positions of gait2354 after scaling beside OpenSim's, whose static pose is solved to the end.
 
 OpenSim's own ScaleTool stops its static pose early: the stored model and one made today differ by centimetres at the
 head. So the pose is solved here by OpenSim's inverse kinematics at accuracy 1e-9, on the model that its ScaleTool made.
@@ -22,15 +22,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 MOST_MM = 0.5
 TIME_S = 1.0  # the only frame of the setup's time range
-CHECK = "gait2354 Setup_Scale: marker places beside OpenSim 4.6"
+CHECK = "gait2354 Setup_Scale: marker positions beside OpenSim 4.6"
 
 
-def marker_places(path):
-    """{name: place in its body, m} of an .osim file."""
-    places = {}
+def marker_positions(path):
+    """{name: position in its body, m} of an .osim file."""
+    positions = {}
     for marker in ElementTree.parse(path).getroot().iter("Marker"):
-        places[marker.get("name")] = [float(v) for v in marker.findtext("location").split()]
-    return places
+        positions[marker.get("name")] = [float(v) for v in marker.findtext("location").split()]
+    return positions
 
 
 def largest_mm(a, b):
@@ -40,8 +40,8 @@ def largest_mm(a, b):
     return distances[worst], worst, len(distances)
 
 
-def converged_places(opensim, folder):
-    """Marker places by OpenSim's scaled model and its static pose at accuracy 1e-9."""
+def converged_positions(opensim, folder):
+    """Marker positions by OpenSim's scaled model and its static pose at accuracy 1e-9."""
     tool = opensim.ScaleTool(str(folder / "subject01_Setup_Scale.xml"))
     placer = tool.getMarkerPlacer()
     tool.getModelScaler().setOutputModelFileName("out_scaled.osim")
@@ -71,16 +71,16 @@ def converged_places(opensim, folder):
     data = opensim.MarkerData(str(folder / "subject01_static.trc"))
     data.averageFrames(-1.0, TIME_S, TIME_S + 0.01)
     data.convertToUnits(opensim.Units("m"))
-    names, frame, places = data.getMarkerNames(), data.getFrame(0), {}
+    names, frame, positions = data.getMarkerNames(), data.getFrame(0), {}
     for i in range(model.getMarkerSet().getSize()):
         marker = model.getMarkerSet().get(i)
         seen = names.findIndex(marker.getName())
         if seen >= 0:
-            place = model.getGround().findStationLocationInAnotherFrame(
+            position = model.getGround().findStationLocationInAnotherFrame(
                 state, frame.getMarker(seen), marker.getParentFrame()
             )
-            places[marker.getName()] = [place.get(axis) for axis in range(3)]
-    return places
+            positions[marker.getName()] = [position.get(axis) for axis in range(3)]
+    return positions
 
 
 def main():
@@ -97,11 +97,11 @@ def main():
         for source in data.iterdir():
             shutil.copyfile(source, folder / source.name)
         os.chdir(folder)
-        theirs = converged_places(opensim, folder)
+        theirs = converged_positions(opensim, folder)
         command = [program, "scale", "--setup", "subject01_Setup_Scale.xml", "--output", "ours.osim"]
         subprocess.run(command, check=True, capture_output=True)
-        worst, name, count = largest_mm(marker_places("ours.osim"), theirs)
-        stored, stored_name, _ = largest_mm(marker_places("subject01_simbody.osim"), theirs)
+        worst, name, count = largest_mm(marker_positions("ours.osim"), theirs)
+        stored, stored_name, _ = largest_mm(marker_positions("subject01_simbody.osim"), theirs)
         os.chdir(ROOT)
     passed = count == len(theirs) >= 39 and worst <= MOST_MM
     print(

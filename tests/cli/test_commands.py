@@ -3,6 +3,7 @@
 """What every command writes, prints and returns when all is well, and usage errors."""
 
 import json
+import re
 import unittest
 
 from support import CommandTest, real_file, report_data, table
@@ -23,6 +24,20 @@ class HelpAndUsage(CommandTest):
         for word in ("--threads", "--seed", "--force", "--quiet", "--json", "Exit status: 0 good, 1", "validate"):
             self.assertIn(word, everything)
         self.assertRegex(self.good("--version").out, r"^kinemark \d+\.\d+\.\d+\n$")
+
+    def test_help_is_text_that_a_terminal_shows(self):
+        listed = re.findall(r"^  (\w+)  ", self.good("--help").out.split("Subcommands:")[1], re.MULTILINE)
+        self.assertEqual(len(listed), 14, "a new command is to be looked at here too")
+        inner = [["simulate", kind] for kind in ("subject", "arm", "macaque", "rig")]
+        inner += [["study", paper] for paper in ("poizner", "macaque", "taichi")]
+        for command in [[name] for name in listed] + inner:
+            with self.subTest(command=command):
+                self.assertTrue(self.good(*command, "--help").out.replace("\n", "").isprintable())
+
+    def test_a_seed_is_a_whole_number_of_64_bits(self):
+        for seed in ("-1", "1.5", "18446744073709551616", "0x10", "1e3"):
+            self.refused(2, [f"'{seed}'", "0 to 18446744073709551615"], "simulate", "subject", "-o", "s", f"--seed={seed}")
+        self.good("simulate", "arm", "-o", "s", "--frames", 2, "--seed", 18446744073709551615)
 
     def test_what_was_typed_wrong_is_one_sentence_that_names_the_help(self):
         self.refused(2, "'kinemark --help'")
@@ -56,10 +71,10 @@ class SimulateInfoValidate(CommandTest):
 
     def test_simulate_rig_writes_counts_and_truth_or_one_sentence(self):
         ran = self.good("simulate", "rig", "wheel", "-o", "w", "--leds", 8, "--highest-rate", "--duration", 0.2, "--json")
-        told = json.loads(ran.out)
+        report = json.loads(ran.out)
         names = ["recording.mcap", "truth.trc", "truth_derivatives.sto", "rig_true.toml", "rig_nominal.toml"]
-        self.assertEqual([path.rsplit("/", 1)[-1] for path in told["written"]], names)
-        self.assertIn("8 LEDs, 138.274 frames per second, 28 frames", told["warnings"])
+        self.assertEqual([path.rsplit("/", 1)[-1] for path in report["written"]], names)
+        self.assertIn("8 LEDs, 138.274 frames per second, 28 frames", report["warnings"])
         self.refused(4, "use --force", "simulate", "rig", "-o", "w")
         self.refused(2, "276.5 frames per second at most", "simulate", "rig", "sign", "-o", "s", "--rate", 300)
         self.refused(2, "there is no scene 'dance'", "simulate", "rig", "dance", "-o", "s")
@@ -85,6 +100,17 @@ class SimulateInfoValidate(CommandTest):
         motion = json.loads(self.good("info", self.truth, "--json").out)
         self.assertEqual((motion["kind"], motion["rows"], motion["columns"], motion["in_degrees"]), ("table", 100, 40, True))
         self.assertRegex(self.good("info", self.truth).out, r"(?m)^rows +100$")
+
+    def test_info_of_every_kind_has_its_keys_and_no_others(self):
+        table_keys = "file kind rows columns first_time_s last_time_s in_degrees labels warnings".split()
+        model_keys = "file kind name bodies joints coordinates markers couplings point_constraints mass_kg labels body_names warnings".split()
+        self.assertEqual(list(json.loads(self.good("info", self.truth, "--json").out)), table_keys)
+        model = json.loads(self.good("info", self.model, "--json").out)
+        self.assertEqual(list(model), model_keys)
+        self.assertEqual((len(model["body_names"]), len(model["labels"])), (model["bodies"], model["coordinates"]))
+        for ending in ("trc", "csv", "nwb"):
+            self.good("convert", self.c3d, f"k.{ending}")
+            self.assertEqual(list(json.loads(self.good("info", f"k.{ending}", "--json").out)), list(json.loads(self.good("info", self.c3d, "--json").out)))
 
     def test_validate_takes_many_files_and_the_worst_counts(self):
         self.assertEqual(self.good("validate", self.c3d, self.trc, self.model, self.truth, "--quiet").err, "")
@@ -194,11 +220,11 @@ class Ik(CommandTest):
 
 
 class RealRecordings(CommandTest):
-    def test_arm26_and_its_twin_800_mm_low(self):
+    def test_arm26_and_a_copy_800_mm_low(self):
         model = real_file("opensim-arm26/arm26.osim")
         self.good("ik", "-m", model, "-t", real_file("opensim-arm26/arm26_elbow_flex.trc"), "-o", "q.mot")
-        twin = real_file("opensim-arm26/arm26_elbow_flex_old_800mm_low.trc")
-        ran = self.good("ik", "-m", model, "-t", twin, "-o", "twin.mot", status=1)
+        low = real_file("opensim-arm26/arm26_elbow_flex_old_800mm_low.trc")
+        ran = self.good("ik", "-m", model, "-t", low, "-o", "low.mot", status=1)
         self.assertRegex(ran.err, r"(?m)^attention: .*0\.800 m away.*$")
         self.good("ik", "--setup", real_file("opensim-arm26/arm26_Setup_InverseKinematics.xml"), "-o", "s.mot")
         self.assertEqual(table(self.folder / "s.mot"), table(self.folder / "q.mot"))

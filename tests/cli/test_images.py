@@ -33,11 +33,11 @@ def dot(a, b):
 class Camera:
     """A pinhole camera at a position, looking at a target, Y up."""
 
-    def __init__(self, name, place, target):
-        z = unit([t - p for t, p in zip(target, place)])
+    def __init__(self, name, position, target):
+        z = unit([t - p for t, p in zip(target, position)])
         x = unit(cross([0.0, 1.0, 0.0], z))
         self.name, self.rotation = name, [x, cross(z, x), z]
-        self.translation = [-dot(row, place) for row in self.rotation]
+        self.translation = [-dot(row, position) for row in self.rotation]
 
     def image(self, point):
         x, y, z = (dot(row, point) + t for row, t in zip(self.rotation, self.translation))
@@ -69,11 +69,11 @@ class Images(CommandTest):
         with open(cls.filmed / "truth.csv", newline="") as file:
             cls.rows = list(csv.DictReader(file))
         cls.names = list(dict.fromkeys(row["marker"] for row in cls.rows))
-        cls.places = {
+        cls.positions = {
             (int(row["frame"]), row["marker"]): [float(row[axis]) for axis in ("x_m", "y_m", "z_m")] for row in cls.rows
         }
-        cls.first = min(frame for frame, _ in cls.places)
-        middle = cls.places[(cls.first, "RELB")]
+        cls.first = min(frame for frame, _ in cls.positions)
+        middle = cls.positions[(cls.first, "RELB")]
         cls.cameras = [
             Camera("left", [m + d for m, d in zip(middle, (3.0, 0.8, 2.2))], middle),
             Camera("right", [m + d for m, d in zip(middle, (3.0, 0.8, -2.2))], middle),
@@ -89,7 +89,7 @@ class Images(CommandTest):
         for frame in range(300):
             line = [frame]
             for name in names:
-                u, v = camera.image(self.places[(self.first + frame, name)])
+                u, v = camera.image(self.positions[(self.first + frame, name)])
                 line += [u + noise.gauss(0, NOISE_PX), v + noise.gauss(0, NOISE_PX), 0.1 if frame in dark else 0.95]
             lines.append(line)
         return self.write(f"{camera.name}.csv", "".join(",".join(map(str, line)) + "\n" for line in lines))

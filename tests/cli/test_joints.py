@@ -46,12 +46,12 @@ def arm(frames=120, noise=0.0005, moving=True, lose=None, slip=0.0, seed=1):
     for f in range(frames):
         elbow = [rng.uniform(-0.2, 0.2) for _ in range(3)]
         elbows.append(elbow)
-        for letter, places in (("u", UPPER), ("f", FORE)):
-            turn = rotation(rng) if moving else fixed
-            for k, place in enumerate(places):
+        for letter, positions in (("u", UPPER), ("f", FORE)):
+            pose = rotation(rng) if moving else fixed
+            for k, position in enumerate(positions):
                 name = f"{letter}{k}"
-                local = (place[0], place[1], place[2] + (slip if name == "f0" and 2 * f >= frames else 0.0))
-                x = [e + sum(r * p for r, p in zip(row, local)) + rng.gauss(0, noise) for e, row in zip(elbow, turn)]
+                local = (position[0], position[1], position[2] + (slip if name == "f0" and 2 * f >= frames else 0.0))
+                x = [e + sum(r * p for r, p in zip(row, local)) + rng.gauss(0, noise) for e, row in zip(elbow, pose)]
                 if lose and lose(f, name):
                     rows.append([f, f / 60, name, "", "", "", "missing"])
                 else:
@@ -123,7 +123,7 @@ class Joints(CommandTest):
         rows = [line.split(",") for line in arm()[0].splitlines()[1:]]
         names = list(dict.fromkeys(row[2] for row in rows))
         columns = [(name, axis) for name in names for axis in range(3)]
-        place = {(int(row[0]), row[2]): row[3:6] for row in rows}
+        position = {(int(row[0]), row[2]): row[3:6] for row in rows}
         head = [
             ["", *("made.c3d" for _ in columns)],
             ["", *(name for name, _ in columns)],
@@ -131,7 +131,7 @@ class Joints(CommandTest):
             ["", *("PROCESSED" for _ in columns)],
             ["ITEM", *("XYZ"[axis] for _, axis in columns)],
         ]
-        body = [[str(f + 1), *(place[f, name][axis] for name, axis in columns)] for f in range(120)]
+        body = [[str(f + 1), *(position[f, name][axis] for name, axis in columns)] for f in range(120)]
         self.write("arm.v3d", "\n".join("\t".join(row) for row in head + body) + "\n")
         self.refused(2, ["arm.v3d", "--rate"], "joints", "arm.v3d", "--segments", "segments.toml")
         given = ("joints", "arm.v3d", "--segments", "segments.toml", "--rate", "60", "--json")
@@ -176,6 +176,8 @@ class Joints(CommandTest):
         self.refused(2, ["left", "parent"], "joints", "arm.csv", "--sides", "left")
         self.refused(2, ["knee", "hinge"], "joints", "arm.csv", "--kind", "knee")
         self.refused(2, "-1 mm", "joints", "arm.csv", "--noise", -1)
+        for name in ("x.mot", "x.v3d", "x.osim", "no/folder/x.xyz"):
+            self.refused(2, [name, ".c3d, .trc, .nwb and .csv"], "joints", "arm.csv", "-o", name)
         self.refused(4, "none.c3d", "joints", "none.c3d")
         self.write("bad.c3d", "not a C3D file")
         self.refused(3, "bad.c3d", "joints", "bad.c3d")

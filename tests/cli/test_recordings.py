@@ -33,6 +33,17 @@ class Recordings(unittest.TestCase):
             self.assertEqual(facts["cameras"], ["A", "B"])
         self.assertIn("was not closed", self.kinemark("info", "open.mcap").out)
 
+    def test_info_has_the_same_facts_for_programs_and_for_people(self):
+        facts = json.loads(self.kinemark("info", "closed.mcap", "--json").out)
+        expected = "file kind end bytes messages channels metadata frames rate_hz first_time_s rig dark_slot saturated occluded lost"
+        self.assertEqual(list(facts), [*expected.split(), "cameras", "labels", "warnings"])
+        lines = dict(line.split(maxsplit=1) for line in self.kinemark("info", "closed.mcap").out.splitlines() if len(line.split(maxsplit=1)) == 2)
+        for key, value in facts.items():
+            if key == "warnings" or value in ("", []):
+                continue
+            told = " ".join(value) if isinstance(value, list) else value if isinstance(value, str) else json.dumps(value)
+            self.assertEqual(lines[key], told, key)
+
     def test_validate_is_1_for_a_recording_that_is_odd(self):
         self.assertEqual(self.kinemark("validate", "closed.mcap").status, 0)
         for name in ("open", "cut", "damaged"):
@@ -51,6 +62,48 @@ class Recordings(unittest.TestCase):
         self.assertEqual(
             (self.folder / "closed.mcap").read_bytes(), (self.folder / "closed_whole.mcap").read_bytes()
         )
+
+    def test_wherever_a_recording_is_cut_what_came_before_is_kept(self):
+        whole = (self.folder / "closed.mcap").read_bytes()
+        facts = json.loads(self.kinemark("info", "closed.mcap", "--json").out)
+        messages = []
+        for size in range(len(whole) // 20, len(whole), len(whole) // 20):
+            (self.folder / "part.mcap").write_bytes(whole[:size])
+            ran = self.kinemark("recover", "part.mcap", "kept.mcap", "--json", "--force")
+            if ran.status == 3:  # not even the beginning is there
+                self.assertEqual(messages, [], size)
+                self.assertEqual(len(ran.err.strip().splitlines()), 1, ran.err)
+                continue
+            self.assertIn(ran.status, (0, 1), ran.err)
+            messages.append(json.loads(ran.out)["messages"])
+            kept = json.loads(self.kinemark("info", "kept.mcap", "--json").out)
+            self.assertEqual((kept["end"], kept["messages"], kept["warnings"]), ("closed", messages[-1], []), size)
+            self.assertEqual(self.kinemark("validate", "kept.mcap").status, 0, size)
+        self.assertGreater(len(messages), 5)
+        self.assertEqual(messages, sorted(messages), "a longer part keeps no less")
+        self.assertEqual(messages[-1], facts["messages"], "the end of the file is no message")
+
+    def test_recovered_once_is_recovered_for_good(self):
+        for name in ("open", "cut", "damaged"):
+            self.kinemark("recover", f"{name}.mcap", "once.mcap", "--force")
+            again = self.kinemark("recover", "once.mcap", "twice.mcap", "--json", "--force")
+            self.assertEqual(again.status, 0, again.err)
+            self.assertEqual(json.loads(again.out)["bytes_left_out"], 0, name)
+            self.assertEqual((self.folder / "twice.mcap").read_bytes(), (self.folder / "once.mcap").read_bytes(), name)
+
+    def test_a_flipped_byte_is_told_or_does_no_harm(self):
+        whole = (self.folder / "closed.mcap").read_bytes()
+        odd = 0
+        for at in range(8, len(whole), max(1, len(whole) // 60)):
+            spoilt = bytearray(whole)
+            spoilt[at] ^= 0x55
+            (self.folder / "spoilt.mcap").write_bytes(spoilt)
+            ran = self.kinemark("validate", "spoilt.mcap")
+            self.assertIn(ran.status, (0, 1, 3), f"byte {at}: {ran.err}")
+            odd += ran.status != 0
+            if ran.status == 3:
+                self.assertEqual(len(ran.err.strip().splitlines()), 1, ran.err)
+        self.assertGreater(odd, 40, "checksums see nearly every byte")
 
     def test_recover_refuses_in_one_sentence_and_writes_nothing(self):
         (self.folder / "notes.mcap").write_text("these are notes, not a recording\n")

@@ -4,7 +4,7 @@
 
 import json
 
-from support import CommandTest, real_file
+from support import CommandTest, real_file, run
 
 
 class Scale(CommandTest):
@@ -73,3 +73,90 @@ class Scale(CommandTest):
         self.assertEqual((self.folder / "M.osim").read_text(), "mine")
         ran = self.scale("-m", self.model, "-t", self.markers, "-o", "M.osim", "--force")
         self.assertEqual(ran.status, 0, ran.err)
+class KnownSubject(CommandTest):
+    """The subject of the recording is the model itself, or one that is larger or smaller by a known factor."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.subject = cls.recorded.parent / "subject"
+        made = run("simulate", "subject", "-o", cls.subject, "--duration", 3, "--rate", 60, cwd=cls.recorded)
+        assert made.status == 0, made.err
+        cls.reports = {factor: cls.scaled(factor) for factor in (0.9, 1.0, 1.1)}
+
+    @classmethod
+    def scaled(cls, factor):
+        """The report of the model that is adapted to the recording enlarged by a factor."""
+        folder = cls.recorded.parent
+        made = run("convert", cls.subject / "markers.c3d", folder / f"{factor}.csv", cwd=folder)
+        assert made.status == 0, made.err
+        head, *lines = (folder / f"{factor}.csv").read_text().splitlines()
+        position = [head.split(",").index(axis) for axis in ("x_m", "y_m", "z_m")]
+        rows = [
+            ",".join(repr(factor * float(cell)) if i in position and cell else cell for i, cell in enumerate(line.split(",")))
+            for line in lines
+        ]
+        (folder / f"{factor}.csv").write_text("\n".join([head, *rows]) + "\n")
+        ran = run("scale", "-m", cls.model, "-t", folder / f"{factor}.csv", "-o", folder / f"{factor}.osim", "--json", "--quiet", cwd=folder)
+        assert ran.status == 0, ran.err
+        return json.loads(ran.out)
+
+    @staticmethod
+    def lengths(report):
+        return {each["name"]: each for each in report["motion"]["lengths"]}
+
+    def test_the_model_of_the_subject_is_found_again(self):
+        motion = self.reports[1.0]["motion"]
+        self.assertTrue(motion["converged"])
+        self.assertAlmostEqual(1e3 * motion["noise_sd_m"], 1.0, delta=0.03)
+        found = [each for each in motion["lengths"] if each["determined"]]
+        self.assertGreater(len(found), 15)
+        for each in found:
+            self.assertLess(abs(each["length_m"] - each["initial_m"]), 4 * each["sd_m"], each["name"])
+
+    def test_lengths_grow_with_the_subject(self):
+        usual = self.lengths(self.reports[1.0])
+        for factor in (0.9, 1.1):
+            found = self.lengths(self.reports[factor])
+            self.assertEqual(found.keys(), usual.keys())
+            for name, each in found.items():
+                self.assertEqual(each["determined"], usual[name]["determined"], name)
+                if each["determined"]:
+                    self.assertAlmostEqual(each["length_m"] / usual[name]["length_m"] / factor, 1.0, delta=0.005, msg=name)
+
+    def test_the_larger_model_solves_the_larger_recording(self):
+        folder = self.recorded.parent
+        rms = {}
+        for model in (self.model, folder / "1.1.osim"):
+            self.good("ik", "-m", model, "-t", folder / "1.1.csv", "-o", "q.mot", "--force", "--quiet", "--max-rms", 1000)
+            rms[model.name] = json.loads((self.folder / "q_report.json").read_text())["rms_error_mm"]
+        self.assertLess(rms["1.1.osim"], 2.0)
+        self.assertGreater(rms["model.osim"], 10.0)
+
+    def test_sizes_that_the_markers_leave_open_have_wide_deviations(self):
+        motion = self.reports[1.0]["motion"]
+        sizes = [each for each in motion["parameters"] if each["kind"] == "size"]
+        open_sizes = {each["name"] for each in sizes if not each["determined"]}
+        self.assertEqual(open_sizes, {"head", "hand_r", "hand_l", "foot_r"})
+        self.assertLessEqual(open_sizes, set(motion["not_determined"]))
+        for each in sizes:
+            self.assertLessEqual(each["sd"], each["prior_sd"], each["name"])
+            self.assertEqual(each["sd"] > 0.03, each["name"] in open_sizes, each["name"])
+        for each in motion["parameters"]:
+            if each["kind"] == "marker place" and not each["determined"]:
+                self.assertGreater(each["sd"], 0.5 * each["prior_sd"], each["name"])
+
+    def test_symmetric_bodies_have_one_size_for_both_sides(self):
+        options = ("-m", self.model, "-t", self.subject / "markers.c3d", "-o", "s.osim", "--json", "--quiet")
+        report = json.loads(self.good("scale", *options, "--symmetric").out)
+        pairs = [(name, name[:-2] + "_l") for name in report["factors"] if name.endswith("_r")]
+        self.assertGreater(len(pairs), 8)
+        for right, left in pairs:
+            self.assertEqual(report["factors"][right], report["factors"][left], right)
+        uneven = self.reports[1.0]["factors"]
+        self.assertTrue(any(uneven[right] != uneven[left] for right, left in pairs))
+
+    def test_the_mass_is_that_of_the_subject_however_it_is_shared(self):
+        for options in ((), ("--dempster",)):
+            self.good("scale", "-m", self.model, "-t", self.c3d, "-o", "m.osim", "--mass", 60, "--force", "--quiet", *options)
+            self.assertAlmostEqual(json.loads(self.good("info", "m.osim", "--json").out)["mass_kg"], 60.0, places=6)

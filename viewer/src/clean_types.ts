@@ -55,8 +55,10 @@ export interface CleanMarker {
   tried: TriedFilter[];
   residual_rms_mm: number | null;
   autocorrelation: (number | null)[];
-  ljung_box_p: number | null;
-  white: boolean;
+  autocorrelation_if_white: (number | null)[];
+  white: boolean | null;
+  white_p: number | null;
+  white_departure: number | null;
   bar_scale: (number | null)[];
   gap_bar_scale: (number | null)[];
   bad_variances: number;

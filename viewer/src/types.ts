@@ -23,6 +23,9 @@ export interface Summary {
   max_error_mm: number | null;
   determined_fraction: number | null;
   status_frames: Record<FrameStatus, number>;
+  rejected_samples: number;
+  rejected_fraction: number | null;
+  rejected: RejectedStretch[];
   findings: Finding[];
   gates: Gate[];
   coordinates: CoordinateSummary[];
@@ -41,6 +44,17 @@ export interface Finding {
   subject: string;
   text: string;
   time_s: number | null;
+}
+
+/** Samples of a marker that were left out; frames of the motion, both ends included. */
+export interface RejectedStretch {
+  marker: string;
+  first_frame: number;
+  last_frame: number;
+  first_time_s: number | null;
+  last_time_s: number | null;
+  distance_mm: number | null;
+  why: string;
 }
 
 export interface Gate {
@@ -68,6 +82,7 @@ export interface MarkerSummary {
   why_excluded: string;
   weight: number | null;
   seen_frames: number;
+  rejected_frames: number;
   rms_error_mm: number | null;
   max_error_mm: number | null;
   max_error_time_s: number | null;

@@ -24,6 +24,7 @@ export function simulated(frames = 400): PageData {
     why_excluded: name === "Left.Out" ? "it is at the origin in every frame." : "",
     weight: name === "Left.Out" ? 0 : 1,
     seen_frames: name === "B" ? frames - 60 : name === "Left.Out" ? 0 : frames,
+    rejected_frames: 0,
     rms_error_mm: rms,
     max_error_mm: max,
     max_error_time_s: at,
@@ -60,6 +61,9 @@ export function simulated(frames = 400): PageData {
       max_error_mm: 40,
       determined_fraction: 1 - 60 / (3 * frames),
       status_frames: { converged: frames - 60, not_converged: 0, underdetermined: 60, no_markers: 0 },
+      rejected_samples: 0,
+      rejected_fraction: 0,
+      rejected: [],
       findings: [
         { level: "attention", about: "gate", subject: "marker_max", text: "A marker is 40 mm off.", time_s: 1 },
         { level: "note", about: "coordinate", subject: "wrist", text: "wrist is not determined in 60 frames.", time_s: 2 },

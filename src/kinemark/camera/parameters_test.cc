@@ -46,8 +46,8 @@ TEST(Moved, EachParameterMovesWhatItsNameSays) {
   const auto shifted = step(ParameterLayout::centre + 1);
   EXPECT_LT((shifted.centre_in_world() - c.centre_in_world() - Eigen::Vector3d(0, 0.01, 0)).norm(), 1e-14);
   EXPECT_LT((shifted.cam_from_world.rotation - c.cam_from_world.rotation).norm(), 1e-15);
-  const auto turned = step(ParameterLayout::rotation + 2);
-  EXPECT_LT((turned.centre_in_world() - c.centre_in_world()).norm(), 1e-14);
+  const auto rotated = step(ParameterLayout::rotation + 2);
+  EXPECT_LT((rotated.centre_in_world() - c.centre_in_world()).norm(), 1e-14);
 }
 
 TEST(StepBetween, IsTheInverseOfMoved) {

@@ -14,8 +14,8 @@ namespace kinemark {
 std::unexpected<Error> unknown_name(Code code, std::string_view what, std::string_view name,
                                     std::span<const std::string_view> known) {
   const std::vector<std::string> names(known.begin(), known.end());
-  return fail(
-      code, fmt::format("there is no {} '{}'; there are {}", what, name, join_in_words(names, names.size())));
+  return fail(code,
+              fmt::format("there is no {} '{}'; there are {}", what, name, join_names(names, names.size())));
 }
 
 }  // namespace kinemark

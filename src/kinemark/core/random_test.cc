@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -30,6 +32,46 @@ TEST(Random, DrawDependsOnItsNumberOnly) {
   b.seek(10);
   EXPECT_EQ(b.uniform(), eleventh);
   EXPECT_EQ(b.draws(), 11U);
+}
+
+TEST(Random, UniformStaysBelowItsUpperEnd) {
+  Random random(9, 4);
+  double low = 1.0, high = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    const double u = random.uniform();
+    low = std::min(low, u);
+    high = std::max(high, u);
+  }
+  EXPECT_GE(low, 0.0);
+  EXPECT_LT(low, 1e-4);
+  EXPECT_LT(high, 1.0);
+  EXPECT_GT(high, 1.0 - 1e-4);
+}
+
+TEST(Random, ADrawSaysNothingOfTheNextOrOfTheNextStream) {
+  constexpr int kDraws = 20000;
+  double along = 0.0, across = 0.0;
+  Random one(3, 10), next(3, 11);
+  double before = one.gaussian();
+  for (int i = 0; i < kDraws; ++i) {
+    const double now = one.gaussian();
+    along += before * now / kDraws;
+    across += now * next.gaussian() / kDraws;
+    before = now;
+  }
+  EXPECT_NEAR(along, 0.0, 5.0 / std::sqrt(kDraws));
+  EXPECT_NEAR(across, 0.0, 5.0 / std::sqrt(kDraws));
+}
+
+TEST(Random, MixingIsOneToOneAndChangesHalfOfTheBits) {
+  std::set<std::uint64_t> mixed;
+  int flipped = 0;
+  for (std::uint64_t z = 0; z < 4096; ++z) {
+    mixed.insert(mix64(z));
+    flipped += std::popcount(mix64(z) ^ mix64(z ^ (std::uint64_t{1} << (z % 64))));
+  }
+  EXPECT_EQ(mixed.size(), 4096U);
+  EXPECT_NEAR(flipped / 4096.0, 32.0, 0.5);
 }
 
 TEST(Random, StreamsAndSeedsDiffer) {

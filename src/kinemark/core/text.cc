@@ -18,7 +18,7 @@ std::string join_some(std::span<const std::string> names, std::size_t most) {
   return join(names.first(most)) + " and " + std::to_string(names.size() - most) + " more";
 }
 
-std::string join_in_words(std::span<const std::string> names, std::size_t most) {
+std::string join_names(std::span<const std::string> names, std::size_t most) {
   if (names.size() < 2 || names.size() > most) return join_some(names, most);
   return join(names.first(names.size() - 1)) + " and " + names.back();
 }

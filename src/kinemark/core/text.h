@@ -18,6 +18,6 @@ namespace kinemark {
 [[nodiscard]] std::string join_some(std::span<const std::string> names, std::size_t most);
 
 /// "A", "A and B", "A, B and C", or "A, B and 4 more" where there are more than `most`.
-[[nodiscard]] std::string join_in_words(std::span<const std::string> names, std::size_t most);
+[[nodiscard]] std::string join_names(std::span<const std::string> names, std::size_t most);
 
 }  // namespace kinemark

@@ -25,11 +25,11 @@ TEST(Text, CountsTheNamesThatItLeavesOut) {
 }
 
 TEST(Text, PutsAndBeforeTheLastName) {
-  EXPECT_EQ(join_in_words(Names{}, 3), "");
-  EXPECT_EQ(join_in_words(Names{"A"}, 3), "A");
-  EXPECT_EQ(join_in_words(Names{"A", "B"}, 3), "A and B");
-  EXPECT_EQ(join_in_words(Names{"A", "B", "C"}, 3), "A, B and C");
-  EXPECT_EQ(join_in_words(Names{"A", "B", "C", "D", "E"}, 3), "A, B, C and 2 more");
+  EXPECT_EQ(join_names(Names{}, 3), "");
+  EXPECT_EQ(join_names(Names{"A"}, 3), "A");
+  EXPECT_EQ(join_names(Names{"A", "B"}, 3), "A and B");
+  EXPECT_EQ(join_names(Names{"A", "B", "C"}, 3), "A, B and C");
+  EXPECT_EQ(join_names(Names{"A", "B", "C", "D", "E"}, 3), "A, B, C and 2 more");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -26,11 +27,15 @@ Status CleanAccount::validate() const {
         fmt::format("upsampling tells of {} markers; there are {}", upsampling.markers.size(), names.size()));
   if (markers.size() > names.size())
     return bad(fmt::format("{} markers were smoothed; there are {}", markers.size(), names.size()));
-  for (const Defect& d : defects)
-    if (d.marker < -1 || d.marker >= markers_there || d.other_marker < -1 ||
-        d.other_marker >= markers_there || d.first_frame < 0 || d.last_frame < d.first_frame)
-      return bad(fmt::format("a defect of marker {} and {} in frames {} to {} does not fit {} markers",
-                             d.marker, d.other_marker, d.first_frame, d.last_frame, names.size()));
+  const auto there = [&](const std::string& name) {
+    return name.empty() || std::ranges::find(names, name) != names.end();
+  };
+  for (const auto& [f, done, handled] : defects) {
+    if (auto status = f.validate(); !status) return bad(status.error().message);
+    if (f.first_frame < 0) return bad(fmt::format("a defect of '{}' has no frames", f.subject));
+    if (!there(f.subject) || !there(f.partner))
+      return bad(fmt::format("a defect of '{}' and '{}' is of no marker here", f.subject, f.partner));
+  }
   for (const GapAccount& g : gaps)
     if (g.marker < 0 || g.marker >= markers_there || g.first_frame < 0 || g.last_frame < g.first_frame)
       return bad(fmt::format("a gap of marker {} in frames {} to {} does not fit {} markers", g.marker,

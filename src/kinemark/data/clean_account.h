@@ -9,12 +9,19 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/defect.h"
+#include "kinemark/data/finding.h"
 #include "kinemark/data/gap_account.h"
 #include "kinemark/data/marker_account.h"
 #include "kinemark/data/upsampling.h"
 
 namespace kinemark::data {
+
+/// Something wrong with samples, and what was done about it.
+struct Defect {
+  Finding finding;       ///< tied to frames; its subject and partner are markers
+  std::string done;      ///< in words: "rejected", "left as it is", ...; empty: nobody has decided
+  bool handled = false;  ///< a sure one that is not handled needs attention
+};
 
 /// M markers. Frames and markers are counted from 0.
 struct CleanAccount {
@@ -27,8 +34,9 @@ struct CleanAccount {
   /// Name of a marker; empty for -1, which stands for all of them.
   [[nodiscard]] std::string name_of(std::int64_t marker) const;
 
-  /// Indices are in range, no defect or gap ends before it begins, there are not more accounts of markers
-  /// than names, and upsampling tells of all markers or of none. O(all).
+  /// Defects are of markers that are there and validate(), indices are in range, no gap ends before it
+  /// begins, there are not more accounts of markers than names, and upsampling tells of all markers or of
+  /// none. O(all).
   [[nodiscard]] Status validate() const;
 };
 

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace kinemark::data {
 namespace {
 
@@ -14,8 +12,12 @@ CleanAccount account_of_two() {
   account.names = {"A", "B"};
   account.upsampling.markers.resize(2);
   account.upsampling.marker_bands.resize(2);
-  account.defects = {{.kind = DefectKind::label_swap, .marker = 0, .other_marker = 1},
-                     {.kind = DefectKind::clock_jump, .first_frame = 3, .last_frame = 3}};
+  account.defects = {{.finding = {.kind = FindingKind::label_swap,
+                                  .subject = "A",
+                                  .partner = "B",
+                                  .first_frame = 0,
+                                  .last_frame = 0}},
+                     {.finding = {.kind = FindingKind::clock_jump, .first_frame = 3, .last_frame = 3}}};
   account.gaps = {{.marker = 1, .first_frame = 5, .last_frame = 9}};
   account.markers = {{.name = "A"}};
   return account;
@@ -36,8 +38,12 @@ TEST(CleanAccount, RefusesMarkersThatAreNotThereAndFramesThatRunBack) {
   EXPECT_TRUE(refused([](CleanAccount& a) { a.gaps[0].marker = 2; }));
   EXPECT_TRUE(refused([](CleanAccount& a) { a.gaps[0].marker = -1; })) << "a gap belongs to one marker";
   EXPECT_TRUE(refused([](CleanAccount& a) { a.gaps[0].last_frame = 4; }));
-  EXPECT_TRUE(refused([](CleanAccount& a) { a.defects[0].other_marker = 2; }));
-  EXPECT_TRUE(refused([](CleanAccount& a) { a.defects[1].last_frame = 2; }));
+  EXPECT_TRUE(refused([](CleanAccount& a) { a.defects[0].finding.partner = "C"; }));
+  EXPECT_TRUE(refused([](CleanAccount& a) { a.defects[0].finding.subject = "b"; }));
+  EXPECT_TRUE(refused([](CleanAccount& a) { a.defects[1].finding.last_frame = 2; }));
+  EXPECT_TRUE(refused([](CleanAccount& a) {
+    a.defects[1].finding.first_frame = a.defects[1].finding.last_frame = -1;
+  })) << "a defect is of samples";
   EXPECT_TRUE(refused([](CleanAccount& a) { a.markers.resize(3); }));
   EXPECT_TRUE(refused([](CleanAccount& a) { a.upsampling.markers.resize(1); }));
 }
@@ -49,14 +55,6 @@ TEST(CleanAccount, NamesMarkersAndNobodyForAll) {
 }
 
 TEST(GapAccount, BothEndsBelongToIt) { EXPECT_EQ(account_of_two().gaps[0].frames(), 5); }
-
-TEST(DefectKind, EachHasANameOfItsOwn) {
-  std::set<std::string_view> names;
-  for (int k = 0; k <= static_cast<int>(DefectKind::label_swap); ++k)
-    names.insert(to_string(static_cast<DefectKind>(k)));
-  EXPECT_EQ(names.size(), 8U);
-  EXPECT_EQ(to_string(DefectKind::swap_within), "swap within");
-}
 
 }  // namespace
 }  // namespace kinemark::data

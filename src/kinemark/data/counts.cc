@@ -9,6 +9,8 @@
 #include <set>
 #include <string_view>
 
+#include "kinemark/data/rig.h"
+
 namespace kinemark::data {
 namespace {
 
@@ -62,10 +64,10 @@ Status Counts::validate() const {
                                              time.rate_hz, time.t0_s));
   if (auto s = check_names(leds, "LED"); !s) return s;
   if (auto s = check_names(cameras, "camera"); !s) return s;
-  const std::int64_t sightings = led_count() * camera_count();
-  if (auto s = check_size(counts.size(), 4 * frames() * sightings, "counts"); !s) return s;
-  if (auto s = check_size(flags.size(), frames() * sightings, "flags"); !s) return s;
-  if (auto s = check_size(conversion_time_s.size(), 4 * sightings, "conversion times"); !s) return s;
+  const std::int64_t observations = led_count() * camera_count();
+  if (auto s = check_size(counts.size(), 4 * frames() * observations, "counts"); !s) return s;
+  if (auto s = check_size(flags.size(), frames() * observations, "flags"); !s) return s;
+  if (auto s = check_size(conversion_time_s.size(), 4 * observations, "conversion times"); !s) return s;
   if (!dark_time_s.empty())
     if (auto s = check_size(dark_time_s.size(), 4 * camera_count(), "dark conversion times"); !s) return s;
   if (auto s =
@@ -80,6 +82,17 @@ Status Counts::validate() const {
         return fail(Code::bad_input,
                     fmt::format("counts: a conversion {} s after its frame; frames are {} s apart", t,
                                 1.0 / time.rate_hz));
+  return {};
+}
+
+Status check_same_rig(const Counts& counts, const Rig& rig) {
+  if (!counts.rig_id.empty() && !rig.id.empty() && counts.rig_id != rig.id)
+    return fail(Code::bad_input,
+                fmt::format("the recording was made with rig '{}', this rig is '{}'", counts.rig_id, rig.id));
+  if (counts.camera_count() != rig.camera_count())
+    return fail(Code::bad_input,
+                fmt::format("the recording has {} cameras and the rig {}; they must be the same",
+                            counts.camera_count(), rig.camera_count()));
   return {};
 }
 

@@ -13,7 +13,7 @@
 
 namespace kinemark::data {
 
-/// Notes on one sighting of one LED by one camera; bits that may be combined.
+/// Notes on one observation of one LED by one camera; bits that may be combined.
 enum CountFlag : std::uint8_t {
   kCountSaturated = 1,  ///< a channel stands at the converter's highest code
   kCountOccluded = 2,   ///< too little light: the LED is hidden from this camera
@@ -47,11 +47,11 @@ struct Counts {
   }  ///< C
   /// whether frames hold a slot without light
   [[nodiscard]] bool has_dark_slot() const { return !dark_time_s.empty(); }
-  /// Index of a sighting, into flags and, times four, into counts.
+  /// Index of an observation, into flags and, times four, into counts.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t led, std::int64_t camera) const {
     return static_cast<std::size_t>((frame * led_count() + led) * camera_count() + camera);
   }
-  /// The four counts of one sighting.
+  /// The four counts of one observation.
   [[nodiscard]] Eigen::Vector4d at(std::int64_t frame, std::int64_t led, std::int64_t camera) const {
     return Eigen::Map<const Eigen::Matrix<std::int16_t, 4, 1>>(counts.data() + 4 * index(frame, led, camera))
         .cast<double>();
@@ -62,7 +62,7 @@ struct Counts {
                                                                4 * (frame * camera_count() + camera))
         .cast<double>();
   }
-  /// Times of the four conversions of a sighting, s after the frame's time.
+  /// Times of the four conversions of an observation, s after the frame's time.
   [[nodiscard]] Eigen::Map<const Eigen::Vector4d> offset_s(std::int64_t led, std::int64_t camera) const {
     return Eigen::Map<const Eigen::Vector4d>(conversion_time_s.data() + 4 * (led * camera_count() + camera));
   }
@@ -70,7 +70,7 @@ struct Counts {
   [[nodiscard]] Eigen::Map<const Eigen::Vector4d> dark_offset_s(std::int64_t camera) const {
     return Eigen::Map<const Eigen::Vector4d>(dark_time_s.data() + 4 * camera);
   }
-  /// Whether a sighting bears a flag.
+  /// Whether an observation bears a flag.
   [[nodiscard]] bool has_flag(std::int64_t frame, std::int64_t led, std::int64_t camera,
                               CountFlag flag) const {
     return (flags[index(frame, led, camera)] & flag) != 0;
@@ -84,5 +84,10 @@ struct Counts {
   /// conversion times are finite and lie within two frames of their frame. O(F L C).
   [[nodiscard]] Status validate() const;
 };
+
+struct Rig;
+/// That a recording can be of this rig: as many cameras, and the same id where both have one. Both may still
+/// be wrong by themselves.
+[[nodiscard]] Status check_same_rig(const Counts& counts, const Rig& rig);
 
 }  // namespace kinemark::data

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "kinemark/data/rig.h"
+
 namespace kinemark::data {
 namespace {
 
@@ -62,6 +64,25 @@ TEST(Counts, EachBrokenRuleIsNamed) {
   EXPECT_THAT(message([](Counts& c) { c.conversion_time_s[0] = 0.5; }), HasSubstr("0.5 s after its frame"));
   EXPECT_THAT(message([](Counts& c) { c.dark_time_s[0] = std::nan(""); }),
               HasSubstr("nan s after its frame"));
+}
+
+TEST(Counts, AreOfTheRigWithAsManyCamerasAndTheSameId) {
+  auto counts = small();
+  Rig rig;
+  rig.cameras.resize(2);
+  EXPECT_TRUE(check_same_rig(counts, rig)) << "neither has an id";
+  counts.rig_id = "lab 2";
+  EXPECT_TRUE(check_same_rig(counts, rig)) << "an id that is not known is no other";
+  rig.id = "lab 2";
+  EXPECT_TRUE(check_same_rig(counts, rig));
+  rig.id = "lab 3";
+  EXPECT_EQ(check_same_rig(counts, rig).error().message,
+            "the recording was made with rig 'lab 2', this rig is 'lab 3'");
+  counts.rig_id.clear();
+  rig.cameras.resize(3);
+  const auto status = check_same_rig(counts, rig);
+  EXPECT_EQ(status.error().message, "the recording has 2 cameras and the rig 3; they must be the same");
+  EXPECT_EQ(status.error().code, Code::bad_input);
 }
 
 }  // namespace

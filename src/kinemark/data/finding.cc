@@ -4,16 +4,20 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace kinemark::data {
 namespace {
 
-constexpr std::array<std::string_view, 15> kKinds{
-    "zero",         "stuck",       "duplicated frame", "clock jump",  "unit slip",
-    "spike",        "swap within", "label swap",       "marker slip", "joint slip",
-    "loose marker", "unexplained", "at limit",         "not settled", "flagged"};
+constexpr std::array<std::string_view, 16> kKinds{
+    "zero",        "stuck",       "duplicated frame", "clock jump", "unit slip",    "spike",
+    "swap within", "label swap",  "marker slip",      "joint slip", "loose marker", "unexplained",
+    "at limit",    "not settled", "flagged",          "outlier"};
+
+constexpr std::string_view kFromWhere = "from where the model and the frames beside have it";
+constexpr std::size_t kStretchesNamed = 6;  // of a marker that was left out
 
 /// "marker 'A'", or "all markers".
 std::string who(const Finding& f) {
@@ -41,13 +45,13 @@ std::string when(const Finding& f, const TimeBase& time) {
                      time.time_s(f.first_frame), time.time_s(f.last_frame));
 }
 
-/// " from 2.31 s on", or nothing.
-std::string from_when(const Finding& f, const TimeBase& time) {
-  return f.first_frame < 0 ? std::string() : fmt::format(" from {:.2f} s on", time.time_s(f.first_frame));
+/// " at about 2.31 s", or nothing.
+std::string about_when(const Finding& f, const TimeBase& time) {
+  return f.first_frame < 0 ? std::string() : fmt::format(" at about {:.2f} s", time.time_s(f.first_frame));
 }
 
 std::string which_segment(const Finding& f) {
-  return f.partner.empty() ? std::string("its segment") : fmt::format("segment '{}'", f.partner);
+  return f.partner.empty() ? std::string("its segment") : fmt::format("'{}'", f.partner);
 }
 
 /// " by 3 frames", or nothing.
@@ -91,11 +95,13 @@ std::string core_of(const Finding& f, const TimeBase& time) {
       return fmt::format("markers '{}' and '{}' carry each other's label{}{}", f.subject, f.partner,
                          when(f, time), millimetres(f, "while ", " apart"));
     case FindingKind::marker_slip:
-      return fmt::format("{} lies{} elsewhere on {}{}", who(f), millimetres(f, ""), which_segment(f),
-                         from_when(f, time));
+      return fmt::format("{} moved{} on {}{}", who(f), millimetres(f, ""), which_segment(f),
+                         about_when(f, time));
     case FindingKind::joint_slip:
-      return fmt::format("joint '{}' lies{} elsewhere in {}{}", f.subject, millimetres(f, ""),
-                         which_segment(f), from_when(f, time));
+      return fmt::format(
+          "joint '{}' lies{} elsewhere in {} in the second half than in the first: did its markers slip "
+          "together?",
+          f.subject, millimetres(f, ""), which_segment(f));
     case FindingKind::loose_marker:
       return fmt::format("{} moves on {}{}", who(f), which_segment(f), millimetres(f, "by "));
     case FindingKind::unexplained:
@@ -107,8 +113,43 @@ std::string core_of(const Finding& f, const TimeBase& time) {
       return fmt::format("{} did not settle in {:.0f} iterations over the recording", f.subject, f.size);
     case FindingKind::flagged:
       return count_of_frames(f, time) + " are flagged";
+    case FindingKind::outlier:
+      return fmt::format("{} was left out{}:{} {}", who(f), when(f, time), millimetres(f, ""), kFromWhere);
   }
   return "";
+}
+
+/// All but how certain it is.
+std::string without_doubt(const Finding& f, const TimeBase& time) {
+  std::string text = f.description.empty() ? core_of(f, time) : f.description;
+  return f.detail.empty() ? text : text + ": " + f.detail;
+}
+
+/// "3, 8 to 14, 20 and 3 more stretches".
+std::string stretches_in_words(std::span<const Finding* const> stretches) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(stretches.size(), kStretchesNamed); ++i) {
+    const Finding& f = *stretches[i];
+    text += i > 0 ? ", " : "";
+    text += f.first_frame == f.last_frame ? fmt::format("{}", f.first_frame)
+                                          : fmt::format("{} to {}", f.first_frame, f.last_frame);
+  }
+  if (stretches.size() > kStretchesNamed)
+    text += fmt::format(" and {} more stretches", stretches.size() - kStretchesNamed);
+  return text;
+}
+
+std::string outliers_in_words(std::span<const Finding* const> stretches) {
+  Finding all = *stretches.front();
+  std::int64_t frames = 0;
+  for (const Finding* f : stretches) {
+    frames += f->last_frame - f->first_frame + 1;
+    all.size = std::fmax(all.size, f->size);
+  }
+  auto text = fmt::format("{} was left out in {} frames ({}):{} {}", who(all), frames,
+                          stretches_in_words(stretches), millimetres(all, "up to "), kFromWhere);
+  if (!all.detail.empty()) text += ": " + all.detail;
+  return text;
 }
 
 }  // namespace
@@ -133,10 +174,37 @@ Status Finding::validate() const {
 }
 
 std::string describe(const Finding& finding, const TimeBase& time) {
-  std::string text = core_of(finding, time);
-  if (!finding.detail.empty()) text += ": " + finding.detail;
+  std::string text = without_doubt(finding, time);
   if (!finding.sure()) text += fmt::format(" (not certain: confidence {:.0f} %)", 100.0 * finding.confidence);
   return text;
+}
+
+std::string sentence_of(const Finding& finding, const TimeBase& time) {
+  std::string text = without_doubt(finding, time);
+  if (text.empty()) return text;
+  if (text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  if (std::string_view(".?!").find(text.back()) == std::string_view::npos) text += '.';
+  return text;
+}
+
+std::vector<std::string> describe_all(std::span<const Finding> findings, const TimeBase& time) {
+  std::vector<std::string> sentences;
+  std::vector<bool> told(findings.size(), false);
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    if (told[i]) continue;
+    std::vector<const Finding*> alike{&findings[i]};
+    const auto belongs = [&](const Finding& f) {
+      return f.kind == FindingKind::outlier && f.first_frame >= 0 && f.subject == findings[i].subject &&
+             f.partner == findings[i].partner && f.detail == findings[i].detail;
+    };
+    for (std::size_t k = i + 1; k < findings.size() && belongs(findings[i]); ++k)
+      if (belongs(findings[k])) {
+        alike.push_back(&findings[k]);
+        told[k] = true;
+      }
+    sentences.push_back(alike.size() == 1 ? describe(findings[i], time) : outliers_in_words(alike));
+  }
+  return sentences;
 }
 
 }  // namespace kinemark::data

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
@@ -25,16 +27,18 @@ enum class FindingKind : std::uint8_t {
   swap_within,       ///< a marker jumps to the path of its partner and back [m, of the jump]
   label_swap,        ///< two markers carry each other's label [m, between them]
   marker_slip,       ///< a marker lies elsewhere on its segment, the partner, from a frame on [m]
-  joint_slip,        ///< a joint lies elsewhere in its segment, the partner, from a frame on [m]
+  joint_slip,        ///< a joint lies elsewhere in its segment, the partner, in the second half [m]
   loose_marker,      ///< a marker moves on its segment by more than its noise [m, RMS per axis]
   unexplained,       ///< frames that rigid segments and noise do not explain [frames]
   at_limit,          ///< a coordinate rests at a limit of its range [share of the frames, 0 to 1]
   not_settled,       ///< an iteration over the whole recording ended before it settled [iterations]
   flagged,           ///< frames in which a controller did not reach its goals [frames]
+  outlier,  ///< samples left out: neither model nor neighbours in time explain them [m, the farthest]
 };
 
 /// "zero", "stuck", "duplicated frame", "clock jump", "unit slip", "spike", "swap within", "label swap",
-/// "marker slip", "joint slip", "loose marker", "unexplained", "at limit", "not settled", "flagged".
+/// "marker slip", "joint slip", "loose marker", "unexplained", "at limit", "not settled", "flagged",
+/// "outlier".
 [[nodiscard]] std::string_view to_string(FindingKind kind);
 
 /// What screening, gaps, joints or motion noticed: who, when, how large, how sure.
@@ -47,6 +51,9 @@ struct Finding {
   double size_sd = kNaN;     ///< one standard deviation of the size, same unit; NaN: not known
   double confidence = kNaN;  ///< 0 to 1; NaN: whoever found it did not doubt it
   std::string detail;        ///< further evidence, follows the sentence behind a colon; may be empty
+  /// The finder's own words, as describe() words a finding, where they tell of evidence that the facts above
+  /// do not hold; empty: describe() makes them from the facts.
+  std::string description;
 
   /// Below 0.8 a person should look.
   [[nodiscard]] bool sure() const { return !(confidence < 0.8); }
@@ -58,5 +65,14 @@ struct Finding {
 /// 'LASI' leaves its path by 12.0 mm in frames 20 to 22 (0.2 to 0.22 s)". @param time  of the recording whose
 /// frames the finding names
 [[nodiscard]] std::string describe(const Finding& finding, const TimeBase& time);
+
+/// The same as a sentence of its own, with capital letter and full stop, and without a word on how certain it
+/// is, for those who show the confidence beside it.
+[[nodiscard]] std::string sentence_of(const Finding& finding, const TimeBase& time);
+
+/// All findings in sentences, in order; outliers of one marker, with one partner and detail, in one sentence
+/// where the first of them stands: "marker 'LASI' was left out in 12 frames (3, 8 to 14, 20 and 3 more
+/// stretches): up to 64.5 mm from where ...".
+[[nodiscard]] std::vector<std::string> describe_all(std::span<const Finding> findings, const TimeBase& time);
 
 }  // namespace kinemark::data

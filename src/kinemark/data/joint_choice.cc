@@ -4,23 +4,18 @@
 
 #include <fmt/core.h>
 
+#include "kinemark/core/enum_names.h"
+
 namespace kinemark::data {
 
-std::string_view to_string(JointChoice choice) {
-  switch (choice) {
-    case JointChoice::automatic:
-      return "auto";
-    case JointChoice::ball:
-      return "ball";
-    case JointChoice::hinge:
-      return "hinge";
-  }
-  return "unknown";
-}
+namespace {
+constexpr EnumNames<JointChoice::hinge> kChoices{"auto", "ball", "hinge"};
+}  // namespace
+
+std::string_view to_string(JointChoice choice) { return kChoices[choice]; }
 
 Result<JointChoice> parse_joint_choice(std::string_view name) {
-  for (const auto choice : {JointChoice::automatic, JointChoice::ball, JointChoice::hinge})
-    if (name == to_string(choice)) return choice;
+  if (const auto choice = kChoices.find(name)) return *choice;
   return fail(Code::usage, fmt::format("'{}' is not a kind of joint; use auto, ball or hinge", name));
 }
 

@@ -30,18 +30,22 @@ Status JointMotion::validate() const {
     return fail(Code::bad_input,
                 fmt::format("joint motion holds {} numbers of {}; need {}", has, what, needs));
   };
-  if (!(time.rate_hz > 0.0))
-    return fail(Code::bad_input, fmt::format("joint motion has a rate of {} Hz", time.rate_hz));
+  if (frames() < 0) return fail(Code::bad_input, fmt::format("joint motion has {} frames", frames()));
+  if (!(time.rate_hz > 0.0) || !std::isfinite(time.rate_hz) || !std::isfinite(time.t0_s))
+    return fail(Code::bad_input,
+                fmt::format("joint motion has a rate of {} Hz from {} s on", time.rate_hz, time.t0_s));
   if (is_rotation.size() != n) return wrong("is_rotation", is_rotation.size(), n);
   if (q.size() != F * n) return wrong("q", q.size(), F * n);
   if (!q_sd.empty() && q_sd.size() != F * n) return wrong("q_sd", q_sd.size(), F * n);
   const std::pair<std::string_view, const Array<double>*> optional[] = {
-      {"v", &v}, {"a", &a}, {"tau", &tau}, {"tau_sd", &tau_sd}, {"q_bound", &q_bound}};
+      {"qd", &qd}, {"qdd", &qdd}, {"tau", &tau}, {"tau_sd", &tau_sd}, {"q_bound", &q_bound}};
   for (const auto& [name, numbers] : optional)
     if (!numbers->empty() && numbers->size() != F * n) return wrong(name, numbers->size(), F * n);
   if (!determined.empty() && determined.size() != F * n) return wrong("determined", determined.size(), F * n);
   if (!marker_error.empty() && marker_error.size() != 3 * F * M)
     return wrong("marker_error", marker_error.size(), 3 * F * M);
+  if (!marker_state.empty() && marker_state.size() != F * M)
+    return wrong("marker_state", marker_state.size(), F * M);
   if (!status.empty() && status.size() != F) return wrong("status", status.size(), F);
   const auto bad = std::ranges::find_if(q, [](double v) { return !std::isfinite(v); });
   if (bad != q.end()) {

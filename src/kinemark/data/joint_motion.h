@@ -10,6 +10,7 @@
 #include "kinemark/core/array.h"
 #include "kinemark/core/result.h"
 #include "kinemark/core/time_base.h"
+#include "kinemark/data/trajectories.h"
 
 namespace kinemark::data {
 
@@ -34,17 +35,19 @@ struct JointMotion {
   Array<double> q;                       ///< F x n
   Array<double> q_sd;              ///< F x n, one standard deviation; NaN where not determined or unknown
   Array<std::uint8_t> determined;  ///< F x n; 0: the visible markers do not fix this coordinate
-  Array<double> v, a;              ///< F x n, dq/dt and d2q/dt2; empty when not computed
+  Array<double> qd, qdd;           ///< F x n, dq/dt and d2q/dt2; empty when not computed
   Array<double> tau, tau_sd;  ///< F x n, generalised force of each coordinate, N m or N, and its SD; empty
                               ///< when not computed, NaN where it is not known
   Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN
                           ///< where not determined
   Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where the marker was not seen
-  Array<FrameStatus> status;   ///< F
+  /// F x M, of the samples as the estimate took them, `rejected` where it left one out; empty: not told.
+  Array<SampleState> marker_state;
+  Array<FrameStatus> status;  ///< F
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }                                  ///< F
   [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(coordinates.size()); }  ///< n
-  /// Place of a coordinate's number in a frame, in every F x n array.
+  /// Index of a coordinate's number in a frame, in every F x n array.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t coordinate) const {
     return static_cast<std::size_t>(frame * size() + coordinate);
   }

@@ -42,7 +42,7 @@ TEST(JointMotion, ValidateNamesTheFieldAndThePlace) {
   m = small();
   m.q[3] = std::nan("");
   EXPECT_THAT(m.validate().error().message, HasSubstr("'knee' of frame 1"));
-  for (auto* field : {&m.q_sd, &m.v, &m.a, &m.tau, &m.tau_sd, &m.q_bound, &m.marker_error}) {
+  for (auto* field : {&m.q_sd, &m.qd, &m.qdd, &m.tau, &m.tau_sd, &m.q_bound, &m.marker_error}) {
     m = small();
     field->resize(1);
     EXPECT_FALSE(m.validate());
@@ -52,6 +52,32 @@ TEST(JointMotion, ValidateNamesTheFieldAndThePlace) {
   m.determined.clear();
   m.q_sd.clear();
   EXPECT_TRUE(m.validate()) << "the optional fields may be absent";
+}
+
+TEST(JointMotion, TheClockMustRun) {
+  for (const double rate_hz : {0.0, -60.0, std::nan(""), HUGE_VAL}) {
+    JointMotion m = small();
+    m.time.rate_hz = rate_hz;
+    EXPECT_THAT(m.validate().error().message, HasSubstr("Hz")) << rate_hz;
+  }
+  JointMotion m = small();
+  m.time.t0_s = std::nan("");
+  EXPECT_THAT(m.validate().error().message, HasSubstr("from nan s on"));
+  m = {};
+  m.time = {.rate_hz = 60.0, .t0_s = 0.0, .frames = -1};
+  EXPECT_THAT(m.validate().error().message, HasSubstr("-1 frames"));
+}
+
+TEST(JointMotion, NoFramesAndNoCoordinatesAreAMotion) {
+  JointMotion m;
+  m.time = {.rate_hz = 60.0, .t0_s = 0.0, .frames = 0};
+  m.coordinates = {"hip"};
+  m.is_rotation = {true};
+  EXPECT_TRUE(m.validate());
+  m.time.frames = 4;
+  m.coordinates.clear();
+  m.is_rotation.clear();
+  EXPECT_TRUE(m.validate()) << "nothing to tell of four frames";
 }
 
 TEST(FrameStatus, EveryStatusHasItsOwnName) {

@@ -19,12 +19,12 @@ std::vector<std::string> MarkerFit::excluded_as(std::string_view why) const {
 }
 
 Status MarkerFit::validate() const {
-  std::set<std::string_view> told;
+  std::set<std::string_view> listed;
   for (std::size_t m = 0; m < markers.size(); ++m) {
     const auto& marker = markers[m];
     if (marker.name.empty())
       return fail(Code::bad_input, fmt::format("the marker fit: used marker {} has no name", m + 1));
-    if (!told.insert(marker.name).second)
+    if (!listed.insert(marker.name).second)
       return fail(Code::bad_input, fmt::format("the marker fit: marker '{}' is listed twice", marker.name));
     if (!(marker.weight >= 0.0) || !std::isfinite(marker.weight))
       return fail(Code::bad_input,

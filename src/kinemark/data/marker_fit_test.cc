@@ -44,19 +44,20 @@ TEST(MarkerFit, ListsWhoWasLeftOutForAReason) {
 
 TEST(MarkerFit, ValidateNamesTheMarkerAndWhatIsWrong) {
   EXPECT_TRUE(fit().validate());
-  const auto told = [](const std::function<void(MarkerFit&)>& spoil) {
+  const auto message = [](const std::function<void(MarkerFit&)>& spoil) {
     MarkerFit bad = fit();
     spoil(bad);
     const auto status = bad.validate();
     return status ? std::string("nothing") : status.error().message;
   };
-  EXPECT_THAT(told([](auto& f) { f.markers[1].name.clear(); }), HasSubstr("used marker 2 has no name"));
-  EXPECT_THAT(told([](auto& f) { f.markers[1].name = "A"; }), HasSubstr("'A' is listed twice"));
-  EXPECT_THAT(told([](auto& f) { f.markers[0].weight = -1.0; }), HasSubstr("weight -1; need 0 or more"));
-  EXPECT_THAT(told([](auto& f) { f.markers[0].weight = kNaN; }), HasSubstr("need 0 or more"));
-  EXPECT_THAT(told([](auto& f) { f.markers[0].seen = 1.01; }), HasSubstr("need 0 to 1"));
-  EXPECT_THAT(told([](auto& f) { f.markers[0].common_sd_m = -1e-3; }), HasSubstr("negative"));
-  EXPECT_THAT(told([](auto& f) { f.excluded[0].why.clear(); }), HasSubstr("'C' needs a name and a reason"));
+  EXPECT_THAT(message([](auto& f) { f.markers[1].name.clear(); }), HasSubstr("used marker 2 has no name"));
+  EXPECT_THAT(message([](auto& f) { f.markers[1].name = "A"; }), HasSubstr("'A' is listed twice"));
+  EXPECT_THAT(message([](auto& f) { f.markers[0].weight = -1.0; }), HasSubstr("weight -1; need 0 or more"));
+  EXPECT_THAT(message([](auto& f) { f.markers[0].weight = kNaN; }), HasSubstr("need 0 or more"));
+  EXPECT_THAT(message([](auto& f) { f.markers[0].seen = 1.01; }), HasSubstr("need 0 to 1"));
+  EXPECT_THAT(message([](auto& f) { f.markers[0].common_sd_m = -1e-3; }), HasSubstr("negative"));
+  EXPECT_THAT(message([](auto& f) { f.excluded[0].why.clear(); }),
+              HasSubstr("'C' needs a name and a reason"));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ struct SkeletonJoint {
   double axis_sd_rad = 0.0;          ///< of each of the two tilts of the axis; NaN when unknown
   double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen
   std::string method;                ///< "SCoRE", "articulated", ...
-  std::string words;                 ///< what the motion shows of this joint and what it does not
+  std::string description;           ///< what the motion shows of this joint and what it does not
 };
 
 /// Distance between two joint centres of one segment.

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "kinemark/core/check.h"
+
 namespace kinemark::data {
 namespace {
 
@@ -60,6 +62,54 @@ TEST(Trajectories, ValidateNamesWhatIsWrong) {
   t = two_by_two();
   t.x(1, 0).setZero();
   EXPECT_THAT(t.validate().error().message, HasSubstr("marked missing"));
+}
+
+TEST(Trajectories, TheClockMustRunAndFramesBeCounted) {
+  for (const double rate_hz : {-100.0, std::nan(""), HUGE_VAL}) {
+    Trajectories t = two_by_two();
+    t.time.rate_hz = rate_hz;
+    EXPECT_THAT(t.validate().error().message, HasSubstr("need a positive number")) << rate_hz;
+  }
+  Trajectories t = two_by_two();
+  t.time.t0_s = HUGE_VAL;
+  EXPECT_THAT(t.validate().error().message, HasSubstr("a time that is not a number"));
+  t = {};
+  t.time = {.rate_hz = 100.0, .t0_s = 0.0, .frames = -2};
+  EXPECT_THAT(t.validate().error().message, HasSubstr("-2 frames"));
+}
+
+TEST(Trajectories, ASampleIsThereAsAWholeOrNotAtAll) {
+  for (const double wrong : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    Trajectories t = two_by_two();
+    t.x(0, 1).z() = wrong;
+    EXPECT_THAT(t.validate().error().message, HasSubstr("'B' frame 0 is marked measured")) << wrong;
+    t = two_by_two();
+    t.set_missing(0, 1);
+    t.x(0, 1).y() = 0.0;
+    EXPECT_THAT(t.validate().error().message, HasSubstr("'B' frame 0 is marked missing"));
+  }
+}
+
+TEST(Trajectories, MayHaveNoMarkersOrNoFrames) {
+  auto t = Trajectories::all_missing({}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 5});
+  EXPECT_TRUE(t.validate());
+  EXPECT_EQ(t.count_missing(), 0);
+  EXPECT_EQ(t.find(""), -1);
+  t = Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 0});
+  EXPECT_TRUE(t.validate());
+}
+
+TEST(Trajectories, HoldAtMost255Methods) {
+  Trajectories t = two_by_two();
+  for (int k = 1; k <= 255; ++k) t.set_method(0, 0, "method " + std::to_string(k));
+  EXPECT_EQ(t.made_by(0, 0), "method 255");
+  t.set_method(1, 1, "method 7");
+  EXPECT_EQ(t.methods.size(), 255U) << "a name that is known takes no room";
+  EXPECT_THROW(t.set_method(1, 0, "one more"), ContractError);
+  EXPECT_EQ(t.made_by(1, 0), "");
+  EXPECT_TRUE(t.validate());
+  t.method.pop_back();
+  EXPECT_THAT(t.validate().error().message, HasSubstr("3 method numbers; need 4 or none"));
 }
 
 TEST(Trajectories, RememberHowASampleWasMade) {

@@ -34,8 +34,8 @@ namespace {
 
 /// The angle congruent to `angle` that lies nearest to `near`.
 double unwrap(double angle, double near) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  return angle + turn * std::round((near - angle) / turn);
+  constexpr double kTwoPi = 2.0 * std::numbers::pi;
+  return angle + kTwoPi * std::round((near - angle) / kTwoPi);
 }
 
 }  // namespace
@@ -71,10 +71,24 @@ Vector3d to_angles_about(const Matrix3d& axes, const Matrix3d& rotation, const V
   return handedness * best;
 }
 
-Matrix3d exp_so3(const Vector3d& w) {
-  const double angle = w.norm();
-  if (angle < 1e-300) return Matrix3d::Identity();
-  return axis_angle(w / angle, angle);
+Matrix3d exp_so3(const Vector3d& v) {
+  const double angle2 = v.squaredNorm();
+  const double angle = std::sqrt(angle2);
+  const double sine = angle > 1e-8 ? std::sin(angle) / angle : 1.0 - angle2 / 6.0;
+  const double half = angle > 1e-8 ? std::sin(0.5 * angle) / (0.5 * angle) : 1.0 - angle2 / 24.0;
+  const double versine = 0.5 * half * half;
+  Matrix3d R;
+  // I + sine [v] + versine [v]^2, with [v]^2 = v v^T - |v|^2 I.
+  R(0, 0) = 1.0 + versine * (v[0] * v[0] - angle2);
+  R(1, 1) = 1.0 + versine * (v[1] * v[1] - angle2);
+  R(2, 2) = 1.0 + versine * (v[2] * v[2] - angle2);
+  R(0, 1) = versine * v[0] * v[1] - sine * v[2];
+  R(1, 0) = versine * v[0] * v[1] + sine * v[2];
+  R(0, 2) = versine * v[0] * v[2] + sine * v[1];
+  R(2, 0) = versine * v[0] * v[2] - sine * v[1];
+  R(1, 2) = versine * v[1] * v[2] - sine * v[0];
+  R(2, 1) = versine * v[1] * v[2] + sine * v[0];
+  return R;
 }
 
 Vector3d log_so3(const Matrix3d& rotation) {

@@ -73,6 +73,14 @@ TEST(AnglesAbout, AtNinetyDegreesKeepsTheFirstAngleAndTheRotation) {
   }
 }
 
+TEST(So3, ExpTurnsByTheVectorsLengthAboutIt) {
+  Random random(1, 1);
+  for (const double size : {0.0, 1e-9, 1e-3, 0.7, 3.0, 7.0}) {
+    const Vector3d axis = random_vector(random, 1.0).normalized();
+    EXPECT_LT((exp_so3(size * axis) - axis_angle(axis, size)).norm(), 1e-12) << size;
+  }
+}
+
 TEST(So3, LogIsTheInverseOfExp) {
   Random random(3, 0);
   for (const double scale : {1e-9, 1e-3, 1.0, 1.8}) {

@@ -34,22 +34,22 @@ template <class Function>
 [[nodiscard]] GoldenSection golden_section(Function&& f, double low, double high, GoldenSectionStop stop) {
   constexpr double kRatio = std::numbers::phi - 1.0;
   GoldenSection out{.value = std::numeric_limits<double>::infinity()};
-  const auto look = [&](double x) {
+  const auto evaluate = [&](double x) {
     const double value = f(x);
     if (value < out.value) out.at = x, out.value = value;
     return value;
   };
   double left = high - kRatio * (high - low), right = low + kRatio * (high - low);
-  double at_left = look(left), at_right = look(right);
+  double at_left = evaluate(left), at_right = evaluate(right);
   for (int i = 0; i < stop.sections && high - low > stop.width; ++i) {
     if (at_left < at_right) {
       high = right, right = left, at_right = at_left;
       left = high - kRatio * (high - low);
-      at_left = look(left);
+      at_left = evaluate(left);
     } else {
       low = left, left = right, at_left = at_right;
       right = low + kRatio * (high - low);
-      at_right = look(right);
+      at_right = evaluate(right);
     }
   }
   out.low = low, out.high = high;

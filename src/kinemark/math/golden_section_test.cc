@@ -28,17 +28,17 @@ TEST(GoldenSection, EnclosesTheMinimumAndShrinksByTheGoldenRatio) {
 }
 
 TEST(GoldenSection, TellsTheSmallestValueThatItSaw) {
-  std::vector<double> places;
+  std::vector<double> positions;
   const auto f = [](double x) { return std::abs(x - 0.4) + 0.3 * std::sin(20.0 * x); };  // several minima
   const auto found = golden_section(
       [&](double x) {
-        places.push_back(x);
+        positions.push_back(x);
         return f(x);
       },
       0.0, 1.0, {.width = 1e-3});
   EXPECT_LE(found.high - found.low, 1e-3);
   EXPECT_EQ(found.value, f(found.at));
-  for (const double x : places) EXPECT_GE(f(x), found.value);
+  for (const double x : positions) EXPECT_GE(f(x), found.value);
 }
 
 TEST(GoldenSection, GoesToTheEndOfAFunctionWithoutMinimum) {

@@ -16,7 +16,7 @@ inline constexpr std::array<std::size_t, 3> kSymmetric3Diagonal{0, 3, 5};
 
 /// An element off the diagonal among the six, and the two diagonal ones of its row and column.
 struct Symmetric3Pair {
-  std::size_t place;   ///< index of the element
+  std::size_t index;   ///< index of the element
   std::size_t row;     ///< index of the diagonal element of its row
   std::size_t column;  ///< index of the diagonal element of its column
 };

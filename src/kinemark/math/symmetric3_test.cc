@@ -30,10 +30,10 @@ TEST(Symmetric3, TablesNameTheElements) {
   pack_symmetric3(kMatrix, six.data());
   for (std::size_t axis = 0; axis < 3; ++axis)
     EXPECT_EQ(six[kSymmetric3Diagonal[axis]], kMatrix.diagonal()[static_cast<Eigen::Index>(axis)]);
-  constexpr int kPlaces[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+  constexpr int kIndices[3][2] = {{0, 1}, {0, 2}, {1, 2}};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto [row, column] = kPlaces[k];
-    EXPECT_EQ(six[kSymmetric3Pairs[k].place], kMatrix(row, column));
+    const auto [row, column] = kIndices[k];
+    EXPECT_EQ(six[kSymmetric3Pairs[k].index], kMatrix(row, column));
     EXPECT_EQ(six[kSymmetric3Pairs[k].row], kMatrix(row, row));
     EXPECT_EQ(six[kSymmetric3Pairs[k].column], kMatrix(column, column));
   }

@@ -142,9 +142,9 @@ class Compiler {
       const int index = static_cast<int>(model_.free_joints_.size());
       model_.bodies_[b].free_joint = index;
       for (int i = 0; i < 3; ++i) {
-        auto& turn = model_.coordinates_[static_cast<std::size_t>(free.rotation_coordinate[i])];
-        turn.free_joint = index;
-        turn.free_axis = i;
+        auto& rotation = model_.coordinates_[static_cast<std::size_t>(free.rotation_coordinate[i])];
+        rotation.free_joint = index;
+        rotation.free_axis = i;
         auto& slide = model_.coordinates_[static_cast<std::size_t>(free.translation_coordinate[i])];
         slide.free_joint = index;
         slide.free_axis = 3 + i;

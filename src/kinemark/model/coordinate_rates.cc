@@ -15,26 +15,27 @@ namespace {
 /// a2].
 struct EulerRates {
   Matrix3d B;
-  Vector3d carried_axis;  ///< R1'a0
-  Matrix3d back_turn;     ///< R2'
+  Vector3d carried_axis;      ///< R1'a0
+  Matrix3d inverse_rotation;  ///< R2'
 };
 
 EulerRates euler_rates(const Model::FreeJoint& free, const VectorXd& q) {
   const Matrix3d R1 = math::axis_angle(free.rotation_axes.col(1), q[free.rotation_coordinate[1]]);
   EulerRates e;
-  e.back_turn = math::axis_angle(free.rotation_axes.col(2), q[free.rotation_coordinate[2]]).transpose();
+  e.inverse_rotation =
+      math::axis_angle(free.rotation_axes.col(2), q[free.rotation_coordinate[2]]).transpose();
   e.carried_axis = R1.transpose() * free.rotation_axes.col(0);
-  e.B.col(0) = e.back_turn * e.carried_axis;
-  e.B.col(1) = e.back_turn * free.rotation_axes.col(1);
+  e.B.col(0) = e.inverse_rotation * e.carried_axis;
+  e.B.col(1) = e.inverse_rotation * free.rotation_axes.col(1);
   e.B.col(2) = free.rotation_axes.col(2);
   return e;
 }
 
 /// dB/dt times the rates: each axis is rotated back by the angles that follow its own.
-Vector3d turning_axes(const Model::FreeJoint& free, const EulerRates& e, const Vector3d& rates) {
+Vector3d moving_axes_term(const Model::FreeJoint& free, const EulerRates& e, const Vector3d& rates) {
   const Vector3d a1 = free.rotation_axes.col(1), a2 = free.rotation_axes.col(2);
   const Vector3d first =
-      -rates[2] * a2.cross(Vector3d(e.B.col(0))) - rates[1] * (e.back_turn * a1.cross(e.carried_axis));
+      -rates[2] * a2.cross(Vector3d(e.B.col(0))) - rates[1] * (e.inverse_rotation * a1.cross(e.carried_axis));
   const Vector3d second = -rates[2] * a2.cross(Vector3d(e.B.col(1)));
   return rates[0] * first + rates[1] * second;
 }
@@ -63,7 +64,7 @@ void speeds_from_rates(const Model& model, const VectorXd& q, const VectorXd& qd
       vdot.segment<3>(free.speed_idx) += qdd[free.translation_coordinate[i]] * free.translation_axes.col(i);
     }
     v.segment<3>(free.speed_idx + 3) = e.B * rates;
-    vdot.segment<3>(free.speed_idx + 3) = e.B * accelerations + turning_axes(free, e, rates);
+    vdot.segment<3>(free.speed_idx + 3) = e.B * accelerations + moving_axes_term(free, e, rates);
   }
 }
 
@@ -86,7 +87,7 @@ void rates_from_speeds(const Model& model, const Workspace& w, const VectorXd& q
     const Matrix3d inverse = e.B.inverse();
     const Vector3d rates = inverse * v.segment<3>(free.speed_idx + 3);
     const Vector3d accelerations =
-        inverse * (vdot.segment<3>(free.speed_idx + 3) - turning_axes(free, e, rates));
+        inverse * (vdot.segment<3>(free.speed_idx + 3) - moving_axes_term(free, e, rates));
     const Vector3d slides = free.translation_axes.transpose() * v.segment<3>(free.speed_idx);
     const Vector3d slide_rates = free.translation_axes.transpose() * vdot.segment<3>(free.speed_idx);
     for (int i = 0; i < 3; ++i) {

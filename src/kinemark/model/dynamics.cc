@@ -18,8 +18,8 @@ void body_inertias(const Model& model, Workspace& w) {
     SpatialInertia& inertia = w.inertia[b];
     inertia.mass = bodies[b].mass;
     inertia.first = bodies[b].mass * com;
-    const Matrix3d turned = w.rotation[b] * bodies[b].inertia_about_com;
-    inertia.second.noalias() = turned * w.rotation[b].transpose();
+    const Matrix3d rotated = w.rotation[b] * bodies[b].inertia_about_com;
+    inertia.second.noalias() = rotated * w.rotation[b].transpose();
     inertia.second.diagonal().array() += inertia.first.dot(com);
     inertia.second.noalias() -= inertia.first * com.transpose();
   }

@@ -34,7 +34,7 @@ class Human : public ::testing::Test {
   Model model = Model::compile(d).value();
   Workspace w{model};
 
-  static std::string twin(std::string name) {
+  static std::string opposite(std::string name) {
     if (name.ends_with("_r")) return name.replace(name.size() - 1, 1, "l");
     if (name.starts_with("R")) return name.replace(0, 1, "L");
     return name;
@@ -102,7 +102,7 @@ TEST_F(Human, StandsOnTheFloorAtItsHeight) {
 
 TEST_F(Human, LeftMirrorsRight) {
   const auto mirror_of = [&](const std::string& name) {
-    return static_cast<std::size_t>(d.find_body(twin(name)));
+    return static_cast<std::size_t>(d.find_body(opposite(name)));
   };
   for (const auto& body : d.bodies) {
     const auto& other = d.bodies[mirror_of(body.name)];
@@ -111,7 +111,7 @@ TEST_F(Human, LeftMirrorsRight) {
     EXPECT_LT((body.com_in_body - mirrored(other.com_in_body)).norm(), 1e-12) << body.name;
   }
   for (const auto& c : d.coordinates) {
-    const auto& other = d.coordinates[static_cast<std::size_t>(d.find_coordinate(twin(c.name)))];
+    const auto& other = d.coordinates[static_cast<std::size_t>(d.find_coordinate(opposite(c.name)))];
     EXPECT_EQ(c.range_min, other.range_min) << c.name;
     EXPECT_EQ(c.range_max, other.range_max) << c.name;
   }
@@ -121,7 +121,7 @@ TEST_F(Human, LeftMirrorsRight) {
     const std::string& name = d.coordinates[static_cast<std::size_t>(c)].name;
     if (!name.ends_with("_r")) continue;
     q[c] = 0.05 * c - 0.7;
-    q[d.find_coordinate(twin(name))] = q[c];
+    q[d.find_coordinate(opposite(name))] = q[c];
   }
   q[d.find_coordinate("lumbar_extension")] = 0.3;
   kinematics(model, w, state_from_coordinates(model, q));
@@ -130,7 +130,7 @@ TEST_F(Human, LeftMirrorsRight) {
     if (!marker.name.starts_with("R")) continue;
     ++pairs;
     const Vector3d right = w.marker.col(d.find_marker(marker.name)),
-                   left = w.marker.col(d.find_marker(twin(marker.name)));
+                   left = w.marker.col(d.find_marker(opposite(marker.name)));
     EXPECT_LT((right - mirrored(left)).norm(), 1e-11) << marker.name;
   }
   EXPECT_EQ(pairs, 18);

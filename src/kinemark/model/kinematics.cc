@@ -64,12 +64,12 @@ void rotate_by(Matrix3d& R, const Model::Primitive& primitive, double angle) {
     return;
   }
   const Vector3d& a = primitive.axis;
-  Matrix3d turn;
+  Matrix3d rotation;
   const double t = 1.0 - c;
-  turn << t * a.x() * a.x() + c, t * a.x() * a.y() - s * a.z(), t * a.x() * a.z() + s * a.y(),
+  rotation << t * a.x() * a.x() + c, t * a.x() * a.y() - s * a.z(), t * a.x() * a.z() + s * a.y(),
       t * a.x() * a.y() + s * a.z(), t * a.y() * a.y() + c, t * a.y() * a.z() - s * a.x(),
       t * a.x() * a.z() - s * a.y(), t * a.y() * a.z() + s * a.x(), t * a.z() * a.z() + c;
-  R = (R * turn).eval();
+  R = (R * rotation).eval();
 }
 
 }  // namespace
@@ -120,9 +120,9 @@ void kinematics(const Model& model, Workspace& w, const VectorXd& x) {
       const auto& free = model.free_joints()[at(body.free_joint)];
       const Matrix3d frame = R;
       p += frame * x.segment<3>(free.state_idx);
-      const Eigen::Quaterniond turn(x[free.state_idx + 3], x[free.state_idx + 4], x[free.state_idx + 5],
-                                    x[free.state_idx + 6]);
-      R = frame * turn.toRotationMatrix();
+      const Eigen::Quaterniond rotation(x[free.state_idx + 3], x[free.state_idx + 4], x[free.state_idx + 5],
+                                        x[free.state_idx + 6]);
+      R = frame * rotation.toRotationMatrix();
       for (int i = 0; i < 3; ++i) {
         w.column[at(body.first_column + i)] = {Vector3d::Zero(), frame.col(i)};
         w.column[at(body.first_column + 3 + i)] = {R.col(i), p.cross(R.col(i))};
@@ -180,16 +180,16 @@ void velocities(const Model& model, Workspace& w, const VectorXd& v) {
       // The three translations are fixed in the ground; the three rotation axes rotate with the body. The
       // joint's own angular velocity does not contribute (its cross product with itself is 0).
       const int speed = model.free_joints()[at(body.free_joint)].speed_idx;
-      Spatial turn;
+      Spatial rotation;
       for (int i = 0; i < 3; ++i) {
         u.v += v[speed + i] * w.column[at(body.first_column + i)].v;
-        turn.w += v[speed + 3 + i] * w.column[at(body.first_column + 3 + i)].w;
-        turn.v += v[speed + 3 + i] * w.column[at(body.first_column + 3 + i)].v;
+        rotation.w += v[speed + 3 + i] * w.column[at(body.first_column + 3 + i)].w;
+        rotation.v += v[speed + 3 + i] * w.column[at(body.first_column + 3 + i)].v;
       }
-      a.w += u.w.cross(turn.w);
-      a.v += u.w.cross(turn.v) + u.v.cross(turn.w);
-      u.w += turn.w;
-      u.v += turn.v;
+      a.w += u.w.cross(rotation.w);
+      a.v += u.w.cross(rotation.v) + u.v.cross(rotation.w);
+      u.w += rotation.w;
+      u.v += rotation.v;
     }
     for (int k = body.first_primitive; k < body.last_primitive; ++k) {
       const auto& primitive = model.primitives()[at(k)];

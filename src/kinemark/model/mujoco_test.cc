@@ -79,7 +79,7 @@ class Judge : public ::testing::Test {
 
 TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
   const int n = model.speed_count();
-  double worst_places = 0.0, worst_dynamics = 0.0;
+  double worst_positions = 0.0, worst_dynamics = 0.0;
   for (int trial = 0; trial < 8; ++trial) {
     Random random(static_cast<std::uint64_t>(trial), 77);
     VectorXd x = testing::random_state(model, random), v = random_vector(n, 2.0, random);
@@ -96,7 +96,8 @@ TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
       for (int i = 0; i < n; ++i)
         J_judge.block<3, 1>(3 * m, i) = site.col(dof_of_speed[static_cast<std::size_t>(i)]);
     }
-    worst_places = std::max({worst_places, relative_error(w.marker, markers), relative_error(J, J_judge)});
+    worst_positions =
+        std::max({worst_positions, relative_error(w.marker, markers), relative_error(J, J_judge)});
 
     MatrixXd M, M_judge(n, n);
     RowMajor full(n, n);
@@ -115,9 +116,9 @@ TEST_F(Judge, AgreesOnMarkersJacobianMassMatrixAndForces) {
     worst_dynamics = std::max({worst_dynamics, relative_error(M, M_judge), relative_error(b + g, force)});
     EXPECT_GT(force.norm(), 100.0);
   }
-  EXPECT_LT(worst_places, 1e-9);
+  EXPECT_LT(worst_positions, 1e-9);
   EXPECT_LT(worst_dynamics, 1e-5);
-  RecordProperty("measured", fmt::format("{:.2e}", std::max(worst_places, worst_dynamics)));
+  RecordProperty("measured", fmt::format("{:.2e}", std::max(worst_positions, worst_dynamics)));
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ Eigen::Quaterniond quaternion_of(const VectorXd& x, int state_idx) {
   return {x[state_idx + 3], x[state_idx + 4], x[state_idx + 5], x[state_idx + 6]};
 }
 
-void store(const Eigen::Quaterniond& turn, VectorXd& x, int state_idx) {
-  x[state_idx + 3] = turn.w();
-  x[state_idx + 4] = turn.x();
-  x[state_idx + 5] = turn.y();
-  x[state_idx + 6] = turn.z();
+void store(const Eigen::Quaterniond& rotation, VectorXd& x, int state_idx) {
+  x[state_idx + 3] = rotation.w();
+  x[state_idx + 4] = rotation.x();
+  x[state_idx + 5] = rotation.y();
+  x[state_idx + 6] = rotation.z();
 }
 
 // exp of half a rotation vector as a quaternion; the series near zero keeps full precision.
@@ -49,12 +49,12 @@ void difference(const Model& model, const VectorXd& from, const VectorXd& to, Ve
     if (c.state_idx >= 0) dv[c.speed_idx] = to[c.state_idx] - from[c.state_idx];
   for (const auto& free : model.free_joints()) {
     dv.segment<3>(free.speed_idx) = to.segment<3>(free.state_idx) - from.segment<3>(free.state_idx);
-    Eigen::Quaterniond turn =
+    Eigen::Quaterniond rotation =
         quaternion_of(from, free.state_idx).conjugate() * quaternion_of(to, free.state_idx);
-    if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
-    const double s = turn.vec().norm();
-    const double scale = s < 1e-12 ? 2.0 : 2.0 * std::atan2(s, turn.w()) / s;
-    dv.segment<3>(free.speed_idx + 3) = scale * turn.vec();
+    if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
+    const double s = rotation.vec().norm();
+    const double scale = s < 1e-12 ? 2.0 : 2.0 * std::atan2(s, rotation.w()) / s;
+    dv.segment<3>(free.speed_idx + 3) = scale * rotation.vec();
   }
 }
 

@@ -59,7 +59,7 @@ void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd&
     const Matrix3d A = w.moment[at(b)];
     if (body.parent >= 0) w.moment[at(body.parent)] += A;
     const double trace = A.trace();
-    const auto turned = [&](const Spatial& s) -> Vector3d { return s.v.cross(F) + A * s.w - trace * s.w; };
+    const auto moment_of = [&](const Spatial& s) -> Vector3d { return s.v.cross(F) + A * s.w - trace * s.w; };
     const auto subtract = [&](int row, int col, double h) {
       H(row, col) -= h;
       H(col, row) -= h;
@@ -68,7 +68,7 @@ void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd&
     // Joints above this one: rigid motion fields, one term per pair of columns.
     const auto above = body.support.size() - static_cast<std::size_t>(body.last_column - body.first_column);
     for (int d = body.first_column; d < body.last_column; ++d) {
-      const Vector3d t = turned(w.column[at(d)]);
+      const Vector3d t = moment_of(w.column[at(d)]);
       for (std::size_t i = 0; i < above; ++i) {
         const int c = body.support[i];
         subtract(columns[at(c)].speed, columns[at(d)].speed, w.column[at(c)].w.dot(t));
@@ -78,7 +78,7 @@ void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd&
     // Within the joint.
     if (body.free_joint >= 0) {
       for (int d = body.first_column + 3; d < body.last_column; ++d) {
-        const Vector3d t = turned(w.column[at(d)]);
+        const Vector3d t = moment_of(w.column[at(d)]);
         for (int c = body.first_column + 3; c < body.last_column; ++c)
           subtract(columns[at(c)].speed, columns[at(d)].speed, 0.5 * w.column[at(c)].w.dot(t));
       }
@@ -87,7 +87,7 @@ void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd&
     for (int l = body.first_primitive; l < body.last_primitive; ++l) {
       const auto& late = model.primitives()[at(l)];
       const Spatial& s = w.primitive[at(l)];
-      const Vector3d t = turned(s);
+      const Vector3d t = moment_of(s);
       const double push = s.v.dot(F) + s.w.dot(T);
       const int late_speed[2] = {late.column >= 0 ? columns[at(late.column)].speed : -1,
                                  late.second_column >= 0 ? columns[at(late.second_column)].speed : -1};
@@ -107,10 +107,10 @@ void subtract_force_curvature(const Model& model, Workspace& w, Eigen::MatrixXd&
       // The primitive with itself: its motion rotates its own force field, and its value has a second
       // derivative.
       const double own = s.w.dot(t);
-      const double bend[2] = {w.curvature[at(l)], w.second_curvature[at(l)]};
+      const double curvature[2] = {w.curvature[at(l)], w.second_curvature[at(l)]};
       for (int i = 0; i < 2; ++i)
         if (late_speed[i] >= 0)
-          H(late_speed[i], late_speed[i]) -= late_slope[i] * late_slope[i] * own + bend[i] * push;
+          H(late_speed[i], late_speed[i]) -= late_slope[i] * late_slope[i] * own + curvature[i] * push;
       if (late_speed[0] >= 0 && late_speed[1] >= 0)
         subtract(late_speed[0], late_speed[1],
                  late_slope[0] * late_slope[1] * own + w.cross_curvature[at(l)] * push);

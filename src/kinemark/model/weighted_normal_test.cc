@@ -34,7 +34,7 @@ class WeightedNormal : public ::testing::TestWithParam<int> {
   Eigen::Matrix3Xd residual() const { return target - w.marker; }
   VectorXd weights_per_row() const { return weight.transpose().replicate(3, 1).reshaped(); }
   // J'Wr at a state: minus the gradient of sum w |r|^2 / 2.
-  VectorXd pull_at(const VectorXd& x) {
+  VectorXd descent_at(const VectorXd& x) {
     kinematics(model, w, x);
     clear_forces(w);
     add_marker_forces(model, w, weight, residual());
@@ -56,7 +56,7 @@ TEST_P(WeightedNormal, NormalMatrixIsJTransposedWJ) {
 }
 
 TEST_P(WeightedNormal, ProjectedForcesAreJTransposedWr) {
-  const VectorXd g = pull_at(random_state(model, random));
+  const VectorXd g = descent_at(random_state(model, random));
   Eigen::MatrixXd J;
   marker_jacobian(model, w, J);
   Eigen::Matrix3Xd r = residual();
@@ -75,12 +75,12 @@ TEST_P(WeightedNormal, WithTheCurvatureItIsTheHessianOfTheCost) {
     VectorXd ahead = x, behind = x;
     integrate(model, ahead, kStep * VectorXd::Unit(n, i));
     integrate(model, behind, -kStep * VectorXd::Unit(n, i));
-    slope.col(i) = -(pull_at(ahead) - pull_at(behind)) / (2.0 * kStep);
+    slope.col(i) = -(descent_at(ahead) - descent_at(behind)) / (2.0 * kStep);
   }
   kinematics(model, w, x);
   Eigen::MatrixXd H;
   marker_normal_matrix(model, w, weight, H);
-  pull_at(x);
+  descent_at(x);
   const Eigen::MatrixXd gauss_newton = H;
   subtract_force_curvature(model, w, H);
   EXPECT_LT(relative_error(H, 0.5 * (slope + slope.transpose())), 1e-6);
@@ -105,7 +105,7 @@ TEST_P(WeightedNormal, CurvatureMatchesSecondDifferencesOfTheCost) {
   kinematics(model, w, x);
   Eigen::MatrixXd H;
   marker_normal_matrix(model, w, weight, H);
-  pull_at(x);
+  descent_at(x);
   subtract_force_curvature(model, w, H);
   EXPECT_NEAR(d.dot(H * d), expected, 2e-6 * std::max(1.0, std::abs(expected)));
 }

@@ -43,7 +43,7 @@ export function cleanPage(data: CleanPageData): Content {
       findings(
         summary.findings,
         summary.gates,
-        "Nothing. No gap was left open, no fill is uncertain, no defect was found, and every residual is white.",
+        `Nothing. No gap was left open, no fill is uncertain, and no defect was found.${summary.markers.every((m) => m.white === true) ? " Every residual is white." : ""}`,
         jump,
       ),
       plots[0].node,

@@ -71,11 +71,17 @@ export function spectrumChart(spectrum: Spectrum, cutoffHz: number | null, label
 /** Largest autocorrelation that white noise of so many samples shows 19 times out of 20. */
 export const whiteBound = (samples: number): number => (samples > 0 ? Math.min(1, 1.96 / Math.sqrt(samples)) : 1);
 
-/** Bars for lags 1, 2, ... frames with the bounds of white noise; null without numbers. */
-export function autocorrelationChart(values: readonly (number | null)[], samples: number, label: string): SVGElement | null {
+/** Bars for lags 1, 2, ... frames with the bounds of white noise, around what the filter makes of it; null without numbers. */
+export function autocorrelationChart(
+  values: readonly (number | null)[],
+  ifWhite: readonly (number | null)[],
+  samples: number,
+  label: string,
+): SVGElement | null {
   if (values.length === 0) return null;
   const bound = whiteBound(samples);
-  const largest = Math.max(...values.map((v) => Math.abs(v ?? 0)), bound);
+  const expected = (i: number): number => ifWhite[i] ?? 0;
+  const largest = Math.max(...values.map((v, i) => Math.max(Math.abs(v ?? 0), Math.abs(expected(i)) + bound)));
   const reach = [0.1, 0.2, 0.5, 1].find((r) => 1.05 * largest <= r) ?? 1;
   const y = (v: number): number => (top + bottom) / 2 - (Math.max(-1, Math.min(1, v / reach)) * (bottom - top)) / 2;
   const step = (right - left) / values.length;
@@ -91,7 +97,7 @@ export function autocorrelationChart(values: readonly (number | null)[], samples
     const [from, to] = value > 0 ? [y(value), y(0)] : [y(0), y(value)];
     parts.push(
       svg("rect", {
-        class: Math.abs(value) > bound ? "bar beyond" : "bar",
+        class: Math.abs(value - expected(i)) > bound ? "bar beyond" : "bar",
         x: (x - 0.3 * step).toFixed(1),
         y: from.toFixed(1),
         width: (0.6 * step).toFixed(1),
@@ -99,7 +105,10 @@ export function autocorrelationChart(values: readonly (number | null)[], samples
       }),
     );
   });
-  for (const v of [-bound, bound]) parts.push(svg("path", { class: "cutoff", d: `M${left} ${y(v).toFixed(1)}H${right}` }));
+  for (const side of [-bound, bound]) {
+    const steps = values.map((_, i) => `M${(left + i * step).toFixed(1)} ${y(expected(i) + side).toFixed(1)}h${step.toFixed(1)}`);
+    parts.push(svg("path", { class: "cutoff", d: steps.join("") }));
+  }
   parts.push(text((left + right) / 2, height - 6, "middle", "lag (frames)"));
   return frame(label, ...parts);
 }

@@ -39,7 +39,7 @@ export function cleanHeader(summary: CleanSummary): HTMLElement {
       "dl",
       { class: "tiles" },
       framesTile(summary.frames, summary.rate_hz),
-      tile(number(markers.length), markers.length === 1 ? "marker" : "markers", `${plural(markers.filter((m) => m.white).length, "white residual")}`),
+      tile(number(markers.length), markers.length === 1 ? "marker" : "markers", `${plural(markers.filter((m) => m.white === true).length, "white residual")}`),
       tile(share(before.measured), "measured", `${number(before.measured)} of ${plural(samples, "sample")}`),
       tile(share(filledIn(after)), "filled in", `${plural(filled, "gap")}, ${plural(filledIn(after), "sample")}`),
       tile(share(absent(after)), "left missing", `${plural(open, "gap")} left open`),

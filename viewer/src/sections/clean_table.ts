@@ -29,7 +29,7 @@ export function cleanTable(summary: CleanSummary, view: View): HTMLElement {
       { title: "Filter", key: filterText, cell: (m) => el("span", { class: "nowrap" }, filterText(m)) },
       { title: "Cut-off", unit: "Hz", numeric: true, key: (m) => m.cutoff_hz, cell: (m) => number(m.cutoff_hz, 1) },
       { title: "Residual", unit: "mm", numeric: true, key: (m) => m.residual_rms_mm, cell: (m) => number(m.residual_rms_mm, 3) },
-      { title: "Residual is", key: (m) => (m.white ? "white" : "not white"), cell: (m) => whiteCell(m.white) },
+      { title: "Residual is", key: (m) => whiteText(m.white), cell: (m) => whiteCell(m.white) },
       { title: "Filled in", unit: "%", numeric: true, key: (m) => share(m, filledIn(m.after)), cell: (m) => percent(share(m, filledIn(m.after))).replace(" %", "") },
       { title: "Worst SD", unit: "mm", numeric: true, key: (m) => m.largest_fill_sd_mm, cell: (m) => number(m.largest_fill_sd_mm, 1) },
       { title: "Left missing", unit: "%", numeric: true, key: (m) => share(m, absent(m.after)), cell: (m) => percent(share(m, absent(m.after))).replace(" %", "") },
@@ -49,4 +49,5 @@ export function cleanTable(summary: CleanSummary, view: View): HTMLElement {
   );
 }
 
-const whiteCell = (white: boolean): Node => el("span", { class: white ? "remark" : "remark low" }, white ? "white" : "not white");
+const whiteText = (white: boolean | null): string => (white === null ? "not judged" : white ? "white" : "not white");
+const whiteCell = (white: boolean | null): Node => el("span", { class: white === false ? "remark low" : "remark" }, whiteText(white));

@@ -20,11 +20,7 @@ export function why(m: CleanMarker): HTMLElement {
   const facts: string[] = [];
   if (m.noise_sd_mm !== null) facts.push(`Noise ${number(m.noise_sd_mm, 3)} mm per axis, ${noiseWords[m.noise_from] ?? m.noise_from}.`);
   if (m.residual_rms_mm !== null) facts.push(`The filter took away ${number(m.residual_rms_mm, 3)} mm (RMS per axis).`);
-  facts.push(
-    m.autocorrelation.length === 0
-      ? "Too few samples to test the residual for whiteness."
-      : `The residual is ${m.white ? "white" : "not white"} (Ljung-Box ${probability(m.ljung_box_p)}).`,
-  );
+  facts.push(whiteness(m));
   if (m.upsampling_factor > 1) {
     facts.push(`The recorder made ${m.upsampling_factor - 1} of ${m.upsampling_factor} samples${m.upsampling_kernel === "" ? "" : ` (${m.upsampling_kernel})`}.`);
   }
@@ -38,6 +34,15 @@ export function why(m: CleanMarker): HTMLElement {
   return el("p", { class: "facts", id: "marker-why" }, el("b", {}, m.words), " ", facts.join(" "));
 }
 
+/** What the test of the residual says, and no more. */
+function whiteness(m: CleanMarker): string {
+  if (m.white === null || m.white_p === null) return "Whether the residual is white could not be tested.";
+  const verdict = `The residual is ${m.white ? "consistent with white noise" : "not white"} (${probability(m.white_p)}).`;
+  if (m.white || m.white_departure === null) return verdict;
+  const where = m.white_departure > 0 ? "low" : "high";
+  return `${verdict} ${number(100 * Math.abs(m.white_departure), 0)} % of the noise power lies too ${where} in frequency.`;
+}
+
 export function probability(p: number | null): string {
   if (p === null) return "p unknown";
   return p < 0.001 ? "p < 0.001" : `p = ${number(p, 3)}`;
@@ -46,7 +51,7 @@ export function probability(p: number | null): string {
 /** Spectrum, residual autocorrelation and the filters that were tried, side by side. */
 export function charts(m: CleanMarker): HTMLElement {
   const spectrum = spectrumChart(m.spectrum, m.cutoff_hz, `Spectrum of ${m.name} and of what the filter took away`);
-  const lags = autocorrelationChart(m.autocorrelation, m.after.measured, `Autocorrelation of the residual of ${m.name}`);
+  const lags = autocorrelationChart(m.autocorrelation, m.autocorrelation_if_white, m.after.measured, `Autocorrelation of the residual of ${m.name}`);
   const tried = plain(
     `Filters tried, by ${m.criterion}`,
     ["Order", "Best cut-off (Hz)", m.criterion],
@@ -71,7 +76,7 @@ export function charts(m: CleanMarker): HTMLElement {
       "Autocorrelation of the residual ",
       lags,
       "Too few samples.",
-      el("span", { class: "key cut" }, "95 % of white noise"),
+      el("span", { class: "key cut" }, "95 % of white noise through this filter"),
     ),
     tried,
   );

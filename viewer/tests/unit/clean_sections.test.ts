@@ -28,7 +28,7 @@ describe("cleanHeader", () => {
     expect(node.tagged("h1")[0]!.textContent).toBe(`reach ${hostile}`);
     expect(words(node.classed("tile"))).toEqual([
       "400frames4.00 s at 100 Hz",
-      "4markers3 white residuals",
+      "4markers2 white residuals",
       "90 %measured1,440 of 1,600 samples",
       "3.8 %filled in1 gap, 60 samples",
       "6.3 %left missing1 gap left open",
@@ -235,7 +235,7 @@ describe("the facts of a marker", () => {
       "the least estimated risk",
       "Noise 0.900 mm per axis, as found in the data.",
       "took away 0.380 mm",
-      "white (Ljung-Box p = 0.400)",
+      "consistent with white noise (p = 0.400)",
       "made 2 of 3 samples (linear)",
       "low-passed",
       "2 variances",
@@ -243,8 +243,12 @@ describe("the facts of a marker", () => {
     ]) {
       expect(text).toContain(part);
     }
-    const silent = fake(why({ ...m, noise_sd_mm: null, residual_rms_mm: null, autocorrelation: [], bar_scale: [1, 1, 1, 1] })).textContent;
-    expect(silent).toContain("Too few samples");
+    const silent = fake(why({ ...m, noise_sd_mm: null, residual_rms_mm: null, white: null, white_p: null, bar_scale: [1, 1, 1, 1] })).textContent;
+    expect(silent).toContain("could not be tested");
+    expect(silent).not.toContain("consistent with white");
+    const coloured = fake(why(summary.markers[2]!)).textContent;
+    expect(coloured).toContain("not white (p < 0.001). 31 % of the noise power lies too low in frequency");
+    expect(coloured).not.toContain("consistent");
     expect(silent).not.toContain("Noise");
     expect(silent).not.toContain("times");
   });

@@ -65,7 +65,7 @@ describe("spectrumChart", () => {
 });
 
 describe("autocorrelationChart", () => {
-  const chart = fake(autocorrelationChart([0.3, -0.02, null], 400, "of A"));
+  const chart = fake(autocorrelationChart([0.3, -0.02, null], [], 400, "of A"));
   it("draws a bar per known lag, up or down from zero", () => {
     const bars = chart.tagged("rect").map((b) => [Number(b.getAttribute("y")), Number(b.getAttribute("height"))] as const);
     expect(bars.length).toBe(2);
@@ -76,17 +76,23 @@ describe("autocorrelationChart", () => {
   it("tells the lags that white noise would not show", () => {
     expect(whiteBound(400)).toBeCloseTo(0.098, 3);
     expect(chart.tagged("rect").map((b) => b.getAttribute("class"))).toEqual(["bar beyond", "bar"]);
-    expect(fake(autocorrelationChart([0.3], 20, "")).tagged("rect")[0]!.getAttribute("class")).toBe("bar");
+    expect(fake(autocorrelationChart([0.3], [], 20, "")).tagged("rect")[0]!.getAttribute("class")).toBe("bar");
+  });
+  it("judges each lag by what the filter makes of white noise", () => {
+    const classes = (ifWhite: number[]): (string | null)[] =>
+      fake(autocorrelationChart([-0.3, -0.3], ifWhite, 400, "")).tagged("rect").map((b) => b.getAttribute("class"));
+    expect(classes([])).toEqual(["bar beyond", "bar beyond"]);
+    expect(classes([-0.28, -0.1])).toEqual(["bar", "bar beyond"]);
   });
   it("stays within its axis whatever the data say", () => {
-    const wild = fake(autocorrelationChart([7, -7], 400, ""));
+    const wild = fake(autocorrelationChart([7, -7], [], 400, ""));
     for (const b of wild.tagged("rect")) {
       expect(Number(b.getAttribute("y"))).toBeGreaterThanOrEqual(0);
       expect(Number(b.getAttribute("y")) + Number(b.getAttribute("height"))).toBeLessThanOrEqual(230);
     }
   });
   it("is nothing without numbers, and white bounds of nothing are everything", () => {
-    expect(autocorrelationChart([], 100, "")).toBeNull();
+    expect(autocorrelationChart([], [], 100, "")).toBeNull();
     expect(whiteBound(0)).toBe(1);
   });
 });

@@ -20,9 +20,9 @@ inline data::Camera imperfect_camera(data::CameraKind kind, data::DetectorKind d
   data::Camera c;
   c.name = "test";
   c.kind = kind;
-  Eigen::Vector3d turn{g(0.05), g(0.05), g(0.05)};
-  Eigen::Matrix3d look = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  c.cam_from_world.rotation = math::exp_so3(turn) * look;
+  Eigen::Vector3d rotation{g(0.05), g(0.05), g(0.05)};
+  Eigen::Matrix3d facing = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  c.cam_from_world.rotation = math::exp_so3(rotation) * facing;
   const Eigen::Vector3d centre{g(0.1), g(0.1), 3.0 + g(0.1)};
   c.cam_from_world.translation = -(c.cam_from_world.rotation * centre);
   const bool pinhole = kind == data::CameraKind::pinhole;

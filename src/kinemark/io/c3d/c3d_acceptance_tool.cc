@@ -133,16 +133,16 @@ int corpus(const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() >= 5 && words[0] == "write")
-    return write(words[1], {.markers = std::stol(words[2]),
-                            .frames = std::stol(words[3]),
-                            .channels = std::stol(words[4]),
-                            .gaps = words.size() < 6});
-  if (words.size() == 4 && words[0] == "read")
-    return read(words[1], std::stoi(words[2]), std::stoi(words[3]));
-  if (words.size() == 2 && words[0] == "forces") return forces(words[1]);
-  if (words.size() == 2 && words[0] == "corpus") return corpus(words[1]);
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() >= 5 && arguments[0] == "write")
+    return write(arguments[1], {.markers = std::stol(arguments[2]),
+                                .frames = std::stol(arguments[3]),
+                                .channels = std::stol(arguments[4]),
+                                .gaps = arguments.size() < 6});
+  if (arguments.size() == 4 && arguments[0] == "read")
+    return read(arguments[1], std::stoi(arguments[2]), std::stoi(arguments[3]));
+  if (arguments.size() == 2 && arguments[0] == "forces") return forces(arguments[1]);
+  if (arguments.size() == 2 && arguments[0] == "corpus") return corpus(arguments[1]);
   fmt::print(stderr,
              "usage: write FILE MARKERS FRAMES CHANNELS [gapless] | read FILE REPEATS THREADS | forces FILE "
              "| corpus FOLDER\n");

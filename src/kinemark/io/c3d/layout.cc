@@ -66,7 +66,7 @@ Shape parameter_shape(const C3dParameters& p, const C3dHeader& h, double rate_hz
   return s;
 }
 
-std::string words(const Shape& s) {
+std::string text_of(const Shape& s) {
   return fmt::format("{} points and {} analog channels of {} samples a frame", s.points, s.channels,
                      s.samples);
 }
@@ -292,7 +292,7 @@ Result<C3dLayout> settle_layout(const C3dHeader& header, const C3dParameters& pa
     const bool header_wins = filled(other) && !filled(shape);
     if (header_wins || shape.frame_bytes(out.is_float) != other.frame_bytes(out.is_float))
       warnings.push_back(
-          fmt::format("the parameters state {}, the header {}; {} used", words(shape), words(other),
+          fmt::format("the parameters state {}, the header {}; {} used", text_of(shape), text_of(other),
                       header_wins ? "only the header's fit the file and are" : "the parameters are"));
     if (header_wins) shape = other;
   }

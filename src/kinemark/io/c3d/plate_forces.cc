@@ -27,7 +27,7 @@ struct Plate {
   std::string name;
   std::vector<int> channel_idx;
   internal::PlateWrench wrench;
-  internal::PlatePlace place;
+  internal::PlatePose pose;
   Channels baseline;
   std::vector<Vector6> measured;  ///< F; force and moment about the centre, plate axes
 };
@@ -82,20 +82,20 @@ std::vector<Plate> usable_plates(const C3dReader& reader, std::vector<std::strin
       continue;
     }
     auto wrench = internal::PlateWrench::create(found, analog.units, reader.layout().metres_per_unit);
-    auto place = internal::place_plate(found);
-    if (!wrench || !place) {
+    auto pose = internal::plate_pose(found);
+    if (!wrench || !pose) {
       warnings.push_back(fmt::format("force plate {} is left out: it {}", found.number,
-                                     wrench ? place.error().message : wrench.error().message));
+                                     wrench ? pose.error().message : wrench.error().message));
       continue;
     }
-    if (wrench->origin_turned())
+    if (wrench->origin_flipped())
       warnings.push_back(fmt::format(
           "force plate {} has an ORIGIN above its surface; taken as measured from the surface instead",
           found.number));
     Plate plate{.name = fmt::format("plate {}", found.number),
                 .channel_idx = std::move(found.plate.channel_idx),
                 .wrench = std::move(*wrench),
-                .place = *place,
+                .pose = *pose,
                 .baseline = {},
                 .measured = {}};
     plate.baseline.setZero(static_cast<Eigen::Index>(std::min<std::size_t>(8, plate.channel_idx.size())));
@@ -193,7 +193,7 @@ Result<Vector3d> measure(const C3dReader& reader, std::vector<Plate>& plates) {
 
 /// +1 when the body is on the side of the plate's z, else -1 (as it should be: z points into the plate).
 double side_of_body(const Plate& plate, const Vector3d& markers, std::vector<std::string>& warnings) {
-  const double height = (markers - plate.place.centre).dot(plate.place.world_from_plate.col(2));
+  const double height = (markers - plate.pose.centre).dot(plate.pose.world_from_plate.col(2));
   if (!(height > 0.0)) return -1.0;
   warnings.push_back(
       fmt::format("{} has corners in the opposite order (its z axis points at the body); its axes are "
@@ -232,14 +232,13 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
       if (along >= 1.0) {
         point = {-moment.y() / force.z(), moment.x() / force.z(), 0.0};
         moment = {0.0, 0.0, moment.z() - point.x() * force.y() + point.y() * force.x()};
-        const bool inside =
-            (point.head<2>().array().abs() < 1.2 * plate.place.half_size.array() + 0.02).all();
+        const bool inside = (point.head<2>().array().abs() < 1.2 * plate.pose.half_size.array() + 0.02).all();
         loaded += along >= kSurelyLoaded;
         off += along >= kSurelyLoaded && !inside;
       }
-      point = plate.place.centre + plate.place.world_from_plate * point;
-      force = plate.place.world_from_plate * force;
-      moment = plate.place.world_from_plate * moment;
+      point = plate.pose.centre + plate.pose.world_from_plate * point;
+      force = plate.pose.world_from_plate * force;
+      moment = plate.pose.world_from_plate * moment;
       if (!(force.allFinite() && moment.allFinite() && point.allFinite()))
         force = moment = point = Vector3d::Constant(kNaN);
     }

@@ -47,21 +47,21 @@ struct Setting {
   bool markers_below = false;
 
   // What acts on the body, in the plate's axes.
-  Vector3d force{30.0, -50.0, -700.0}, place{0.05, -0.11, 0.0};
+  Vector3d force{30.0, -50.0, -700.0}, position{0.05, -0.11, 0.0};
   double twist = 4.0;
 
   std::vector<std::string> units = {"N", "N", "N", "Nmm", "Nmm", "Nmm"};
   Eigen::MatrixXd calibration;  ///< of type 4
-  bool origin_turned = false;
+  bool origin_flipped = false;
 
   [[nodiscard]] Vector3d moment_about_origin(const Vector3d& f) const {
-    return (place + origin).cross(f) + Vector3d(0.0, 0.0, twist * f.z() / force.z());
+    return (position + origin).cross(f) + Vector3d(0.0, 0.0, twist * f.z() / force.z());
   }
 
   [[nodiscard]] std::vector<double> channels(double scale) const {
     const Vector3d f = scale * force;
     if (type == 1) {
-      const Vector3d point = 1e3 * (place + origin);
+      const Vector3d point = 1e3 * (position + origin);
       return {f.x(), f.y(), f.z(), point.x(), point.y(), 1e3 * scale * twist};
     }
     const Vector3d m = moment_about_origin(f);
@@ -88,8 +88,8 @@ struct Setting {
       t.markers.state[t.markers.index(f, 0)] = data::SampleState::measured;
     }
     const std::size_t channel_count = type == 3 ? 8 : 6;
-    data::ForcePlate plate{.type = type, .origin_in_plate = origin_turned ? Vector3d(-origin) : origin};
-    if (type == 3) plate.origin_in_plate = {a, b, origin_turned ? -origin.z() : origin.z()};
+    data::ForcePlate plate{.type = type, .origin_in_plate = origin_flipped ? Vector3d(-origin) : origin};
+    if (type == 3) plate.origin_in_plate = {a, b, origin_flipped ? -origin.z() : origin.z()};
     const double corners[4][2] = {{0.25, 0.3}, {-0.25, 0.3}, {-0.25, -0.3}, {0.25, -0.3}};
     for (std::size_t c = 0; c < 4; ++c)
       plate.corners_in_world[c] = centre + world_from_plate * Vector3d(corners[c][0], corners[c][1], 0.0);
@@ -141,7 +141,7 @@ void expect_truth(const Setting& setting, const data::Wrench& wrench, std::int64
                   double tolerance = 1e-3) {
   const Matrix3d& R = setting.world_from_plate;
   EXPECT_LT((of_frame(wrench.force, f) - R * setting.force).norm(), tolerance * 700.0);
-  EXPECT_LT((of_frame(wrench.point, f) - setting.centre - R * setting.place).norm(), tolerance);
+  EXPECT_LT((of_frame(wrench.point, f) - setting.centre - R * setting.position).norm(), tolerance);
   EXPECT_LT((of_frame(wrench.moment, f) - R * Vector3d(0.0, 0.0, setting.twist)).norm(), 20.0 * tolerance);
 }
 
@@ -175,7 +175,7 @@ TEST(PlateForces, AnOriginAboveTheSurfaceIsTurned) {
     SCOPED_TRACE(type);
     Setting setting;
     setting.type = type;
-    setting.origin_turned = true;
+    setting.origin_flipped = true;
     if (type == 3) setting.origin.head<2>().setZero();
     if (type == 1) setting.units = {"N", "N", "N", "mm", "mm", "Nmm"};
     const auto forces = through_a_file(setting.trial(3, [](double) { return 1.0; })).value();
@@ -261,7 +261,7 @@ TEST(PlateForces, WithoutAThresholdAPullCountsToo) {
   EXPECT_LT((of_frame(all.force, 15) + 0.1 * setting.world_from_plate * setting.force).norm(), 1e-3);
   // Taken at the middle of the plate, with the whole moment: the same push and twist.
   EXPECT_LT((of_frame(all.point, 15) - setting.centre).norm(), 1e-6);
-  const Vector3d moment = -0.1 * (setting.place.cross(setting.force) + Vector3d(0.0, 0.0, setting.twist));
+  const Vector3d moment = -0.1 * (setting.position.cross(setting.force) + Vector3d(0.0, 0.0, setting.twist));
   EXPECT_LT((of_frame(all.moment, 15) - setting.world_from_plate * moment).norm(), 1e-3);
 }
 

@@ -24,14 +24,14 @@ constexpr double kSmallest_m = 1e-6;
 constexpr double kStep = 1.05;
 
 /// The stored description of a sample.
-struct Told {
+struct Stored {
   std::uint8_t state = 0, method = 0, deviation = 0;
-  friend bool operator==(const Told&, const Told&) = default;
+  friend bool operator==(const Stored&, const Stored&) = default;
 };
 
 struct Run {
   std::int64_t length;
-  Told told;
+  Stored stored;
 };
 
 std::uint8_t deviation_code(const data::Trajectories& t, std::size_t i) {
@@ -49,15 +49,15 @@ std::vector<Run> runs_of(const data::Trajectories& t, bool deviations) {
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     for (std::int64_t f = 0; f < t.frames(); ++f) {
       const std::size_t i = t.index(f, m);
-      Told told{.state = static_cast<std::uint8_t>(t.state[i])};
-      if (!t.method.empty()) told.method = t.method[i];
-      if (deviations && t.present(f, m)) told.deviation = deviation_code(t, i);
-      if (f > 0 && out.back().told == told && out.back().length < kMaxLength) {
+      Stored stored{.state = static_cast<std::uint8_t>(t.state[i])};
+      if (!t.method.empty()) stored.method = t.method[i];
+      if (deviations && t.present(f, m)) stored.deviation = deviation_code(t, i);
+      if (f > 0 && out.back().stored == stored && out.back().length < kMaxLength) {
         ++out.back().length;
         continue;
       }
       if (out.size() == kMaxRuns) return {};
-      out.push_back({1, told});
+      out.push_back({1, stored});
     }
   }
   return out;
@@ -70,9 +70,9 @@ bool c3d_tells_all(const data::Trajectories& t) {
          });
 }
 
-/// True when a sample that C3D stores as `word` may have the state `told`.
-bool agree(SampleState word, SampleState told) {
-  switch (told) {
+/// True when a sample that C3D stores as `word` may have the state `stored`.
+bool agree(SampleState word, SampleState stored) {
+  switch (stored) {
     case SampleState::missing:
     case SampleState::rejected:
       return word == SampleState::missing;
@@ -115,8 +115,8 @@ void add_provenance(const data::Trajectories& t, C3dParameters& parameters) {
                    .dims = {static_cast<int>(kRunBytes), static_cast<int>(n)}};
     for (std::size_t k = at; k < at + n; ++k)
       for (const std::int64_t byte :
-           {runs[k].length & 0xFF, runs[k].length >> 8, std::int64_t{runs[k].told.state},
-            std::int64_t{runs[k].told.method}, std::int64_t{runs[k].told.deviation}})
+           {runs[k].length & 0xFF, runs[k].length >> 8, std::int64_t{runs[k].stored.state},
+            std::int64_t{runs[k].stored.method}, std::int64_t{runs[k].stored.deviation}})
         p.numbers.push_back(static_cast<double>(byte));
     group.parameters.push_back(std::move(p));
     ++part;
@@ -141,8 +141,8 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
                numbers.size() % kRunBytes == 0 && methods.size() <= 255;
   for (std::size_t i = 0; sound && i < numbers.size(); i += kRunBytes) {
     const Run run{byte(i) | byte(i + 1) << 8, {byte(i + 2), byte(i + 3), byte(i + 4)}};
-    sound = run.length > 0 && run.told.state <= static_cast<int>(SampleState::rejected) &&
-            run.told.method <= methods.size() &&
+    sound = run.length > 0 && run.stored.state <= static_cast<int>(SampleState::rejected) &&
+            run.stored.method <= methods.size() &&
             samples % std::max<std::int64_t>(1, t.frames()) + run.length <= t.frames();
     samples += run.length;
     runs.push_back(run);
@@ -155,24 +155,24 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
   }
 
   t.methods = methods;
-  if (std::ranges::any_of(runs, [](const Run& r) { return r.told.method > 0; }))
+  if (std::ranges::any_of(runs, [](const Run& r) { return r.stored.method > 0; }))
     t.method.assign(t.state.size(), 0);
-  if (std::ranges::any_of(runs, [](const Run& r) { return r.told.deviation > 0; }))
+  if (std::ranges::any_of(runs, [](const Run& r) { return r.stored.deviation > 0; }))
     t.covariance.assign(6 * t.state.size(), std::numeric_limits<double>::quiet_NaN());
   std::int64_t at = 0;
   std::int64_t disagreeing = 0;
   for (const Run& run : runs) {
     for (const std::int64_t end = at + run.length; at < end; ++at) {
       const std::size_t i = t.index(at % t.frames(), at / t.frames());
-      const auto told = static_cast<SampleState>(run.told.state);
-      if (!agree(t.state[i], told)) {
+      const auto stored = static_cast<SampleState>(run.stored.state);
+      if (!agree(t.state[i], stored)) {
         ++disagreeing;
         continue;
       }
-      t.state[i] = told;
-      if (!t.method.empty()) t.method[i] = run.told.method;
-      if (t.covariance.empty() || run.told.deviation == 0) continue;
-      const double sd_m = deviation_m(run.told.deviation);
+      t.state[i] = stored;
+      if (!t.method.empty()) t.method[i] = run.stored.method;
+      if (t.covariance.empty() || run.stored.deviation == 0) continue;
+      const double sd_m = deviation_m(run.stored.deviation);
       math::pack_isotropic3(sd_m * sd_m, t.covariance.data() + 6 * i);
     }
   }

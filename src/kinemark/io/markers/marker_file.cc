@@ -93,19 +93,24 @@ Result<data::Trial> read_markers(const std::filesystem::path& path, const Marker
                   path.string(), named(extension)));
 }
 
+Status check_marker_format(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  for (const std::string_view known : {".c3d", ".trc", ".nwb", ".csv"})
+    if (extension == known) return {};
+  return fail(Code::usage,
+              fmt::format("{}: {} is not written as a marker file; supported are .c3d, .trc, .nwb and .csv",
+                          path.string(), named(extension)));
+}
+
 Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force) {
+  if (auto s = check_marker_format(path); !s) return s;
   const std::string extension = lower_extension(path);
   if (extension == ".c3d") return write_c3d(path, trial, {.force = force});
   if (extension == ".trc") return write_trc(path, trial, {.force = force});
   if (extension == ".csv") return write_trajectories_csv(path, trial, force);
-  if (extension == ".nwb") {
-    NwbMetadata metadata;
-    if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
-    return write_nwb(path, trial.markers, nullptr, metadata, {.force = force});
-  }
-  return fail(Code::usage,
-              fmt::format("{}: {} is not written as a marker file; supported are .c3d, .trc, .nwb and .csv",
-                          path.string(), named(extension)));
+  NwbMetadata metadata;
+  if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
+  return write_nwb(path, trial.markers, nullptr, metadata, {.force = force});
 }
 
 }  // namespace kinemark::io

@@ -28,6 +28,9 @@ struct MarkerReadOptions {
 /// True for a file format without a frame rate, by its extension: read_markers() then needs one.
 [[nodiscard]] bool needs_rate(const std::filesystem::path& path);
 
+/// Code::usage, naming what is supported, when write_markers() knows no format of that extension.
+[[nodiscard]] Status check_marker_format(const std::filesystem::path& path);
+
 /// Write a trial in the format of the extension: .c3d, .trc (millimetres), .nwb (positions with their
 /// provenance; write_nwb() takes more) or .csv (write_trajectories_csv()). Code::usage for any other; else as
 /// the writer of that format. An existing file is replaced only with `force`.

@@ -42,6 +42,19 @@ TEST(MarkerFile, WhatIsWrittenReadsBackByTheSameDoor) {
   }
 }
 
+TEST(MarkerFile, AFormatCanBeCheckedBeforeThereIsAnythingToWrite) {
+  for (const char* name : {"a.c3d", "no/such/folder/a.TRC", "a.nwb", "a.Csv"})
+    EXPECT_TRUE(check_marker_format(name)) << name;
+  for (const char* name : {"a.mot", "a.v3d", "a", "c3d", "a.c3d.gz", ".csv"}) {
+    const auto status = check_marker_format(name);
+    ASSERT_FALSE(status) << name;
+    EXPECT_EQ(status.error().code, Code::usage);
+    EXPECT_THAT(status.error().message, testing::StartsWith(std::string(name) + ": "));
+    EXPECT_THAT(status.error().message, HasSubstr("supported are .c3d, .trc, .nwb and .csv"));
+    EXPECT_EQ(write_markers(name, small(), false).error().message, status.error().message);
+  }
+}
+
 TEST(MarkerFile, TheContentDecidesBeforeTheExtension) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(write_markers(scratch / "a.c3d", small(), false));

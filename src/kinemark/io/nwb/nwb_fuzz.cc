@@ -107,14 +107,14 @@ class Editor {
     H5Adelete(object.id(), name.c_str());
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const std::string value = bytes_.ConsumeRandomLengthString(32) + '\0';
-    const Handle words(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(words.id(), value.size());
-    const Handle made(H5Acreate2(object.id(), name.c_str(), text ? words.id() : H5T_IEEE_F64LE, space.id(),
-                                 H5P_DEFAULT, H5P_DEFAULT),
+    const Handle string_type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(string_type.id(), value.size());
+    const Handle made(H5Acreate2(object.id(), name.c_str(), text ? string_type.id() : H5T_IEEE_F64LE,
+                                 space.id(), H5P_DEFAULT, H5P_DEFAULT),
                       H5Aclose);
     const double number = real();
     if (text)
-      H5Awrite(made.id(), words.id(), value.data());
+      H5Awrite(made.id(), string_type.id(), value.data());
     else
       H5Awrite(made.id(), H5T_NATIVE_DOUBLE, &number);
   }
@@ -128,9 +128,9 @@ class Editor {
       size = kSizes[index(kSizes.size())];
       count = size > 20 ? std::size_t{1} << 40 : count * size;
     }
-    const Handle words(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(words.id(), 12);
-    const std::array types = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_U8LE, H5T_STD_I64LE, words.id()};
+    const Handle string_type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(string_type.id(), 12);
+    const std::array types = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_U8LE, H5T_STD_I64LE, string_type.id()};
     const hid_t type = types[index(types.size())];
     H5Ldelete(file_, at.c_str(), H5P_DEFAULT);
     const Handle space(dims.empty() ? H5Screate(H5S_SCALAR)
@@ -142,7 +142,7 @@ class Editor {
     const Handle made(H5Dcreate2(file_, at.c_str(), type, space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT),
                       H5Dclose);
     if (!made || count > 1000) return;
-    if (type == words.id()) {
+    if (type == string_type.id()) {
       std::vector<char> text(12 * std::max<std::size_t>(count, 1), '\0');
       bytes_.ConsumeData(text.data(), text.size());
       H5Dwrite(made.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());

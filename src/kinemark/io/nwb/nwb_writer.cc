@@ -61,11 +61,11 @@ struct NwbWriter::Open {
     int width = 1;
   };
 
-  Open(OutputFile target, std::string name, NwbOutline promised, NwbMetadata told, int level)
+  Open(OutputFile target, std::string name, NwbOutline promised, NwbMetadata given, int level)
       : file(std::move(target)),
         path(std::move(name)),
         outline(std::move(promised)),
-        metadata(std::move(told)),
+        metadata(std::move(given)),
         compression(level),
         out(file.temporary().string(), internal::identity_of(metadata, outline)) {}
 

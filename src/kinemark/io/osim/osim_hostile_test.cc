@@ -54,6 +54,17 @@ TEST(OsimHostile, NotXmlOrNotAModel) {
   EXPECT_THAT(refusal("<OpenSimDocument><ScaleTool/></OpenSimDocument>"), HasSubstr("not an OpenSim model"));
 }
 
+TEST(OsimHostile, AnAxisMovesByACoordinateThatItsJointLists) {
+  const std::string moves =
+      "<SpatialTransform><TransformAxis name=\"rotation1\"><coordinates>knee_angel</coordinates><axis>0 0 "
+      "1</axis>"
+      "</TransformAxis></SpatialTransform>";
+  EXPECT_THAT(
+      refusal(custom("<coordinates><Coordinate name=\"knee_angle\"/></coordinates>" + moves)),
+      HasSubstr("CustomJoint 'knee_r': moves by the coordinate 'knee_angel', which it does not list"));
+  EXPECT_EQ(refusal(custom(moves)), "") << "a joint without a list has the coordinates that its axes name";
+}
+
 TEST(OsimHostile, ACutFileIsRefusedWhereverItIsCut) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   const std::string whole = read_text(data / "opensim-arm26/arm26.osim").value();

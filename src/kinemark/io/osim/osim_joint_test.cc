@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 const Vector3d X = Vector3d::UnitX(), Y = Vector3d::UnitY(), Z = Vector3d::UnitZ();
 
-Matrix3d turn(const Vector3d& axis, double angle) {
+Matrix3d rotation(const Vector3d& axis, double angle) {
   return AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
 
@@ -69,16 +69,17 @@ void expect_motion(const data::ModelDescription& model, const std::vector<double
 
 TEST(OsimJoint, TypesWithAFixedMotion) {
   const Matrix3d I = Matrix3d::Identity();
-  expect_motion(parse(model_4(joint_ab("PinJoint", ""))), {0.4}, turn(Z, 0.4), Vector3d::Zero());
+  expect_motion(parse(model_4(joint_ab("PinJoint", ""))), {0.4}, rotation(Z, 0.4), Vector3d::Zero());
   expect_motion(parse(model_4(joint_ab("SliderJoint", ""))), {0.4}, I, 0.4 * X);
-  expect_motion(parse(model_4(joint_ab("UniversalJoint", ""))), {0.4, 0.5}, turn(X, 0.4) * turn(Y, 0.5),
-                Vector3d::Zero());
-  expect_motion(parse(model_4(joint_ab("PlanarJoint", ""))), {0.4, 0.5, 0.6}, turn(Z, 0.4), {0.5, 0.6, 0.0});
+  expect_motion(parse(model_4(joint_ab("UniversalJoint", ""))), {0.4, 0.5},
+                rotation(X, 0.4) * rotation(Y, 0.5), Vector3d::Zero());
+  expect_motion(parse(model_4(joint_ab("PlanarJoint", ""))), {0.4, 0.5, 0.6}, rotation(Z, 0.4),
+                {0.5, 0.6, 0.0});
   for (const char* type : {"BallJoint", "GimbalJoint"})
     expect_motion(parse(model_4(joint_ab(type, ""))), {0.4, 0.5, 0.6},
-                  turn(X, 0.4) * turn(Y, 0.5) * turn(Z, 0.6), Vector3d::Zero());
+                  rotation(X, 0.4) * rotation(Y, 0.5) * rotation(Z, 0.6), Vector3d::Zero());
   expect_motion(parse(model_4(joint_ab("FreeJoint", ""))), {0.4, 0.5, 0.6, 1, 2, 3},
-                turn(X, 0.4) * turn(Y, 0.5) * turn(Z, 0.6), {1, 2, 3});
+                rotation(X, 0.4) * rotation(Y, 0.5) * rotation(Z, 0.6), {1, 2, 3});
 }
 
 TEST(OsimJoint, CoordinatesThatTheFileOmitsAreNamedAfterTheirJoint) {
@@ -93,7 +94,7 @@ TEST(OsimJoint, EllipsoidKeepsTheOriginOnTheSurfaceAndZNormalToTheUnitSphere) {
   const Vector3d radii(0.1, 0.2, 0.3);
   for (const double a : {-1.1, 0.0, 0.7})
     for (const double b : {-0.4, 0.0, 1.3}) {
-      const Matrix3d R = turn(X, a) * turn(Y, b) * turn(Z, 0.6);
+      const Matrix3d R = rotation(X, a) * rotation(Y, b) * rotation(Z, 0.6);
       expect_motion(model, {a, b, 0.6}, R, radii.cwiseProduct(R * Z));
     }
 }
@@ -109,10 +110,10 @@ TEST(OsimJoint, ScapulothoracicFromItsParts) {
   EXPECT_EQ(model.bodies.size(), 3U);
   EXPECT_EQ(model.bodies[2].name, "j_intermediate");
   const std::vector<double> q = {0.2, -0.3, 0.4, 0.5};
-  const Matrix3d R = turn(X, 0.2) * turn(Y, -0.3) * turn(Z, 0.4), quarter = turn(Z, M_PI / 2);
+  const Matrix3d R = rotation(X, 0.2) * rotation(Y, -0.3) * rotation(Z, 0.4), quarter = rotation(Z, M_PI / 2);
   const Vector3d p = Vector3d(0.2, 0.1, 0.3).cwiseProduct(R * Z), origin(0.05, -0.02, 0.0);
   const Matrix3d between = quarter * R * quarter.transpose();
-  const Matrix3d wing = turn(Vector3d(-std::sin(0.3), std::cos(0.3), 0.0), 0.5);
+  const Matrix3d wing = rotation(Vector3d(-std::sin(0.3), std::cos(0.3), 0.0), 0.5);
   expect_motion(model, q, between * wing, quarter * p + between * (origin - wing * origin));
 }
 
@@ -134,7 +135,7 @@ TEST(OsimJoint, CustomTranslatesInTheParentThenRotatesBodyFixed) {
     </SpatialTransform>)")));
   EXPECT_EQ(model.joints[1].axes.size(), 4U) << "the third rotation never moves";
   const double u = 0.3, v = 0.4;
-  expect_motion(model, {u, v}, turn(Z, 2 * u + 0.1) * turn(X + Y, 3 * v * v + 1),
+  expect_motion(model, {u, v}, rotation(Z, 2 * u + 0.1) * rotation(X + Y, 3 * v * v + 1),
                 {2 * std::sin(3 * u + 0.1) + 0.2, 0.25, 0.0});
   EXPECT_TRUE(model.coordinates[0].is_rotation);
 }
@@ -158,11 +159,11 @@ TEST(OsimJoint, OffsetFramesMayHangOnEachOtherAndBeNamedInEveryWay) {
         <orientation>0.1 0.2 0.3</orientation></PhysicalOffsetFrame>
       <PhysicalOffsetFrame name="further"><socket_parent>../on_a</socket_parent><translation>0 1 0</translation>
         <orientation>0.4 0 0</orientation></PhysicalOffsetFrame></components>)";
-  const Matrix3d first = turn(X, 0.1) * turn(Y, 0.2) * turn(Z, 0.3);
+  const Matrix3d first = rotation(X, 0.1) * rotation(Y, 0.2) * rotation(Z, 0.3);
   for (const char* path : {"/further", "../../further", "further"}) {
     const auto model =
         parse(model_4(weld("/ground", "/bodyset/a") + weld(path, "../../bodyset/b", "j"), component));
-    expect_motion(model, {}, first * turn(X, 0.4), X + first * Y);
+    expect_motion(model, {}, first * rotation(X, 0.4), X + first * Y);
   }
 }
 
@@ -177,7 +178,7 @@ TEST(OsimJoint, FramesOfTheJointItselfAndMarkersOnFrames) {
                                    R"(<ConstraintSet><objects><PointConstraint name="loop">
       <socket_body_1>/jointset/j/p</socket_body_1><socket_body_2>/bodyset/b</socket_body_2>
       <location_body_1>0 0 1</location_body_1></PointConstraint></objects></ConstraintSet>)"));
-  expect_motion(model, {0.5}, turn(Z, 0.5), Vector3d(1, 2, 3) - turn(Z, 0.5) * Vector3d(0, 0.5, 0));
+  expect_motion(model, {0.5}, rotation(Z, 0.5), Vector3d(1, 2, 3) - rotation(Z, 0.5) * Vector3d(0, 0.5, 0));
   EXPECT_EQ(model.point_constraints[0].point_in_a, Vector3d(1, 2, 4));
   EXPECT_EQ(model.point_constraints[0].body_a_idx, 0);
 }
@@ -220,7 +221,7 @@ TEST(OsimJoint, OldFormatWithTheJointInItsBody) {
   Matrix3d inertia;
   inertia << 1, 0.1, 0.2, 0.1, 2, 0.3, 0.2, 0.3, 3;
   EXPECT_EQ(model.bodies[0].inertia_about_com, inertia);
-  const Matrix3d R = turn(Z, 0.5) * turn(Z, 0.3) * turn(Y, 0.4) * turn(X, 0.1).transpose();
+  const Matrix3d R = rotation(Z, 0.5) * rotation(Z, 0.3) * rotation(Y, 0.4) * rotation(X, 0.1).transpose();
   expect_motion(model, {0.3, 0.4, 0.6}, R, Vector3d(1, 0, 0.6) - R * Vector3d(0, 0.25, 0));
 }
 
@@ -230,9 +231,9 @@ TEST(OsimJoint, AReversedJointMovesByTheInverse) {
   EXPECT_EQ(model.bodies.size(), 2U);
   EXPECT_EQ(model.bodies[1].name, "j_intermediate");
   const std::vector<double> q = {0.3, 0.4, 0.6};
-  const math::SE3 motion{.rotation = turn(Z, 0.3) * turn(Y, 0.4), .translation = 0.6 * Z};
-  const math::SE3 ground_frame{.rotation = turn(Z, 0.5), .translation = X};
-  const math::SE3 body_frame{.rotation = turn(X, 0.1), .translation = 0.25 * Y};
+  const math::SE3 motion{.rotation = rotation(Z, 0.3) * rotation(Y, 0.4), .translation = 0.6 * Z};
+  const math::SE3 ground_frame{.rotation = rotation(Z, 0.5), .translation = X};
+  const math::SE3 body_frame{.rotation = rotation(X, 0.1), .translation = 0.25 * Y};
   const math::SE3 expected = ground_frame * motion.inverse() * body_frame.inverse();
   expect_motion(model, q, expected.rotation, expected.translation);
 }
@@ -242,7 +243,7 @@ TEST(OsimJoint, AJointWhoseChildIsNearerToTheGroundIsTurnedRound) {
     <socket_parent_frame>/bodyset/b</socket_parent_frame><socket_child_frame>/bodyset/a</socket_child_frame>
     </UniversalJoint>)"));
   EXPECT_EQ(model.bodies.size(), 2U) << "rotations alone need no body between";
-  expect_motion(model, {0.4, 0.5}, (turn(X, 0.4) * turn(Y, 0.5)).transpose(), Vector3d::Zero());
+  expect_motion(model, {0.4, 0.5}, (rotation(X, 0.4) * rotation(Y, 0.5)).transpose(), Vector3d::Zero());
 }
 
 TEST(OsimJoint, CouplersWithScaleAndSplineAndDisabledOnes) {
@@ -302,7 +303,7 @@ TEST(OsimJoint, TheFirstVersions) {
   q[static_cast<std::size_t>(ty)] = 0.7;
   q[static_cast<std::size_t>(rz)] = 0.2;
   const math::SE3 b = motion_of_b(model, q);
-  EXPECT_LT((b.rotation - turn(Z, 0.4)).norm(), 1e-12);
+  EXPECT_LT((b.rotation - rotation(Z, 0.4)).norm(), 1e-12);
   EXPECT_LT((b.translation - 0.7 * Y).norm(), 1e-12);
 }
 
@@ -316,7 +317,7 @@ TEST(OsimJoint, TransformAxisSetOfVersion10500) {
       <TransformAxis name="r1"><is_rotation>true</is_rotation><coordinate>u</coordinate><axis>0 1 0</axis><function>
         <LinearFunction/></function></TransformAxis></objects></TransformAxisSet></CustomJoint></Joint></Body>
     </objects></BodySet></Model></OpenSimDocument>)");
-  expect_motion(model, {0.3}, turn(Y, 0.3), 0.5 * X);
+  expect_motion(model, {0.3}, rotation(Y, 0.3), 0.5 * X);
 }
 
 }  // namespace

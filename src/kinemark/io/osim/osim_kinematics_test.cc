@@ -81,19 +81,19 @@ TEST(OsimKinematics, PutsHamnersMarkersWhereOpenSimPutThem) {
   const auto folder = data / "opensim-hamner-fullbody";
   const auto model = model_of(folder / "subject02_registered.osim");
   const auto poses = table_of(folder / "subject02_running_ik.mot");
-  const auto places = table_of(folder / "ik_model_marker_locations.sto");
+  const auto positions = table_of(folder / "ik_model_marker_locations.sto");
   ASSERT_EQ(poses.rows(), 599);
-  ASSERT_EQ(places.columns.size(), 111U);
+  ASSERT_EQ(positions.columns.size(), 111U);
   double worst = 0.0;
   for (std::int64_t row = 0; row < poses.rows(); ++row) {
     const auto x = osim::place_markers(model, pose_of(model, poses, row));
     int compared = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const std::int64_t column = places.find(model.markers[k].name + "_tx");
+      const std::int64_t column = positions.find(model.markers[k].name + "_tx");
       if (column < 0) continue;
       ++compared;
       for (int axis = 0; axis < 3; ++axis)
-        worst = std::max(worst, std::abs(x[k][axis] - places(row, column + axis)));
+        worst = std::max(worst, std::abs(x[k][axis] - positions(row, column + axis)));
     }
     ASSERT_EQ(compared, 37);
   }

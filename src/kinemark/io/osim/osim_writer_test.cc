@@ -27,7 +27,7 @@ std::vector<double> random_pose(const ModelDescription& model, Random& random) {
   return q;
 }
 
-void expect_same_place(const math::SE3& a, const math::SE3& b, double tolerance, const std::string& what) {
+void expect_same_pose(const math::SE3& a, const math::SE3& b, double tolerance, const std::string& what) {
   EXPECT_LT((a.rotation - b.rotation).cwiseAbs().maxCoeff(), tolerance) << what;
   EXPECT_LT((a.translation - b.translation).cwiseAbs().maxCoeff(), tolerance) << what;
 }
@@ -61,8 +61,8 @@ void expect_same_content(const ModelDescription& a, const ModelDescription& b) {
     EXPECT_EQ(c.name, d.name);
     EXPECT_EQ(c.parent_body_idx < 0, d.parent_body_idx < 0);
     EXPECT_EQ(c.parameters, d.parameters) << c.name;
-    expect_same_place(c.parent_from_joint, d.parent_from_joint, 1e-15, c.name);
-    expect_same_place(c.child_from_joint, d.child_from_joint, 1e-15, c.name);
+    expect_same_pose(c.parent_from_joint, d.parent_from_joint, 1e-15, c.name);
+    expect_same_pose(c.child_from_joint, d.child_from_joint, 1e-15, c.name);
     ASSERT_EQ(c.axes.size(), d.axes.size()) << c.name;
     for (std::size_t k = 0; k < c.axes.size(); ++k) {
       EXPECT_EQ(c.axes[k].axis, d.axes[k].axis) << c.name;
@@ -99,8 +99,8 @@ void expect_same_motion(const ModelDescription& a, const ModelDescription& b, do
     for (const auto& body : a.bodies) {
       const int other = b.find_body(body.name);
       if (other >= 0)
-        expect_same_place(placed[static_cast<std::size_t>(a.find_body(body.name))],
-                          again[static_cast<std::size_t>(other)], tolerance, body.name);
+        expect_same_pose(placed[static_cast<std::size_t>(a.find_body(body.name))],
+                         again[static_cast<std::size_t>(other)], tolerance, body.name);
     }
   }
 }
@@ -201,7 +201,7 @@ TEST(OsimWriter, OtherChainsBecomeCustomJointsOrWelds) {
 }
 
 TEST(OsimWriter, AJointTurnedRoundSurvivesUnlessACoordinateBothTurnsAndMovesIt) {
-  const auto turned = [](const std::string& joint) {
+  const auto reversed = [](const std::string& joint) {
     return parse_osim(R"(<OpenSimDocument Version="40000"><Model name="m">
       <BodySet><objects><Body name="a"/><Body name="b"/></objects></BodySet><JointSet><objects>
       <WeldJoint name="w"><socket_parent_frame>/ground</socket_parent_frame>
@@ -213,7 +213,7 @@ TEST(OsimWriter, AJointTurnedRoundSurvivesUnlessACoordinateBothTurnsAndMovesIt) 
   const std::string sockets =
       "<socket_parent_frame>/bodyset/b</socket_parent_frame><socket_child_frame>/bodyset/a</"
       "socket_child_frame>";
-  const auto free = turned("<FreeJoint name=\"j\">" + sockets + "</FreeJoint>");
+  const auto free = reversed("<FreeJoint name=\"j\">" + sockets + "</FreeJoint>");
   EXPECT_GE(free.find_body("j_intermediate"), 0);
   expect_same_content(free, rewritten(free));
   expect_same_motion(free, rewritten(free), 1e-15);
@@ -223,8 +223,8 @@ TEST(OsimWriter, AJointTurnedRoundSurvivesUnlessACoordinateBothTurnsAndMovesIt) 
            "\"><coordinates>q</coordinates><axis>0 0 1</axis><LinearFunction "
            "name=\"function\"/></TransformAxis>";
   };
-  const auto screw = turned("<CustomJoint name=\"j\">" + sockets + "<SpatialTransform>" + axis("rotation1") +
-                            axis("translation1") + "</SpatialTransform></CustomJoint>");
+  const auto screw = reversed("<CustomJoint name=\"j\">" + sockets + "<SpatialTransform>" +
+                              axis("rotation1") + axis("translation1") + "</SpatialTransform></CustomJoint>");
   EXPECT_THAT(format_osim(screw).error().message, HasSubstr("drives the joints 'j_rotation' and 'j'"));
 }
 

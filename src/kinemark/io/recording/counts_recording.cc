@@ -69,15 +69,15 @@ class Assembly {
       : counts_(out.counts),
         warnings_(out.warnings),
         clock_(counts_.time.rate_hz),
-        sightings_(counts_.leds.size() * counts_.cameras.size()),
+        observations_(counts_.leds.size() * counts_.cameras.size()),
         dark_size_(counts_.dark_time_s.size()),
         message_bytes_(frame_bytes(counts_)),
         // A wrong message number must not claim more memory than the file size justifies.
         frames_allowed_(static_cast<std::int64_t>((16 * file_bytes + (64U << 20)) / message_bytes_)) {
     // As many as fit into the file: growing step by step costs several times the memory and the time.
     const std::size_t frames = file_bytes / (message_bytes_ + kFrameOverheadBytes);
-    counts_.counts.reserve(4 * frames * sightings_);
-    counts_.flags.reserve(frames * sightings_);
+    counts_.counts.reserve(4 * frames * observations_);
+    counts_.flags.reserve(frames * observations_);
     counts_.dark.reserve(frames * dark_size_);
   }
 
@@ -109,8 +109,8 @@ class Assembly {
     warn(repeated_, fmt::format("{} frames repeat or go back in number and were left out", repeated_));
     warn(wrong_size_,
          fmt::format("{} messages are not {} bytes long and were left out", wrong_size_, message_bytes_));
-    warn(impossible_, fmt::format("{} sightings have counts outside 0 to {} and were left out", impossible_,
-                                  counts_.highest_code));
+    warn(impossible_, fmt::format("{} observations have counts outside 0 to {} and were left out",
+                                  impossible_, counts_.highest_code));
     warn(jumps_, fmt::format("the clock jumps {} times, first by {}; frames are taken to be evenly spaced",
                              jumps_, first_jump_));
   }
@@ -120,8 +120,8 @@ class Assembly {
   void grow(std::int64_t frames) {
     counts_.time.frames = frames;
     const auto n = static_cast<std::size_t>(frames);
-    counts_.counts.resize(4 * n * sightings_, 0);
-    counts_.flags.resize(n * sightings_, data::kCountLost);
+    counts_.counts.resize(4 * n * observations_, 0);
+    counts_.flags.resize(n * observations_, data::kCountLost);
     counts_.dark.resize(n * dark_size_, 0);
   }
 
@@ -133,17 +133,18 @@ class Assembly {
                                        std::to_integer<unsigned>(data[2 * i + 1]) << 8U);
     };
     const auto f = static_cast<std::size_t>(frame);
-    std::int16_t* counts = counts_.counts.data() + 4 * f * sightings_;
-    std::uint8_t* flags = counts_.flags.data() + f * sightings_;
+    std::int16_t* counts = counts_.counts.data() + 4 * f * observations_;
+    std::uint8_t* flags = counts_.flags.data() + f * observations_;
     std::int16_t* dark = counts_.dark.data() + f * dark_size_;
     bool good = true;
-    for (std::size_t i = 0; i < 4 * sightings_; ++i) good = possible(counts[i] = code_at(i)) && good;
+    for (std::size_t i = 0; i < 4 * observations_; ++i) good = possible(counts[i] = code_at(i)) && good;
     for (std::size_t i = 0; i < dark_size_; ++i)
-      good = possible(dark[i] = code_at(4 * sightings_ + i)) && good;
-    const std::size_t flags_at = 2 * (4 * sightings_ + dark_size_);
-    for (std::size_t i = 0; i < sightings_; ++i) flags[i] = std::to_integer<std::uint8_t>(data[flags_at + i]);
+      good = possible(dark[i] = code_at(4 * observations_ + i)) && good;
+    const std::size_t flags_at = 2 * (4 * observations_ + dark_size_);
+    for (std::size_t i = 0; i < observations_; ++i)
+      flags[i] = std::to_integer<std::uint8_t>(data[flags_at + i]);
     if (good) return;
-    for (std::size_t s = 0; s < sightings_; ++s) {
+    for (std::size_t s = 0; s < observations_; ++s) {
       if (std::all_of(counts + 4 * s, counts + 4 * s + 4, [this](std::int16_t c) { return possible(c); }))
         continue;
       std::fill_n(counts + 4 * s, 4, std::int16_t{0});
@@ -157,7 +158,7 @@ class Assembly {
   data::Counts& counts_;
   std::vector<std::string>& warnings_;
   ClockWatch clock_;
-  std::size_t sightings_, dark_size_, message_bytes_;
+  std::size_t observations_, dark_size_, message_bytes_;
   std::int64_t frames_allowed_;
   std::uint32_t next_ = 0;
   std::int64_t lost_ = 0, repeated_ = 0, wrong_size_ = 0, impossible_ = 0, jumps_ = 0;
@@ -179,15 +180,16 @@ Status write_counts(const std::filesystem::path& path, const data::Counts& count
     if (auto s = encoder.add_metadata(one, bytes); !s) return s;
   const auto channel = encoder.add_channel(channel_of(counts), bytes);
   if (!channel) return std::unexpected(channel.error());
-  const std::size_t sightings = counts.leds.size() * counts.cameras.size();
+  const std::size_t observations = counts.leds.size() * counts.cameras.size();
   const std::size_t dark_size = counts.dark_time_s.size();
   for (std::int64_t f = 0; f < counts.frames(); ++f) {
     const auto i = static_cast<std::size_t>(f);
-    const CountsFrame frame{.frame = f,
-                            .time_s = counts.time.time_s(f),
-                            .counts = std::span(counts.counts).subspan(4 * i * sightings, 4 * sightings),
-                            .flags = std::span(counts.flags).subspan(i * sightings, sightings),
-                            .dark = std::span(counts.dark).subspan(i * dark_size, dark_size)};
+    const CountsFrame frame{
+        .frame = f,
+        .time_s = counts.time.time_s(f),
+        .counts = std::span(counts.counts).subspan(4 * i * observations, 4 * observations),
+        .flags = std::span(counts.flags).subspan(i * observations, observations),
+        .dark = std::span(counts.dark).subspan(i * dark_size, dark_size)};
     const RecordingMessage message = encode_frame(frame, epoch_s_of(counts), frame_data);
     if (auto s = encoder.add_messages({&message, 1}, bytes); !s) return s;
     if (bytes.size() < kFlushBytes) continue;

@@ -244,7 +244,7 @@ TEST(CountsLayout, MessagesOfAnotherLengthOrWithImpossibleCountsAreLeftOut) {
   EXPECT_FALSE(read->counts.has_flag(2, 0, 1, data::kCountLost));
   EXPECT_THAT(read->warnings, ElementsAre("1 frames are missing in between",
                                           "1 messages are not 54 bytes long and were left out",
-                                          "1 sightings have counts outside 0 to 4095 and were left out"));
+                                          "1 observations have counts outside 0 to 4095 and were left out"));
 }
 
 TEST(CountsLayout, AFrameNumberThatLiesCostsNoMemory) {

@@ -104,9 +104,9 @@ Status RecordingEncoder::add_metadata(const RecordingMetadata& metadata, Bytes& 
     put_string(out, metadata.name);
     put_map(out, metadata.values);
   }
-  const MetadataPlace place{metadata.name, offset_, out.size() - begin};
+  const MetadataExtent extent{metadata.name, offset_, out.size() - begin};
   if (auto s = seal(begin, out); !s) return s;
-  metadata_.push_back(place);
+  metadata_.push_back(extent);
   return {};
 }
 
@@ -151,15 +151,15 @@ void RecordingEncoder::finish(Bytes& out) {
   }
   const std::uint64_t summary = here();
   const std::size_t summary_begin = out.size();
-  struct Place {
+  struct Extent {
     std::uint8_t op;
     std::uint64_t begin, length;
   };
-  std::vector<Place> places;
+  std::vector<Extent> extents;
   const auto group = [&](std::uint8_t op, auto&& write) {
     const std::uint64_t begin = here();
     write();
-    if (here() > begin) places.push_back({op, begin, here() - begin});
+    if (here() > begin) extents.push_back({op, begin, here() - begin});
   };
   group(kSchema, [&] {
     for (const std::string& schema : schemas_) put_raw(out, schema);
@@ -184,19 +184,19 @@ void RecordingEncoder::finish(Bytes& out) {
     }
   });
   group(kMetadataIndex, [&] {
-    for (const MetadataPlace& place : metadata_) {
+    for (const MetadataExtent& extent : metadata_) {
       const RecordScope record(out, kMetadataIndex);
-      put_u64(out, place.offset);
-      put_u64(out, place.length);
-      put_string(out, place.name);
+      put_u64(out, extent.offset);
+      put_u64(out, extent.length);
+      put_string(out, extent.name);
     }
   });
   const std::uint64_t index = here();
-  for (const Place& place : places) {
+  for (const Extent& extent : extents) {
     const RecordScope record(out, kSummaryOffset);
-    put_u8(out, place.op);
-    put_u64(out, place.begin);
-    put_u64(out, place.length);
+    put_u8(out, extent.op);
+    put_u64(out, extent.begin);
+    put_u64(out, extent.length);
   }
   put_u8(out, kFooter);
   put_u64(out, kFooterBytes - kRecordHead);

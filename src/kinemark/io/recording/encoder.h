@@ -35,7 +35,7 @@ class RecordingEncoder {
     std::string record;  ///< as written, for the summary
     std::uint64_t messages = 0;
   };
-  struct MetadataPlace {
+  struct MetadataExtent {
     std::string name;
     std::uint64_t offset = 0, length = 0;
   };
@@ -45,7 +45,7 @@ class RecordingEncoder {
   std::uint64_t check_ = 0;   ///< value of the last check record
   std::vector<ChannelCount> channels_;
   std::vector<std::string> schemas_;  ///< records, as written
-  std::vector<MetadataPlace> metadata_;
+  std::vector<MetadataExtent> metadata_;
   std::int64_t messages_ = 0;
   std::uint64_t first_time_ns_ = 0, last_time_ns_ = 0;
 };

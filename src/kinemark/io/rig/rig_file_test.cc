@@ -142,7 +142,8 @@ TEST(RigFile, FailuresNameThePlace) {
   EXPECT_THAT(message("format = \"kinemark-rig\"\nversion = 2"), HasSubstr("version 2"));
   EXPECT_THAT(message("format = \"kinemark-rig\"\nversion = 1"), "rig.toml: the rig has no camera");
   EXPECT_THAT(message("format = \"kinemark-rig\"\nversion = 1\ncamera = 3"), HasSubstr("[[camera]]"));
-  EXPECT_THAT(message(spoilt("focal", "focl")), "rig.toml: camera 'A': focal is missing; need a number");
+  EXPECT_THAT(message(spoilt("focal", "focl")),
+              "rig.toml: camera 'A': focal is missing; need a finite number");
   EXPECT_THAT(message(spoilt("aspect", "aspct")), "rig.toml: camera 'A': unknown key 'aspct'");
   EXPECT_THAT(message(spoilt("bits = 11", "bits = 11.5")), HasSubstr("electronics: bits must be an integer"));
   EXPECT_THAT(message(spoilt("dark_slot = true", "dark_slot = 1")),

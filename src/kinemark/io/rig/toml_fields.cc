@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinemark::io {
 namespace {
@@ -17,7 +18,7 @@ bool take(const toml::node& node, std::vector<double>& out) {
   out.reserve(array->size());
   for (const toml::node& element : *array) {
     const auto value = element.value<double>();
-    if (!value || !element.is_number()) return false;
+    if (!value || !element.is_number() || !std::isfinite(*value)) return false;
     out.push_back(*value);
   }
   return true;
@@ -40,10 +41,10 @@ const toml::node* TomlFields::find(std::string_view key, Need need, std::string_
 }
 
 TomlFields& TomlFields::number(std::string_view key, double& out, Need need) {
-  constexpr std::string_view expected = "a number";
+  constexpr std::string_view expected = "a finite number";
   if (const auto* node = find(key, need, expected)) {
     const auto value = node->value<double>();
-    if (value && node->is_number())
+    if (value && node->is_number() && std::isfinite(*value))
       out = *value;
     else
       refuse(key, expected);

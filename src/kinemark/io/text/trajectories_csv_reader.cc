@@ -193,12 +193,12 @@ Status Parser::finish() {
     t.time = {.rate_hz = 1.0, .t0_s = time_column[0], .frames = 1};
     trial_.warnings.emplace_back("a single frame does not determine a rate; 1 Hz is assumed");
   } else {
-    std::vector<std::string> told;
-    auto time = internal::even_time(time_column, 0.0, {}, told);
+    std::vector<std::string> notes;
+    auto time = internal::even_time(time_column, 0.0, {}, notes);
     if (!time) return fail(Code::bad_input, "the column time_s does not increase from frame to frame");
     t.time = *time;
     // A CSV never states a rate; only an uneven clock is worth a warning.
-    for (std::string& warning : told)
+    for (std::string& warning : notes)
       if (warning.find("uneven") != std::string::npos) trial_.warnings.push_back(std::move(warning));
   }
 

@@ -62,7 +62,7 @@ Status write_trajectories_csv(const std::filesystem::path& path, const data::Tri
       if (uncertain) {
         const double* c = t.covariance.data() + 6 * i;
         for (const std::size_t k : math::kSymmetric3Diagonal) put_number(out, std::sqrt(c[k]));
-        for (const auto& pair : math::kSymmetric3Pairs) put_number(out, c[pair.place]);
+        for (const auto& pair : math::kSymmetric3Pairs) put_number(out, c[pair.index]);
       }
       out.push_back('\n');
     }

@@ -248,9 +248,7 @@ Result<data::Trial> parse(std::string_view text) {
         !status)
       return std::unexpected(status.error());
   }
-  std::int64_t next_text_line = 0;
-  while (next_text_line == 0 && lines.next(line))
-    if (!internal::is_blank(line)) next_text_line = lines.number();
+  const std::int64_t next_text_line = lines.skip_blank();
 
   trial.markers.names = std::move(header->names);
   trial.markers.time.frames = static_cast<std::int64_t>(rows);

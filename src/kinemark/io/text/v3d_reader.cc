@@ -145,9 +145,7 @@ Result<V3dFile> parse(std::string_view text, double rate_hz) {
         !status)
       return std::unexpected(status.error());
   }
-  std::int64_t next_text_line = 0;
-  while (next_text_line == 0 && lines.next(line))
-    if (!internal::is_blank(line)) next_text_line = lines.number();
+  const std::int64_t next_text_line = lines.skip_blank();
 
   trial.markers.names = std::move(header->points);
   trial.markers.time = {.rate_hz = rate_hz, .t0_s = 0.0, .frames = static_cast<std::int64_t>(rows)};

@@ -70,17 +70,17 @@ TEST(ParseV3d, ReadsLandmarksInMetresAndAnglesInRadians) {
 }
 
 TEST(ParseV3d, AnglesTurnAboutXThenTheNewYThenTheNewZ) {
-  const auto turn = [](double a, double b, double c) {
+  const auto rotation = [](double a, double b, double c) {
     Text text;
     text.rows = "1\t0\t0\t0\t" + std::to_string(a) + "\t" + std::to_string(b) + "\t" + std::to_string(c);
     return good(text.join()).orientations.world_from_segment(0, 0);
   };
   using Eigen::Vector3d;
   // A quarter about x takes the segment's y up; the next rotation, about the new z, is about the world's -y.
-  EXPECT_LT((turn(90, 0, 0) * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 1e-12);
-  EXPECT_LT((turn(90, 0, 90) * Vector3d::UnitX() - Vector3d::UnitZ()).norm(), 1e-12);
-  EXPECT_LT((turn(90, 90, 0) * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-12);
-  const auto r = turn(-170.5, 33.25, 121.0);
+  EXPECT_LT((rotation(90, 0, 0) * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((rotation(90, 0, 90) * Vector3d::UnitX() - Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((rotation(90, 90, 0) * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-12);
+  const auto r = rotation(-170.5, 33.25, 121.0);
   EXPECT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_NEAR(r(0, 2), std::sin(33.25 * kRadPerDeg), 1e-12);
 }

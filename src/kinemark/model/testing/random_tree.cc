@@ -99,7 +99,7 @@ class Builder {
     couple("idle_slave", "knee", ScalarFunction::linear(2.0, -0.1));
   }
 
-  AxisDescription turn(const char* name, ScalarFunction function = {}) {
+  AxisDescription rotation(const char* name, ScalarFunction function = {}) {
     return {.is_rotation = true,
             .axis = direction(),
             .coordinate_idx = coordinate(name),
@@ -150,31 +150,31 @@ class Builder {
   void add_joints() {
     add_joint(0, data::kGround, root_axes());
     add_joint(1, 0, {});
-    add_joint(2, below(2), {turn("a0"), turn("a1"), turn("a2")});
+    add_joint(2, below(2), {rotation("a0"), rotation("a1"), rotation("a2")});
     AxisDescription offset = shift("knee", ScalarFunction::constant(0.07));
     offset.coordinate_idx = -1;
     add_joint(3, below(3),
-              {turn("knee", ScalarFunction::linear(-1.0, 0.1)), turn("knee", spline(true, 0.4)),
-               turn("knee", spline(false, 0.4)), shift("knee", spline(false, 0.1)),
+              {rotation("knee", ScalarFunction::linear(-1.0, 0.1)), rotation("knee", spline(true, 0.4)),
+               rotation("knee", spline(false, 0.4)), shift("knee", spline(false, 0.1)),
                shift("knee", ScalarFunction::polynomial({0.01, 0.1, -0.05})), offset});
     // Moved by the same coordinate from another joint, through a coupling and directly.
     add_joint(4, below(4),
-              {turn("patella"), shift("knee", spline(false, 0.1)), shift("patella", spline(false, 0.1))});
+              {rotation("patella"), shift("knee", spline(false, 0.1)), shift("patella", spline(false, 0.1))});
     add_joint(5, below(5),
-              {turn("two0"), turn("two1"),
-               times(turn("two0", spline(true, 0.5)), "two1", ScalarFunction::sine(0.6, 2.0, 0.3, 0.2)),
+              {rotation("two0"), rotation("two1"),
+               times(rotation("two0", spline(true, 0.5)), "two1", ScalarFunction::sine(0.6, 2.0, 0.3, 0.2)),
                times(shift("two1", ScalarFunction::polynomial({0.1, 0.2, 0.3})), "two0",
                      ScalarFunction::linear(0.5, 0.2)),
-               times(turn("two1", ScalarFunction::sine(0.4, 1.5, 0.0, 0.1)), "two1", spline(true, 0.5)),
+               times(rotation("two1", ScalarFunction::sine(0.4, 1.5, 0.0, 0.1)), "two1", spline(true, 0.5)),
                times(shift("chain1", ScalarFunction::linear(0.3, 0.1)), "two1",
                      ScalarFunction::sine(0.2, 1.0, 0.5, 0.3))});
     add_joint(6, below(6),
-              {turn("chain2"), shift("slide"), shift("chain1", ScalarFunction::linear(0.2, 0.0))});
-    add_joint(7, below(7), {turn("last", ScalarFunction::linear(1.7, 0.3))});
-    add_joint(8, data::kGround, {turn("pin")});
+              {rotation("chain2"), shift("slide"), shift("chain1", ScalarFunction::linear(0.2, 0.0))});
+    add_joint(7, below(7), {rotation("last", ScalarFunction::linear(1.7, 0.3))});
+    add_joint(8, data::kGround, {rotation("pin")});
     add_joint(9, 8,
-              {turn("chain2", ScalarFunction::linear(0.5, 0.0)),
-               turn("knee", ScalarFunction::sine(0.5, 1.0, 0.0, 0.0))});
+              {rotation("chain2", ScalarFunction::linear(0.5, 0.0)),
+               rotation("knee", ScalarFunction::sine(0.5, 1.0, 0.0, 0.0))});
   }
 
   void add_markers_and_constraints() {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "kinemark/core/version.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 
@@ -44,18 +46,20 @@ report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial) {
 
 void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling) {
   if (upsampling.factor() == 1) return;
-  const char* words[] = {"left as they are", "marked as upsampled", "removed",
-                         "removed, and the rate brought down"};
-  upsampling.done = words[static_cast<int>(made)];
+  const char* outcomes[] = {"left as they are", "marked as upsampled", "removed",
+                            "removed, and the rate brought down"};
+  upsampling.done = outcomes[static_cast<int>(made)];
   upsampling.handled = made != RecorderMade::keep;
 }
 
-void settle_defects(bool rejected, std::span<data::Defect> defects) {
-  for (data::Defect& defect : defects) {
-    defect.handled =
-        rejected && defect.confidence >= kRejectConfidence && defect.kind != data::DefectKind::clock_jump;
-    defect.done = defect.handled ? "rejected" : "left as it is";
+std::vector<data::Defect> settle_defects(bool rejected, std::vector<data::Finding> found) {
+  std::vector<data::Defect> out;
+  for (data::Finding& finding : found) {
+    const bool handled =
+        rejected && finding.confidence >= kRejectConfidence && finding.kind != data::FindingKind::clock_jump;
+    out.push_back({std::move(finding), handled ? "rejected" : "left as it is", handled});
   }
+  return out;
 }
 
 }  // namespace kinemark::pipeline::internal

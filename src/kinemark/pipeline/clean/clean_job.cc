@@ -43,8 +43,7 @@ Status screen_trial(const CleanJob& job, CleanOutcome& outcome) {
   if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
   account.names = outcome.trial.markers.names;
-  account.defects = std::move(screening->defects);
-  internal::settle_defects(job.reject_defects, account.defects);
+  account.defects = internal::settle_defects(job.reject_defects, std::move(screening->defects));
   account.upsampling = std::move(*screening->upsampling);
   internal::settle_upsampling(job.recorder_made, account.upsampling);
   outcome.warnings = std::move(screening->warnings);
@@ -79,7 +78,8 @@ Status fill_trial(const CleanJob& job, data::Trial& trial, report::CleanReport& 
   auto filled = trajectory::fill_gaps(trial.markers, options);
   if (!filled) return std::unexpected(filled.error());
   report.account.gaps = std::move(filled->gaps);
-  std::ranges::move(filled->swaps, std::back_inserter(report.account.defects));
+  for (auto& swap : filled->swaps)
+    report.account.defects.push_back({std::move(swap), "not relied on when filling; left as it is"});
   trial.markers = std::move(filled->trajectories);
   return {};
 }
@@ -104,6 +104,7 @@ std::vector<ResultFile> list_files(const CleanFiles& files, internal::CleanOutpu
 
 Result<CleanOutcome> run_clean(const CleanJob& job) {
   // Prepare: where results go, markers, and what the recorder did to them.
+  if (auto s = job.gaps.check(); !s) return std::unexpected(s.error());
   const CleanFiles files(job);
   auto staging = Staging::create(files.all(), job.force);
   if (!staging) return std::unexpected(staging.error());

@@ -132,10 +132,10 @@ TEST_F(RunClean, DefectsAreToldAndRejectedOnlyWhenAsked) {
   trial.markers.x(50, 3).x() += 0.2;
   ASSERT_TRUE(io::write_markers(at("in.c3d"), trial, true));
   auto j = job("told.c3d");
-  const auto told = run_clean(j).value();
-  ASSERT_EQ(told.report.account.defects.size(), 1U);
-  EXPECT_EQ(told.report.account.defects[0].kind, data::DefectKind::spike);
-  EXPECT_EQ(told.report.account.defects[0].done, "left as it is");
+  const auto reported = run_clean(j).value();
+  ASSERT_EQ(reported.report.account.defects.size(), 1U);
+  EXPECT_EQ(reported.report.account.defects[0].finding.kind, data::FindingKind::spike);
+  EXPECT_EQ(reported.report.account.defects[0].done, "left as it is");
   j = job("rejected.c3d");
   j.reject_defects = true;
   const auto rejected = run_clean(j).value();

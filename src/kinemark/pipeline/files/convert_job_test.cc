@@ -8,6 +8,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/testing/shared_folder.h"
 #include "kinemark/pipeline/testing/test_files.h"
 #include "support/scratch.h"
 
@@ -19,14 +20,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class ConvertFile : public ::testing::Test {
+class ConvertFile : public testing::SharedFolder<ConvertFile> {
+ public:
+  static void make_files() { testing::simulate_into(at("in")); }
+
  protected:
-  static void SetUpTestSuite() {
-    scratch_ = new testing_support::ScratchFolder;
-    testing::simulate_into(*scratch_ / "in");
-  }
-  static void TearDownTestSuite() { delete scratch_; }
-  static std::filesystem::path at(const std::string& name) { return *scratch_ / name; }
   static Result<ConvertOutcome> convert(const std::filesystem::path& in, const std::filesystem::path& out,
                                         bool force, double rate_hz = 0.0) {
     ConvertJob job;
@@ -36,9 +34,7 @@ class ConvertFile : public ::testing::Test {
     job.rate_hz = rate_hz;
     return run_convert(job);
   }
-  static testing_support::ScratchFolder* scratch_;
 };
-testing_support::ScratchFolder* ConvertFile::scratch_ = nullptr;
 
 TEST_F(ConvertFile, MarkersKeepPlacesAndGapsFromC3dToTrc) {
   const auto notes = convert(at("in/markers.c3d"), at("out.trc"), false);

@@ -71,7 +71,7 @@ Status describe_model(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
-/// What the counts of a recording are, and how many of their sightings are flawed.
+/// What the counts of a recording are, and how many of their observations are flawed.
 Result<CountsFacts> describe_counts(const std::filesystem::path& path) {
   const auto recording = io::read_counts(path);
   if (!recording) return std::unexpected(recording.error());

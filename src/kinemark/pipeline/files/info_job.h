@@ -57,7 +57,7 @@ struct CountsFacts {
   double rate_hz = 0.0, first_time_s = 0.0;            ///< frames a second, and time of the first
   std::string rig;                                     ///< its name; empty when not told
   bool dark_slot = false;                              ///< a slot of each frame has no LED
-  std::int64_t saturated = 0, occluded = 0, lost = 0;  ///< sightings
+  std::int64_t saturated = 0, occluded = 0, lost = 0;  ///< observations
   std::vector<std::string> cameras, labels;            ///< labels: of the LEDs
 };
 

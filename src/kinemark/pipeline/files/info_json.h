@@ -16,8 +16,8 @@ namespace kinemark::pipeline {
 /// events, software, labels. Tables: rows, columns, first_time_s, last_time_s (null without rows),
 /// in_degrees, labels. Models: name, bodies, joints, coordinates, markers, couplings, point_constraints,
 /// mass_kg, labels (of coordinates), body_names. Recordings: end, bytes, messages, channels, metadata, and of
-/// counts also frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (sightings), cameras,
-/// labels.
+/// counts also frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (observations),
+/// cameras, labels.
 [[nodiscard]] nlohmann::ordered_json info_json(const InfoOutcome& outcome);
 
 /// The same for people, one fact a line.

@@ -24,8 +24,8 @@ Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& 
   if (!defects) return std::unexpected(defects.error());
   out.defects = std::move(*defects);
   double samples = 0.0;
-  for (const data::Defect& defect : out.defects) {
-    if (defect.confidence < rules.sure || defect.kind == data::DefectKind::clock_jump) continue;
+  for (const data::Finding& defect : out.defects) {
+    if (defect.confidence < rules.sure || defect.kind == data::FindingKind::clock_jump) continue;
     out.sure.push_back(defect);
     samples += static_cast<double>(defect.last_frame - defect.first_frame + 1);
   }

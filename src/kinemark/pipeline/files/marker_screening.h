@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/defect.h"
+#include "kinemark/data/finding.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/data/upsampling.h"
 
@@ -46,8 +46,8 @@ struct ScreeningRules {
 
 /// What was noticed in a recording and what was done about it.
 struct Screening {
-  std::vector<data::Defect> defects;                  ///< all defects
-  std::vector<data::Defect> sure;                     ///< those that reject_defects is about
+  std::vector<data::Finding> defects;                 ///< all defects
+  std::vector<data::Finding> sure;                    ///< those that reject_defects is about
   double sure_share = 0.0;                            ///< of all samples
   bool rejected = false;                              ///< the sure ones were
   std::optional<data::UpsamplingAccount> upsampling;  ///< when looked for

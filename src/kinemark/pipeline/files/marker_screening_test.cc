@@ -65,12 +65,12 @@ TEST(ScreenMarkers, ACleanRecordingStaysAsItIs) {
 TEST(ScreenMarkers, ASpikeIsToldAndRejectedOnlyWhenAsked) {
   auto trial = recording();
   trial.markers.x(50, 1).x() += 0.2;
-  auto told = trial;
-  const auto only_told = screen_markers(told, {}).value();
-  ASSERT_EQ(only_told.sure.size(), 1U);
-  EXPECT_EQ(only_told.sure[0].marker, 1);
-  EXPECT_FALSE(only_told.rejected);
-  EXPECT_TRUE(told.markers.present(50, 1));
+  auto reported = trial;
+  const auto only_reported = screen_markers(reported, {}).value();
+  ASSERT_EQ(only_reported.sure.size(), 1U);
+  EXPECT_EQ(only_reported.sure[0].subject, trial.markers.names[1]);
+  EXPECT_FALSE(only_reported.rejected);
+  EXPECT_TRUE(reported.markers.present(50, 1));
   const auto rejected = screen_markers(trial, {.reject_defects = true}).value();
   EXPECT_TRUE(rejected.rejected);
   EXPECT_EQ(trial.markers.state[trial.markers.index(50, 1)], SampleState::rejected);
@@ -101,8 +101,8 @@ TEST(ScreenMarkers, NothingIsLookedForThatWasNotAsked) {
 
 TEST(ScreenMarkers, MadeSamplesAreMarkedRemovedOrDecimated) {
   auto kept = doubled();
-  const auto told = screen_markers(kept, {.recorder_made = RecorderMade::keep}).value();
-  EXPECT_EQ(told.upsampling->recording.factor, 2);
+  const auto reported = screen_markers(kept, {.recorder_made = RecorderMade::keep}).value();
+  EXPECT_EQ(reported.upsampling->recording.factor, 2);
   EXPECT_EQ(count(kept, SampleState::measured), 1200);
   auto marked = doubled();
   ASSERT_TRUE(screen_markers(marked, {.recorder_made = RecorderMade::mark}));

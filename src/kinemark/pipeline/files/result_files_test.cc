@@ -81,14 +81,14 @@ TEST_F(WriteResults, AFailureNamesTheTargetAndLeavesNothing) {
 }
 
 TEST_F(WriteResults, ProgressCountsFilesAndMayStop) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> told;
+  std::vector<std::pair<std::int64_t, std::int64_t>> reported;
   const Progress all = [&](std::int64_t done, std::int64_t total) {
-    told.emplace_back(done, total);
+    reported.emplace_back(done, total);
     return true;
   };
   auto staging = Staging::create({at("a"), at("b")}, false).value();
   ASSERT_TRUE(write_results(staging, {text(at("a"), ""), text(at("b"), "")}, all, "work"));
-  EXPECT_THAT(told, ElementsAre(std::pair(1, 2), std::pair(2, 2)));
+  EXPECT_THAT(reported, ElementsAre(std::pair(1, 2), std::pair(2, 2)));
   auto again = Staging::create({at("c"), at("d")}, false).value();
   const auto stopped = write_results(
       again, {text(at("c"), ""), text(at("d"), "")}, [](std::int64_t done, std::int64_t) { return done < 2; },

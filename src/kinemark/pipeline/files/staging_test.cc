@@ -63,9 +63,9 @@ TEST(Staging, AFolderThatCannotBeWrittenIsFoundBeforeTheWork) {
 TEST(Staging, AFailureNamesTheTargetNotTheHiddenFile) {
   const testing_support::ScratchFolder scratch;
   const auto staging = Staging::create({scratch / "a", scratch / "b"}, false).value();
-  const auto told = staging.failure({Code::io, staging.path(1).string() + ": cannot be written"});
-  EXPECT_EQ(told.error().message, (scratch / "b").string() + ": cannot be written");
-  EXPECT_EQ(told.error().code, Code::io);
+  const auto failed = staging.failure({Code::io, staging.path(1).string() + ": cannot be written"});
+  EXPECT_EQ(failed.error().message, (scratch / "b").string() + ": cannot be written");
+  EXPECT_EQ(failed.error().code, Code::io);
 }
 
 TEST(Staging, TargetsInSeveralFoldersAreStagedBesideEach) {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -24,7 +25,9 @@ namespace fs = std::filesystem;
 /// Screening looks for breaks of paths. Where so large a share of samples breaks them there are no paths: the
 /// frames are poses of their own.
 constexpr double kMostDefects = 0.05;
-constexpr std::size_t kDefectsTold = 5;
+constexpr std::size_t kDefectsListed = 5;
+
+bool into_folder(const fs::path& output) { return !output.has_extension() || fs::is_directory(output); }
 
 Status check_options(const JointsJob& job) {
   const bool articulated = job.method == "articulated";
@@ -38,6 +41,7 @@ Status check_options(const JointsJob& job) {
   if (job.soft_tissue && !articulated)
     return fail(Code::usage,
                 fmt::format("soft tissue is a term of the articulated method; '{}' has none", job.method));
+  if (!job.output.empty() && !into_folder(job.output)) return io::check_marker_format(job.output);
   return {};
 }
 
@@ -64,10 +68,10 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
                     100.0 * screening->sure_share));
     return {};
   }
-  for (std::size_t i = 0; i < sure.size() && i < kDefectsTold; ++i)
-    warnings.push_back("Left out: " + sure[i].sentence);
-  if (sure.size() > kDefectsTold)
-    warnings.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsTold));
+  for (std::size_t i = 0; i < sure.size() && i < kDefectsListed; ++i)
+    warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));
+  if (sure.size() > kDefectsListed)
+    warnings.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsListed));
   return {};
 }
 
@@ -204,12 +208,10 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
   outcome.slips = std::move(*slips);
   // The articulated fit itself reports markers that moved on their segment.
   for (const auto& slip : outcome.slips)
-    if (job.method != "articulated" || slip.marker < 0)
-      outcome.warnings.push_back(slip.sentence + (slip.sentence.ends_with('?') ? "" : "."));
+    if (job.method != "articulated" || slip.kind == data::FindingKind::joint_slip)
+      outcome.warnings.push_back(sentence_of(slip, markers.time));
   return {};
 }
-
-bool into_folder(const fs::path& output) { return !output.has_extension() || fs::is_directory(output); }
 
 Result<Staging> stage(const JointsJob& job) {
   const auto& output = job.output;

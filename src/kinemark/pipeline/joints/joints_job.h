@@ -46,7 +46,7 @@ struct JointsOutcome : JobOutcome {
   std::vector<std::string> markers;            ///< names of the recording's markers
   data::Skeleton skeleton;                     ///< segments, joints, centres
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
-  std::vector<skeleton::Slip> slips;           ///< markers that moved on their segment
+  std::vector<data::Finding> slips;            ///< markers that moved on their segment
   std::vector<double> marker_noise_sd_m;       ///< M, with soft_tissue; NaN where unknown; empty otherwise
 };
 

@@ -108,7 +108,7 @@ TEST_F(JointsJobTest, EveryMethodRuns) {
     const auto outcome = run_joints(job);
     ASSERT_TRUE(outcome) << method << ": " << outcome.error().message;
     EXPECT_EQ(joints_json(job, *outcome)["method"], method);
-    EXPECT_EQ(skeleton_words(outcome->skeleton).size(), 1U);
+    EXPECT_EQ(skeleton_description(outcome->skeleton).size(), 1U);
     if (method != "sara" && method != "cylinder" && method != "constant-distance") {
       EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5) << method;
     }
@@ -129,8 +129,14 @@ TEST_F(JointsJobTest, ASlipIsToldInNotesAndJson) {
   const auto outcome = run_joints(job);
   ASSERT_TRUE(outcome);
   ASSERT_FALSE(outcome->slips.empty());
-  EXPECT_EQ(outcome->slips[0].marker, 0);
-  EXPECT_EQ(joints_json(job, *outcome)["slips"].size(), outcome->slips.size());
+  const auto& slip = outcome->slips[0];
+  EXPECT_EQ(slip.subject, recording.markers.names[0]);
+  const auto json = joints_json(job, *outcome)["slips"];
+  ASSERT_EQ(json.size(), outcome->slips.size());
+  EXPECT_EQ(json[0]["words"], sentence_of(slip, recording.markers.time));
+  EXPECT_EQ(json[0]["shift_m"], slip.size);
+  EXPECT_EQ(json[0]["sd_m"], slip.size_sd);
+  EXPECT_EQ(json[0]["frame"], slip.first_frame);
   EXPECT_TRUE(
       std::ranges::any_of(outcome->warnings, [](const std::string& n) { return n.starts_with("Marker '"); }));
 }
@@ -150,11 +156,11 @@ TEST_F(JointsJobTest, SoftTissueTellsEveryMarkersNoise) {
   const auto outcome = run_joints(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->marker_noise_sd_m.size(), 10U);
-  const auto told = joints_json(job, *outcome)["marker_noise"];
-  ASSERT_EQ(told.size(), 10U);
-  EXPECT_EQ(told[2]["name"], recording.markers.names[2]);
-  EXPECT_NEAR(told[2]["sd_m"].get<double>(), 0.006, 0.002);
-  EXPECT_LT(told[3]["sd_m"].get<double>(), 0.001);
+  const auto reported = joints_json(job, *outcome)["marker_noise"];
+  ASSERT_EQ(reported.size(), 10U);
+  EXPECT_EQ(reported[2]["name"], recording.markers.names[2]);
+  EXPECT_NEAR(reported[2]["sd_m"].get<double>(), 0.006, 0.002);
+  EXPECT_LT(reported[3]["sd_m"].get<double>(), 0.001);
   job.soft_tissue = false;
   EXPECT_FALSE(joints_json(job, run_joints(job).value()).contains("marker_noise"));
 }

@@ -69,7 +69,7 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
   out["parent"] = name(joint.parent_segment);
   out["child"] = name(joint.child_segment);
   out["method"] = joint.method;
-  out["words"] = joint.words;
+  out["words"] = joint.description;
   out["range_of_motion_deg"] = number(joint.range_of_motion_rad * kDegPerRad);
   const bool in_parent = joint.covariance_in_parent.allFinite(),
              in_child = joint.covariance_in_child.allFinite();
@@ -119,8 +119,10 @@ Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
   json["notes"] = outcome.warnings;
   json["slips"] = Json::array();
   for (const auto& slip : outcome.slips)
-    json["slips"].push_back(
-        {{"words", slip.sentence}, {"shift_m", slip.shift_m}, {"sd_m", slip.sd_m}, {"frame", slip.frame}});
+    json["slips"].push_back({{"words", sentence_of(slip, outcome.skeleton.time)},
+                             {"shift_m", slip.size},
+                             {"sd_m", slip.size_sd},
+                             {"frame", slip.first_frame}});
   for (std::size_t m = 0; m < outcome.marker_noise_sd_m.size(); ++m)
     if (std::isfinite(outcome.marker_noise_sd_m[m]))
       json["marker_noise"].push_back(
@@ -161,7 +163,7 @@ Json skeleton_json(const data::Skeleton& skeleton) {
   return out;
 }
 
-std::vector<std::string> skeleton_words(const data::Skeleton& skeleton) {
+std::vector<std::string> skeleton_description(const data::Skeleton& skeleton) {
   std::vector<std::string> lines;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const auto& joint = skeleton.joints[j];
@@ -169,7 +171,7 @@ std::vector<std::string> skeleton_words(const data::Skeleton& skeleton) {
     const auto placed =
         skeleton.frames() - frames.count[static_cast<std::size_t>(data::CentreState::undetermined)];
     std::string line = fmt::format("{} ({}, {}): {}", joint.name, data::to_string(joint.kind),
-                                   joint.method.empty() ? "not found" : joint.method, joint.words);
+                                   joint.method.empty() ? "not found" : joint.method, joint.description);
     line += fmt::format("; placed in {} of {} frames", placed, skeleton.frames());
     const bool hinge = joint.kind == data::JointKind::hinge;
     if (std::isfinite(frames.sd_m))

@@ -19,6 +19,6 @@ namespace kinemark::pipeline {
 [[nodiscard]] nlohmann::ordered_json skeleton_json(const data::Skeleton& skeleton);
 
 /// One line a joint for people: name, method, frames, words.
-[[nodiscard]] std::vector<std::string> skeleton_words(const data::Skeleton& skeleton);
+[[nodiscard]] std::vector<std::string> skeleton_description(const data::Skeleton& skeleton);
 
 }  // namespace kinemark::pipeline

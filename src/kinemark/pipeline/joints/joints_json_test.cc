@@ -35,7 +35,7 @@ data::Skeleton small() {
   knee.parent_segment = 0;
   knee.child_segment = 1;
   knee.method = "SARA";
-  knee.words = "a hinge";
+  knee.description = "a hinge";
   knee.range_of_motion_rad = 90.0 * kRadPerDeg;
   knee.axis_in_parent = knee.axis_in_child = Eigen::Vector3d::UnitZ();
   knee.axis_sd_rad = 1.0 * kRadPerDeg;
@@ -87,8 +87,8 @@ TEST(SkeletonJson, UnknownNumbersAreNullAndAnglesDegrees) {
   EXPECT_EQ(json["warnings"], nlohmann::json({"odd"}));
 }
 
-TEST(SkeletonWords, OneLineAJointAndALength) {
-  const auto lines = skeleton_words(small());
+TEST(SkeletonDescription, OneLineAJointAndALength) {
+  const auto lines = skeleton_description(small());
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_THAT(lines[0], HasSubstr("knee (hinge, SARA): a hinge; placed in 3 of 4 frames"));
   EXPECT_THAT(lines[0], HasSubstr("across the axis"));

@@ -51,12 +51,12 @@ TEST(SegmentsFile, WhatIsWrittenReadsBack) {
   EXPECT_EQ(back->joints[1].child, 1);
 }
 
-void expect_refused(const std::string& text, const std::string& words) {
+void expect_refused(const std::string& text, const std::string& message) {
   const auto layout = parse_segments(text, "arm.toml", kMarkers);
   ASSERT_FALSE(layout) << text;
   EXPECT_EQ(layout.error().code, Code::bad_input);
   EXPECT_EQ(layout.error().message.rfind("arm.toml", 0), 0U) << layout.error().message;
-  EXPECT_NE(layout.error().message.find(words), std::string::npos) << layout.error().message;
+  EXPECT_NE(layout.error().message.find(message), std::string::npos) << layout.error().message;
 }
 
 TEST(SegmentsFile, OneSentenceForWhatIsWrong) {

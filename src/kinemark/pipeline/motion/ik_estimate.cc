@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "kinemark/stages/motion/smoother/camera_sightings.h"
+#include "kinemark/stages/motion/smoother/camera_observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
 
 namespace kinemark::pipeline {

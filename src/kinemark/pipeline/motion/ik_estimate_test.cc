@@ -29,11 +29,11 @@ TEST(IkEstimate, TheSmootherBeatsLeastSquaresOnASmoothMotion) {
   const Recorded recorded;
   IkJob job;
   const auto plain = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value().ik;
-  EXPECT_TRUE(plain.motion.v.empty());
+  EXPECT_TRUE(plain.motion.qd.empty());
   job.estimator = Estimator::smoother;
   const auto smooth = estimate_motion(job, recorded.model, recorded.subject.markers, {}).value().ik;
   EXPECT_EQ(smooth.fit.markers.size(), plain.fit.markers.size());
-  EXPECT_EQ(smooth.motion.v.size(), smooth.motion.q.size());
+  EXPECT_EQ(smooth.motion.qd.size(), smooth.motion.q.size());
   EXPECT_GT(smooth.fit.rms_error_m, 0.0);
   EXPECT_LT(rms_error(smooth.motion, recorded.subject.truth),
             0.8 * rms_error(plain.motion, recorded.subject.truth));

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -36,6 +37,42 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
       1e3 * result.fit.rms_error_m);
 }
 
+constexpr double kMostFramesOff = 5.0;   // %: frames that fit worse than a recording may as a whole
+constexpr double kMostSamplesOut = 5.0;  // %: more bad samples are no accident
+
+/// Gates of single frames and samples, which the RMS of a whole recording hides.
+void add_frame_gates(report::IkRun& run, const IkJob& job, const data::JointMotion& motion) {
+  const auto M = motion.markers.size();
+  std::int64_t off = 0, seen = 0;
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    double squares = 0.0;
+    int count = 0;
+    for (std::size_t m = 0; m < M; ++m) {
+      const double* error = motion.marker_error.data() + 3 * (static_cast<std::size_t>(f) * M + m);
+      if (std::isnan(error[0])) continue;
+      squares += error[0] * error[0] + error[1] * error[1] + error[2] * error[2];
+      ++count;
+    }
+    off += squares > count * job.max_rms_m * job.max_rms_m;
+    seen += count > 0;
+  }
+  const auto percent = [](std::int64_t part, std::int64_t all) {
+    return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
+  };
+  internal::add_gate(
+      run, "frames_off", percent(off, seen), kMostFramesOff, "%",
+      fmt::format("In {} of {} frames the RMS distance between measured and model markers is above "
+                  "{:.1f} mm; at most {:g} % are accepted.",
+                  off, seen, 1e3 * job.max_rms_m, kMostFramesOff));
+  if (motion.marker_state.empty()) return;
+  const auto out = std::ranges::count(motion.marker_state, data::SampleState::rejected);
+  const auto there =
+      std::ssize(motion.marker_state) - std::ranges::count(motion.marker_state, data::SampleState::missing);
+  internal::add_gate(run, "samples_left_out", percent(out, there), kMostSamplesOut, "%",
+                     fmt::format("{} of {} samples were left out; at most {:g} % are accepted.", out, there,
+                                 kMostSamplesOut));
+}
+
 void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInputs& inputs,
                const motion::IkResult& result) {
   internal::add_marker_gates(run, job, result.fit.mean_error_m.norm(),
@@ -45,6 +82,7 @@ void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInput
   for (const auto status : result.motion.status) failed += status == data::FrameStatus::not_converged;
   internal::add_gate(run, "not_converged", static_cast<double>(failed), 0.0, "frames",
                      fmt::format("{} of {} frames did not converge.", failed, result.motion.frames()));
+  add_frame_gates(run, job, result.motion);
   if (!std::isnan(result.fit.max_loop_gap_m) && result.fit.max_loop_gap_m > 0.0)
     internal::add_gate(
         run, "loop_gap", 1e3 * result.fit.max_loop_gap_m, 1e-3, "mm",
@@ -66,9 +104,10 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
       {"limits of clamped coordinates", o.limits ? "kept" : "ignored"},
       {"marker noise", o.marker_noise_sd_m > 0.0 ? fmt::format("{} m per axis, given", o.marker_noise_sd_m)
                                                  : "estimated from the residuals, per marker and segment"},
+      {"outliers", o.judge_samples ? "left out" : "kept"},
       {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
       {"starts of the first frame", std::to_string(o.starts)}};
-  if (job.images.any()) run.options.emplace_back("images in place of markers", images_in_words(job.images));
+  if (job.images.any()) run.options.emplace_back("images in place of markers", describe_images(job.images));
   run.solve_s = result.solve_seconds;
   internal::add_fit(run, result.fit, result.motion.time);
   add_gates(run, job, inputs, result);
@@ -76,7 +115,7 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
   return run;
 }
 
-/// The used markers on the frames that were solved, under the model's names.
+/// The used markers on the frames that were solved, under the model's names, without what was left out.
 data::Trajectories solved_markers(const data::Trajectories& recorded, const motion::IkResult& result) {
   std::vector<std::string> names;
   std::vector<std::int64_t> from;
@@ -84,7 +123,14 @@ data::Trajectories solved_markers(const data::Trajectories& recorded, const moti
     names.push_back(marker.name);
     from.push_back(recorded.find(marker.name_in_data));
   }
-  return select_markers(recorded, from, std::move(names), result.fit.first_frame, result.motion.time);
+  auto markers = select_markers(recorded, from, std::move(names), result.fit.first_frame, result.motion.time);
+  for (std::size_t i = 0; i < result.motion.marker_state.size(); ++i)
+    if (result.motion.marker_state[i] == data::SampleState::rejected) {
+      const auto M = static_cast<std::size_t>(markers.markers());
+      markers.set_missing(static_cast<std::int64_t>(i / M), static_cast<std::int64_t>(i % M),
+                          data::SampleState::rejected);
+    }
+  return markers;
 }
 
 /// Fill in what a setup names and what options follow from others, and check that it is enough.

@@ -97,9 +97,9 @@ TEST_F(RunIk, AMissedGateStillWritesAndEndsWithOne) {
   const auto outcome = run_ik(strict).value();
   EXPECT_EQ(outcome.exit_status(), 1);
   EXPECT_TRUE(fs::exists(at("strict.mot")));
-  std::string told;
-  for (const auto& notice : outcome.summary.notices) told += notice.text;
-  EXPECT_THAT(told, HasSubstr("at most 0.0 mm is accepted"));
+  std::string reported;
+  for (const auto& notice : outcome.summary.notices) reported += notice.text;
+  EXPECT_THAT(reported, HasSubstr("at most 0.0 mm is accepted"));
 }
 
 TEST_F(RunIk, ExclusionsCarryTheirReason) {

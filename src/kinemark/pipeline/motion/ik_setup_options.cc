@@ -76,9 +76,9 @@ Status add_tasks(const io::IkTasks& tasks, const std::filesystem::path& file,
                   fmt::format("{}: a task names coordinate '{}', which the model does not have",
                               file.string(), task.name));
     const auto& coordinate = model.description().coordinates[static_cast<std::size_t>(c)];
-    motion::CoordinateTask pull{
+    motion::CoordinateTask goal{
         .coordinate = task.name, .weight = task.weight, .value = coordinate.default_value};
-    if (task.target == io::IkCoordinateTask::Target::manual_value) pull.value = task.value;
+    if (task.target == io::IkCoordinateTask::Target::manual_value) goal.value = task.value;
     if (task.target == io::IkCoordinateTask::Target::from_file) {
       if (!table) {
         auto read = io::read_table(coordinate_file);
@@ -87,9 +87,9 @@ Status add_tasks(const io::IkTasks& tasks, const std::filesystem::path& file,
       }
       auto values = values_from_file(*table, coordinate, markers, options);
       if (!values) return fail_at(coordinate_file.string(), values.error());
-      pull.values = std::move(*values);
+      goal.values = std::move(*values);
     }
-    options.coordinate_tasks.push_back(std::move(pull));
+    options.coordinate_tasks.push_back(std::move(goal));
   }
   return {};
 }

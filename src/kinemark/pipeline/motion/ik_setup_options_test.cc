@@ -68,7 +68,7 @@ TEST_F(IkSetupOptions, FillWhatTheJobLeavesOpen) {
   EXPECT_EQ(job.options.last_time_s, 0.75);
 }
 
-TEST_F(IkSetupOptions, TasksBecomeWeightsAndPulls) {
+TEST_F(IkSetupOptions, TasksBecomeWeightsAndTargets) {
   IkJob job;
   job.setup = scratch_ / "setup.xml";
   job.options.first_time_s = 0.25;

@@ -47,7 +47,7 @@ Status ImageFiles::check() const {
   return io::KeypointsOptions{.min_likelihood = min_likelihood}.check();
 }
 
-std::string images_in_words(const ImageFiles& files) {
+std::string describe_images(const ImageFiles& files) {
   return fmt::format("{} cameras, {:g} px", files.cameras.size(), files.noise_sd_px);
 }
 

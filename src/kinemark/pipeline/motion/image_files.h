@@ -30,7 +30,7 @@ struct ImageFiles {
 };
 
 /// "2 cameras, 1 px", for the provenance record.
-[[nodiscard]] std::string images_in_words(const ImageFiles& files);
+[[nodiscard]] std::string describe_images(const ImageFiles& files);
 
 /// The images as tracks: points of all files, in the order in which they are named first, at the frames of
 /// `time`. Every file has exactly as many frames. Cameras that the rig lacks or that are no pinhole cameras,

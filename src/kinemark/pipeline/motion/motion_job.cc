@@ -103,7 +103,7 @@ void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time) {
   run.fit = std::move(fit);
   std::ranges::move(run.fit.warnings, std::back_inserter(run.warnings));
   run.fit.warnings.clear();
-  for (const auto& finding : run.fit.findings) run.warnings.push_back(data::describe(finding, time));
+  std::ranges::move(data::describe_all(run.fit.findings, time), std::back_inserter(run.warnings));
 }
 
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,

@@ -125,9 +125,9 @@ TEST(MotionRun, StoppedInTheLastMomentNothingAppears) {
   const testing_support::ScratchFolder folder;
   MotionJob job;
   job.output = folder / "Q.mot";
-  std::int64_t told = -1;
+  std::int64_t reported = -1;
   job.progress = [&](std::int64_t done, std::int64_t total) {
-    told = done == total ? total : -1;
+    reported = done == total ? total : -1;
     return false;
   };
   const auto motion = one_angle();
@@ -141,7 +141,7 @@ TEST(MotionRun, StoppedInTheLastMomentNothingAppears) {
     EXPECT_EQ(stopped.error().code, Code::cancelled);
     EXPECT_EQ(stopped.error().message, "the work was stopped");
   }
-  EXPECT_EQ(told, 2) << "all frames are done by then";
+  EXPECT_EQ(reported, 2) << "all frames are done by then";
   EXPECT_THAT(outcome.written, IsEmpty());
   EXPECT_EQ(folder.count_files(), 0);
   job.progress = {};

@@ -27,7 +27,7 @@ using testing::IsEmpty;
 using testing::Pair;
 
 constexpr double kMass = 70.0, kGravity = 9.81, kRate = 100.0;
-const Vector3d kPlace(0.4, -0.3, 0.9);  // of the mass centre
+const Vector3d kPosition(0.4, -0.3, 0.9);  // of the mass centre
 
 model::Model statue() {
   data::ModelDescription m;
@@ -53,10 +53,10 @@ data::JointMotion stand(const model::Model& model, std::int64_t frames) {
   }
   for (std::int64_t f = 0; f < frames; ++f) {
     motion.q.insert(motion.q.end(), {0.0, 0.0, 0.0});
-    motion.q.insert(motion.q.end(), kPlace.data(), kPlace.data() + 3);
+    motion.q.insert(motion.q.end(), kPosition.data(), kPosition.data() + 3);
   }
-  motion.v.assign(motion.q.size(), 0.0);
-  motion.a.assign(motion.q.size(), 0.0);
+  motion.qd.assign(motion.q.size(), 0.0);
+  motion.qdd.assign(motion.q.size(), 0.0);
   return motion;
 }
 
@@ -65,7 +65,7 @@ void write_plate(const std::filesystem::path& path, double weight) {
   data::Trial trial;
   trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = kRate, .frames = 120});
   for (std::int64_t f = 0; f < 120; ++f) {
-    trial.markers.x(f, 0) = kPlace;
+    trial.markers.x(f, 0) = kPosition;
     trial.markers.state[trial.markers.index(f, 0)] = data::SampleState::measured;
   }
   data::ForcePlate plate{.type = 2, .origin_in_plate = {0.0, 0.0, -0.05}, .channel_idx = {0, 1, 2, 3, 4, 5}};
@@ -82,7 +82,7 @@ void write_plate(const std::filesystem::path& path, double weight) {
   for (int i = 0; i < 1200; ++i) {
     // In the plate: x as in the laboratory, y and z the other way round.
     const Vector3d force(0.0, 0.0, i < 800 ? -weight : 0.0),
-        arm(kPlace.x() - centre.x(), centre.y() - kPlace.y(), -0.05);
+        arm(kPosition.x() - centre.x(), centre.y() - kPosition.y(), -0.05);
     const Vector3d moment = 1e3 * arm.cross(force);
     trial.analog.values.insert(trial.analog.values.end(), force.data(), force.data() + 3);
     trial.analog.values.insert(trial.analog.values.end(), moment.data(), moment.data() + 3);
@@ -136,8 +136,8 @@ TEST(Torques, ExternalLoadsOfOpenSimCarryTheWeightToo) {
   for (int i = 0; i <= 20; ++i) {
     table.time_s.push_back(0.4 + 0.05 * i);
     // Away from the mass centre, with the moment that makes up for it.
-    const Vector3d point = kPlace + Vector3d(0.1, -0.2, -0.9), force(0.0, 0.0, kMass * kGravity);
-    const Vector3d moment = (kPlace - point).cross(force);
+    const Vector3d point = kPosition + Vector3d(0.1, -0.2, -0.9), force(0.0, 0.0, kMass * kGravity);
+    const Vector3d moment = (kPosition - point).cross(force);
     for (const Vector3d& v : {force, point, moment})
       table.values.insert(table.values.end(), v.data(), v.data() + 3);
   }

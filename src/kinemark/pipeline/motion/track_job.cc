@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
   options.emplace_back("feed-forward", o.feed_forward ? "on" : "off");
   options.emplace_back("posture", fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.posture_kp, o.posture_kd));
   options.emplace_back("limits of clamped coordinates", o.limits ? "kept" : "ignored");
-  if (job.images.any()) options.emplace_back("images in the lowest level", images_in_words(job.images));
+  if (job.images.any()) options.emplace_back("images in the lowest level", describe_images(job.images));
   options.emplace_back("determined in fewer than 95 % of the frames", list(result.undetermined_coordinates));
   return options;
 }

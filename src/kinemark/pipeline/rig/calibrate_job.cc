@@ -66,16 +66,16 @@ Result<Known> read(const fs::path& path) {
   return out;
 }
 
-Result<calibration::GridSightings> grid_of(const Known& known, const data::Rig& rig, int camera) {
+Result<calibration::GridObservations> grid_of(const Known& known, const data::Rig& rig, int camera) {
   const auto nodes = known.numbers("nodes"), spacing = known.numbers("spacing_m"),
              distance = known.numbers("distance_m");
   for (const auto* numbers : {&nodes, &spacing, &distance})
     if (!*numbers) return std::unexpected(numbers->error());
   const auto grid =
-      calibration::grid_sightings(known.recording.counts, rig, camera,
-                                  {.nodes = static_cast<int>(std::clamp(nodes->front(), 0.0, 1e3)),
-                                   .spacing_m = spacing->front(),
-                                   .distance_m = distance->front()});
+      calibration::grid_observations(known.recording.counts, rig, camera,
+                                     {.nodes = static_cast<int>(std::clamp(nodes->front(), 0.0, 1e3)),
+                                      .spacing_m = spacing->front(),
+                                      .distance_m = distance->front()});
   if (!grid) return fail_at(known.path.string(), grid.error());
   return grid;
 }
@@ -101,18 +101,18 @@ Result<calibration::StillPoses> tree_of(const Known& known, const data::Rig& rig
 }
 
 Result<calibration::StillPoses> scan_of(const Known& known, const data::Rig& rig) {
-  const auto frames = known.numbers("frames_per_place"), places = known.numbers("places_m");
-  for (const auto* numbers : {&frames, &places})
+  const auto frames = known.numbers("frames_per_place"), positions = known.numbers("places_m");
+  for (const auto* numbers : {&frames, &positions})
     if (!*numbers) return std::unexpected(numbers->error());
-  if (places->size() % 3 != 0)
+  if (positions->size() % 3 != 0)
     return fail(Code::bad_input,
                 fmt::format("{}: 'places_m' has {} numbers; three for each position were expected",
-                            known.path.string(), places->size()));
-  calibration::ScanPlaces scan;
-  scan.frames_per_place = static_cast<int>(std::clamp(frames->front(), 0.0, 1e6));
-  scan.x_in_stage =
-      Eigen::Map<const Eigen::Matrix3Xd>(places->data(), 3, static_cast<Eigen::Index>(places->size() / 3));
-  const auto seen = calibration::scan_sightings(known.recording.counts, rig, scan);
+                            known.path.string(), positions->size()));
+  calibration::ScanPositions scan;
+  scan.frames_per_position = static_cast<int>(std::clamp(frames->front(), 0.0, 1e6));
+  scan.x_in_stage = Eigen::Map<const Eigen::Matrix3Xd>(positions->data(), 3,
+                                                       static_cast<Eigen::Index>(positions->size() / 3));
+  const auto seen = calibration::scan_observations(known.recording.counts, rig, scan);
   if (!seen) return fail_at(known.path.string(), seen.error());
   return seen;
 }
@@ -126,11 +126,12 @@ int camera_of(const Known& known, const data::Rig& rig) {
 /// What the recordings show, sorted.
 struct Evidence {
   std::optional<calibration::StillPoses> tree, scan;
-  std::vector<calibration::GridSightings> grids;  ///< of every camera, or none
+  std::vector<calibration::GridObservations> grids;  ///< of every camera, or none
 };
 
-Result<calibration::GridSightings> grid_of(const Known& known, const data::Rig& rig,
-                                           std::vector<std::optional<calibration::GridSightings>>& seen) {
+Result<calibration::GridObservations> grid_of(
+    const Known& known, const data::Rig& rig,
+    std::vector<std::optional<calibration::GridObservations>>& seen) {
   const int camera = camera_of(known, rig);
   if (camera < 0)
     return fail(Code::bad_input,
@@ -144,7 +145,7 @@ Result<calibration::GridSightings> grid_of(const Known& known, const data::Rig& 
 Result<Evidence> read_evidence(const CalibrateJob& job, const data::Rig& nominal,
                                std::vector<std::string>& warnings) {
   Evidence out;
-  std::vector<std::optional<calibration::GridSightings>> seen(nominal.cameras.size());
+  std::vector<std::optional<calibration::GridObservations>> seen(nominal.cameras.size());
   for (const auto& path : job.inputs) {
     const auto known = read(path);
     if (!known) return std::unexpected(known.error());
@@ -158,9 +159,9 @@ Result<Evidence> read_evidence(const CalibrateJob& job, const data::Rig& nominal
       if (!poses) return std::unexpected(poses.error());
       out.tree = std::move(*poses);
     } else if (known->kind() == "scan") {
-      auto places = scan_of(*known, nominal);
-      if (!places) return std::unexpected(places.error());
-      out.scan = std::move(*places);
+      auto positions = scan_of(*known, nominal);
+      if (!positions) return std::unexpected(positions.error());
+      out.scan = std::move(*positions);
     } else {
       return fail(Code::bad_input,
                   fmt::format("{}: shows '{}'; a recording of a tree, a grid or a scan was expected",

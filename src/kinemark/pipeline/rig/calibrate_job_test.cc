@@ -11,7 +11,7 @@
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/rig/reconstruct_job.h"
 #include "kinemark/pipeline/simulate/simulate_rig_job.h"
-#include "support/scratch.h"
+#include "kinemark/pipeline/testing/shared_folder.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -20,23 +20,20 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 /// A simulated laboratory, written once for all tests of this file.
-class CalibrateJobTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    scratch_ = new testing_support::ScratchFolder;
+class CalibrateJobTest : public testing::SharedFolder<CalibrateJobTest> {
+ public:
+  static void make_files() {
     SimulateRigJob job;
-    job.folder = *scratch_ / "lab";
+    job.folder = at("lab");
     job.scene = RigSceneKind::tree;
     job.duration_s = 0.3;
     job.grid = job.tree_poses = job.scan = true;
     run_simulate_rig(job).value();
   }
-  static void TearDownTestSuite() {
-    delete scratch_;
-    scratch_ = nullptr;
-  }
-  static fs::path lab(const std::string& name) { return *scratch_ / ("lab/" + name); }
-  static fs::path fresh(const std::string& name) { return *scratch_ / name; }
+
+ protected:
+  static fs::path lab(const std::string& name) { return at("lab/" + name); }
+  static fs::path fresh(const std::string& name) { return at(name); }
 
   static CalibrateJob bundle(const std::string& output) {
     CalibrateJob job;
@@ -47,23 +44,20 @@ class CalibrateJobTest : public ::testing::Test {
     job.bundle.crosstalk = false;
     return job;
   }
-
- private:
-  static inline testing_support::ScratchFolder* scratch_ = nullptr;
 };
 
 TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
-  const auto told = run_calibrate(bundle("rig.toml"));
-  ASSERT_TRUE(told) << told.error().message;
-  EXPECT_LT(told->bundle->chi2_per_dof, 1.2);
-  EXPECT_EQ(told->bundle->poses, 300);
-  EXPECT_EQ(told->alignment->cameras.size(), 2U);
-  EXPECT_EQ(told->exit_status(), 0);
-  const auto json = calibrate_json(*told);
+  const auto outcome = run_calibrate(bundle("rig.toml"));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_LT(outcome->bundle->chi2_per_dof, 1.2);
+  EXPECT_EQ(outcome->bundle->poses, 300);
+  EXPECT_EQ(outcome->alignment->cameras.size(), 2U);
+  EXPECT_EQ(outcome->exit_status(), 0);
+  const auto json = calibrate_json(*outcome);
   EXPECT_EQ(json["method"], "bundle");
   EXPECT_EQ(json["poses"], 300);
   EXPECT_EQ(json["alignment"]["cameras"][1]["right_down_forward_mm"][2].get<double>(),
-            1e3 * told->alignment->cameras[1].shift_m.z());
+            1e3 * outcome->alignment->cameras[1].shift_m.z());
   EXPECT_EQ(json["written"], fresh("rig.toml").string());
   const auto rig = io::read_rig(fresh("rig.toml")).value();
   EXPECT_EQ(rig.method, "bundle");
@@ -99,8 +93,8 @@ TEST_F(CalibrateJobTest, GridLutAndScan) {
   job = bundle("scan.toml");
   job.method = CalibrateJob::Method::scan;
   job.inputs = {lab("scan.mcap")};
-  const auto told = run_calibrate(job);
-  ASSERT_TRUE(told) << told.error().message;
+  const auto outcome = run_calibrate(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(io::read_rig(job.output)->method, "scan");
 }
 
@@ -108,12 +102,12 @@ TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
   auto job = bundle("none.toml");
   job.align_only = true;
   job.inputs = {lab("tree_poses.mcap")};
-  const auto told = run_calibrate(job);
-  ASSERT_TRUE(told) << told.error().message;
-  EXPECT_FALSE(told->alignment->next.empty());
+  const auto outcome = run_calibrate(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_FALSE(outcome->alignment->next.empty());
   EXPECT_FALSE(fs::exists(fresh("none.toml")));
-  EXPECT_TRUE(told->written.empty());
-  const auto json = calibrate_json(*told);
+  EXPECT_TRUE(outcome->written.empty());
+  const auto json = calibrate_json(*outcome);
   EXPECT_FALSE(json.contains("written"));
   EXPECT_FALSE(json.contains("chi2_per_dof"));
 }

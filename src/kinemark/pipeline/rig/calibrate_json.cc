@@ -18,8 +18,8 @@ Json alignment_json(const calibration::Alignment& alignment) {
     cameras.push_back({{"camera", c.camera},
                        {"right_down_forward_mm", list(c.shift_m, 1e3)},
                        {"right_down_forward_sd_mm", list(c.shift_sd_m, 1e3)},
-                       {"tilt_pan_roll_deg", list(c.turn_deg, 1.0)},
-                       {"tilt_pan_roll_sd_deg", list(c.turn_sd_deg, 1.0)}});
+                       {"tilt_pan_roll_deg", list(c.rotation_deg, 1.0)},
+                       {"tilt_pan_roll_sd_deg", list(c.rotation_sd_deg, 1.0)}});
   return {{"cameras", std::move(cameras)}, {"aligned", alignment.aligned}, {"next", alignment.next}};
 }
 
@@ -34,7 +34,7 @@ Json calibrate_json(const CalibrateOutcome& outcome) {
     json["crosstalk"] = outcome.bundle->crosstalk;
     json["iterations"] = outcome.bundle->iterations;
     json["poses"] = outcome.bundle->poses;
-    json["sightings"] = outcome.bundle->sightings;
+    json["sightings"] = outcome.bundle->observations;
     json["outliers"] = outcome.bundle->outliers;
     json["side_rms_mm"] = 1e3 * outcome.bundle->side_rms_m;
   }

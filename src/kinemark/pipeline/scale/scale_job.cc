@@ -53,7 +53,7 @@ class ScaleRun {
       return fail(Code::usage, fmt::format("a mass of {} kg; need a number above 0", job_.mass_kg));
     if (job_.dempster && job_.mass_kg == 0.0)
       return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
-    for (const double sd : {job_.size_prior_sd, job_.place_prior_sd_m})
+    for (const double sd : {job_.size_prior_sd, job_.position_prior_sd_m})
       if (!(sd > 0.0 && sd <= 1.0))
         return fail(Code::usage, fmt::format("a prior of {}; need above 0, at most 1", sd));
     return {};
@@ -242,9 +242,9 @@ class ScaleRun {
     auto parameters = motion::scale_parameters(out_.model, groups, job_.size_prior_sd);
     if (!parameters) return std::unexpected(parameters.error());
     const std::size_t sizes = parameters->size();
-    const auto places = motion::marker_parameters(out_.model, {}, job_.place_prior_sd_m);
-    if (!places) return std::unexpected(places.error());
-    parameters->insert(parameters->end(), places->begin(), places->end());
+    const auto positions = motion::marker_parameters(out_.model, {}, job_.position_prior_sd_m);
+    if (!positions) return std::unexpected(positions.error());
+    parameters->insert(parameters->end(), positions->begin(), positions->end());
     auto adapted = motion::adapt_model(out_.model, trial, *parameters, options, job_.progress);
     if (!adapted) return adapted;
     // The bodies' own sizes carry their mass centres and inertias along; masses follow the volume.

@@ -28,7 +28,7 @@ struct ScaleJob : JobSettings {
   bool clavicles = false;              ///< set shoulders free first
   bool symmetric = false;              ///< one size for both sides
   double size_prior_sd = 0.1;          ///< of a segment's size against the model so far, share
-  double place_prior_sd_m = 0.01;      ///< per axis; of a marker's position against the model so far
+  double position_prior_sd_m = 0.01;   ///< per axis; of a marker's position against the model so far
   motion::AdaptOptions adapt;          ///< of the fit of sizes to a motion
   double max_rms_m = 0.05;             ///< quality gate: RMS distance of measured and model markers
 };

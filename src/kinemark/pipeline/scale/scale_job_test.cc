@@ -12,6 +12,7 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/simulate/simulate_subject_job.h"
+#include "kinemark/pipeline/testing/shared_folder.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
 
@@ -23,12 +24,11 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 /// A simulated recording, and a model that is 7 % too small for it.
-class RunScale : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    scratch_ = new testing_support::ScratchFolder;
+class RunScale : public testing::SharedFolder<RunScale> {
+ public:
+  static void make_files() {
     SimulateSubjectJob subject;
-    subject.folder = *scratch_ / "in";
+    subject.folder = at("in");
     subject.options.duration_s = 3.0;
     subject.options.rate_hz = 60.0;
     run_simulate_subject(subject).value();
@@ -37,8 +37,8 @@ class RunScale : public ::testing::Test {
     motion::apply_factors(model, factors, true);
     io::write_osim(at("small.osim"), model).value();
   }
-  static void TearDownTestSuite() { delete scratch_; }
-  static fs::path at(const std::string& name) { return *scratch_ / name; }
+
+ protected:
   static ScaleJob job(const std::string& output) {
     ScaleJob j;
     j.model = at("small.osim");
@@ -50,9 +50,7 @@ class RunScale : public ::testing::Test {
     const auto outcome = run_scale(job);
     return outcome ? "it ran" : outcome.error().message;
   }
-  static testing_support::ScratchFolder* scratch_;
 };
-testing_support::ScratchFolder* RunScale::scratch_ = nullptr;
 
 /// What scaling changes, after a model was written and read.
 void expect_same_geometry(const data::ModelDescription& ours, const data::ModelDescription& read) {

@@ -53,11 +53,11 @@ Result<Staged> stage(const SimulateRigJob& job) {
                     300 + static_cast<std::uint64_t>(job.tree_pose)};
     }
     case RigSceneKind::wheel:
-      if (!std::isfinite(job.wheel.turned_deg))
+      if (!std::isfinite(job.wheel.rotation_deg))
         return fail(Code::usage,
-                    fmt::format("a wheel turned by {} degrees; need a number", job.wheel.turned_deg));
+                    fmt::format("a wheel turned by {} degrees; need a number", job.wheel.rotation_deg));
       // The two orientations of the study have streams of their own.
-      return Staged{simulation::rotating_wheel(job.wheel), 2.2, job.wheel.turned_deg > 20.0 ? 401U : 400U};
+      return Staged{simulation::rotating_wheel(job.wheel), 2.2, job.wheel.rotation_deg > 20.0 ? 401U : 400U};
     case RigSceneKind::sign:
       return Staged{simulation::signing_arm(), 4.0, 420};
     case RigSceneKind::markers:
@@ -223,13 +223,13 @@ Status add_calibration(const SimulateRigJob& job, const simulation::PhysicalRig&
   if (!job.scan) return {};
   auto scan = simulation::record_scan(rig, {.recording = recording});
   if (!scan) return std::unexpected(scan.error());
-  std::string places;
-  for (const auto x : scan->x_in_stage.colwise()) places += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
+  std::string positions;
+  for (const auto x : scan->x_in_stage.colwise()) positions += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
   out.push_back(
       counts_file(job.folder / "scan.mcap", std::move(scan->counts),
                   {about(job, "scan"), known({{"kind", "scan"},
-                                              {"frames_per_place", std::to_string(scan->frames_per_place)},
-                                              {"places_m", std::move(places)}})}));
+                                              {"frames_per_place", std::to_string(scan->frames_per_position)},
+                                              {"places_m", std::move(positions)}})}));
   return {};
 }
 
@@ -264,7 +264,8 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   files.push_back(counts_file(folder / "recording.mcap", recorded->counts, {about(job, scene)}));
   files.push_back(marker_file(folder / "truth.trc", truth));
   files.push_back(table_file(folder / "truth_derivatives.sto", [&] { return derivatives_table(*recorded); }));
-  files.push_back(rig_file("rig_true.toml", rig->rig));
+  const data::Rig calibrated = simulation::rig_in_room(*rig);
+  files.push_back(rig_file("rig_true.toml", calibrated));
   files.push_back(rig_file("rig_nominal.toml", rig->nominal));
   if (auto s = add_calibration(job, *rig, files); !s) return std::unexpected(s.error());
   std::vector<std::string> names;

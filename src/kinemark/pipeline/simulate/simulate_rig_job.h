@@ -46,8 +46,9 @@ struct SimulateRigOutcome : JobOutcome {};
 
 /// Write recording.mcap (counts), truth.trc (LEDs at the time of each frame, world of the rig),
 /// truth_derivatives.sto (m/s, m/s^2), rig_true.toml, rig_nominal.toml and, where asked for, grid_A.mcap,
-/// grid_B.mcap, tree_poses.mcap and scan.mcap. Either all files appear or none, nor the folder. The seed
-/// draws the rig and its noise. Progress counts files.
+/// grid_B.mcap, tree_poses.mcap and scan.mcap. The true rig's offsets hold the room's light of LEDs of
+/// intensity 1, as a calibration finds them. Either all files appear or none, nor the folder. The seed draws
+/// the rig and its noise. Progress counts files.
 [[nodiscard]] Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job);
 
 }  // namespace kinemark::pipeline

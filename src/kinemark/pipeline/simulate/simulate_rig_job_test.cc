@@ -51,7 +51,7 @@ TEST(SimulateRig, TheFilesAgreeWithTheStage) {
   EXPECT_NEAR(rates(17, rates.find("hand_vy")),
               expected.derivatives.velocity[3 * expected.truth.index(17, 3) + 1], 1e-9);
   const auto read = io::read_rig(scratch / "sign/rig_true.toml").value();
-  EXPECT_EQ(io::format_rig(read), io::format_rig(rig.rig));
+  EXPECT_EQ(io::format_rig(read), io::format_rig(simulation::rig_in_room(rig)));
   EXPECT_EQ(io::read_rig(scratch / "sign/rig_nominal.toml").value().method, "nominal");
 }
 
@@ -114,7 +114,7 @@ TEST(SimulateRig, WhatIsWrongIsOneSentenceAndLeavesNothing) {
               HasSubstr("276.5 frames per second at most"));
   EXPECT_THAT(with([](SimulateRigJob& j) { j.tree_pose = 10; }, RigSceneKind::tree),
               HasSubstr("tree pose 10"));
-  EXPECT_THAT(with([](SimulateRigJob& j) { j.wheel.turned_deg = NAN; }, RigSceneKind::wheel),
+  EXPECT_THAT(with([](SimulateRigJob& j) { j.wheel.rotation_deg = NAN; }, RigSceneKind::wheel),
               HasSubstr("turned by nan"));
   EXPECT_THAT(with([](SimulateRigJob&) {}, RigSceneKind::markers), HasSubstr("needs a marker file"));
   EXPECT_THAT(with([](SimulateRigJob& j) { j.occlusions = {"thumb:A:1-2"}; }),

@@ -37,7 +37,8 @@ void add_deviations(const data::Rig& found, int camera, const Matrix3d& cam_from
   if (found.covariance.size() == 0) return;
   const int first = found.first_parameter(camera);
   const auto block = [&](int at) { return Matrix3d(found.covariance.block<3, 3>(first + at, first + at)); };
-  to.turn_sd_deg = kDegPerRad * block(data::ParameterLayout::rotation).diagonal().cwiseMax(0.0).cwiseSqrt();
+  to.rotation_sd_deg =
+      kDegPerRad * block(data::ParameterLayout::rotation).diagonal().cwiseMax(0.0).cwiseSqrt();
   to.shift_sd_m = (cam_from_world * block(data::ParameterLayout::centre) * cam_from_world.transpose())
                       .diagonal()
                       .cwiseMax(0.0)
@@ -46,12 +47,12 @@ void add_deviations(const data::Rig& found, int camera, const Matrix3d& cam_from
 
 /// Description of the worst deviation of all cameras.
 void say_next(const AlignmentOptions& options, Alignment& out) {
-  using Words = std::array<const char*, 2>;  // for a positive and a negative deviation
-  constexpr std::array<Words, 3> kMove{
+  using Phrases = std::array<const char*, 2>;  // for a positive and a negative deviation
+  constexpr std::array<Phrases, 3> kMove{
       {{"to the left", "to the right"}, {"up", "down"}, {"back", "forward"}}};
-  constexpr std::array<Words, 3> kTurn{{{"tilt it up", "tilt it down"},
-                                        {"pan it to the right", "pan it to the left"},
-                                        {"roll it clockwise", "roll it counter-clockwise"}}};
+  constexpr std::array<Phrases, 3> kRotate{{{"tilt it up", "tilt it down"},
+                                            {"pan it to the right", "pan it to the left"},
+                                            {"roll it clockwise", "roll it counter-clockwise"}}};
   double worst = 1.0;
   out.aligned = true;
   out.next = "nothing: all cameras are within tolerance";
@@ -63,10 +64,11 @@ void say_next(const AlignmentOptions& options, Alignment& out) {
         out.next = fmt::format("camera '{}': move it {:.1f} mm {}", c.camera, 1e3 * std::abs(c.shift_m[axis]),
                                kMove[a][c.shift_m[axis] < 0.0]);
       }
-      if (const double share = std::abs(c.turn_deg[axis]) / options.turn_tolerance_deg; share > worst) {
+      if (const double share = std::abs(c.rotation_deg[axis]) / options.rotation_tolerance_deg;
+          share > worst) {
         worst = share;
-        out.next = fmt::format("camera '{}': {} by {:.2f} deg", c.camera, kTurn[a][c.turn_deg[axis] < 0.0],
-                               std::abs(c.turn_deg[axis]));
+        out.next = fmt::format("camera '{}': {} by {:.2f} deg", c.camera,
+                               kRotate[a][c.rotation_deg[axis] < 0.0], std::abs(c.rotation_deg[axis]));
       }
     }
   out.aligned = worst <= 1.0;
@@ -75,9 +77,9 @@ void say_next(const AlignmentOptions& options, Alignment& out) {
 }  // namespace
 
 Status AlignmentOptions::check() const {
-  if (shift_tolerance_m > 0.0 && turn_tolerance_deg > 0.0) return {};
+  if (shift_tolerance_m > 0.0 && rotation_tolerance_deg > 0.0) return {};
   return fail(Code::usage, fmt::format("tolerances of {} m and {} deg; both must be positive",
-                                       shift_tolerance_m, turn_tolerance_deg));
+                                       shift_tolerance_m, rotation_tolerance_deg));
 }
 
 Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& found,
@@ -97,7 +99,7 @@ Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& fo
     one.shift_m = should.rotation * (is.inverse().translation - should.inverse().translation);
     // A point on the nominal axis appears to the right in a camera that points too far left: it has to pan
     // right.
-    one.turn_deg = kDegPerRad * math::log_so3(is.rotation * should.rotation.transpose());
+    one.rotation_deg = kDegPerRad * math::log_so3(is.rotation * should.rotation.transpose());
     add_deviations(found, c, found.cameras[at].cam_from_world.rotation, one);
     out.cameras.push_back(one);
   }

@@ -15,8 +15,8 @@ namespace kinemark::calibration {
 
 /// Options of compare_alignment() and align_by_tree(): how far a camera may stand from its wanted pose.
 struct AlignmentOptions {
-  double shift_tolerance_m = 2e-3;  ///< > 0, of the lens, each axis
-  double turn_tolerance_deg = 0.1;  ///< > 0, about each axis
+  double shift_tolerance_m = 2e-3;      ///< > 0, of the lens, each axis
+  double rotation_tolerance_deg = 0.1;  ///< > 0, about each axis
 
   /// Tolerances are positive.
   [[nodiscard]] Status check() const;
@@ -27,9 +27,9 @@ struct CameraAlignment {
   std::string camera;       ///< its name
   Eigen::Vector3d shift_m;  ///< lens, from the wanted position
   Eigen::Vector3d
-      turn_deg;  ///< rotation still needed: tilt up, pan to the right, roll clockwise as seen from behind
+      rotation_deg;  ///< rotation still needed: tilt up, pan to the right, roll clockwise as seen from behind
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero(),
-                  turn_sd_deg = Eigen::Vector3d::Zero();  ///< 0: unknown
+                  rotation_sd_deg = Eigen::Vector3d::Zero();  ///< 0: unknown
 };
 
 /// All cameras of a rig against their wanted poses.
@@ -45,7 +45,7 @@ struct Alignment {
 [[nodiscard]] Result<Alignment> compare_alignment(const data::Rig& wanted, const data::Rig& found,
                                                   const AlignmentOptions& options = {});
 
-/// The same from sightings of the tree, by calibrate_bundle() without its grid: four poses will do, some
+/// The same from observations of the tree, by calibrate_bundle() without its grid: four poses will do, some
 /// hundred give rotations to a tenth of a degree. Fails as calibrate_bundle(), but never refuses a misfit.
 [[nodiscard]] Result<Alignment> align_by_tree(const data::Rig& wanted, const StillPoses& tree,
                                               const AlignmentOptions& options = {});

@@ -19,12 +19,12 @@ namespace ts = testing_support;
 
 /// The ideal rig with its second camera rotated (rad, about its own right, down, forward) and shifted (m, its
 /// axes).
-data::Rig moved_b(const Vector3d& turn, const Vector3d& shift) {
+data::Rig moved_b(const Vector3d& rotation, const Vector3d& shift) {
   auto rig = ts::ideal_rig();
   auto& camera = rig.cameras[1];
   const Eigen::Matrix3d world_from_cam = camera.cam_from_world.rotation.transpose();
   Eigen::VectorXd step = Eigen::VectorXd::Zero(data::ParameterLayout(camera).count);
-  step.segment<3>(data::ParameterLayout::rotation) = turn;
+  step.segment<3>(data::ParameterLayout::rotation) = rotation;
   step.segment<3>(data::ParameterLayout::centre) = world_from_cam * shift;
   camera = camera::moved(camera, step);
   return rig;
@@ -49,7 +49,7 @@ TEST(Alignment, SaysWhichWayToTurnAndMove) {
   // A roll has nothing to trade with: both cameras share it by half.
   const auto roll = compare_alignment(ts::ideal_rig(), moved_b({0, 0, 0.02}, Vector3d::Zero())).value();
   EXPECT_FALSE(roll.aligned);
-  EXPECT_NEAR(roll.cameras[1].turn_deg.z() - roll.cameras[0].turn_deg.z(), 0.02 * kDegPerRad, 0.5);
+  EXPECT_NEAR(roll.cameras[1].rotation_deg.z() - roll.cameras[0].rotation_deg.z(), 0.02 * kDegPerRad, 0.5);
   const auto forward = compare_alignment(ts::ideal_rig(), moved_b(Vector3d::Zero(), {0, 0, 0.02})).value();
   EXPECT_GT(forward.cameras[1].shift_m.z(), 5e-3);
   const auto back = compare_alignment(ts::ideal_rig(), moved_b(Vector3d::Zero(), {0, 0, -0.02})).value();
@@ -60,10 +60,10 @@ TEST(Alignment, SaysWhichWayToTurnAndMove) {
 TEST(Alignment, FindsItFromTheTree) {
   const auto truth = moved_b({0.01, -0.008, 0.012}, {0.015, -0.01, 0.02});
   const auto real = compare_alignment(ts::ideal_rig(), truth).value();
-  const auto found = align_by_tree(ts::ideal_rig(), tree_sightings(truth, 30, 3));
+  const auto found = align_by_tree(ts::ideal_rig(), tree_observations(truth, 30, 3));
   ASSERT_TRUE(found) << found.error().message;
   for (std::size_t c = 0; c < 2; ++c) {
-    EXPECT_LT((found->cameras[c].turn_deg - real.cameras[c].turn_deg).norm(), 0.25);
+    EXPECT_LT((found->cameras[c].rotation_deg - real.cameras[c].rotation_deg).norm(), 0.25);
     EXPECT_LT((found->cameras[c].shift_m - real.cameras[c].shift_m).norm(), 12e-3);
   }
   EXPECT_GT(found->cameras[1].shift_sd_m.norm(), 0.0);

@@ -25,13 +25,13 @@ constexpr int kManyLeds = 12;  // with so many points one pose of the object det
 constexpr double kLargestSideError = 0.06;  // of a side, with the cameras at their nominal poses
 
 /// Positions of the LEDs of one pose by intersection of rays; NaN where fewer than two cameras see one.
-std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree, int pose) {
+std::vector<Eigen::Vector3d> positions(const data::Rig& rig, const StillPoses& tree, int pose) {
   std::vector<Eigen::Vector3d> out;
   for (int led = 0; led < tree.leds(); ++led) {
     std::vector<camera::Ray> rays;
     for (int c = 0; c < tree.cameras; ++c)
       if (const auto& seen = tree.at(pose, led, c); seen.seen())
-        if (const auto ray = internal::sight_line(rig.cameras[static_cast<std::size_t>(c)], seen.counts))
+        if (const auto ray = internal::line_of_sight(rig.cameras[static_cast<std::size_t>(c)], seen.counts))
           rays.push_back(*ray);
     const auto at = internal::meet(rays);
     out.push_back(at ? *at : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> places(const data::Rig& rig, const StillPoses& tree
   return out;
 }
 
-bool located(const Eigen::Vector3d& place) { return place.allFinite(); }
+bool located(const Eigen::Vector3d& position) { return position.allFinite(); }
 
 /// Rigid motion that maps the tree onto the located points.
 math::SE3 fit_tree(const StillPoses& tree, const std::vector<Eigen::Vector3d>& at) {
@@ -62,7 +62,7 @@ struct Start {
 Start start_poses(const data::Rig& rig, const StillPoses& tree) {
   Start start;
   for (int pose = 0; pose < tree.poses(); ++pose) {
-    const auto at = places(rig, tree, pose);
+    const auto at = positions(rig, tree, pose);
     const bool enough = std::ranges::count_if(at, located) >= 3;
     start.poses.push_back(enough ? fit_tree(tree, at) : math::SE3{});
     if (enough) start.usable.push_back(pose);
@@ -85,7 +85,7 @@ Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vec
     for (const auto& b : tree.tree) longest = std::max(longest, (a - b).norm());
   int count = 0;
   for (const int pose : poses) {
-    const auto at = places(rig, tree, pose);
+    const auto at = positions(rig, tree, pose);
     for (int a = 0; a < tree.leds(); ++a)
       for (int b = a + 1; b < tree.leds(); ++b) {
         const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
@@ -115,10 +115,10 @@ Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vec
 }
 
 Status check_input(const data::Rig& nominal, const StillPoses& tree,
-                   const std::vector<GridSightings>& grids) {
+                   const std::vector<GridObservations>& grids) {
   if (nominal.camera_count() < 2) return fail(Code::bad_input, "a bundle needs two cameras or more");
   if (tree.cameras != nominal.camera_count() || tree.leds() < 2 ||
-      tree.sightings.size() != static_cast<std::size_t>(tree.poses() * tree.leds() * tree.cameras))
+      tree.observations.size() != static_cast<std::size_t>(tree.poses() * tree.leds() * tree.cameras))
     return fail(Code::bad_input,
                 fmt::format("tree sightings of {} cameras and {} LEDs do not fit a rig of {} cameras",
                             tree.cameras, tree.leds(), nominal.camera_count()));
@@ -139,7 +139,7 @@ Status check_input(const data::Rig& nominal, const StillPoses& tree,
                                              grids.size(), nominal.camera_count()));
   for (const auto& grid : grids)
     if (grid.nodes != grids.front().nodes ||
-        grid.sightings.size() != static_cast<std::size_t>(grid.nodes * grid.nodes))
+        grid.observations.size() != static_cast<std::size_t>(grid.nodes * grid.nodes))
       return fail(Code::bad_input, "the grids before the cameras have different numbers of LEDs");
   return {};
 }
@@ -192,8 +192,8 @@ Status BundleOptions::check() const {
 }
 
 Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses& tree,
-                                      const std::vector<GridSightings>& grids, const BundleOptions& options,
-                                      const Progress& progress) {
+                                      const std::vector<GridObservations>& grids,
+                                      const BundleOptions& options, const Progress& progress) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = check_input(nominal, tree, grids); !s) return std::unexpected(s.error());
   data::Rig flat = nominal;
@@ -213,7 +213,7 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
   BundleState state{.rig = flat, .world_from_tree = first.poses, .cam_from_grid = {}, .grid_shift = {}};
   for (const auto& grid : grids)
     state.cam_from_grid.push_back({Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0, 0.0, grid.distance_m)});
-  if (!grids.empty()) state.grid_shift.assign(grids.front().sightings.size(), Eigen::Vector2d::Zero());
+  if (!grids.empty()) state.grid_shift.assign(grids.front().observations.size(), Eigen::Vector2d::Zero());
 
   Progressing steps{progress, 0, 2 * options.max_iterations};
   // A fifth of a long recording gives a starting point for the adjustment of all of it.
@@ -253,7 +253,7 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
                    .crosstalk = options.crosstalk,
                    .iterations = steps.done,
                    .poses = static_cast<int>(problem.poses().size()),
-                   .sightings = misfit.sightings,
+                   .observations = misfit.observations,
                    .outliers = misfit.outliers,
                    .world_from_tree = state.world_from_tree,
                    .side_rms_m = compare_sides(state.rig, tree, problem.poses()).rms_m};

@@ -39,7 +39,7 @@ struct BundleOptions {
   double enough = 1.2;           ///< chi2/dof at which the model is rich enough
   double refuse_above = 1.5;     ///< chi2/dof at which the calibration is refused
   int max_iterations = 30;       ///< >= 1, of each model
-  double largest_outlier_share = 0.02;  ///< of the sightings: the gate on chi2/dof leaves out that many
+  double largest_outlier_share = 0.02;  ///< of the observations: the gate on chi2/dof leaves out that many
   BundlePriors priors;                  ///< spread of what is believed before
 
   /// Ranges hold.
@@ -48,12 +48,12 @@ struct BundleOptions {
 
 /// What the bundle found, beside the rig.
 struct BundleReport {
-  double chi2_per_dof = 0.0;               ///< outliers left out
-  int warp_degree = 0;                     ///< of the model that was kept
-  bool crosstalk = false;                  ///< whether it has the terms between electrodes
-  int iterations = 0;                      ///< of all models together
-  int poses = 0, sightings = 0;            ///< used
-  int outliers = 0;                        ///< sightings that the robust weights hold down to a third or less
+  double chi2_per_dof = 0.0;        ///< outliers left out
+  int warp_degree = 0;              ///< of the model that was kept
+  bool crosstalk = false;           ///< whether it has the terms between electrodes
+  int iterations = 0;               ///< of all models together
+  int poses = 0, observations = 0;  ///< used
+  int outliers = 0;                 ///< observations that the robust weights hold down to a third or less
   std::vector<math::SE3> world_from_tree;  ///< per pose
   double side_rms_m =
       0.0;  ///< root mean square of tree sides, triangulated without the tree, against the given
@@ -68,7 +68,7 @@ struct BundleResult {
 /// Bundle adjustment over cameras, channels and the poses of a tree of LEDs; the grid of each camera joins
 /// when it is given.
 ///
-/// Maximum a posteriori: counts of a sighting are S phi(point; camera) + offset, the source's strength S
+/// Maximum a posteriori: counts of an observation are S phi(point; camera) + offset, the source's strength S
 /// eliminated in closed form; each pose and each grid LED is eliminated by a Schur complement. The world
 /// stays where `nominal` has the first camera; covariance is given in the gauge that fixes the cloud of tree
 /// LEDs.
@@ -77,7 +77,7 @@ struct BundleResult {
 /// the tree's sides do not fit what is seen, and when chi2/dof of the richest model is above `refuse_above`.
 /// Cost: 300 poses, degree 10: about 1 s. Theory: docs/theory/calibration.md
 [[nodiscard]] Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses& tree,
-                                                    const std::vector<GridSightings>& grids,
+                                                    const std::vector<GridObservations>& grids,
                                                     const BundleOptions& options = {},
                                                     const Progress& progress = {});
 

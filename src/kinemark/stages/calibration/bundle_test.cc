@@ -27,7 +27,7 @@ BundleOptions small() {
 /// Root mean square error of distances among points that no calibration saw, found by rays, and their number.
 double distance_error(const data::Rig& found, const data::Rig& truth) {
   std::vector<Eigen::Matrix3Xd> where;
-  const auto fresh = tree_sightings(truth, 40, 99, &where);
+  const auto fresh = tree_observations(truth, 40, 99, &where);
   double squares = 0.0;
   int count = 0;
   for (int pose = 0; pose < 40; ++pose) {
@@ -36,9 +36,9 @@ double distance_error(const data::Rig& found, const data::Rig& truth) {
       std::vector<camera::Ray> rays;
       for (int c = 0; c < 2; ++c)
         rays.push_back(
-            *internal::sight_line(found.cameras[static_cast<std::size_t>(c)],
-                                  ts::mean_counts(truth.cameras[static_cast<std::size_t>(c)],
-                                                  where[static_cast<std::size_t>(pose)].col(led))));
+            *internal::line_of_sight(found.cameras[static_cast<std::size_t>(c)],
+                                     ts::mean_counts(truth.cameras[static_cast<std::size_t>(c)],
+                                                     where[static_cast<std::size_t>(pose)].col(led))));
       at.push_back(*internal::meet(rays));
     }
     for (int a = 0; a < 3; ++a)
@@ -55,8 +55,8 @@ double distance_error(const data::Rig& found, const data::Rig& truth) {
 
 TEST(Bundle, FindsTheRigFromTreeAndGrid) {
   const auto truth = ts::real_rig(1);
-  const auto result =
-      calibrate_bundle(ts::ideal_rig(), tree_sightings(truth, 40, 1), grid_sightings_of(truth, 1), small());
+  const auto result = calibrate_bundle(ts::ideal_rig(), tree_observations(truth, 40, 1),
+                                       grid_observations_of(truth, 1), small());
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->rig.validate()) << result->rig.validate().error().message;
   EXPECT_NEAR(result->report.chi2_per_dof, 1.0, 0.15);
@@ -69,7 +69,7 @@ TEST(Bundle, FindsTheRigFromTreeAndGrid) {
 
 TEST(Bundle, DoesWithoutAGrid) {
   const auto truth = ts::real_rig(2);
-  const auto result = calibrate_bundle(ts::ideal_rig(), tree_sightings(truth, 60, 2), {}, small());
+  const auto result = calibrate_bundle(ts::ideal_rig(), tree_observations(truth, 60, 2), {}, small());
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_LT(distance_error(result->rig, truth), 0.35e-3);
 }
@@ -77,9 +77,9 @@ TEST(Bundle, DoesWithoutAGrid) {
 TEST(Bundle, CovarianceIsProperAndShrinksWithPoses) {
   const auto truth = ts::real_rig(3);
   const auto few =
-      calibrate_bundle(ts::ideal_rig(), tree_sightings(truth, 20, 3), {}, small()).value().rig.covariance;
+      calibrate_bundle(ts::ideal_rig(), tree_observations(truth, 20, 3), {}, small()).value().rig.covariance;
   const auto many =
-      calibrate_bundle(ts::ideal_rig(), tree_sightings(truth, 80, 3), {}, small()).value().rig.covariance;
+      calibrate_bundle(ts::ideal_rig(), tree_observations(truth, 80, 3), {}, small()).value().rig.covariance;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(many, Eigen::EigenvaluesOnly);
   EXPECT_GT(eigen.eigenvalues()(0), -1e-9 * eigen.eigenvalues().tail<1>()(0));
   EXPECT_LT(many(data::ParameterLayout::focal, data::ParameterLayout::focal),
@@ -88,11 +88,11 @@ TEST(Bundle, CovarianceIsProperAndShrinksWithPoses) {
 
 TEST(Bundle, HoldsOutliersDown) {
   const auto truth = ts::real_rig(4);
-  auto tree = tree_sightings(truth, 60, 4);
-  for (const std::size_t i : {10U, 77U, 200U, 301U}) tree.sightings[i].counts[2] += 60.0;
+  auto tree = tree_observations(truth, 60, 4);
+  for (const std::size_t i : {10U, 77U, 200U, 301U}) tree.observations[i].counts[2] += 60.0;
   const auto result = calibrate_bundle(ts::ideal_rig(), tree, {}, small());
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_GE(result->report.outliers, 4);  // a distorted pose may make another sighting an outlier
+  EXPECT_GE(result->report.outliers, 4);  // a distorted pose may make another observation an outlier
   EXPECT_LE(result->report.outliers, 10);
   EXPECT_LT(result->report.chi2_per_dof, 1.3);
   EXPECT_LT(distance_error(result->rig, truth), 0.5e-3);
@@ -104,7 +104,7 @@ TEST(Bundle, RefusesAModelThatDoesNotFit) {
     camera.detector.crosstalk(0, 2) = 0.03;
     camera.detector.crosstalk(3, 1) = 0.04;
   }
-  const auto tree = tree_sightings(truth, 50, 5);
+  const auto tree = tree_observations(truth, 50, 5);
   auto options = small();
   options.escalate = false;
   const auto plain = calibrate_bundle(ts::ideal_rig(), tree, {}, options);
@@ -124,15 +124,15 @@ TEST(Bundle, EscalatesTheWarpUntilItFits) {
   }
   auto options = small();
   options.warp_degree = 2;
-  const auto result =
-      calibrate_bundle(ts::ideal_rig(), tree_sightings(truth, 80, 6), grid_sightings_of(truth, 6), options);
+  const auto result = calibrate_bundle(ts::ideal_rig(), tree_observations(truth, 80, 6),
+                                       grid_observations_of(truth, 6), options);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_GE(result->report.warp_degree, 6);
 }
 
 TEST(Bundle, TellsTreesThatDoNotMatch) {
   const auto truth = ts::real_rig(7);
-  auto tree = tree_sightings(truth, 20, 7);
+  auto tree = tree_observations(truth, 20, 7);
   tree.tree = tree_from_sides({0.310, 0.533, 0.310}).value();
   EXPECT_THAT(calibrate_bundle(ts::ideal_rig(), tree, {}, small()).error().message,
               HasSubstr("sides do not match"));
@@ -140,19 +140,19 @@ TEST(Bundle, TellsTreesThatDoNotMatch) {
 
 TEST(Bundle, TellsABlindCameraAndTooFewPoses) {
   const auto truth = ts::real_rig(8);
-  auto tree = tree_sightings(truth, 20, 8);
+  auto tree = tree_observations(truth, 20, 8);
   auto blind = tree;
-  for (std::size_t i = 1; i < blind.sightings.size(); i += 2) blind.sightings[i] = {};
+  for (std::size_t i = 1; i < blind.observations.size(); i += 2) blind.observations[i] = {};
   EXPECT_THAT(calibrate_bundle(ts::ideal_rig(), blind, {}, small()).error().message,
               HasSubstr("camera 'B' saw the tree in none of 20"));
-  tree.sightings.resize(3 * 3 * 2);
+  tree.observations.resize(3 * 3 * 2);
   EXPECT_THAT(calibrate_bundle(ts::ideal_rig(), tree, {}, small()).error().message,
               HasSubstr("3 of 3 poses"));
 }
 
 TEST(Bundle, StopsWhenAsked) {
   const auto truth = ts::real_rig(9);
-  const auto result = calibrate_bundle(ts::ideal_rig(), tree_sightings(truth, 10, 9), {}, small(),
+  const auto result = calibrate_bundle(ts::ideal_rig(), tree_observations(truth, 10, 9), {}, small(),
                                        [](std::int64_t, std::int64_t) { return false; });
   EXPECT_EQ(result.error().code, Code::cancelled);
 }

@@ -10,7 +10,7 @@ namespace kinemark::calibration {
 namespace {
 
 /// Ratios u, v of the four channels; NaN where a node was not seen.
-Eigen::Vector2d ratios(const StillSighting& seen) {
+Eigen::Vector2d ratios(const StillObservation& seen) {
   const double x = seen.counts[0] + seen.counts[1], y = seen.counts[2] + seen.counts[3];
   if (!seen.seen() || !(x > 0.0) || !(y > 0.0))
     return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -23,10 +23,10 @@ struct Growth {
   double along = 0.0, down = 0.0, along_down = 0.0, down_along = 0.0;
 };
 
-Growth growth(const GridSightings& grid) {
+Growth growth(const GridObservations& grid) {
   Growth out;
   const auto at = [&](int i, int j) {
-    return ratios(grid.sightings[static_cast<std::size_t>(i * grid.nodes + j)]);
+    return ratios(grid.observations[static_cast<std::size_t>(i * grid.nodes + j)]);
   };
   for (int i = 0; i + 1 < grid.nodes; ++i)
     for (int j = 0; j + 1 < grid.nodes; ++j) {
@@ -40,11 +40,11 @@ Growth growth(const GridSightings& grid) {
   return out;
 }
 
-Status check_orientation(const GridSightings& grid, const std::string& camera) {
+Status check_orientation(const GridObservations& grid, const std::string& camera) {
   const Growth g = growth(grid);
-  const double turned = std::abs(g.along_down) + std::abs(g.down_along),
+  const double rotated = std::abs(g.along_down) + std::abs(g.down_along),
                straight = std::abs(g.along) + std::abs(g.down);
-  if (turned > straight)
+  if (rotated > straight)
     return fail(
         Code::bad_input,
         fmt::format(
@@ -61,8 +61,8 @@ Status check_orientation(const GridSightings& grid, const std::string& camera) {
 
 }  // namespace
 
-Result<GridSightings> grid_sightings(const data::Counts& counts, const data::Rig& rig, int camera,
-                                     const GridGeometry& geometry, const StillOptions& options) {
+Result<GridObservations> grid_observations(const data::Counts& counts, const data::Rig& rig, int camera,
+                                           const GridGeometry& geometry, const StillOptions& options) {
   if (auto s = counts.validate(); !s) return std::unexpected(s.error());
   if (camera < 0 || camera >= rig.camera_count() || counts.camera_count() != 1)
     return fail(Code::bad_input,
@@ -79,14 +79,15 @@ Result<GridSightings> grid_sightings(const data::Counts& counts, const data::Rig
   if (counts.led_count() != static_cast<std::int64_t>(geometry.nodes) * geometry.nodes)
     return fail(Code::bad_input, fmt::format("the grid before camera '{}' has {} LEDs; {} x {} were expected",
                                              name, counts.led_count(), geometry.nodes, geometry.nodes));
-  GridSightings out{.nodes = geometry.nodes,
-                    .spacing_m = geometry.spacing_m,
-                    .distance_m = geometry.distance_m,
-                    .sightings = {}};
+  GridObservations out{.nodes = geometry.nodes,
+                       .spacing_m = geometry.spacing_m,
+                       .distance_m = geometry.distance_m,
+                       .observations = {}};
   int dark = 0;
   for (std::int64_t led = 0; led < counts.led_count(); ++led) {
-    out.sightings.push_back(still_sighting(counts, rig.electronics, {0, counts.frames()}, led, 0, options));
-    dark += !out.sightings.back().seen();
+    out.observations.push_back(
+        still_observation(counts, rig.electronics, {0, counts.frames()}, led, 0, options));
+    dark += !out.observations.back().seen();
   }
   if (10 * dark > counts.led_count())
     return fail(Code::bad_input,
@@ -96,7 +97,7 @@ Result<GridSightings> grid_sightings(const data::Counts& counts, const data::Rig
   return out;
 }
 
-Result<data::Rig> calibrate_grid_lut(const data::Rig& nominal, const std::vector<GridSightings>& grids) {
+Result<data::Rig> calibrate_grid_lut(const data::Rig& nominal, const std::vector<GridObservations>& grids) {
   if (grids.size() != nominal.cameras.size())
     return fail(Code::bad_input, fmt::format("{} grids for {} cameras; one each was expected", grids.size(),
                                              nominal.cameras.size()));
@@ -110,8 +111,8 @@ Result<data::Rig> calibrate_grid_lut(const data::Rig& nominal, const std::vector
              .spacing_m = grids[c].spacing_m,
              .distance_m = grids[c].distance_m,
              .uv = {}};
-    for (std::size_t node = 0; node < grids[c].sightings.size(); ++node) {
-      const Eigen::Vector2d uv = ratios(grids[c].sightings[node]);
+    for (std::size_t node = 0; node < grids[c].observations.size(); ++node) {
+      const Eigen::Vector2d uv = ratios(grids[c].observations[node]);
       if (!uv.allFinite())
         return fail(
             Code::bad_input,

@@ -24,13 +24,13 @@ struct GridGeometry {
 /// @param counts  of that camera alone; LED i * nodes + j is node (i, j), i to the camera's right, j down
 /// Fails when the number of LEDs is not nodes x nodes, when more than a tenth of them is dark, and when the
 /// grid was seen from behind or turned: its ratios must grow along both sides.
-[[nodiscard]] Result<GridSightings> grid_sightings(const data::Counts& counts, const data::Rig& rig,
-                                                   int camera, const GridGeometry& geometry = {},
-                                                   const StillOptions& options = {});
+[[nodiscard]] Result<GridObservations> grid_observations(const data::Counts& counts, const data::Rig& rig,
+                                                         int camera, const GridGeometry& geometry = {},
+                                                         const StillOptions& options = {});
 
 /// The nominal rig with a look-up table in each camera and poses as set by hand; method "grid-lut". Fails
 /// when a node was not seen.
 [[nodiscard]] Result<data::Rig> calibrate_grid_lut(const data::Rig& nominal,
-                                                   const std::vector<GridSightings>& grids);
+                                                   const std::vector<GridObservations>& grids);
 
 }  // namespace kinemark::calibration

@@ -13,17 +13,17 @@ namespace {
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-/// A grid of 15 x 15 LEDs before camera A, 20 samples; `place` may rotate or mirror it.
-template <class Place>
-data::Counts record(const data::Rig& rig, const Place& place) {
+/// A grid of 15 x 15 LEDs before camera A, 20 samples; `position` may rotate or mirror it.
+template <class Position>
+data::Counts record(const data::Rig& rig, const Position& position) {
   data::Rig one = rig;
   one.cameras.resize(1);
   const math::SE3 world_from_cam = one.cameras[0].cam_from_world.inverse();
-  const GridSightings grid;
+  const GridObservations grid;
   return ts::count_paths(
       one, 225, 20, 4.0,
       [&](int led, double) {
-        const Eigen::Vector2d p = place(grid.place_m(led / 15, led % 15));
+        const Eigen::Vector2d p = position(grid.position_m(led / 15, led % 15));
         return Eigen::Vector3d(world_from_cam * Eigen::Vector3d(p.x(), p.y(), 3.0));
       },
       3);
@@ -33,7 +33,7 @@ Eigen::Vector2d upright(const Eigen::Vector2d& p) { return p; }
 
 TEST(GridLut, TableHoldsTheRatiosOfEveryNode) {
   const auto rig = ts::ideal_rig();
-  const auto grid = grid_sightings(record(rig, upright), rig, 0);
+  const auto grid = grid_observations(record(rig, upright), rig, 0);
   ASSERT_TRUE(grid) << grid.error().message;
   const auto calibrated = calibrate_grid_lut(rig, {*grid, *grid});
   ASSERT_TRUE(calibrated) << calibrated.error().message;
@@ -49,19 +49,19 @@ TEST(GridLut, TableHoldsTheRatiosOfEveryNode) {
 TEST(GridLut, TellsHowTheGridHungWrong) {
   const auto rig = ts::ideal_rig();
   EXPECT_THAT(
-      grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.x(), p.y()); }),
-                     rig, 0)
+      grid_observations(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.x(), p.y()); }),
+                        rig, 0)
           .error()
           .message,
       HasSubstr("from behind"));
   EXPECT_THAT(
-      grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p); }), rig, 0)
+      grid_observations(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p); }), rig, 0)
           .error()
           .message,
       HasSubstr("upside down"));
   EXPECT_THAT(
-      grid_sightings(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.y(), p.x()); }),
-                     rig, 0)
+      grid_observations(record(rig, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(-p.y(), p.x()); }),
+                        rig, 0)
           .error()
           .message,
       HasSubstr("on its side"));
@@ -70,16 +70,16 @@ TEST(GridLut, TellsHowTheGridHungWrong) {
 TEST(GridLut, RefusesWhatIsMissing) {
   const auto rig = ts::ideal_rig();
   auto counts = record(rig, upright);
-  EXPECT_THAT(grid_sightings(counts, rig, 0, {.nodes = 9}).error().message, HasSubstr("225 LEDs; 9 x 9"));
+  EXPECT_THAT(grid_observations(counts, rig, 0, {.nodes = 9}).error().message, HasSubstr("225 LEDs; 9 x 9"));
   auto one_dark = counts;
   for (std::int64_t f = 0; f < counts.frames(); ++f)
     one_dark.flags[counts.index(f, 16, 0)] |= data::kCountOccluded;
-  const auto grid = grid_sightings(one_dark, rig, 0).value();
+  const auto grid = grid_observations(one_dark, rig, 0).value();
   EXPECT_THAT(calibrate_grid_lut(rig, {grid, grid}).error().message, HasSubstr("node (1, 1)"));
   EXPECT_THAT(calibrate_grid_lut(rig, {grid}).error().message, HasSubstr("1 grids for 2 cameras"));
   for (std::int64_t f = 0; f < counts.frames(); ++f)
     for (std::int64_t led = 0; led < 30; ++led) counts.flags[counts.index(f, led, 0)] |= data::kCountLost;
-  EXPECT_THAT(grid_sightings(counts, rig, 0).error().message, HasSubstr("30 of 225"));
+  EXPECT_THAT(grid_observations(counts, rig, 0).error().message, HasSubstr("30 of 225"));
 }
 
 }  // namespace

@@ -6,42 +6,36 @@
 
 namespace kinemark::calibration {
 
-Result<StillPoses> scan_sightings(const data::Counts& counts, const data::Rig& rig, const ScanPlaces& places,
-                                  const StillOptions& options) {
+Result<StillPoses> scan_observations(const data::Counts& counts, const data::Rig& rig,
+                                     const ScanPositions& positions, const StillOptions& options) {
   constexpr Eigen::Index kFewest = 12, kMost = 100'000;
   if (auto s = counts.validate(); !s) return std::unexpected(s.error());
-  if (counts.camera_count() != rig.camera_count())
-    return fail(Code::bad_input,
-                fmt::format("the recording has {} cameras and the rig {}; they must be the same",
-                            counts.camera_count(), rig.camera_count()));
-  if (!counts.rig_id.empty() && !rig.id.empty() && counts.rig_id != rig.id)
-    return fail(Code::bad_input,
-                fmt::format("the scan was recorded with rig '{}', this rig is '{}'", counts.rig_id, rig.id));
+  if (auto s = data::check_same_rig(counts, rig); !s) return std::unexpected(s.error());
   if (counts.led_count() != 1)
     return fail(Code::bad_input,
                 fmt::format("a scan has one LED; this recording has {}", counts.led_count()));
-  const auto count = places.x_in_stage.cols();
-  if (count < kFewest || count > kMost || !places.x_in_stage.allFinite())
+  const auto count = positions.x_in_stage.cols();
+  if (count < kFewest || count > kMost || !positions.x_in_stage.allFinite())
     return fail(Code::bad_input, fmt::format("a scan of {} positions; {} to {} finite ones were expected",
                                              count, kFewest, kMost));
-  if (places.frames_per_place < 1 || counts.frames() != count * places.frames_per_place)
+  if (positions.frames_per_position < 1 || counts.frames() != count * positions.frames_per_position)
     return fail(Code::bad_input, fmt::format("{} frames do not fit {} positions of {} frames",
-                                             counts.frames(), count, places.frames_per_place));
-  StillPoses out{.tree = {}, .cameras = rig.camera_count(), .sightings = {}};
-  for (Eigen::Index place = 0; place < count; ++place) {
-    out.tree.emplace_back(places.x_in_stage.col(place));
+                                             counts.frames(), count, positions.frames_per_position));
+  StillPoses out{.tree = {}, .cameras = rig.camera_count(), .observations = {}};
+  for (Eigen::Index position = 0; position < count; ++position) {
+    out.tree.emplace_back(positions.x_in_stage.col(position));
     for (int c = 0; c < out.cameras; ++c)
-      out.sightings.push_back(still_sighting(counts, rig.electronics,
-                                             {place * places.frames_per_place, places.frames_per_place}, 0, c,
-                                             options));
+      out.observations.push_back(still_observation(
+          counts, rig.electronics, {position * positions.frames_per_position, positions.frames_per_position},
+          0, c, options));
   }
   return out;
 }
 
 Result<BundleResult> calibrate_scan(const data::Rig& nominal, const data::Counts& counts,
-                                    const ScanPlaces& places, const BundleOptions& options,
+                                    const ScanPositions& positions, const BundleOptions& options,
                                     const Progress& progress) {
-  const auto seen = scan_sightings(counts, nominal, places);
+  const auto seen = scan_observations(counts, nominal, positions);
   if (!seen) return std::unexpected(seen.error());
   auto result = calibrate_bundle(nominal, *seen, {}, options, progress);
   if (result) result->rig.method = "scan";

@@ -14,22 +14,24 @@
 namespace kinemark::calibration {
 
 /// Positions at which the stage held the LED.
-struct ScanPlaces {
-  Eigen::Matrix3Xd x_in_stage;  ///< m; a column per position, twelve or more
-  int frames_per_place = 10;    ///< recorded at each position, >= 1
+struct ScanPositions {
+  Eigen::Matrix3Xd x_in_stage;   ///< m; a column per position, twelve or more
+  int frames_per_position = 10;  ///< recorded at each position, >= 1
 };
 
 /// The positions as one rigid object with as many LEDs in a single pose, the input of calibrate_bundle().
 /// Positions that a camera did not see, or where the LED moved, are left out for that camera. Fails when the
 /// recording has more
 /// than one LED, or its frames do not fit the positions.
-[[nodiscard]] Result<StillPoses> scan_sightings(const data::Counts& counts, const data::Rig& rig,
-                                                const ScanPlaces& places, const StillOptions& options = {});
+[[nodiscard]] Result<StillPoses> scan_observations(const data::Counts& counts, const data::Rig& rig,
+                                                   const ScanPositions& positions,
+                                                   const StillOptions& options = {});
 
 /// Bundle over the scan: cameras and the pose of the stage; method "scan". The stage's own error (25 um moves
 /// a count by 0.06) is not modelled. Fails as calibrate_bundle().
 [[nodiscard]] Result<BundleResult> calibrate_scan(const data::Rig& nominal, const data::Counts& counts,
-                                                  const ScanPlaces& places, const BundleOptions& options = {},
+                                                  const ScanPositions& positions,
+                                                  const BundleOptions& options = {},
                                                   const Progress& progress = {});
 
 }  // namespace kinemark::calibration

@@ -17,23 +17,23 @@ namespace ts = testing_support;
 
 /// A lattice of 5 x 5 x 4 positions, three frames each, the stage slightly rotated and shifted.
 struct Scan {
-  ScanPlaces places;
+  ScanPositions positions;
   math::SE3 world_from_stage;
   data::Counts counts;
 
   explicit Scan(const data::Rig& truth) {
-    places.frames_per_place = 3;
-    places.x_in_stage.resize(3, 100);
+    positions.frames_per_position = 3;
+    positions.x_in_stage.resize(3, 100);
     for (int i = 0; i < 100; ++i)
-      places.x_in_stage.col(i) << 0.15 * (i % 5 - 2), 0.15 * (i / 5 % 5 - 2), 0.2 * (i / 25) - 0.3;
+      positions.x_in_stage.col(i) << 0.15 * (i % 5 - 2), 0.15 * (i / 5 % 5 - 2), 0.2 * (i / 25) - 0.3;
     world_from_stage.rotation =
         Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, -2, 1).normalized()).toRotationMatrix();
     world_from_stage.translation << 0.004, -0.003, 0.005;
     counts = ts::count_paths(
         truth, 1, 300, 100.0,
         [&](int, double t) {
-          const int place = std::clamp(static_cast<int>(t * 100.0 + 1e-6) / 3, 0, 99);
-          return Eigen::Vector3d(world_from_stage * places.x_in_stage.col(place));
+          const int position = std::clamp(static_cast<int>(t * 100.0 + 1e-6) / 3, 0, 99);
+          return Eigen::Vector3d(world_from_stage * positions.x_in_stage.col(position));
         },
         8);
   }
@@ -49,7 +49,7 @@ BundleOptions small() {
 TEST(Scan, CalibratesFromOneLedInKnownPlaces) {
   const auto truth = ts::real_rig(12);
   const Scan scan(truth);
-  const auto result = calibrate_scan(ts::ideal_rig(), scan.counts, scan.places, small());
+  const auto result = calibrate_scan(ts::ideal_rig(), scan.counts, scan.positions, small());
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->rig.method, "scan");
   EXPECT_NEAR(result->report.chi2_per_dof, 1.0, 0.3);
@@ -65,14 +65,15 @@ TEST(Scan, CalibratesFromOneLedInKnownPlaces) {
 TEST(Scan, RefusesWhatDoesNotFit) {
   const auto rig = ts::ideal_rig();
   Scan scan(rig);
-  auto places = scan.places;
-  places.frames_per_place = 4;
-  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message,
+  auto positions = scan.positions;
+  positions.frames_per_position = 4;
+  EXPECT_THAT(scan_observations(scan.counts, rig, positions).error().message,
               HasSubstr("300 frames do not fit 100 positions"));
-  places.x_in_stage = places.x_in_stage.leftCols(5).eval();
-  EXPECT_THAT(scan_sightings(scan.counts, rig, places).error().message, HasSubstr("a scan of 5 positions"));
+  positions.x_in_stage = positions.x_in_stage.leftCols(5).eval();
+  EXPECT_THAT(scan_observations(scan.counts, rig, positions).error().message,
+              HasSubstr("a scan of 5 positions"));
   scan.counts.leds.emplace_back("second");
-  EXPECT_FALSE(scan_sightings(scan.counts, rig, scan.places));
+  EXPECT_FALSE(scan_observations(scan.counts, rig, scan.positions));
 }
 
 }  // namespace

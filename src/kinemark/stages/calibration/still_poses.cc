@@ -23,9 +23,9 @@ double left_of_flicker(const data::Counts& counts, const FrameRange& frames, dou
 
 }  // namespace
 
-StillSighting still_sighting(const data::Counts& counts, const data::Electronics& electronics,
-                             const FrameRange& frames, std::int64_t led, std::int64_t camera,
-                             const StillOptions& options) {
+StillObservation still_observation(const data::Counts& counts, const data::Electronics& electronics,
+                                   const FrameRange& frames, std::int64_t led, std::int64_t camera,
+                                   const StillOptions& options) {
   constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
   constexpr double kDark = 100.0;  // counts of all four channels: reached by offsets and stray light alone
   Eigen::Vector4d mean = Eigen::Vector4d::Zero(), square = Eigen::Vector4d::Zero();
@@ -71,13 +71,7 @@ Result<StillPoses> still_poses(const data::Counts& counts, const data::Rig& rig,
                                std::vector<Eigen::Vector3d> tree, int frames_per_pose,
                                const StillOptions& options) {
   if (auto s = counts.validate(); !s) return std::unexpected(s.error());
-  if (counts.camera_count() != rig.camera_count())
-    return fail(Code::bad_input,
-                fmt::format("the recording has {} cameras and the rig {}; they must be the same",
-                            counts.camera_count(), rig.camera_count()));
-  if (!counts.rig_id.empty() && !rig.id.empty() && counts.rig_id != rig.id)
-    return fail(Code::bad_input,
-                fmt::format("the recording was made with rig '{}', this rig is '{}'", counts.rig_id, rig.id));
+  if (auto s = data::check_same_rig(counts, rig); !s) return std::unexpected(s.error());
   if (counts.led_count() != static_cast<std::int64_t>(tree.size()))
     return fail(Code::bad_input,
                 fmt::format("the recording has {} LEDs and the tree {}; they must be the same",
@@ -85,12 +79,12 @@ Result<StillPoses> still_poses(const data::Counts& counts, const data::Rig& rig,
   if (frames_per_pose < 1 || counts.frames() % frames_per_pose != 0 || counts.frames() == 0)
     return fail(Code::bad_input, fmt::format("{} frames do not divide into poses of {} frames",
                                              counts.frames(), frames_per_pose));
-  StillPoses out{.tree = std::move(tree), .cameras = rig.camera_count(), .sightings = {}};
+  StillPoses out{.tree = std::move(tree), .cameras = rig.camera_count(), .observations = {}};
   for (std::int64_t first = 0; first < counts.frames(); first += frames_per_pose)
     for (int led = 0; led < out.leds(); ++led)
       for (int c = 0; c < out.cameras; ++c)
-        out.sightings.push_back(
-            still_sighting(counts, rig.electronics, {first, frames_per_pose}, led, c, options));
+        out.observations.push_back(
+            still_observation(counts, rig.electronics, {first, frames_per_pose}, led, c, options));
   return out;
 }
 

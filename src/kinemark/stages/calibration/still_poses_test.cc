@@ -39,8 +39,8 @@ TEST(StillPoses, AveragesRunsOfFrames) {
       for (int c = 0; c < 2; ++c) {
         const auto& s = poses->at(pose, led, c);
         ASSERT_TRUE(s.seen());
-        const Vector3d place = test_tree()[static_cast<std::size_t>(led)] + Vector3d(0.05 * pose, 0, 0);
-        z2 += (s.counts - ts::mean_counts(rig.cameras[static_cast<std::size_t>(c)], place)).squaredNorm() /
+        const Vector3d position = test_tree()[static_cast<std::size_t>(led)] + Vector3d(0.05 * pose, 0, 0);
+        z2 += (s.counts - ts::mean_counts(rig.cameras[static_cast<std::size_t>(c)], position)).squaredNorm() /
               s.variance / 120.0;
       }
   EXPECT_NEAR(z2, 1.0, 0.35);
@@ -65,8 +65,8 @@ TEST(StillPoses, FlickerCountsAsFarAsItDoesNotAverageOut) {
   const auto rig = ts::ideal_rig();
   const auto counts = recording(rig);
   // 120 Hz at 100 frames per second: ten frames hold two periods, seven do not.
-  const double ten = still_sighting(counts, rig.electronics, {0, 10}, 0, 0).variance;
-  const double seven = still_sighting(counts, rig.electronics, {0, 7}, 0, 0).variance;
+  const double ten = still_observation(counts, rig.electronics, {0, 10}, 0, 0).variance;
+  const double seven = still_observation(counts, rig.electronics, {0, 7}, 0, 0).variance;
   const double noise = ts::count_sd(rig) * ts::count_sd(rig);
   EXPECT_NEAR(ten, noise / 10.0, 0.01 * ten);
   EXPECT_GT(seven, 1.02 * noise / 7.0);

@@ -95,8 +95,8 @@ TEST(FrameSolver, ALimitedCoordinateStopsAtItsLimit) {
   Frame frame({}, tight);
   VectorXd x = frame.problem.model.default_state();
   frame.solver.solve(frame.y, frame.weight, 1, x);
-  const auto& place = frame.problem.model.coordinates()[11];
-  EXPECT_NEAR(x[place.state_idx], knee - 0.2, 1e-9);
+  const auto& coordinate = frame.problem.model.coordinates()[11];
+  EXPECT_NEAR(x[coordinate.state_idx], knee - 0.2, 1e-9);
 }
 
 TEST(FrameSolver, ALockedCoordinateDoesNotMove) {
@@ -109,7 +109,7 @@ TEST(FrameSolver, ALockedCoordinateDoesNotMove) {
   EXPECT_EQ(x[frame.problem.model.coordinates()[9].state_idx], 0.123);
 }
 
-TEST(FrameSolver, APullMovesItsCoordinateAndAStrongerOneMore) {
+TEST(FrameSolver, ATaskMovesItsCoordinateAndAStrongerOneMore) {
   double before = 0.0;
   for (const double weight : {1e-4, 1e-2, 1.0}) {
     IkOptions options;
@@ -124,7 +124,7 @@ TEST(FrameSolver, APullMovesItsCoordinateAndAStrongerOneMore) {
   EXPECT_NEAR(before, 2.0, 0.05);
 }
 
-TEST(FrameSolver, APullOnAnAngleOfTheFreeRootWorksToo) {
+TEST(FrameSolver, ATaskOnAnAngleOfTheFreeRootWorksToo) {
   IkOptions options;
   options.coordinate_tasks = {{.coordinate = "tilt", .weight = 100.0, .value = 0.0}};
   Frame frame(options);

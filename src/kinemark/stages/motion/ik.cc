@@ -13,8 +13,10 @@
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
+#include "kinemark/stages/motion/internal/judged_frames.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
 #include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/internal/sample_findings.h"
 #include "kinemark/stages/motion/internal/start.h"
 
 namespace kinemark::motion {
@@ -23,126 +25,6 @@ namespace {
 using data::FrameStatus;
 using internal::FrameSolver;
 using internal::Problem;
-
-constexpr int kRetryStarts = 6;  // poses tried on a frame whose cost jumps
-
-/// Walks over the frames from the anchor, forwards and then backwards, and fills states and errors.
-class Tracker {
- public:
-  Tracker(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
-          const Progress& progress, IkResult& result)
-      : problem_(problem),
-        options_(options),
-        markers_(markers),
-        progress_(progress),
-        result_(result),
-        solver_(problem, options),
-        y_(3, problem.model.marker_count()),
-        weight_(problem.model.marker_count()) {
-    states_.resize(problem.model.state_count(), problem.frames);
-    result_.motion.marker_error.assign(at(3 * problem.frames) * at(problem.model.marker_count()),
-                                       std::numeric_limits<double>::quiet_NaN());
-    result_.motion.status.assign(at(problem.frames), FrameStatus::no_markers);
-    x_ = before_ = problem.model.default_state();
-    retry_ = x_;
-    move_.setZero(problem.model.speed_count());
-  }
-
-  /// False when the caller stopped it.
-  bool run() {
-    const std::int64_t anchor = find_anchor();
-    problem_.observe(markers_, anchor, y_, weight_);
-    // The recording may begin anywhere relative to the default pose: several starts, the cheapest wins.
-    find_start(problem_, options_, solver_, y_, weight_, anchor, options_.starts, x_);
-    const Eigen::VectorXd start = x_;
-    if (!walk(anchor, problem_.frames, 1)) return false;
-    x_ = start;
-    if (!walk(anchor - 1, -1, -1)) return false;
-    result_.iterations = solver_.iterations();
-    return true;
-  }
-
-  [[nodiscard]] const Eigen::MatrixXd& states() const { return states_; }
-
- private:
-  /// First frame in which at least 95 % as many markers are seen as in the best frame.
-  std::int64_t find_anchor() const {
-    std::vector<int> seen(at(problem_.frames), 0);
-    for (std::int64_t f = 0; f < problem_.frames; ++f)
-      for (const int m : problem_.data_marker) seen[at(f)] += markers_.present(problem_.first_frame + f, m);
-    const int best = *std::max_element(seen.begin(), seen.end());
-    return std::find_if(seen.begin(), seen.end(), [&](int n) { return 20 * n >= 19 * best; }) - seen.begin();
-  }
-
-  bool walk(std::int64_t first, std::int64_t end, int direction) {
-    int steady = 0;  // frames in a row with all markers: then the pose is extrapolated
-    double usual_cost = -1.0;
-    for (std::int64_t f = first; f != end; f += direction) {
-      ++done_;
-      if (progress_ && done_ % 1000 == 0 && !progress_(done_, problem_.frames)) return false;
-      problem_.observe(markers_, f, y_, weight_);
-      const auto visible = (weight_.array() > 0.0).count();
-      if (visible == 0) {
-        states_.col(f) = x_;
-        steady = 0;
-        continue;
-      }
-      const bool all = visible == weight_.size();
-      const Eigen::VectorXd& last = x_;
-      if (all && steady >= 2) {
-        model::difference(problem_.model, before_, last, move_);
-        before_ = last;
-        model::integrate(problem_.model, x_, move_);
-      } else {
-        before_ = last;
-      }
-      steady = all ? steady + 1 : 0;
-      auto outcome = solver_.solve(y_, weight_, f, x_);
-      // A jump in cost may be a lost pose: try again from the neighbour laid over the markers, keep the
-      // better.
-      if (!outcome.converged || (usual_cost >= 0.0 && outcome.cost > 9.0 * usual_cost + 1e-4)) {
-        retry_ = before_;
-        const auto second = find_start(problem_, options_, solver_, y_, weight_, f,
-                                       std::min(options_.starts, kRetryStarts), retry_);
-        if (second.cost < 0.98 * outcome.cost) {
-          x_ = retry_;
-          outcome = second;
-        }
-        steady = 0;
-        solver_.square_cost(y_, weight_, f, x_);  // residuals of the pose that was kept
-      }
-      usual_cost = usual_cost < 0.0 ? outcome.cost : 0.95 * usual_cost + 0.05 * outcome.cost;
-      store(f, outcome.converged);
-    }
-    return true;
-  }
-
-  void store(std::int64_t f, bool converged) {
-    states_.col(f) = x_;
-    const auto M = weight_.size();
-    for (Eigen::Index m = 0; m < M; ++m)
-      if (weight_[m] > 0.0)
-        for (int axis = 0; axis < 3; ++axis)
-          result_.motion.marker_error[at((f * M + m) * 3 + axis)] = solver_.residual()(axis, m);
-    result_.motion.status[at(f)] = converged ? FrameStatus::converged : FrameStatus::not_converged;
-    result_.fit.max_loop_gap_m = std::max(result_.fit.max_loop_gap_m, solver_.loop_gap());
-    double sum = 0.0;
-    for (Eigen::Index m = 0; m < M; ++m) sum += weight_[m] * solver_.residual().col(m).squaredNorm();
-    sum /= weight_.sum();
-    result_.cost += sum;
-  }
-
-  const Problem& problem_;
-  const IkOptions& options_;
-  const data::Trajectories& markers_;
-  const Progress& progress_;
-  IkResult& result_;
-  FrameSolver solver_;
-  Eigen::Matrix3Xd y_;
-  Eigen::VectorXd weight_, x_, before_, retry_, move_;
-  Eigen::MatrixXd states_;
-  std::int64_t done_ = 0;
-};
 
 /// Coordinates of all states, Euler angles continuous from frame to frame.
 void fill_coordinates(const Problem& problem, const Eigen::MatrixXd& states, data::JointMotion& motion) {
@@ -157,11 +39,21 @@ void fill_coordinates(const Problem& problem, const Eigen::MatrixXd& states, dat
   }
 }
 
-void add_pull_costs(const Problem& problem, IkResult& result) {
-  for (const auto& pull : problem.pulls)
+/// What the frames add up to.
+void take_frames(internal::SolvedFrames& solved, IkResult& result) {
+  result.motion.marker_error = std::move(solved.marker_error);
+  result.motion.status = std::move(solved.status);
+  result.iterations = solved.iterations;
+  for (const double cost : solved.cost) result.cost += cost;
+  for (const double gap : solved.loop_gap_m)
+    result.fit.max_loop_gap_m = std::max(result.fit.max_loop_gap_m, gap);
+}
+
+void add_task_costs(const Problem& problem, IkResult& result) {
+  for (const auto& task : problem.coordinate_tasks)
     for (std::int64_t f = 0; f < problem.frames; ++f) {
-      const double miss = pull.target(f) - result.motion.q[result.motion.index(f, pull.coordinate)];
-      if (result.motion.status[at(f)] != FrameStatus::no_markers) result.cost += pull.weight * miss * miss;
+      const double miss = task.target(f) - result.motion.q[result.motion.index(f, task.coordinate)];
+      if (result.motion.status[at(f)] != FrameStatus::no_markers) result.cost += task.weight * miss * miss;
     }
 }
 
@@ -212,13 +104,17 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
                  .t0_s = markers.time.time_s(problem->first_frame),
                  .frames = problem->frames};
 
-  Tracker tracker(*problem, options, markers, progress, result);
   const auto start = std::chrono::steady_clock::now();
-  if (!tracker.run()) return fail(Code::cancelled, "inverse kinematics was stopped");
+  auto judged = internal::solve_and_judge(*problem, options, markers, progress);
+  if (!judged) return fail(Code::cancelled, "inverse kinematics was stopped");
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fill_coordinates(*problem, tracker.states(), motion);
-  add_pull_costs(*problem, result);
+  auto& solved = judged->solved;
+  const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
+  take_frames(solved, result);
+  fill_coordinates(*problem, solved.states, motion);
+  add_task_costs(*problem, result);
   note_limits(*problem, result);
+  internal::add_sample_findings(*problem, *judged, markers, result);
 
   if (options.error_bars) {
     MarkerVariances variances;
@@ -227,9 +123,9 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
                                 options.marker_noise_sd_m * options.marker_noise_sd_m);
       variances.common.setZero(static_cast<Eigen::Index>(problem->model.bodies().size()));
     } else {
-      variances = estimate_variances(*problem, markers, tracker.states(), options.threads);
+      variances = estimate_variances(*problem, kept, solved.states, options.threads);
     }
-    compute_error_bars(*problem, markers, tracker.states(), variances, options.threads, motion);
+    compute_error_bars(*problem, kept, solved.states, variances, options.threads, motion);
     flag_underdetermined(motion);
     internal::add_marker_noise(problem->model, variances, result.fit);
   }

@@ -44,6 +44,7 @@ struct IkOptions {
   double loss_scale_m = 0.02;                    ///< > 0; threshold of huber, scale of cauchy
   bool limits = true;              ///< clamped coordinates stay in their range (free roots excepted)
   double marker_noise_sd_m = 0.0;  ///< per axis; 0: estimated from the residuals as variance components
+  bool judge_samples = true;       ///< leave out samples that neither the model nor the frames beside explain
   bool error_bars = true;          ///< compute q_sd and determined
   int max_iterations = 100;        ///< per frame, >= 1
   double first_time_s = -1e300;    ///< solve only frames in [first_time_s, last_time_s]

@@ -153,8 +153,8 @@ TEST(Problem, TasksMustFitTheModelAndTheFrames) {
   EXPECT_THAT(sentence(markers, options), HasSubstr("not a number"));
   options.coordinate_tasks = {{.coordinate = "knee", .value = 0.5}, {.coordinate = "hip", .weight = 0.0}};
   const auto problem = make_problem(body(), markers, options).value();
-  ASSERT_EQ(problem.pulls.size(), 1U) << "no weight, no pull";
-  EXPECT_EQ(problem.pulls[0].target(3), 0.5);
+  ASSERT_EQ(problem.coordinate_tasks.size(), 1U) << "no weight, no task";
+  EXPECT_EQ(problem.coordinate_tasks[0].target(3), 0.5);
 }
 
 }  // namespace

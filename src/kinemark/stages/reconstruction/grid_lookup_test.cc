@@ -28,26 +28,27 @@ data::RatioTable table_of(const Map& map) {
   return table;
 }
 
-Vector2d bent(const Vector2d& p) {
+Vector2d distorted(const Vector2d& p) {
   return {1.5 * p.x() + 0.2 * p.x() * p.y() - 0.1 * p.x() * p.x(), 1.4 * p.y() + 0.15 * p.x() * p.x()};
 }
 
 TEST(GridLookup, InvertsAQuadraticMapExactly) {
-  const auto table = table_of(bent);
+  const auto table = table_of(distorted);
   for (const Vector2d& p :
        {Vector2d(0, 0), Vector2d(0.31, -0.22), Vector2d(-0.44, 0.47), Vector2d(0.02, 0.49)})
-    EXPECT_LT((look_up(table, bent(p)) - p).norm(), 1e-12);
+    EXPECT_LT((look_up(table, distorted(p)) - p).norm(), 1e-12);
 }
 
 TEST(GridLookup, ExtrapolatesALittleBeyondTheGrid) {
-  const auto table = table_of(bent);
+  const auto table = table_of(distorted);
   const Vector2d p(0.56, -0.55);
-  EXPECT_LT((look_up(table, bent(p)) - p).norm(), 1e-10);
+  EXPECT_LT((look_up(table, distorted(p)) - p).norm(), 1e-10);
 }
 
 TEST(GridLookup, DarkCountsGiveNoPlace) {
   EXPECT_TRUE(detector_ratios({0, 0, 10, 20}).hasNaN());
-  EXPECT_TRUE(look_up(table_of(bent), Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())).hasNaN());
+  EXPECT_TRUE(
+      look_up(table_of(distorted), Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())).hasNaN());
 }
 
 TEST(GridLookup, RatiosAreSignedByElectrode) {

@@ -15,7 +15,7 @@
 namespace kinemark::reconstruction {
 namespace {
 
-/// Sum over sightings of J'J, J'r and r'r at a point.
+/// Sum over observations of J'J, J'r and r'r at a point.
 struct Normal {
   Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -23,9 +23,10 @@ struct Normal {
   bool in_front = true;
 };
 
-Normal linearise(const data::Rig& rig, std::span<const CountSighting> sightings, const Eigen::Vector3d& x) {
+Normal linearize(const data::Rig& rig, std::span<const CountObservation> observations,
+                 const Eigen::Vector3d& x) {
   Normal out;
-  for (const auto& s : sightings) {
+  for (const auto& s : observations) {
     const auto& camera = rig.cameras[static_cast<std::size_t>(s.camera)];
     const auto response = camera::respond(camera, x);
     const auto left = math::eliminate_scale(s.counts - camera.detector.offset_counts, response.phi);
@@ -41,14 +42,14 @@ Normal linearise(const data::Rig& rig, std::span<const CountSighting> sightings,
 
 }  // namespace
 
-std::optional<Located> locate(const data::Rig& rig, std::span<const CountSighting> sightings,
+std::optional<Located> locate(const data::Rig& rig, std::span<const CountObservation> observations,
                               const Eigen::Vector3d& start) {
   constexpr int kSteps = 30;
   constexpr double kLongestStep_m = 0.15, kSettled_m = 2e-7, kGone_m = 1e3;
-  if (sightings.size() < 2 || !start.allFinite()) return std::nullopt;
+  if (observations.size() < 2 || !start.allFinite()) return std::nullopt;
   Eigen::Vector3d x = start;
   for (int i = 0; i < kSteps; ++i) {
-    const Normal at = linearise(rig, sightings, x);
+    const Normal at = linearize(rig, observations, x);
     if (!at.in_front || !at.h.allFinite()) return std::nullopt;
     // A ridge of 1 / (100 m)^2: negligible where cameras see the point, and no division by zero where none
     // does.

@@ -12,7 +12,7 @@
 namespace kinemark::reconstruction {
 
 /// One camera's observation of a point.
-struct CountSighting {
+struct CountObservation {
   int camera = 0;          ///< index in the rig
   Eigen::Vector4d counts;  ///< as converted, offset included
   double variance = 0.0;   ///< of each count, > 0
@@ -22,16 +22,17 @@ struct CountSighting {
 struct Located {
   Eigen::Vector3d x_in_world;   ///< m
   Eigen::Matrix3d information;  ///< inverse covariance from the noise of the counts, m^-2
-  double chi2 = 0.0;            ///< misfit; 3 (sightings - 1) degrees of freedom
+  double chi2 = 0.0;            ///< misfit; 3 (observations - 1) degrees of freedom
   double farthest_spot = 0.0;   ///< of its spots: larger of |x|, |y|, half-sides
 };
 
 /// Maximum likelihood with each camera's light strength eliminated. Ratios of counts are not used: away from
 /// the middle of the field they are less precise by a factor of 1.7. Gauss-Newton from `start`.
 ///
-/// No value with fewer than two sightings, when the point runs behind a camera, or when 30 steps do not
+/// No value with fewer than two observations, when the point runs behind a camera, or when 30 steps do not
 /// settle it. Some 2 us from a start nearby, 8 us from afar.
-[[nodiscard]] std::optional<Located> locate(const data::Rig& rig, std::span<const CountSighting> sightings,
+[[nodiscard]] std::optional<Located> locate(const data::Rig& rig,
+                                            std::span<const CountObservation> observations,
                                             const Eigen::Vector3d& start);
 
 /// Point nearest to the axes of all cameras: where to start when nothing is known.

@@ -24,7 +24,7 @@ Result<Reconstruction> begin(const data::Counts& counts, const data::Rig& rig,
                              const ReconstructOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = check_fit(counts, rig); !s) return std::unexpected(s.error());
-  auto used = usable_sightings(counts, options.dim_share);
+  auto used = usable_observations(counts, options.dim_share);
   if (!used) return std::unexpected(used.error());
   Reconstruction out;
   out.points = data::Trajectories::all_missing(counts.leds, counts.time);
@@ -135,22 +135,22 @@ Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& 
   const double flicker = 0.5 * options.flicker_counts * options.flicker_counts;
   parallel_for(counts.frames(), kGrain, options.threads, [&](std::int64_t first, std::int64_t last) {
     std::vector<Eigen::Vector3d> start(counts.leds.size(), middle);
-    std::vector<CountSighting> sightings;
+    std::vector<CountObservation> observations;
     for (std::int64_t f = first; f < last; ++f)
       for (std::int64_t led = 0; led < counts.led_count(); ++led) {
-        sightings.clear();
+        observations.clear();
         for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
           if (r.used[counts.index(f, led, c)] == 0) continue;
           const Eigen::Vector4d read = counts.at(f, led, c);
-          sightings.push_back({static_cast<int>(c), read,
-                               camera::conversion_variance(rig.electronics, read.mean()) + flicker});
+          observations.push_back({static_cast<int>(c), read,
+                                  camera::conversion_variance(rig.electronics, read.mean()) + flicker});
         }
         auto& from = start[static_cast<std::size_t>(led)];
-        auto located = locate(rig, sightings, from);
-        if (!located && from != middle) located = locate(rig, sightings, middle);
+        auto located = locate(rig, observations, from);
+        if (!located && from != middle) located = locate(rig, observations, middle);
         if (!located) continue;
         const auto i = r.points.index(f, led);
-        if (located->chi2 > options.largest_chi2 * (static_cast<double>(sightings.size()) - 1.0)) {
+        if (located->chi2 > options.largest_chi2 * (static_cast<double>(observations.size()) - 1.0)) {
           r.points.set_missing(f, led, data::SampleState::rejected);
           continue;
         }

@@ -44,7 +44,7 @@ struct Reconstruction {
   /// One marker per LED at the time of its light (sample_offset_s); rejected where inconsistent, missing
   /// elsewhere. Covariance: noise of the counts and, when asked and known, error of the calibration.
   data::Trajectories points;
-  Array<std::uint8_t> used;       ///< F x L x C: 1 where the sighting served
+  Array<std::uint8_t> used;       ///< F x L x C: 1 where the observation served
   Array<std::uint8_t> near_edge;  ///< F x L: 1 where a spot lay beyond the edge
   std::vector<LedSummary> leds;   ///< L
 };
@@ -65,7 +65,8 @@ struct Reconstruction {
 /// Checks that names, numbers and ids of a recording fit a rig of lateral-effect cameras.
 [[nodiscard]] Status check_fit(const data::Counts& counts, const data::Rig& rig);
 
-/// F x L x C: 1 where a sighting has enough light, is complete and not saturated. Fails when no LED ever has.
-[[nodiscard]] Result<Array<std::uint8_t>> usable_sightings(const data::Counts& counts, double dim_share);
+/// F x L x C: 1 where an observation has enough light, is complete and not saturated. Fails when no LED ever
+/// has.
+[[nodiscard]] Result<Array<std::uint8_t>> usable_observations(const data::Counts& counts, double dim_share);
 
 }  // namespace kinemark::reconstruction

@@ -5,6 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/math/se3.h"
 #include "support/lateral_rig.h"
 
 namespace kinemark::reconstruction {
@@ -14,9 +19,9 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 namespace ts = testing_support;
 
-const Vector3d kPlace(0.1, -0.15, 0.05);
+const Vector3d kPosition(0.1, -0.15, 0.05);
 
-Vector3d still(int led, double) { return kPlace + Vector3d(0.1 * led, 0.0, 0.0); }
+Vector3d still(int led, double) { return kPosition + Vector3d(0.1 * led, 0.0, 0.0); }
 
 data::Counts recording(const data::Rig& rig, std::int64_t frames = 60) {
   return ts::count_paths(rig, 2, frames, 100.0, still, 9);
@@ -124,6 +129,137 @@ TEST(Reconstruct, TellsDarknessAndBlindCameras) {
   for (std::int64_t f = 0; f < counts.frames(); ++f)
     for (std::int64_t led = 0; led < 2; ++led) set(counts, f, led, 0, 8);
   EXPECT_THAT(reconstruct(counts, rig).error().message, HasSubstr("all LEDs are dark"));
+}
+
+/// Rig and recording with the cameras in the opposite order.
+void turn_cameras_round(data::Rig& rig, data::Counts& counts) {
+  std::ranges::reverse(rig.cameras);
+  const data::Counts was = counts;
+  std::ranges::reverse(counts.cameras);
+  for (std::int64_t led = 0; led < was.led_count(); ++led)
+    for (std::int64_t c = 0; c < 2; ++c)
+      for (std::int64_t k = 0; k < 4; ++k) {
+        counts.conversion_time_s[static_cast<std::size_t>(4 * (2 * led + c) + k)] =
+            was.conversion_time_s[static_cast<std::size_t>(4 * (2 * led + 1 - c) + k)];
+        for (std::int64_t f = 0; f < was.frames(); ++f)
+          counts.counts[4 * counts.index(f, led, c) + static_cast<std::size_t>(k)] =
+              was.counts[4 * was.index(f, led, 1 - c) + static_cast<std::size_t>(k)];
+      }
+}
+
+TEST(ReconstructLaws, PointsAndCovariancesMoveWithTheRig) {
+  auto rig = ts::real_rig(2);
+  const auto counts = recording(rig);
+  const auto before = reconstruct(counts, rig).value().points;
+  const math::SE3 move{Eigen::AngleAxisd(1.1, Vector3d(2.0, 1.0, -1.0).normalized()).toRotationMatrix(),
+                       Vector3d(3.0, -1.5, 0.25)};
+  for (auto& camera : rig.cameras) camera.cam_from_world = camera.cam_from_world * move.inverse();
+  const auto after = reconstruct(counts, rig).value().points;
+  ASSERT_EQ(after.state, before.state);
+  const auto covariance = [](const data::Trajectories& t, std::int64_t f) {
+    const double* v = t.covariance.data() + 6 * t.index(f, 1);
+    return Eigen::Matrix3d{{v[0], v[1], v[2]}, {v[1], v[3], v[4]}, {v[2], v[4], v[5]}};
+  };
+  for (std::int64_t f = 0; f < before.frames(); ++f) {
+    EXPECT_LT((after.x(f, 1) - move * before.x(f, 1)).norm(), 1e-8) << f;
+    const Eigen::Matrix3d rotated = move.rotation * covariance(before, f) * move.rotation.transpose();
+    EXPECT_LT((covariance(after, f) - rotated).norm(), 1e-4 * rotated.norm()) << f;
+  }
+}
+
+TEST(ReconstructLaws, CamerasMayComeInAnyOrder) {
+  auto rig = ts::real_rig(2);
+  auto counts = recording(rig);
+  const auto before = reconstruct(counts, rig).value();
+  turn_cameras_round(rig, counts);
+  const auto after = reconstruct(counts, rig);
+  ASSERT_TRUE(after) << after.error().message;
+  ASSERT_EQ(after->points.state, before.points.state);
+  for (std::int64_t f = 0; f < counts.frames(); ++f)
+    for (std::int64_t led = 0; led < 2; ++led)
+      EXPECT_LT((after->points.x(f, led) - before.points.x(f, led)).norm(), 1e-8) << f;
+}
+
+TEST(ReconstructLaws, AFrameDoesNotDependOnTheOthers) {
+  const auto rig = ts::real_rig(3);
+  const auto counts = recording(rig, 40);
+  const auto all = reconstruct(counts, rig).value().points;
+  auto one =
+      data::Counts::zeros(counts.leds, counts.cameras, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1}, false);
+  one.conversion_time_s = counts.conversion_time_s;
+  for (const std::int64_t f : {0, 17, 39}) {
+    std::copy_n(counts.counts.begin() + static_cast<std::ptrdiff_t>(4 * counts.index(f, 0, 0)), 16,
+                one.counts.begin());
+    const auto alone = reconstruct(one, rig).value().points;
+    for (std::int64_t led = 0; led < 2; ++led) EXPECT_LT((alone.x(0, led) - all.x(f, led)).norm(), 1e-8) << f;
+  }
+}
+
+TEST(ReconstructLaws, CovariancesArePositiveAndGrowWithTheFlicker) {
+  const auto rig = ts::real_rig(4);
+  const auto counts = recording(rig, 30);
+  ReconstructOptions options;
+  double last = 0.0;
+  for (const double flicker : {0.0, 1.0, 4.0}) {
+    options.flicker_counts = flicker;
+    const auto points = reconstruct(counts, rig, options).value().points;
+    ASSERT_EQ(points.covariance.size(), 6U * 30 * 2);
+    double trace = 0.0;
+    for (std::int64_t f = 0; f < 30; ++f) {
+      const double* v = points.covariance.data() + 6 * points.index(f, 0);
+      const Eigen::Matrix3d c{{v[0], v[1], v[2]}, {v[1], v[3], v[4]}, {v[2], v[4], v[5]}};
+      EXPECT_GT(c.determinant(), 0.0);
+      EXPECT_GT(c(0, 0), 0.0);
+      trace += c.trace();
+    }
+    EXPECT_GT(trace, last) << flicker;
+    last = trace;
+  }
+}
+
+TEST(Reconstruct, CountsAddUpAndUsedTellsWhatServed) {
+  const auto rig = ts::real_rig(2);
+  auto counts = recording(rig);
+  for (const std::int64_t f : {2, 3, 30}) counts.flags[counts.index(f, 1, 1)] |= data::kCountOccluded;
+  counts.flags[counts.index(8, 1, 0)] |= data::kCountSaturated;
+  const auto r = reconstruct(counts, rig).value();
+  for (const auto& led : r.leds) {
+    EXPECT_EQ(led.frames, 60);
+    EXPECT_EQ(led.located + led.occluded + led.saturated + led.inconsistent, led.frames) << led.name;
+  }
+  EXPECT_EQ(r.leds[1].occluded, 3);
+  ASSERT_EQ(r.used.size(), counts.flags.size());
+  for (std::int64_t f = 0; f < 60; ++f)
+    for (std::int64_t led = 0; led < 2; ++led)
+      EXPECT_EQ(r.points.present(f, led),
+                r.used[counts.index(f, led, 0)] != 0 && r.used[counts.index(f, led, 1)] != 0)
+          << f << ' ' << led;
+}
+
+TEST(Reconstruct, EachOptionHasARange) {
+  const auto refused = [](auto change) {
+    ReconstructOptions options;
+    change(options);
+    const auto status = options.check();
+    return !status && status.error().code == Code::usage;
+  };
+  EXPECT_TRUE(ReconstructOptions{}.check());
+  for (const double bad : {-0.1, std::nan("")}) {
+    EXPECT_TRUE(refused([bad](ReconstructOptions& o) { o.dim_share = bad; })) << bad;
+    EXPECT_TRUE(refused([bad](ReconstructOptions& o) { o.largest_chi2 = bad; })) << bad;
+    EXPECT_TRUE(refused([bad](ReconstructOptions& o) { o.edge = bad; })) << bad;
+    EXPECT_TRUE(refused([bad](ReconstructOptions& o) { o.flicker_counts = bad; })) << bad;
+  }
+}
+
+TEST(Reconstruct, AVideoCameraAndBrokenCountsAreRefused) {
+  auto rig = ts::ideal_rig();
+  const auto counts = recording(rig);
+  auto broken = counts;
+  broken.flags.pop_back();
+  EXPECT_EQ(reconstruct(broken, rig).error().code, Code::bad_input);
+  rig.cameras[1].kind = data::CameraKind::pinhole;
+  EXPECT_THAT(reconstruct(counts, rig).error().message, HasSubstr("camera 'B' is no lateral-effect camera"));
 }
 
 TEST(Reconstruct, ClassicNeedsTables) {

@@ -12,7 +12,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/text.h"
 #include "kinemark/stages/report/clean_report.h"
-#include "kinemark/stages/report/internal/clean_words.h"
+#include "kinemark/stages/report/internal/clean_text.h"
 
 namespace kinemark::report {
 
@@ -21,12 +21,13 @@ namespace {
 using internal::length_s;
 
 constexpr double kLargeSdM = 0.010;  ///< a fill beyond this is of no use for joint angles
-constexpr double kSure = 0.8;        ///< confidence from which a defect counts as there
+constexpr double kMuchColour =
+    0.1;  ///< share of the noise power at other frequencies that a person should know of
 constexpr double kHighCutoff = 0.4;  ///< of the rate: above this a filter takes next to nothing away
-constexpr std::size_t kNamesTold = 6;
+constexpr std::size_t kNamesListed = 6;
 constexpr double kCyclesAtLeast = 2.0;  ///< a cut-off with fewer cycles in the recording leaves only drift
 
-std::string in_words(std::int64_t n, std::string_view one, std::string_view many) {
+std::string count_text(std::int64_t n, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
@@ -54,14 +55,14 @@ struct DefectGroup {
 void add_defects(const CleanReport& r, std::vector<Notice>& out) {
   std::vector<DefectGroup> groups;
   for (const data::Defect& d : r.account.defects) {
-    const bool sure = !(d.confidence < kSure);  // unknown: whoever found it did not doubt it
+    const bool sure = d.finding.sure();
     auto at = std::ranges::find_if(groups, [&](const DefectGroup& g) {
-      return g.sure == sure && g.first->handled == d.handled && g.first->kind == d.kind &&
+      return g.sure == sure && g.first->handled == d.handled && g.first->finding.kind == d.finding.kind &&
              g.first->done == d.done;
     });
     if (at == groups.end()) at = groups.insert(at, {&d, sure, 0, {}});
     ++at->number;
-    const std::string name = d.marker < 0 ? "all markers" : r.account.name_of(d.marker);
+    const std::string name = d.finding.subject.empty() ? "all markers" : d.finding.subject;
     if (std::ranges::find(at->markers, name) == at->markers.end()) at->markers.push_back(name);
   }
   for (const DefectGroup& g : groups) {
@@ -69,12 +70,11 @@ void add_defects(const CleanReport& r, std::vector<Notice>& out) {
     const Verdict level = g.sure && !d.handled ? Verdict::attention : Verdict::good;
     const std::string end = d.done.empty() ? "" : fmt::format(" What was done: {}.", d.done);
     const std::string unsure = g.sure ? "" : " Not certain: somebody should look.";
-    const std::string text =
-        g.number == 1
-            ? d.sentence
-            : fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}", to_string(d.kind),
-                          g.number, join_in_words(g.markers, kNamesTold), d.sentence);
-    add(out, level, "marker", r.account.name_of(d.marker), text + unsure + end, r.time.time_s(d.first_frame));
+    std::string text = sentence_of(d.finding, r.time);
+    if (g.number > 1)
+      text = fmt::format("Defects of the kind \"{}\" in {} places ({}). The first: {}",
+                         to_string(d.finding.kind), g.number, join_names(g.markers, kNamesListed), text);
+    add(out, level, "marker", d.finding.subject, text + unsure + end, r.time.time_s(d.finding.first_frame));
   }
 }
 
@@ -93,8 +93,8 @@ void add_upsampling(const CleanReport& r, std::vector<Notice>& out) {
     if (up.markers[m].found()) names.push_back(r.account.names[m]);
   if (names.empty()) return;
   add(out, level, "upsampling", names.front(),
-      fmt::format("The recorder interpolated {} ({}).{}", in_words(std::ssize(names), "marker", "markers"),
-                  join_in_words(names, kNamesTold), end));
+      fmt::format("The recorder interpolated {} ({}).{}", count_text(std::ssize(names), "marker", "markers"),
+                  join_names(names, kNamesListed), end));
 }
 
 /// One line for each marker that has fills nobody should rely on.
@@ -112,7 +112,7 @@ void add_uncertain_fills(const CleanReport& r, std::vector<Notice>& out) {
     add(out, Verdict::attention, "gap", marker,
         fmt::format("{} of {} {} filled with a standard deviation above {:.0f} mm; the largest is {:.1f} mm, "
                     "in a gap of {:.3g} s.",
-                    in_words(number, "gap", "gaps"), marker, number == 1 ? "was" : "were", 1e3 * kLargeSdM,
+                    count_text(number, "gap", "gaps"), marker, number == 1 ? "was" : "were", 1e3 * kLargeSdM,
                     1e3 * gap->max_sd_m, length_s(*gap, r.time)),
         r.time.time_s(gap->first_frame));
   }
@@ -136,7 +136,7 @@ void add_open_gaps(const CleanReport& r, std::vector<Notice>& out) {
   const std::string marker = r.account.name_of(longest->marker);
   add(out, Verdict::good, "gap", marker,
       fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
-                  in_words(number, "gap was", "gaps were"), sum_s, join_in_words(names, kNamesTold),
+                  count_text(number, "gap was", "gaps were"), sum_s, join_names(names, kNamesListed),
                   length_s(*longest, r.time), marker, why),
       r.time.time_s(longest->first_frame));
 }
@@ -149,8 +149,8 @@ void add_of_markers(const CleanReport& r, std::vector<Notice>& out,
     if (holds(m)) names.push_back(r.account.markers[m].name);
   if (names.empty()) return;
   add(out, Verdict::good, "marker", names.front(),
-      fmt::format("{} ({} of {}): {}", join_in_words(names, kNamesTold), names.size(),
-                  in_words(std::ssize(r.account.markers), "marker", "markers"), text));
+      fmt::format("{} ({} of {}): {}", join_names(names, kNamesListed), names.size(),
+                  count_text(std::ssize(r.account.markers), "marker", "markers"), text));
 }
 
 void add_filters(const CleanReport& r, std::vector<Notice>& out) {
@@ -158,9 +158,17 @@ void add_filters(const CleanReport& r, std::vector<Notice>& out) {
   const auto& markers = r.account.markers;
   const auto chosen = [&](std::size_t m) { return !markers[m].criterion_name.empty(); };
   add_of_markers(
-      r, out, [&](std::size_t m) { return !markers[m].white; },
-      "the residual is not white. The filter took away more than noise, or the noise is not white: rely less "
-      "on the error bars.");
+      r, out,
+      [&](std::size_t m) { return markers[m].coloured() && markers[m].white_departure >= kMuchColour; },
+      "the residual is not white (p < 0.01): more than a tenth of the noise power lies too low in frequency. "
+      "The "
+      "filter took away more than noise, or the noise is not white: the error bars are too small.");
+  add_of_markers(
+      r, out,
+      [&](std::size_t m) { return markers[m].coloured() && markers[m].white_departure <= -kMuchColour; },
+      "the residual is not white (p < 0.01): more than a tenth of the noise power lies too high in "
+      "frequency. The "
+      "error bars are too large.");
   add_of_markers(
       r, out,
       [&](std::size_t m) { return chosen(m) && markers[m].used.cutoff_hz > kHighCutoff * r.time.rate_hz; },

@@ -39,14 +39,14 @@ data::GapAccount gap(std::int64_t marker, std::int64_t first, std::int64_t last)
   return {.marker = marker, .first_frame = first, .last_frame = last};
 }
 
-data::Defect rejected_spike(std::int64_t marker, std::int64_t frame, double confidence,
-                            std::string sentence) {
-  return {.kind = data::DefectKind::spike,
-          .marker = marker,
-          .first_frame = frame,
-          .last_frame = frame,
-          .confidence = confidence,
-          .sentence = std::move(sentence),
+data::Defect rejected_spike(std::string marker, std::int64_t frame, double confidence,
+                            std::string description) {
+  return {.finding = {.kind = data::FindingKind::spike,
+                      .subject = std::move(marker),
+                      .first_frame = frame,
+                      .last_frame = frame,
+                      .confidence = confidence,
+                      .description = std::move(description)},
           .done = "rejected",
           .handled = true};
 }
@@ -78,35 +78,32 @@ TEST(CleanFindings, AFailedGateIsSaidInItsOwnWords) {
 
 TEST(CleanFindings, ADefectIsSeriousWhenItIsCertainAndWasLeft) {
   CleanReport r = faultless();
-  r.account.defects = {rejected_spike(kA, 10, 0.95, "A spike.")};
+  r.account.defects = {rejected_spike("A", 10, 0.95, "a spike")};
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
   r.account.defects[0].handled = false;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
-  r.account.defects[0].confidence = 0.6;
+  r.account.defects[0].finding.confidence = 0.6;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("Not certain"));
   EXPECT_DOUBLE_EQ(clean_findings(r)[0].time_s, 0.1);
-  r.account.defects[0].confidence = kNaN;
+  r.account.defects[0].finding.confidence = kNaN;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
 }
 
 TEST(CleanFindings, ThousandsOfSpikesAreOneLine) {
   CleanReport r = faultless();
   for (int i = 0; i < 3000; ++i)
-    r.account.defects.push_back(rejected_spike(i % 2 == 0 ? kA : kB, i, 0.9, "A leaves its path."));
-  r.account.defects.push_back({.kind = data::DefectKind::zero,
-                               .first_frame = 5,
-                               .last_frame = 5,
-                               .confidence = 0.9,
-                               .sentence = "Zeros.",
-                               .done = "rejected",
-                               .handled = true});
+    r.account.defects.push_back(rejected_spike(i % 2 == 0 ? "A" : "B", i, 0.9, "A leaves its path"));
+  r.account.defects.push_back(
+      {.finding = {.kind = data::FindingKind::zero, .first_frame = 5, .last_frame = 5, .confidence = 0.9},
+       .done = "rejected",
+       .handled = true});
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(2));
   EXPECT_THAT(findings[0].text,
               HasSubstr("\"spike\" in 3000 places (A and B). The first: A leaves its path."));
   EXPECT_THAT(findings[0].text, HasSubstr("What was done: rejected."));
-  EXPECT_THAT(findings[1].text, HasSubstr("Zeros."));
+  EXPECT_THAT(findings[1].text, HasSubstr("All markers are exactly at the origin in frame 5 (0.05 s). What"));
 }
 
 TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
@@ -166,7 +163,8 @@ TEST(CleanFindings, OpenGapsAreSummedWithTheLongestAndItsReason) {
 
 TEST(CleanFindings, FiltersThatTellLittleAreNamed) {
   CleanReport r = faultless();
-  r.account.markers[0].white = false;
+  r.account.markers[0].white_p = 1e-4;
+  r.account.markers[0].white_departure = 0.3;
   r.account.markers[1].used.cutoff_hz = 45.0;
   r.account.markers[2].used.cutoff_hz = 0.15;
   r.account.markers[2].bad_variances = 3;
@@ -176,6 +174,23 @@ TEST(CleanFindings, FiltersThatTellLittleAreNamed) {
   EXPECT_THAT(findings[1].text, HasSubstr("B (1 of 3 markers): the cut-off found is at the upper end"));
   EXPECT_THAT(findings[2].text, HasSubstr("C (1 of 3 markers): the cut-off found is at the lower end"));
   EXPECT_THAT(findings[3].text, HasSubstr("variances"));
+}
+
+TEST(CleanFindings, WhiteIsSaidOfNothingThatWasNotTested) {
+  struct Case {
+    double p, departure;
+    const char* says;  // nothing: no finding
+  };
+  for (const Case& c :
+       {Case{0.02, 0.3, ""}, Case{0.009, 0.05, ""}, Case{kNaN, kNaN, ""},
+        Case{0.009, 0.11, "too low in frequency"}, Case{0.009, -0.11, "too high in frequency"}}) {
+    CleanReport r = faultless();
+    r.account.markers[0].white_p = c.p;
+    r.account.markers[0].white_departure = c.departure;
+    const auto findings = clean_findings(r);
+    ASSERT_THAT(findings, SizeIs(*c.says == '\0' ? 0 : 1)) << c.p << ' ' << c.departure;
+    for (const auto& found : findings) EXPECT_THAT(found.text, HasSubstr(c.says));
+  }
 }
 
 TEST(CleanFindings, ACutOffThatWasGivenIsNotJudged) {
@@ -191,7 +206,8 @@ TEST(CleanFindings, ManyNamesAreCut) {
   r.counts.resize(20, r.counts[0]);
   for (std::size_t i = 0; i < r.account.markers.size(); ++i) {
     r.account.markers[i].name = "M" + std::to_string(i);
-    r.account.markers[i].white = false;
+    r.account.markers[i].white_p = 1e-4;
+    r.account.markers[i].white_departure = -0.3;
   }
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("M0, M1, M2, M3, M4, M5 and 14 more (20 of 20 markers)"));
 }

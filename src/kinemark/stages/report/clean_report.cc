@@ -11,7 +11,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/report/internal/base64.h"
-#include "kinemark/stages/report/internal/clean_words.h"
+#include "kinemark/stages/report/internal/clean_text.h"
 #include "kinemark/stages/report/internal/page.h"
 #include "kinemark/stages/report/internal/plot_points.h"
 

@@ -242,7 +242,7 @@ TEST(CleanReportHtml, NamesCannotEndTheData) {
   e.report.run.trial = hostile;
   e.accounts[0].name = hostile;
   e.report.account.gaps[0].why_open = hostile;
-  e.report.account.defects[0].sentence = hostile;
+  e.report.account.defects[0].finding.description = hostile;
   EXPECT_THAT(clean_report_html(e.finished()), Not(HasSubstr("<script>alert(1)")));
 }
 

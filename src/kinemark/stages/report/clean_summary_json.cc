@@ -9,7 +9,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/stages/report/clean_report.h"
-#include "kinemark/stages/report/internal/clean_words.h"
+#include "kinemark/stages/report/internal/clean_text.h"
 #include "kinemark/stages/report/internal/json_parts.h"
 
 namespace kinemark::report {
@@ -102,13 +102,15 @@ Json marker_json(const CleanReport& report, std::size_t marker, const GapSum& ga
           {"cutoff_hz", number(m.used.cutoff_hz, 4)},
           {"noise_sd_mm", significant(1e3 * m.used.noise_sd_m, 5)},
           {"noise_from", m.noise_from},
-          {"words", m.words},
+          {"words", m.description},
           {"criterion", m.criterion_name},
           {"tried", tried_json(m)},
           {"residual_rms_mm", significant(1e3 * m.residual_rms_m, 5)},
           {"autocorrelation", rounded(m.autocorrelation)},
-          {"ljung_box_p", significant(m.ljung_box_p, 4)},
-          {"white", m.white},
+          {"autocorrelation_if_white", rounded(m.white_autocorrelation)},
+          {"white", m.judged() ? Json(!m.coloured()) : Json()},
+          {"white_p", significant(m.white_p, 4)},
+          {"white_departure", number(m.white_departure, 4)},
           {"bar_scale", rounded(m.bar_scale)},
           {"gap_bar_scale", rounded(m.gap_bar_scale)},
           {"bad_variances", m.bad_variances},
@@ -159,15 +161,16 @@ Json gap_json(const CleanReport& report, const data::GapAccount& g) {
 
 Json defect_json(const CleanReport& report, const data::Defect& d) {
   const TimeBase& time = report.time;
-  return {{"kind", to_string(d.kind)},
-          {"marker", report.account.name_of(d.marker)},
-          {"other_marker", report.account.name_of(d.other_marker)},
-          {"first_frame", d.first_frame},
-          {"last_frame", d.last_frame},
-          {"first_time_s", number(time.time_s(d.first_frame), 6)},
-          {"last_time_s", number(time.time_s(d.last_frame), 6)},
-          {"confidence", number(d.confidence, 4)},
-          {"sentence", d.sentence},
+  const data::Finding& f = d.finding;
+  return {{"kind", to_string(f.kind)},
+          {"marker", f.subject},
+          {"other_marker", f.partner},
+          {"first_frame", f.first_frame},
+          {"last_frame", f.last_frame},
+          {"first_time_s", number(time.time_s(f.first_frame), 6)},
+          {"last_time_s", number(time.time_s(f.last_frame), 6)},
+          {"confidence", number(f.confidence, 4)},
+          {"sentence", sentence_of(f, time)},
           {"done", d.done},
           {"handled", d.handled}};
 }

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "kinemark/stages/report/clean_report.h"
-#include "kinemark/stages/report/internal/clean_words.h"
+#include "kinemark/stages/report/internal/clean_text.h"
 #include "kinemark/stages/report/internal/example_clean.h"
 
 namespace kinemark::report {
@@ -34,7 +34,7 @@ TEST(CleanSummaryJson, SaysWhatItIsAndHoldsTheRun) {
 TEST(CleanSummaryJson, EveryKeyIsDescribed) {
   const Json json = clean_summary_json(example_clean(1200).finished());
   EXPECT_EQ(json.size(), 28U) << "a new key belongs into README.md and viewer/src/clean_types.ts too";
-  EXPECT_EQ(json["markers"][0].size(), 26U);
+  EXPECT_EQ(json["markers"][0].size(), 28U);
   EXPECT_EQ(json["gaps"][0].size(), 18U);
   EXPECT_EQ(json["defects"][0].size(), 11U);
 }
@@ -68,8 +68,18 @@ TEST(CleanSummaryJson, AMarkerSumsItsGaps) {
   EXPECT_EQ(finger["gaps_open"], 1);
   EXPECT_EQ(finger["longest_open_s"], 2.5);
   EXPECT_TRUE(finger["largest_fill_sd_mm"].is_null());
-  EXPECT_FALSE(finger["white"]);
+  EXPECT_EQ(finger["white"], false);
+  EXPECT_EQ(finger["white_departure"], 0.31);
+  EXPECT_EQ(json["markers"][0]["white"], true);
   EXPECT_EQ(json["markers"][0]["gaps_filled"], 0);
+}
+
+TEST(CleanSummaryJson, WhiteIsNullWhereItWasNotJudged) {
+  CleanReport r = example_clean(1200).finished();
+  r.account.markers[0].white_p = r.account.markers[0].white_departure = kNaN;
+  const Json m = clean_summary_json(r)["markers"][0];
+  EXPECT_TRUE(m["white"].is_null());
+  EXPECT_TRUE(m["white_p"].is_null());
 }
 
 TEST(CleanSummaryJson, UnitsAreThoseOfTheReader) {
@@ -146,7 +156,7 @@ TEST(CleanSummaryJson, AnEmptyReportIsStillOne) {
   EXPECT_EQ(json["options"].dump(), "{}");
 }
 
-TEST(CleanWords, SingleMethodsHaveNoShares) {
+TEST(CleanText, SingleMethodsHaveNoShares) {
   data::GapAccount g{.filled = true, .method = "cubic"};
   EXPECT_EQ(internal::how_filled(g), "cubic");
   g.weights = {{"cubic", 1.0, 0.001, false}};
@@ -158,7 +168,7 @@ TEST(CleanWords, SingleMethodsHaveNoShares) {
   EXPECT_EQ(internal::how_filled(g), "");
 }
 
-TEST(CleanWords, StatesAreRankedByHowBadTheyAre) {
+TEST(CleanText, StatesAreRankedByHowBadTheyAre) {
   using data::SampleState;
   std::set<std::uint8_t> ranks;
   for (int s = 0; s < 6; ++s) ranks.insert(internal::state_rank(static_cast<SampleState>(s)));

@@ -157,17 +157,18 @@ void fill_accounts(ExampleClean& e) {
     const auto at = static_cast<double>(m);
     data::MarkerAccount c{.name = std::string(kNames[static_cast<std::size_t>(m)])};
     c.used = {"kalman", m < 4 ? 3 : 4, 6.0 + 0.9 * at, kNoiseM * (1.0 + 0.05 * at)};
-    c.words = "Smoother of an integrated random walk; order and cut-off have the least estimated risk.";
+    c.description = "Smoother of an integrated random walk; order and cut-off have the least estimated risk.";
     c.noise_from = "data";
     c.criterion_name = "SURE, m^2";
     for (const int order : {2, 3, 4, 5})
       c.candidates.push_back(
           {order, 5.0 + 0.9 * at + 0.4 * order, 1e-8 * (1.0 + 0.1 * std::abs(order - c.used.order))});
     c.residual_rms_m = 0.95 * c.used.noise_sd_m;
-    c.white = m != kFinger;
-    c.ljung_box_p = c.white ? 0.37 : 1e-9;
+    c.white_p = m != kFinger ? 0.37 : 1e-9;
+    c.white_departure = m != kFinger ? 0.02 : 0.31;
     for (int lag = 1; lag <= 10; ++lag)
-      c.autocorrelation.push_back(c.white ? 0.03 * std::sin(3.0 * lag + at) : 0.6 * std::exp(-0.3 * lag));
+      c.autocorrelation.push_back(c.coloured() ? 0.6 * std::exp(-0.3 * lag)
+                                               : 0.03 * std::sin(3.0 * lag + at));
     c.bar_scale = {1.04, 1.11, 1.2, 1.3};
     c.gap_bar_scale = {1.2, 1.3, 1.4, 1.5};
     for (int k = 0; k < 40; ++k) {
@@ -240,21 +241,24 @@ ExampleClean example_clean(std::int64_t frames, std::uint64_t seed) {
   e.before.x(spike, kFinger)(1) += 0.12;
   forget(e, spike, kFinger, SampleState::rejected);
   e.report.account.defects = {
-      {.kind = data::DefectKind::spike,
-       .marker = kFinger,
-       .first_frame = spike,
-       .last_frame = spike,
-       .confidence = 0.98,
-       .sentence = "R.Finger leaves its path by 120 mm for one sample and comes back.",
+      {.finding = {.kind = data::FindingKind::spike,
+                   .subject = names[kFinger],
+                   .first_frame = spike,
+                   .last_frame = spike,
+                   .size = 0.12,
+                   .confidence = 0.98,
+                   .description = "R.Finger leaves its path by 120 mm for one sample and comes back"},
        .done = "rejected",
        .handled = true},
-      {.kind = data::DefectKind::label_swap,
-       .marker = kLateral,
-       .other_marker = kMedial,
-       .first_frame = frame_at(0.8, frames),
-       .last_frame = frame_at(0.83, frames),
-       .confidence = 0.93,
-       .sentence = "R.Elbow.Lat and R.Elbow.Med sit in each other's place, 62 mm out of place.",
+      {.finding = {.kind = data::FindingKind::label_swap,
+                   .subject = names[kLateral],
+                   .partner = names[kMedial],
+                   .first_frame = frame_at(0.8, frames),
+                   .last_frame = frame_at(0.83, frames),
+                   .size = 0.062,
+                   .confidence = 0.93,
+                   .description =
+                       "R.Elbow.Lat and R.Elbow.Med sit in each other's place, 62 mm out of place"},
        .done = "left as it is"}};
   return e;
 }

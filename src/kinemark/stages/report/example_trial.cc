@@ -57,18 +57,18 @@ void fill_coordinates(ExampleTrial& t) {
     m.is_rotation.push_back(w.is_rotation);
   }
   for (std::int64_t f = 0; f < m.frames(); ++f) {
-    const double turn = 2.0 * std::numbers::pi * 0.9 * m.time.time_s(f);
+    const double angle = 2.0 * std::numbers::pi * 0.9 * m.time.time_s(f);
     for (std::size_t j = 0; j < kWaves.size(); ++j) {
       const Wave& w = kWaves[j];
       const std::size_t i = m.index(f, static_cast<std::int64_t>(j));
       const double unit = w.is_rotation ? kRadPerDeg : 1.0;
       const bool locked = j == kLocked;
-      const double shape = std::sin(turn + w.phase) + 0.35 * std::sin(2.0 * turn + 1.7 * w.phase);
+      const double shape = std::sin(angle + w.phase) + 0.35 * std::sin(2.0 * angle + 1.7 * w.phase);
       m.q[i] = locked ? 0.0 : unit * (w.mean + w.amplitude * shape);
       // The error grows around the time in which the wrist is hidden.
       const bool near = wrist_hidden(f + 12) || wrist_hidden(f - 12);
       m.determined[i] = locked || !(wrist_hidden(f) && j >= kForearm);
-      m.q_sd[i] = locked ? kNaN : unit * w.sd * (1.0 + 0.3 * std::cos(turn)) * (near && j >= 17 ? 2.6 : 1.0);
+      m.q_sd[i] = locked ? kNaN : unit * w.sd * (1.0 + 0.3 * std::cos(angle)) * (near && j >= 17 ? 2.6 : 1.0);
       if (m.determined[i] == 0) m.q_sd[i] = kNaN;
     }
   }
@@ -83,14 +83,14 @@ void fill_markers(ExampleTrial& t, std::uint64_t seed) {
     const double dropout = k % 5 == 4 ? 0.004 : 0.0004;
     std::int64_t gone_until = -1;
     for (std::int64_t f = 0; f < m.frames(); ++f) {
-      const double turn = 2.0 * std::numbers::pi * 0.9 * m.time.time_s(f);
+      const double angle = 2.0 * std::numbers::pi * 0.9 * m.time.time_s(f);
       if (random.uniform() < dropout) gone_until = f + 3 + static_cast<std::int64_t>(20.0 * random.uniform());
       const bool hidden = (k == kUlna || k == kRadius) && wrist_hidden(f);
       const std::size_t i = static_cast<std::size_t>(f) * kMarkers.size() + k;
       const bool swapped = k == 12 && f % 900 >= 355 && f % 900 < 361;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double skin =
-            skin_m * std::sin(turn + static_cast<double>(axis) + 0.7 * static_cast<double>(k));
+            skin_m * std::sin(angle + static_cast<double>(axis) + 0.7 * static_cast<double>(k));
         const double e = skin + noise_m * random.gaussian() + (swapped && axis == 1 ? 0.043 : 0.0);
         m.marker_error[3 * i + axis] = hidden || f < gone_until ? kNaN : e;
       }

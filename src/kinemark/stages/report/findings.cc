@@ -18,10 +18,11 @@ namespace {
 
 using data::FrameStatus;
 
-std::string frames_in_words(std::int64_t count, std::int64_t all) {
-  return fmt::format(
-      "{} of {} frames ({:.2g} %)", count, all,
-      100.0 * static_cast<double>(count) / static_cast<double>(std::max<std::int64_t>(1, all)));
+std::string describe_frames(std::int64_t count, std::int64_t all) {
+  const double percent =
+      100.0 * static_cast<double>(count) / static_cast<double>(std::max<std::int64_t>(1, all));
+  // Two digits, and no exponent: "2.5 %", "12 %", "100 %".
+  return fmt::format("{} of {} frames ({:.{}g} %)", count, all, percent, percent < 99.5 ? 2 : 3);
 }
 
 double first_time_s(const data::JointMotion& motion, FrameStatus status) {
@@ -70,12 +71,12 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
   if (const auto n = frames_with(FrameStatus::not_converged); n > 0)
     out.push_back({Verdict::attention, "frames", "",
                    fmt::format("{} did not converge: the best pose found is given.",
-                               frames_in_words(n, motion.frames())),
+                               describe_frames(n, motion.frames())),
                    first_time_s(motion, FrameStatus::not_converged)});
   if (const auto n = frames_with(FrameStatus::no_markers); n > 0)
     out.push_back({Verdict::attention, "frames", "",
                    fmt::format("{} had no marker: the pose is held from the frame before.",
-                               frames_in_words(n, motion.frames())),
+                               describe_frames(n, motion.frames())),
                    first_time_s(motion, FrameStatus::no_markers)});
 
   for (std::size_t j = 0; j < s.coordinates.size(); ++j) {
@@ -89,7 +90,7 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
       out.push_back(
           {Verdict::good, "coordinate", c.name,
            fmt::format("{} is not determined in {}: the visible markers do not fix it there.", c.name,
-                       frames_in_words(motion.frames() - c.determined_frames, motion.frames())),
+                       describe_frames(motion.frames() - c.determined_frames, motion.frames())),
            from_s});
   }
   add_left_out(s, out);

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace kinemark::report::internal {
 namespace {
 
@@ -49,6 +51,27 @@ TEST(Findings, AnExitStatusWithoutAFailedGateIsNotSilent) {
   const auto found = findings_of(good_motion(), {.exit_status = 1});
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].text, HasSubstr("exit status 1"));
+}
+
+TEST(Findings, SharesHaveTwoDigitsAndNoExponent) {
+  for (const auto& [bad, all, share] : {std::tuple{1, 1000, "(0.1 %)"},
+                                        {25, 1000, "(2.5 %)"},
+                                        {123, 1000, "(12 %)"},
+                                        {994, 1000, "(99 %)"},
+                                        {995, 1000, "(99.5 %)"},
+                                        {1000, 1000, "(100 %)"}}) {
+    auto m = good_motion();
+    m.time.frames = all;
+    const auto frames = static_cast<std::size_t>(all);
+    m.q.assign(2 * frames, 0.0);
+    m.determined.assign(2 * frames, 1);
+    m.marker_error.assign(3 * frames, 0.0);
+    m.status.assign(frames, FrameStatus::converged);
+    for (int f = 0; f < bad; ++f) m.status[static_cast<std::size_t>(f)] = FrameStatus::not_converged;
+    const auto found = findings_of(m);
+    ASSERT_THAT(found, SizeIs(1)) << share;
+    EXPECT_THAT(found[0].text, HasSubstr(share));
+  }
 }
 
 TEST(Findings, FramesThatDidNotConvergeOrHadNoMarkerSayHowManyAndWhere) {

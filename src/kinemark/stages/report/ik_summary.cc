@@ -98,11 +98,17 @@ void summarize_markers(IkSummary& s, const JointMotion& motion, const Trajectori
     MarkerRow marker = row_of(motion.markers[m], s.run.fit);
     const ErrorSum& sum = errors.of_marker[m];
     marker.seen_frames = sum.count;
+    for (std::size_t i = m; i < motion.marker_state.size(); i += motion.markers.size())
+      marker.rejected_frames += motion.marker_state[i] == data::SampleState::rejected;
+    s.rejected_samples += marker.rejected_frames;
     marker.rms_error_m = sum.rms();
     marker.max_error_m = sum.max();
     marker.max_error_frame = sum.at;
     s.markers.push_back(std::move(marker));
   }
+  const auto missing = std::ranges::count(motion.marker_state, data::SampleState::missing);
+  if (const auto there = std::ssize(motion.marker_state) - missing; there > 0)
+    s.rejected_fraction = static_cast<double>(s.rejected_samples) / static_cast<double>(there);
   s.rms_error_m = errors.all.rms();
   s.max_error_m = errors.all.max();
   const auto add_idle = [&](const std::string& name) {

@@ -58,6 +58,7 @@ struct MarkerRow {
   std::string why_excluded;           ///< a few words; empty when used
   double weight = 1.0;                ///< as given, >= 0
   std::int64_t seen_frames = 0;       ///< frames with an error, or with coordinates for excluded markers
+  std::int64_t rejected_frames = 0;   ///< frames in which its sample was left out
   double rms_error_m = kNaN;          ///< of the distance between measured and model marker
   double max_error_m = kNaN;          ///< largest distance; NaN when never seen
   std::int64_t max_error_frame = -1;  ///< its frame; -1 when never seen
@@ -82,6 +83,8 @@ struct IkSummary {
   Verdict verdict = Verdict::good;              ///< attention: at least one notice of that level
   std::array<std::int64_t, 4> status_frames{};  ///< by FrameStatus
   double determined_fraction = kNaN;            ///< over frames and coordinates that are not locked
+  std::int64_t rejected_samples = 0;            ///< left out, of all markers
+  double rejected_fraction = kNaN;              ///< of the samples that there were; NaN: not told
   double rms_error_m = kNaN;                    ///< over all frames and seen markers
   double max_error_m = kNaN;                    ///< over the same
   std::vector<CoordinateSummary> coordinates;   ///< n

@@ -48,10 +48,26 @@ Json markers_json(const IkSummary& s) {
          {"why_excluded", m.why_excluded},
          {"weight", number(m.weight, 6)},
          {"seen_frames", m.seen_frames},
+         {"rejected_frames", m.rejected_frames},
          {"rms_error_mm", millimetres(m.rms_error_m)},
          {"max_error_mm", millimetres(m.max_error_m)},
          {"max_error_time_s", number(m.max_error_frame < 0 ? kNaN : s.time.time_s(m.max_error_frame), 6)},
          {"noise_sd_mm", millimetres(m.noise_sd_m)}});
+  return out;
+}
+
+/// Every stretch of samples that was left out, frames of the motion, both ends included.
+Json rejected_json(const IkSummary& s) {
+  Json out = Json::array();
+  for (const data::Finding& f : s.run.fit.findings)
+    if (f.kind == data::FindingKind::outlier)
+      out.push_back({{"marker", f.subject},
+                     {"first_frame", f.first_frame},
+                     {"last_frame", f.last_frame},
+                     {"first_time_s", number(s.time.time_s(f.first_frame), 6)},
+                     {"last_time_s", number(s.time.time_s(f.last_frame), 6)},
+                     {"distance_mm", millimetres(f.size)},
+                     {"why", f.detail}});
   return out;
 }
 
@@ -141,6 +157,9 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"max_error_mm", millimetres(s.max_error_m)},
           {"determined_fraction", number(s.determined_fraction, 6)},
           {"status_frames", status_json(s)},
+          {"rejected_samples", s.rejected_samples},
+          {"rejected_fraction", number(s.rejected_fraction, 6)},
+          {"rejected", rejected_json(s)},
           {"findings", findings_json(s.notices)},
           {"gates", gates_json(run.gates)},
           {"coordinates", coordinates_json(s)},

@@ -23,20 +23,20 @@ using internal::in_range;
 const Vector3d kLossySide(0.36, 0.53, 0.77);
 
 /// Markers at even steps along the bone, turned about it from one to the next.
-Eigen::Matrix3Xd marker_places(const ChainOptions& options, double length_m) {
+Eigen::Matrix3Xd marker_positions(const ChainOptions& options, double length_m) {
   const int n = options.markers_per_segment;
   Eigen::Matrix3Xd out(3, n);
   for (int k = 0; k < n; ++k) {
-    const double along = length_m * (k + 1) / (n + 1), turn = 2.0 * std::numbers::pi * k / n;
+    const double along = length_m * (k + 1) / (n + 1), angle = 2.0 * std::numbers::pi * k / n;
     out.col(k) = options.planar ? Vector3d(k % 2 == 0 ? options.stagger_m : -options.stagger_m, 0.0, along)
-                                : Vector3d(options.stagger_m * std::cos(turn),
-                                           options.stagger_m * std::sin(turn), along);
+                                : Vector3d(options.stagger_m * std::cos(angle),
+                                           options.stagger_m * std::sin(angle), along);
   }
   return out;
 }
 
 /// A uniformly distributed random rotation: z points anywhere on the sphere, and x anywhere around it.
-Matrix3d any_turn(Random& random) {
+Matrix3d any_orientation(Random& random) {
   const double height = random.uniform(-1.0, 1.0);
   const double azimuth = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double roll = random.uniform(0.0, 2.0 * std::numbers::pi);
@@ -77,7 +77,7 @@ Result<LimbRecording> simulate_chain(const ChainOptions& options) {
   LimbRecording out = internal::empty_limb(names, joints, prefixes, options.markers_per_segment,
                                            {options.rate_hz, 0.0, options.frames});
   for (std::size_t s = 0; s < segments; ++s)
-    out.x_in_segment[s] = marker_places(options, options.lengths_m[s]);
+    out.x_in_segment[s] = marker_positions(options, options.lengths_m[s]);
 
   Random motion(options.seed, static_cast<std::uint64_t>(internal::LimbStream::motion));
   auto x = out.x_true.begin();
@@ -87,9 +87,9 @@ Result<LimbRecording> simulate_chain(const ChainOptions& options) {
   for (std::int64_t f = 0; f < options.frames; ++f) {
     Vector3d upper = Vector3d::Zero();
     for (std::size_t s = 0; s < segments; ++s) {
-      const Matrix3d world_from_segment = any_turn(motion);
-      for (const auto place : out.x_in_segment[s].colwise()) {
-        const Vector3d at = upper + world_from_segment * place;
+      const Matrix3d world_from_segment = any_orientation(motion);
+      for (const auto position : out.x_in_segment[s].colwise()) {
+        const Vector3d at = upper + world_from_segment * position;
         for (const double value : at) *x++ = value;
       }
       upper += options.lengths_m[s] * world_from_segment.col(2);

@@ -55,14 +55,14 @@ ArmPose pose_arm(const Vector3d& goal, double swivel, double roll) {
 
 /// Three turns about the limb over its LEDs, or the next number of turns that shares no factor with theirs:
 /// neighbours face different directions, no two are above each other, and they never lie in one plane.
-Eigen::Matrix3Xd led_places(const SleeveOptions& options, double length_m) {
+Eigen::Matrix3Xd led_positions(const SleeveOptions& options, double length_m) {
   const int n = options.leds_per_segment;
-  int turns = n > 3 ? 3 : 1;
-  while (std::gcd(turns, n) != 1) ++turns;
+  int revolutions = n > 3 ? 3 : 1;
+  while (std::gcd(revolutions, n) != 1) ++revolutions;
   Eigen::Matrix3Xd out(3, n);
   for (int k = 0; k < n; ++k) {
-    const double turn = 2.0 * pi * k * turns / n;
-    out.col(k) << options.radius_m * std::cos(turn), options.radius_m * std::sin(turn),
+    const double angle = 2.0 * pi * k * revolutions / n;
+    out.col(k) << options.radius_m * std::cos(angle), options.radius_m * std::sin(angle),
         length_m * (k + 1) / (n + 1);
   }
   return out;
@@ -100,8 +100,8 @@ Result<LimbRecording> simulate_sleeve(const SleeveOptions& options) {
   const int n = options.leds_per_segment;
   const TimeBase time{options.rate_hz, 0.0, options.frames()};
   LimbRecording out = internal::empty_limb({"upper_arm", "forearm"}, {"elbow"}, {"u", "f"}, n, time);
-  out.x_in_segment[0] = led_places(options, kUpperArm_m);
-  out.x_in_segment[1] = led_places(options, kForearm_m);
+  out.x_in_segment[0] = led_positions(options, kUpperArm_m);
+  out.x_in_segment[1] = led_positions(options, kForearm_m);
 
   internal::ReachPath path(options.seed, options.rate_hz);
   internal::SleeveSight sight(options);
@@ -118,10 +118,10 @@ Result<LimbRecording> simulate_sleeve(const SleeveOptions& options) {
     sight.begin_frame(pose.wrist);
     for (int led = 0; led < 2 * n; ++led) {
       const bool forearm = led >= n;
-      const auto place = out.x_in_segment[forearm ? 1 : 0].col(forearm ? led - n : led);
-      const Matrix3d& turn = forearm ? pose.world_from_forearm : pose.world_from_upper_arm;
-      const Vector3d x = (forearm ? pose.elbow : Vector3d(Vector3d::Zero())) + turn * place;
-      const Vector3d normal = turn * Vector3d(place.x(), place.y(), 0.0).stableNormalized();
+      const auto position = out.x_in_segment[forearm ? 1 : 0].col(forearm ? led - n : led);
+      const Matrix3d& rotation = forearm ? pose.world_from_forearm : pose.world_from_upper_arm;
+      const Vector3d x = (forearm ? pose.elbow : Vector3d(Vector3d::Zero())) + rotation * position;
+      const Vector3d normal = rotation * Vector3d(position.x(), position.y(), 0.0).stableNormalized();
       const std::size_t at = out.markers.index(f, led);
       Eigen::Map<Vector3d>(out.x_true.data() + 3 * at) = x;
       if (options.line_of_sight && !sight.sees(led, x, normal)) seen[at] = 0;

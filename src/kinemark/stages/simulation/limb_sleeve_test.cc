@@ -38,9 +38,9 @@ TEST(SimulateSleeve, IsAnArmOfTwoStiffSegments) {
     const Vector3d elbow = point(limb->centre_in_world, f);
     EXPECT_NEAR(elbow.norm(), 0.150, 1e-12);
     for (int led = 0; led < 16; ++led) {
-      const Vector3d place = limb->x_in_segment[led < 8 ? 0 : 1].col(led % 8);
+      const Vector3d position = limb->x_in_segment[led < 8 ? 0 : 1].col(led % 8);
       const Vector3d from = led < 8 ? Vector3d(Vector3d::Zero()) : elbow;
-      EXPECT_NEAR((point(limb->x_true, 16 * f + led) - from).norm(), place.norm(), 1e-12);
+      EXPECT_NEAR((point(limb->x_true, 16 * f + led) - from).norm(), position.norm(), 1e-12);
     }
     EXPECT_NEAR((point(limb->x_true, 16 * f + 9) - point(limb->x_true, 16 * f + 14)).norm(),
                 (limb->x_in_segment[1].col(1) - limb->x_in_segment[1].col(6)).norm(), 1e-12);

@@ -42,9 +42,9 @@ TEST(SimulateChain, KeepsLengthsInEveryFrame) {
     EXPECT_NEAR((centre(*limb, f, 1) - centre(*limb, f, 0)).norm(), 0.2, 1e-12);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < a; ++b) {
-        const auto& places = limb->x_in_segment[1];
+        const auto& positions = limb->x_in_segment[1];
         EXPECT_NEAR((true_marker(*limb, f, 3 + a) - true_marker(*limb, f, 3 + b)).norm(),
-                    (places.col(a) - places.col(b)).norm(), 1e-12);
+                    (positions.col(a) - positions.col(b)).norm(), 1e-12);
       }
     // Segment axes start at the upper joint.
     EXPECT_NEAR((true_marker(*limb, f, 4) - centre(*limb, f, 0)).norm(), limb->x_in_segment[1].col(1).norm(),

@@ -85,13 +85,13 @@ TEST(MacaqueArm, WearsTheSleeveInEveryFrame) {
     // Hinge first, then the rotation about the forearm.
     const Matrix3d elbow = upper.transpose() * lower;
     const double flexion = std::acos(std::clamp(elbow(2, 2), -1.0, 1.0));
-    const Matrix3d turn = math::axis_angle(-Vector3d::UnitY(), flexion).transpose() * elbow;
+    const Matrix3d rotation = math::axis_angle(-Vector3d::UnitY(), flexion).transpose() * elbow;
     Eigen::VectorXd q = Eigen::VectorXd::Zero(7);
     set(q, "shoulder_adduction", shoulder[0]);
     set(q, "shoulder_flexion", shoulder[1]);
     set(q, "shoulder_rotation", shoulder[2]);
     set(q, "elbow_flexion", flexion);
-    set(q, "pronation", std::atan2(turn(1, 0), turn(0, 0)));
+    set(q, "pronation", std::atan2(rotation(1, 0), rotation(0, 0)));
     model::kinematics(arm, w, model::state_from_coordinates(arm, q));
     for (std::size_t i = 0; i < description.markers.size(); ++i) {
       const auto& name = description.markers[i].name;

@@ -70,9 +70,9 @@ struct TreePosesRecording {
 
 /// One LED on a motor stage that visits a lattice of positions.
 struct ScanOptions {
-  Eigen::Vector3i places{8, 9, 6};                       ///< along X, Y, Z, 2 to 50 each
+  Eigen::Vector3i positions{8, 9, 6};                    ///< along X, Y, Z, 2 to 50 each
   Eigen::Vector3d size_m{0.8, 0.8, 0.8};                 ///< of the lattice, about the world's origin
-  int frames_per_place = 10;                             ///< 1 to 1000
+  int frames_per_position = 10;                          ///< 1 to 1000
   double stage_sd_m = 25e-6;                             ///< error of the stage, per axis
   double alignment_sd_deg = 0.2, alignment_sd_m = 5e-3;  ///< of the stage as a whole
   RigRecordingOptions
@@ -83,8 +83,8 @@ struct ScanOptions {
 
 /// One LED carried through the volume by a stage, and where it really was.
 struct ScanRecording {
-  data::Counts counts;          ///< places x frames_per_place frames, one LED
-  int frames_per_place = 0;     ///< at each place
+  data::Counts counts;          ///< positions x frames_per_position frames, one LED
+  int frames_per_position = 0;  ///< at each position
   Eigen::Matrix3Xd x_in_stage;  ///< position reported by the stage, m
   Eigen::Matrix3Xd x_in_world;  ///< truth, m
   math::SE3 world_from_stage;   ///< truth

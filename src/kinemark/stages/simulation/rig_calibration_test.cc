@@ -109,7 +109,7 @@ TEST(TreePoses, RefuseWhatCannotBe) {
 }
 
 TEST(Scan, VisitsItsPlacesInTurn) {
-  const ScanOptions options{.places = {2, 3, 4}, .size_m = {0.4, 0.4, 0.3}, .frames_per_place = 3};
+  const ScanOptions options{.positions = {2, 3, 4}, .size_m = {0.4, 0.4, 0.3}, .frames_per_position = 3};
   const auto out = record_scan(rig(), options).value();
   EXPECT_TRUE(out.counts.validate());
   EXPECT_EQ(out.counts.frames(), 72);
@@ -126,10 +126,10 @@ TEST(Scan, VisitsItsPlacesInTurn) {
 }
 
 TEST(Scan, RefusesOptionsOutOfRange) {
-  EXPECT_THAT(record_scan(rig(), {.places = {1, 5, 5}}).error().message,
+  EXPECT_THAT(record_scan(rig(), {.positions = {1, 5, 5}}).error().message,
               HasSubstr("1 positions along an axis"));
   EXPECT_THAT(record_scan(rig(), {.size_m = {1, 0, 1}}).error().message, HasSubstr("a scan of 0 m"));
-  EXPECT_THAT(record_scan(rig(), {.frames_per_place = 0}).error().message,
+  EXPECT_THAT(record_scan(rig(), {.frames_per_position = 0}).error().message,
               HasSubstr("frames of each position"));
   EXPECT_THAT(record_scan(rig(), {.stage_sd_m = -1.0}).error().message, HasSubstr("0 or more"));
 }

@@ -84,8 +84,8 @@ Result<std::vector<std::int64_t>> choose(const data::Trajectories& markers,
   return out;
 }
 
-math::SE3 place(const data::Trajectories& markers, const std::vector<std::int64_t>& chosen,
-                const MarkerSceneOptions& options) {
+math::SE3 pose_in_rig(const data::Trajectories& markers, const std::vector<std::int64_t>& chosen,
+                      const MarkerSceneOptions& options) {
   math::SE3 out;
   if (options.z_is_up) out.rotation = math::axis_angle(Vector3d::UnitX(), -std::numbers::pi / 2.0);
   if (!options.centred) return out;
@@ -103,7 +103,7 @@ Result<RigScene> markers_as_leds(const data::Trajectories& markers, const Marker
   if (auto s = markers.validate(); !s) return std::unexpected(s.error());
   const auto chosen = choose(markers, options.markers);
   if (!chosen) return std::unexpected(chosen.error());
-  const math::SE3 rig_from_lab = place(markers, *chosen, options);
+  const math::SE3 rig_from_lab = pose_in_rig(markers, *chosen, options);
   const auto paths = std::make_shared<std::vector<Path>>();
   RigScene scene;
   for (const auto m : *chosen) {

@@ -63,9 +63,9 @@ void draw_camera(const RigDrawOptions& options, int index, data::Camera& camera,
   const double z = options.imperfection;
   const double half_side = camera.detector.half_side_m;
   const Vector3d centre = camera.centre_in_world() + options.misalignment * 10e-3 * gaussians3(random);
-  const Vector3d turn =
+  const Vector3d rotation =
       options.misalignment * gaussians3(random).cwiseProduct(Vector3d(3e-3, 0.5e-3, 0.5e-3));
-  camera.cam_from_world = looking_at_origin(centre, turn.x(), turn.y(), turn.z());
+  camera.cam_from_world = looking_at_origin(centre, rotation.x(), rotation.y(), rotation.z());
   camera.focal *= 1.0 + z * 0.006 * random.gaussian();
   camera.principal_point = gaussians2(random, z * 0.08e-3) / half_side;
   camera.distortion.k1 = -0.20 * (1.0 + z * 0.15 * random.gaussian());
@@ -113,6 +113,15 @@ double direct_current_a(const PhysicalRig& rig, const data::Camera& camera, cons
   const double cos_led =
       std::clamp((camera.centre_in_world() - led.x_in_world).dot(led.normal) / distance, 0.02, 1.0);
   return intensity * photocurrent_a(rig.light, distance, cos_led, x_in_cam.z() / distance);
+}
+
+/// Counts of what the room returns of an LED's light.
+Vector4d stray_counts(const PhysicalRig& rig, int camera_idx, double intensity) {
+  const auto& camera = rig.rig.cameras[static_cast<std::size_t>(camera_idx)];
+  const auto& room = rig.room[static_cast<std::size_t>(camera_idx)];
+  const double stray_a =
+      rig.light.stray_share * intensity * photocurrent_a(rig.light, rig.light.distance_m, 1.0, 1.0);
+  return camera.detector.gain.cwiseProduct(room.stray) * (stray_a / rig.rig.electronics.count_a());
 }
 
 }  // namespace
@@ -173,25 +182,27 @@ Result<PhysicalRig> draw_rig(const RigDrawOptions& options) {
 ExpectedCounts expected_counts(const PhysicalRig& rig, int camera_idx, const LedState& led,
                                double intensity) {
   const auto& camera = rig.rig.cameras[static_cast<std::size_t>(camera_idx)];
-  const auto& room = rig.room[static_cast<std::size_t>(camera_idx)];
-  const double count_a = rig.rig.electronics.count_a();
-  const double stray_a = led.shining ? rig.light.stray_share * intensity *
-                                           photocurrent_a(rig.light, rig.light.distance_m, 1.0, 1.0)
-                                     : 0.0;
   ExpectedCounts out;
-  out.counts =
-      camera.detector.offset_counts + camera.detector.gain.cwiseProduct(room.stray) * (stray_a / count_a);
+  out.counts = camera.detector.offset_counts + stray_counts(rig, camera_idx, led.shining ? intensity : 0.0);
   const auto response = camera::respond(camera, led.x_in_world);
   out.on_sheet = response.in_front && response.on_sheet;
   if (out.on_sheet && led.shining)
-    out.counts += response.phi * (direct_current_a(rig, camera, led, intensity) / count_a);
+    out.counts +=
+        response.phi * (direct_current_a(rig, camera, led, intensity) / rig.rig.electronics.count_a());
+  return out;
+}
+
+data::Rig rig_in_room(const PhysicalRig& rig) {
+  data::Rig out = rig.rig;
+  for (int c = 0; c < out.camera_count(); ++c)
+    out.cameras[static_cast<std::size_t>(c)].detector.offset_counts += stray_counts(rig, c, 1.0);
   return out;
 }
 
 Vector4d reflected_counts(const PhysicalRig& rig, int camera_idx, const LedState& led, double intensity,
-                          const Vector3d& place_in_world, double share) {
+                          const Vector3d& position_in_world, double share) {
   const auto& camera = rig.rig.cameras[static_cast<std::size_t>(camera_idx)];
-  const auto response = camera::respond(camera, place_in_world);
+  const auto response = camera::respond(camera, position_in_world);
   if (!response.in_front || !response.on_sheet || !led.shining) return Vector4d::Zero();
   const double current_a = share * direct_current_a(rig, camera, led, intensity);
   return response.phi * (current_a / rig.rig.electronics.count_a());

@@ -39,7 +39,7 @@ struct RoomLight {
 
 /// A rig with all effects on its counts.
 struct PhysicalRig {
-  data::Rig rig;                ///< the truth; offsets without stray light
+  data::Rig rig;                ///< the truth, but for the room's light; see rig_in_room()
   data::Rig nominal;            ///< the operator's nominal values: drawings, and poses set by hand
   RigLight light;               ///< LED, lens and distance
   std::vector<RoomLight> room;  ///< per camera
@@ -89,10 +89,15 @@ struct ExpectedCounts {
 [[nodiscard]] ExpectedCounts expected_counts(const PhysicalRig& rig, int camera, const LedState& led,
                                              double intensity = 1.0);
 
+/// The true rig as a calibration by LEDs of relative intensity 1 finds it: their light that comes by way of
+/// the room is in the offsets (data::Detector). Without it, points lie up to some millimetres nearer the
+/// axes.
+[[nodiscard]] data::Rig rig_in_room(const PhysicalRig& rig);
+
 /// Light that reaches a camera by way of a mirror: as from a second position, with a share of the LED's
 /// intensity.
 [[nodiscard]] Eigen::Vector4d reflected_counts(const PhysicalRig& rig, int camera, const LedState& led,
-                                               double intensity, const Eigen::Vector3d& place_in_world,
+                                               double intensity, const Eigen::Vector3d& position_in_world,
                                                double share);
 
 }  // namespace kinemark::simulation

@@ -130,6 +130,18 @@ TEST(ExpectedCounts, OnlyStrayLightComesFromBehindOrBesideTheSheet) {
   EXPECT_NEAR(beside.counts.sum(), stray, 1e-9);
 }
 
+TEST(RigInRoom, OffsetsAreWhatALedGivesThatIsNotSeen) {
+  const auto rig = draw_rig({.seed = 4}).value();
+  const data::Rig in_room = rig_in_room(rig);
+  for (int c = 0; c < 2; ++c) {
+    const auto hidden = expected_counts(rig, c, {.x_in_world = {0.0, 0.0, 9.0}});
+    ASSERT_FALSE(hidden.on_sheet) << "behind both cameras";
+    const auto& offset = in_room.cameras[static_cast<std::size_t>(c)].detector.offset_counts;
+    EXPECT_LT((offset - hidden.counts).norm(), 1e-9);
+    EXPECT_GT((offset - rig.rig.cameras[static_cast<std::size_t>(c)].detector.offset_counts).minCoeff(), 1.0);
+  }
+}
+
 TEST(ExpectedCounts, EveryKindOfDetectorSeesTheSameLight) {
   const LedState led{.x_in_world = {0.1, -0.2, 0.1}};
   const auto tetra = expected_counts(ideal(), 1, led).counts;

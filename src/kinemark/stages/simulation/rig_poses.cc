@@ -107,22 +107,22 @@ Result<TreePosesRecording> record_tree_poses(const PhysicalRig& rig, const TreeP
 
 Status ScanOptions::check() const {
   for (int axis = 0; axis < 3; ++axis) {
-    if (places[axis] < 2 || places[axis] > 50)
+    if (positions[axis] < 2 || positions[axis] > 50)
       return fail(Code::usage,
-                  fmt::format("{} positions along an axis of the scan; need 2 to 50", places[axis]));
+                  fmt::format("{} positions along an axis of the scan; need 2 to 50", positions[axis]));
     if (!(size_m[axis] > 0.0) || !(size_m[axis] < 10.0))
       return fail(Code::usage, fmt::format("a scan of {} m; need up to 10 m", size_m[axis]));
   }
   for (const double v : {stage_sd_m, alignment_sd_deg, alignment_sd_m})
     if (!(v >= 0.0) || !(v < 90.0))
       return fail(Code::usage, fmt::format("a standard deviation of {} in the scan; need 0 or more", v));
-  return check_count(frames_per_place, 1000, "frames of each position");
+  return check_count(frames_per_position, 1000, "frames of each position");
 }
 
 Result<ScanRecording> record_scan(const PhysicalRig& rig, const ScanOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   ScanRecording out;
-  out.frames_per_place = options.frames_per_place;
+  out.frames_per_position = options.frames_per_position;
   Random random(rig.seed, 600);
   const auto gaussians = [&random](double sd) {
     const double x = random.gaussian();
@@ -132,30 +132,30 @@ Result<ScanRecording> record_scan(const PhysicalRig& rig, const ScanOptions& opt
   };
   out.world_from_stage.rotation = math::exp_so3(gaussians(options.alignment_sd_deg * kRadPerDeg));
   out.world_from_stage.translation = gaussians(options.alignment_sd_m);
-  const int count = options.places.prod();
+  const int count = options.positions.prod();
   out.x_in_stage.resize(3, count);
   out.x_in_world.resize(3, count);
   for (int n = 0; n < count; ++n) {
-    const Eigen::Vector3i at(n / (options.places.y() * options.places.z()),
-                             n / options.places.z() % options.places.y(), n % options.places.z());
+    const Eigen::Vector3i at(n / (options.positions.y() * options.positions.z()),
+                             n / options.positions.z() % options.positions.y(), n % options.positions.z());
     for (int axis = 0; axis < 3; ++axis)
       out.x_in_stage(axis, n) =
-          (static_cast<double>(at[axis]) / (options.places[axis] - 1) - 0.5) * options.size_m[axis];
+          (static_cast<double>(at[axis]) / (options.positions[axis] - 1) - 0.5) * options.size_m[axis];
     out.x_in_world.col(n) = out.world_from_stage * (out.x_in_stage.col(n) + gaussians(options.stage_sd_m));
   }
   RigRecordingOptions recording = options.recording;
-  recording.frames = static_cast<std::int64_t>(count) * options.frames_per_place;
+  recording.frames = static_cast<std::int64_t>(count) * options.frames_per_position;
   recording.t0_s = 0.0;
   recording.seed = rig.seed;
   recording.stream = 601;
-  const double places_per_s = recording.rate_hz / options.frames_per_place;
+  const double positions_per_s = recording.rate_hz / options.frames_per_position;
   RigScene scene;
   scene.leds = {"stage"};
-  scene.led = [&out, places_per_s, count](int, double time_s) {
+  scene.led = [&out, positions_per_s, count](int, double time_s) {
     // An instant of a frame lies well within it; rounding may put its beginning into the frame before.
-    const double place = std::floor(time_s * places_per_s + 1e-9);
+    const double index = std::floor(time_s * positions_per_s + 1e-9);
     return LedState{.x_in_world =
-                        out.x_in_world.col(static_cast<Eigen::Index>(std::clamp(place, 0.0, count - 1.0)))};
+                        out.x_in_world.col(static_cast<Eigen::Index>(std::clamp(index, 0.0, count - 1.0)))};
   };
   auto recorded = record(rig, scene, recording);
   if (!recorded) return std::unexpected(recorded.error());

@@ -32,7 +32,7 @@ class Recorder {
 
   void frame(std::int64_t f) {
     for (int led = 0; led < leds(); ++led)
-      for (int camera = 0; camera < cameras(); ++camera) sighting(f, led, camera);
+      for (int camera = 0; camera < cameras(); ++camera) observe(f, led, camera);
     if (!out_.counts.has_dark_slot()) return;
     for (int camera = 0; camera < cameras(); ++camera) dark(f, camera);
   }
@@ -50,7 +50,7 @@ class Recorder {
     });
   }
 
-  void sighting(std::int64_t f, int led, int camera) {
+  void observe(std::int64_t f, int led, int camera) {
     const auto offsets = out_.counts.offset_s(led, camera);
     const bool blocked = occluded(f, led, camera);
     std::uint8_t why = blocked ? kHiddenOccluded : 0;
@@ -69,7 +69,7 @@ class Recorder {
       const Reflection mirror = scene_.reflection(led, time_s[k], state.x_in_world);
       if (mirror.share > 0.0)
         expected[k] +=
-            reflected_counts(rig_, camera, state, intensity(led), mirror.place_in_world, mirror.share)[k];
+            reflected_counts(rig_, camera, state, intensity(led), mirror.position_in_world, mirror.share)[k];
     }
     const std::size_t at = out_.counts.index(f, led, camera);
     const auto block = static_cast<std::uint64_t>(led * cameras() + camera);
@@ -199,7 +199,7 @@ Status RigRecordingOptions::check(const data::Rig& rig, int leds) const {
                 fmt::format("{} frames per second from {} s; need a positive rate", rate_hz, t0_s));
   if (frames < 1 || frames > 10'000'000 / leds)
     return fail(Code::usage,
-                fmt::format("{} frames of {} LEDs; need 1 to 10 million sightings", frames, leds));
+                fmt::format("{} frames of {} LEDs; need 1 to 10 million observations", frames, leds));
   if (!intensity.empty() && intensity.size() != static_cast<std::size_t>(leds))
     return fail(Code::usage, fmt::format("{} intensities for {} LEDs", intensity.size(), leds));
   for (const double i : intensity)

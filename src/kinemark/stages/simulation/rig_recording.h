@@ -53,7 +53,7 @@ struct RigRecording {
 /// evaluated at the time of the conversion.
 ///
 /// Noise: Random(seed, stream); per LED, per camera: four amplifier draws for every frame, then four
-/// converter draws for every frame. The dark slot draws from stream + 2^32. About 2 us per sighting on one
+/// converter draws for every frame. The dark slot draws from stream + 2^32. About 2 us per observation on one
 /// thread.
 [[nodiscard]] Result<RigRecording> record(const PhysicalRig& rig, const RigScene& scene,
                                           const RigRecordingOptions& options = {});

@@ -56,7 +56,7 @@ TEST(Record, EachConversionHasItsTime) {
   EXPECT_NEAR(out.counts.offset_s(0, 1)[0], 320e-6 + 4 * 48e-6, 1e-15);
   EXPECT_NEAR(out.counts.offset_s(3, 1)[3], 3 * 904e-6 + 320e-6 + 7 * 48e-6, 1e-15);
   EXPECT_NEAR(out.counts.dark_offset_s(0)[0], 4 * 904e-6 + 320e-6, 1e-15);
-  // The middle of a sighting, seen one time constant later than it was.
+  // The middle of an observation, seen one time constant later than it was.
   EXPECT_NEAR(out.when_lit.sample_offset_s[1], 904e-6 + 320e-6 + 3.5 * 48e-6 - 35e-6, 1e-15);
 }
 

@@ -62,14 +62,14 @@ const std::array<TreePose, 10>& tree_test_poses() {
 RigScene still_tree(const TreePose& pose) {
   RigScene scene;
   scene.leds = {"back left", "back right", "front"};
-  scene.led = [places = pose.leds_in_world()](int led, double) {
-    return LedState{.x_in_world = places.col(led)};
+  scene.led = [positions = pose.leds_in_world()](int led, double) {
+    return LedState{.x_in_world = positions.col(led)};
   };
   return scene;
 }
 
 math::SE3 wheel_pose(const WheelOptions& options) {
-  return {about(Vector3d::UnitY(), options.turned_deg) * about(Vector3d::UnitX(), -4.0),
+  return {about(Vector3d::UnitY(), options.rotation_deg) * about(Vector3d::UnitX(), -4.0),
           {0.020, -0.030, -0.040}};
 }
 
@@ -86,9 +86,9 @@ RigScene rotating_wheel(const WheelOptions& options) {
   if (options.glint_share > 0.0)
     scene.reflection = [options](int led, double time_s, const Vector3d& x_in_world) {
       // The mirror catches the eye while the LED's radius stands within 4 degrees of one radian.
-      const double turns = options.rate_hz * time_s + static_cast<double>(led) / options.leds;
-      const double off = std::remainder(2.0 * pi * turns - 1.0, 2.0 * pi);
-      return Reflection{.place_in_world = x_in_world + Vector3d(0.0, 0.260, 0.030),
+      const double revolutions = options.rate_hz * time_s + static_cast<double>(led) / options.leds;
+      const double off = std::remainder(2.0 * pi * revolutions - 1.0, 2.0 * pi);
+      return Reflection{.position_in_world = x_in_world + Vector3d(0.0, 0.260, 0.030),
                         .share = std::abs(off) < 4.0 * kRadPerDeg ? options.glint_share : 0.0};
     };
   return scene;

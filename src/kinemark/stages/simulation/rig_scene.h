@@ -17,8 +17,8 @@ namespace kinemark::simulation {
 
 /// Reflection of an LED at one instant; share 0: none.
 struct Reflection {
-  Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< m, apparent position of the light
-  double share = 0.0;                                        ///< of the LED's direct light
+  Eigen::Vector3d position_in_world = Eigen::Vector3d::Zero();  ///< m, apparent position of the light
+  double share = 0.0;                                           ///< of the LED's direct light
 };
 
 /// Frames in which an LED is occluded from a camera.
@@ -62,7 +62,7 @@ struct TreePose {
 
 /// Options of the turning wheel of the 1986 study.
 struct WheelOptions {
-  double turned_deg = 8.0;    ///< about the vertical; the study uses 8 and 35. Then tilted by -4 deg
+  double rotation_deg = 8.0;  ///< about the vertical; the study uses 8 and 35. Then tilted by -4 deg
   double diameter_m = 0.392;  ///< of the circle on which its LEDs sit, > 0
   double rate_hz = 1.5;       ///< revolutions per second
   double glint_share = 0.0;   ///< 0.04: the frame mirrors that share during 8 degrees of each turn

@@ -34,7 +34,7 @@ TEST(Tree, StandsStill) {
 }
 
 TEST(Wheel, GoesRoundInItsPlane) {
-  const WheelOptions options{.turned_deg = 35.0};
+  const WheelOptions options{.rotation_deg = 35.0};
   const auto scene = rotating_wheel(options);
   const auto pose = wheel_pose(options);
   for (const double t : {0.0, 0.1, 0.37, 2.0}) {
@@ -63,7 +63,7 @@ TEST(Wheel, TheGlintLastsEightDegreesOfEachTurn) {
     const double t = (i + 0.5) / kSteps / 1.5;
     const auto mirror = scene.reflection(0, t, Vector3d(1.0, 2.0, 3.0));
     on += mirror.share > 0.0;
-    EXPECT_LT((mirror.place_in_world - Vector3d(1.0, 2.26, 3.03)).norm(), 1e-15);
+    EXPECT_LT((mirror.position_in_world - Vector3d(1.0, 2.26, 3.03)).norm(), 1e-15);
   }
   EXPECT_NEAR(360.0 * on / kSteps, 8.0, 0.02);
   EXPECT_EQ(scene.reflection(0, 1.0 / (2.0 * std::numbers::pi * 1.5), Vector3d::Zero()).share, 0.04);

@@ -85,13 +85,14 @@ TEST(Subject, EveryCoordinateMovesAndSmoothly) {
 
 TEST(Subject, FullTurnsAreContinuousAndOfBothSigns) {
   for (const auto kind : {MotionKind::walk, MotionKind::mixed})
-    for (const double turns : {2.5, -3.0}) {
-      const auto s = simulate_subject(
-                         human(), {.motion = kind, .duration_s = 20.0, .rate_hz = 20.0, .full_turns = turns})
-                         .value();
+    for (const double rotations : {2.5, -3.0}) {
+      const auto s =
+          simulate_subject(human(),
+                           {.motion = kind, .duration_s = 20.0, .rate_hz = 20.0, .full_turns = rotations})
+              .value();
       const auto last = s.truth.frames() - 1;
-      const double turned = coordinate(s, last, "pelvis_rotation") - coordinate(s, 0, "pelvis_rotation");
-      EXPECT_NEAR(turned, 2.0 * std::numbers::pi * turns, 0.8);
+      const double rotated = coordinate(s, last, "pelvis_rotation") - coordinate(s, 0, "pelvis_rotation");
+      EXPECT_NEAR(rotated, 2.0 * std::numbers::pi * rotations, 0.8);
       for (std::int64_t f = 1; f <= last; ++f)
         ASSERT_LT(std::abs(coordinate(s, f, "pelvis_rotation") - coordinate(s, f - 1, "pelvis_rotation")),
                   0.1);

@@ -89,10 +89,10 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
   // From the origin of the plate's axes to the centre of its surface; z points down, into the plate. Files
   // that give the opposite vector are recognised by its sign.
   wrench.centre_ = plate.plate.origin_in_plate;
-  wrench.origin_turned_ = wrench.centre_.z() > 0.0;
+  wrench.origin_flipped_ = wrench.centre_.z() > 0.0;
   const bool sensors = type == 3 || type == 7;
-  if (wrench.origin_turned_ && sensors) wrench.centre_.z() *= -1.0;
-  if (wrench.origin_turned_ && !sensors) wrench.centre_ *= -1.0;
+  if (wrench.origin_flipped_ && sensors) wrench.centre_.z() *= -1.0;
+  if (wrench.origin_flipped_ && !sensors) wrench.centre_ *= -1.0;
 
   wrench.scale_.setOnes(static_cast<Eigen::Index>(n));
   for (std::size_t c = 0; c < n; ++c) {
@@ -137,20 +137,20 @@ Vector6 PlateWrench::operator()(const Channels& channels) const {
   return out;
 }
 
-Result<PlatePlace> place_plate(const C3dForcePlate& plate) {
+Result<PlatePose> plate_pose(const C3dForcePlate& plate) {
   const auto& c = plate.plate.corners_in_world;
   const Vector3d along_x = 0.5 * (c[0] - c[1] + c[3] - c[2]), along_y = 0.5 * (c[0] - c[3] + c[1] - c[2]);
   const Vector3d normal = along_x.cross(along_y);
   constexpr double kSmallest = 1e-4;  // m^2; no foot fits on less
   if (!plate.sound || !(normal.norm() > kSmallest))
     return fail(Code::bad_input, "has corners that span no surface");
-  PlatePlace place;
-  place.centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
-  place.half_size = {0.5 * along_x.norm(), 0.5 * along_y.norm()};
-  place.world_from_plate.col(0) = along_x.normalized();
-  place.world_from_plate.col(2) = normal.normalized();
-  place.world_from_plate.col(1) = place.world_from_plate.col(2).cross(place.world_from_plate.col(0));
-  return place;
+  PlatePose pose;
+  pose.centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+  pose.half_size = {0.5 * along_x.norm(), 0.5 * along_y.norm()};
+  pose.world_from_plate.col(0) = along_x.normalized();
+  pose.world_from_plate.col(2) = normal.normalized();
+  pose.world_from_plate.col(1) = pose.world_from_plate.col(2).cross(pose.world_from_plate.col(0));
+  return pose;
 }
 
 }  // namespace kinemark::io::internal

@@ -29,11 +29,11 @@ class PlateWrench {
   [[nodiscard]] bool has_baseline(std::size_t channel) const {
     return !is_pressure_point_ || channel < 3 || channel > 4;
   }
-  [[nodiscard]] bool origin_turned() const { return origin_turned_; }
+  [[nodiscard]] bool origin_flipped() const { return origin_flipped_; }
 
  private:
   bool is_pressure_point_ = false;  ///< type 1: channels 3 and 4 are the centre of pressure
-  bool origin_turned_ = false;
+  bool origin_flipped_ = false;
   Channels scale_;  ///< of each channel, to N, N m and m
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 8> matrix_;
   Eigen::Vector3d centre_ =
@@ -41,13 +41,13 @@ class PlateWrench {
 };
 
 /// Where a plate lies: origin at the centre of its surface, x from corner 2 to 1, y from corner 4 to 1.
-struct PlatePlace {
+struct PlatePose {
   Eigen::Vector3d centre;
   Eigen::Matrix3d world_from_plate;
   Eigen::Vector2d half_size;  ///< m
 };
 
 /// Corners that span no rectangle are Code::bad_input.
-[[nodiscard]] Result<PlatePlace> place_plate(const C3dForcePlate& plate);
+[[nodiscard]] Result<PlatePose> plate_pose(const C3dForcePlate& plate);
 
 }  // namespace kinemark::io::internal

@@ -30,28 +30,28 @@ std::vector<AxisDescription> inverse_axes(const std::vector<AxisDescription>& ax
   return inverse;
 }
 
-void add_turned_round(const JointDescription& joint, ModelDescription& description) {
-  JointDescription turned = joint;
-  turned.type = "CustomJoint";
-  turned.parameters.clear();
-  std::swap(turned.parent_body_idx, turned.child_body_idx);
-  std::swap(turned.parent_from_joint, turned.child_from_joint);
+void add_reversed(const JointDescription& joint, ModelDescription& description) {
+  JointDescription reversed_joint = joint;
+  reversed_joint.type = "CustomJoint";
+  reversed_joint.parameters.clear();
+  std::swap(reversed_joint.parent_body_idx, reversed_joint.child_body_idx);
+  std::swap(reversed_joint.parent_from_joint, reversed_joint.child_from_joint);
   auto rotations = inverse_axes(joint.axes, true), translations = inverse_axes(joint.axes, false);
   if (!rotations.empty() && !translations.empty()) {
     const int between = add_massless_body(description, joint.name + "_intermediate");
-    JointDescription first = turned;
+    JointDescription first = reversed_joint;
     first.name += "_rotation";
     first.child_body_idx = between;
     first.child_from_joint = {};
     first.axes = std::move(rotations);
     description.joints.push_back(std::move(first));
-    turned.parent_body_idx = between;
-    turned.parent_from_joint = {};
+    reversed_joint.parent_body_idx = between;
+    reversed_joint.parent_from_joint = {};
     rotations.clear();
   }
-  turned.axes = rotations.empty() ? std::move(translations) : std::move(rotations);
-  if (turned.axes.empty()) turned.type = "WeldJoint";
-  description.joints.push_back(std::move(turned));
+  reversed_joint.axes = rotations.empty() ? std::move(translations) : std::move(rotations);
+  if (reversed_joint.axes.empty()) reversed_joint.type = "WeldJoint";
+  description.joints.push_back(std::move(reversed_joint));
 }
 
 void add_scapulothoracic(const FileJoint& joint, ModelDescription& description) {
@@ -65,7 +65,7 @@ void add_scapulothoracic(const FileJoint& joint, ModelDescription& description) 
   description.joints.push_back(std::move(pair.winging));
 }
 
-enum class Direction { unknown, as_written, turned_round };
+enum class Direction { unknown, as_written, reversed };
 
 /// From the ground outwards, against a joint's direction only where no other path exists.
 std::vector<Direction> directions(const std::vector<FileJoint>& joints, std::vector<bool>& reached) {
@@ -91,7 +91,7 @@ std::vector<Direction> directions(const std::vector<FileJoint>& joints, std::vec
     const auto& d = joints[j].description;
     const std::size_t next = slot(forward ? d.child_body_idx : d.parent_body_idx);
     if (direction[j] != Direction::unknown || reached[next]) continue;
-    direction[j] = forward ? Direction::as_written : Direction::turned_round;
+    direction[j] = forward ? Direction::as_written : Direction::reversed;
     reach(next);
   }
   return direction;
@@ -109,14 +109,14 @@ void hang_from_ground(XmlFile& file, std::vector<FileJoint> joints, ModelDescrip
       if (reached[static_cast<std::size_t>(d.child_body_idx + 1)])
         file.note(joints[j].node, "closes a loop of joints; only one joint may lead to a body",
                   Code::not_supported);
-    } else if (direction[j] == Direction::turned_round) {
+    } else if (direction[j] == Direction::reversed) {
       if (!d.parameters.empty())
         file.note(
             joints[j].node,
             fmt::format("is a {} whose child is nearer to the ground than its parent, which is not supported",
                         d.type),
             Code::not_supported);
-      add_turned_round(d, description);
+      add_reversed(d, description);
     } else if (scapulothoracic && d.parameters.size() == 6 && joints[j].coordinates.size() == 4) {
       add_scapulothoracic(joints[j], description);
     } else {

@@ -15,10 +15,10 @@ using math::ScalarFunction;
 namespace {
 
 /// Quarter turn about Z, exact.
-math::SE3 quarter_turn() {
-  math::SE3 turn;
-  turn.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  return turn;
+math::SE3 quarter_rotation() {
+  math::SE3 quarter;
+  quarter.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  return quarter;
 }
 
 ScalarFunction cosine(double amplitude) {
@@ -81,8 +81,8 @@ ScapulothoracicPair split(const JointDescription& joint, const Scapulothoracic& 
                   .type = std::string(kScapulothoracicSliding),
                   .parent_body_idx = joint.parent_body_idx,
                   .child_body_idx = body_between,
-                  .parent_from_joint = joint.parent_from_joint * quarter_turn(),
-                  .child_from_joint = quarter_turn()};
+                  .parent_from_joint = joint.parent_from_joint * quarter_rotation(),
+                  .child_from_joint = quarter_rotation()};
   pair.sliding.axes = axes_of(*freedoms_of("EllipsoidJoint"), coordinates.first(3));
   for (auto& axis : ellipsoid_axes(radii, coordinates[0], coordinates[1])) pair.sliding.axes.push_back(axis);
 
@@ -104,7 +104,7 @@ ScapulothoracicPair split(const JointDescription& joint, const Scapulothoracic& 
 JointDescription join(const JointDescription& sliding, const JointDescription& winging) {
   JointDescription joint = winging;
   joint.parent_body_idx = sliding.parent_body_idx;
-  joint.parent_from_joint = sliding.parent_from_joint * quarter_turn().inverse();
+  joint.parent_from_joint = sliding.parent_from_joint * quarter_rotation().inverse();
   joint.child_from_joint = winging.child_from_joint * math::SE3{.translation = -winging_origin_of(winging)};
   joint.axes = sliding.axes;
   joint.axes.push_back(winging.axes.front());

@@ -69,6 +69,7 @@ class JointCoordinates {
       return;
     }
     for (const pugi::xml_node node : nodes) add(read_coordinate(file, node, description), node);
+    listed_ = !nodes.empty();
   }
 
   /// Index of the coordinate `name` of this joint.
@@ -80,6 +81,10 @@ class JointCoordinates {
     if (const pugi::xml_node set = model_.child("CoordinateSet")) {
       if (const int known = description_.find_coordinate(name); known >= 0) return known;
       node = set.child("objects").find_child_by_attribute("name", name.c_str());
+    }
+    if (listed_ && !node) {
+      file_.note(joint_, fmt::format("moves by the coordinate {}, which it does not list", in_quotes(name)));
+      return indices_.front();
     }
     return add(node ? read_coordinate(file_, node, description_) : CoordinateDescription{.name = name}, node);
   }
@@ -95,7 +100,7 @@ class JointCoordinates {
   /// The file's word for the kind of motion, or `inferred`.
   void set_kind(int idx, bool inferred) {
     auto& c = description_.coordinates[static_cast<std::size_t>(idx)];
-    const std::string word = words_[static_cast<std::size_t>(idx - first_)];
+    const std::string word = motion_types_[static_cast<std::size_t>(idx - first_)];
     c.is_rotation = word == "rotational" || (word != "translational" && inferred);
   }
 
@@ -105,7 +110,7 @@ class JointCoordinates {
   int add(CoordinateDescription coordinate, pugi::xml_node node) {
     if (indices_.empty()) first_ = static_cast<int>(description_.coordinates.size());
     indices_.push_back(static_cast<int>(description_.coordinates.size()));
-    words_.push_back(text_of(node, "motion_type"));
+    motion_types_.push_back(text_of(node, "motion_type"));
     description_.coordinates.push_back(std::move(coordinate));
     return indices_.back();
   }
@@ -116,9 +121,11 @@ class JointCoordinates {
   XmlFile& file_;
   pugi::xml_node model_, joint_;
   ModelDescription& description_;
+  bool listed_ =
+      false;  // the joint has a list of its own; only files that have none may name coordinates alone
   int first_ = 0;
   std::vector<int> indices_;
-  std::vector<std::string> words_;  // motion_type, one per index
+  std::vector<std::string> motion_types_;  // motion_type, one per index
 };
 
 /// Slot 0 to 2 for rotation1 to 3, 3 to 5 for translation1 to 3; by position where the name is not one of

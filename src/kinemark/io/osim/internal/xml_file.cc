@@ -145,7 +145,7 @@ int XmlFile::version() const { return document().attribute("Version").as_int(105
 void XmlFile::note(pugi::xml_node node, std::string_view what, Code code) {
   if (error_) return;
   // The element itself and the named ones around it, outermost first, without the document and the model.
-  std::string place;
+  std::string location;
   const pugi::xml_node first = node;
   for (; node && node != document(); node = node.parent()) {
     const std::string name = name_of(node);
@@ -153,9 +153,9 @@ void XmlFile::note(pugi::xml_node node, std::string_view what, Code code) {
     if (std::string_view(node.name()).ends_with("Set") && node != first) continue;
     const std::string step =
         name.empty() ? fmt::format("<{}>", node.name()) : fmt::format("{} {}", node.name(), in_quotes(name));
-    place = place.empty() ? step : step + ", " + place;
+    location = location.empty() ? step : step + ", " + location;
   }
-  error_ = Error{code, fmt::format("{}: {}{}{}", name_, place, place.empty() ? "" : ": ", what)};
+  error_ = Error{code, fmt::format("{}: {}{}{}", name_, location, location.empty() ? "" : ": ", what)};
 }
 
 double XmlFile::number(pugi::xml_node node, const char* child, double fallback) {

@@ -118,8 +118,8 @@ Result<data::Counts> counts_like(const RecordingChannel& channel) {
 }
 
 std::size_t frame_bytes(const data::Counts& like) {
-  const std::size_t sightings = like.leds.size() * like.cameras.size();
-  return 9 * sightings + 2 * like.dark_time_s.size();
+  const std::size_t observations = like.leds.size() * like.cameras.size();
+  return 9 * observations + 2 * like.dark_time_s.size();
 }
 
 double epoch_s_of(const data::Counts& like) { return std::min(0.0, like.time.t0_s); }

@@ -26,6 +26,13 @@ std::int64_t Lines::count_until_blank() const {
   return count;
 }
 
+std::int64_t Lines::skip_blank() {
+  std::string_view line;
+  while (next(line))
+    if (!is_blank(line)) return number();
+  return 0;
+}
+
 Status check_header_line(std::string_view line, std::int64_t number) {
   constexpr std::size_t kMost = 1 << 20;
   if (line.size() <= kMost) return {};

@@ -45,6 +45,8 @@ class Lines {
   [[nodiscard]] std::int64_t number() const { return number_; }
   /// How many lines follow before a blank one or the end of the text.
   [[nodiscard]] std::int64_t count_until_blank() const;
+  /// Go on to the next line that is not blank; its number, or 0 where there is none.
+  std::int64_t skip_blank();
 
  private:
   const char* p_;

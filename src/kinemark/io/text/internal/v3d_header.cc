@@ -108,8 +108,8 @@ class Gatherer {
     for (const auto* names : {&header_.points, &header_.angles}) {
       auto sorted = *names;
       std::ranges::sort(sorted);
-      if (const auto twin = std::ranges::adjacent_find(sorted); twin != sorted.end())
-        return fail(Code::bad_input, fmt::format("line 2: signal '{}' occurs twice", excerpt(*twin)));
+      if (const auto duplicate = std::ranges::adjacent_find(sorted); duplicate != sorted.end())
+        return fail(Code::bad_input, fmt::format("line 2: signal '{}' occurs twice", excerpt(*duplicate)));
     }
     if (header_.points.empty())
       return fail(Code::bad_input,

@@ -3,9 +3,9 @@
 // What is told of a run beside the account that the stages give, and what the job decides about it.
 #pragma once
 
-#include <span>
+#include <vector>
 
-#include "kinemark/data/defect.h"
+#include "kinemark/data/clean_account.h"
 #include "kinemark/data/upsampling.h"
 #include "kinemark/pipeline/clean/clean_job.h"
 
@@ -17,8 +17,8 @@ inline constexpr double kRejectConfidence = 0.8;
 [[nodiscard]] report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial);
 /// What becomes of samples that the recorder made; nothing where there are none.
 void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling);
-/// What becomes of the defects that screening found: with `rejected` the sure ones are taken out, except
-/// clock jumps, which have no wrong samples.
-void settle_defects(bool rejected, std::span<data::Defect> defects);
+/// What becomes of what screening found: with `rejected` the sure defects are taken out, except clock jumps,
+/// which have no wrong samples.
+[[nodiscard]] std::vector<data::Defect> settle_defects(bool rejected, std::vector<data::Finding> found);
 
 }  // namespace kinemark::pipeline::internal

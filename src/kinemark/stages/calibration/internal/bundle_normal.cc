@@ -25,15 +25,15 @@ constexpr double kFlat = 1e-9;  // keeps a pose seen by one camera only from bei
 
 }  // namespace
 
-/// Jacobians of one sighting, weighted: three rows by the camera's free parameters, and by the point in the
-/// world.
+/// Jacobians of one observation, weighted: three rows by the camera's free parameters, and by the point in
+/// the world.
 struct BundleProblem::Rows {
   Vector3d residual;
   Eigen::Matrix3d d_point;
   Eigen::Matrix<double, 3, Eigen::Dynamic> d_free;
   Eigen::Matrix<double, 4, Eigen::Dynamic> d_all;
 
-  void fill(const data::Camera& camera, const Vector3d& x, const StillSighting& seen, double weight,
+  void fill(const data::Camera& camera, const Vector3d& x, const StillObservation& seen, double weight,
             std::span<const FreeParameter> free) {
     const ParameterLayout layout(camera);
     d_all.resize(4, layout.count);
@@ -129,12 +129,12 @@ void BundleProblem::add_grids(const BundleState& state, MatrixXd& a, VectorXd& g
     const math::SE3 world_from_cam = camera.cam_from_world.inverse();
     MatrixXd stacked = MatrixXd::Zero(3 * static_cast<Eigen::Index>(nodes), width + 6);
     VectorXd residuals = VectorXd::Zero(stacked.rows());
-    for (std::size_t n = 0; n < grids_[c].sightings.size(); ++n, ++index) {
-      const auto& seen = grids_[c].sightings[n];
+    for (std::size_t n = 0; n < grids_[c].observations.size(); ++n, ++index) {
+      const auto& seen = grids_[c].observations[n];
       if (!seen.seen()) continue;
-      const Vector3d place =
+      const Vector3d position =
           cam_from_grid.rotation * on_grid(grids_[c], static_cast<int>(n), state.grid_shift[n]);
-      rows.fill(camera, world_from_cam * (place + cam_from_grid.translation), seen, grid_weight_[index],
+      rows.fill(camera, world_from_cam * (position + cam_from_grid.translation), seen, grid_weight_[index],
                 free);
       const auto row = 3 * static_cast<Eigen::Index>(n), at = 2 * static_cast<Eigen::Index>(n);
       // The grid's pose is relative to its camera, so that the camera's pose has no effect.
@@ -143,7 +143,7 @@ void BundleProblem::add_grids(const BundleState& state, MatrixXd& a, VectorXd& g
       const Eigen::Matrix3d d_cam = rows.d_point * world_from_cam.rotation;
       const Eigen::Matrix<double, 3, 2> d_shift = d_cam * cam_from_grid.rotation.leftCols<2>();
       stacked.block(row, 0, 3, width) = rows.d_free;
-      stacked.block<3, 3>(row, width) = -d_cam * math::skew(place);
+      stacked.block<3, 3>(row, width) = -d_cam * math::skew(position);
       stacked.block<3, 3>(row, width + 3) = d_cam;
       residuals.segment<3>(row) = rows.residual;
       node_factor_[n] += d_shift.transpose() * d_shift;
@@ -184,12 +184,12 @@ BundleProblem::Step BundleProblem::solve(const BundleState& state) {
   const Eigen::LLT<MatrixXd> llt(a);
   if (llt.info() != Eigen::Success) return step;
   factor_ = llt.matrixL();
-  step.global = -llt.solve(g);
-  step.decrement = -g.dot(step.global);
-  step.solved = step.global.allFinite();
+  step.shared = -llt.solve(g);
+  step.decrement = -g.dot(step.shared);
+  step.solved = step.shared.allFinite();
   for (std::size_t p = 0; p < poses_.size(); ++p) {
     const auto at = 6 * static_cast<Eigen::Index>(p);
-    Vector6d local = pose_right_.segment<6>(at) + pose_rows_.middleRows<6>(at) * step.global;
+    Vector6d local = pose_right_.segment<6>(at) + pose_rows_.middleRows<6>(at) * step.shared;
     step.decrement += pose_right_.segment<6>(at).squaredNorm();
     pose_factor_[p].triangularView<Eigen::Lower>().transpose().solveInPlace(local);
     step.poses.push_back(-local);
@@ -197,7 +197,7 @@ BundleProblem::Step BundleProblem::solve(const BundleState& state) {
   }
   for (std::size_t k = 0; k < node_factor_.size(); ++k) {
     const auto at = 2 * static_cast<Eigen::Index>(k);
-    Eigen::Vector2d local = node_right_.segment<2>(at) + node_rows_.middleRows<2>(at) * step.global;
+    Eigen::Vector2d local = node_right_.segment<2>(at) + node_rows_.middleRows<2>(at) * step.shared;
     step.decrement += node_right_.segment<2>(at).squaredNorm();
     node_factor_[k].triangularView<Eigen::Lower>().transpose().solveInPlace(local);
     step.nodes.push_back(-local);

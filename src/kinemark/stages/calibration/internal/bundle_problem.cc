@@ -21,8 +21,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Squared misfit of one sighting over its variance; infinity behind the camera.
-double chi2(const data::Camera& camera, const Vector3d& x_in_world, const StillSighting& seen) {
+/// Squared misfit of one observation over its variance; infinity behind the camera.
+double chi2(const data::Camera& camera, const Vector3d& x_in_world, const StillObservation& seen) {
   const auto response = camera::respond(camera, x_in_world);
   if (!response.in_front) return std::numeric_limits<double>::infinity();
   return math::eliminate_scale(seen.counts - camera.detector.offset_counts, response.phi)
@@ -32,19 +32,19 @@ double chi2(const data::Camera& camera, const Vector3d& x_in_world, const StillS
 
 }  // namespace
 
-Vector3d on_grid(const GridSightings& grid, int node, const Eigen::Vector2d& shift) {
-  const Eigen::Vector2d place = grid.place_m(node / grid.nodes, node % grid.nodes) + shift;
-  return {place.x(), place.y(), 0.0};
+Vector3d on_grid(const GridObservations& grid, int node, const Eigen::Vector2d& shift) {
+  const Eigen::Vector2d position = grid.position_m(node / grid.nodes, node % grid.nodes) + shift;
+  return {position.x(), position.y(), 0.0};
 }
 
 BundleProblem::BundleProblem(data::Rig nominal, const StillPoses& tree,
-                             const std::vector<GridSightings>& grids, const BundleOptions& options)
+                             const std::vector<GridObservations>& grids, const BundleOptions& options)
     : nominal_(std::move(nominal)), tree_(tree), grids_(grids), options_(options) {
   poses_.resize(static_cast<std::size_t>(tree.poses()));
   std::iota(poses_.begin(), poses_.end(), 0);
-  tree_weight_.assign(tree.sightings.size(), 1.0);
+  tree_weight_.assign(tree.observations.size(), 1.0);
   std::size_t nodes = 0;
-  for (const auto& grid : grids) nodes += grid.sightings.size();
+  for (const auto& grid : grids) nodes += grid.observations.size();
   grid_weight_.assign(nodes, 1.0);
   set_free(nominal_);
 }
@@ -112,26 +112,26 @@ VectorXd BundleProblem::deviation(const BundleState& state) const {
   return out;
 }
 
-/// Calls visit(camera, sighting, x_in_world, weight) for every sighting that takes part; the weight by
-/// reference of its index: tree sightings first.
+/// Calls visit(camera, observation, x_in_world, weight) for every observation that takes part; the weight by
+/// reference of its index: tree observations first.
 template <class Visit>
-void BundleProblem::visit_sightings(const BundleState& state, const Visit& visit) const {
+void BundleProblem::visit_observations(const BundleState& state, const Visit& visit) const {
   for (const int pose : poses_)
     for (int led = 0; led < tree_.leds(); ++led)
       for (int c = 0; c < tree_.cameras; ++c) {
         const auto index = static_cast<std::size_t>((pose * tree_.leds() + led) * tree_.cameras + c);
-        if (tree_.sightings[index].seen())
-          visit(c, tree_.sightings[index],
+        if (tree_.observations[index].seen())
+          visit(c, tree_.observations[index],
                 state.world_from_tree[static_cast<std::size_t>(pose)] *
                     tree_.tree[static_cast<std::size_t>(led)],
                 index);
       }
-  std::size_t index = tree_.sightings.size();
+  std::size_t index = tree_.observations.size();
   for (std::size_t g = 0; g < grids_.size(); ++g) {
     const math::SE3 world_from_grid = state.rig.cameras[g].cam_from_world.inverse() * state.cam_from_grid[g];
-    for (std::size_t node = 0; node < grids_[g].sightings.size(); ++node, ++index)
-      if (grids_[g].sightings[node].seen())
-        visit(static_cast<int>(g), grids_[g].sightings[node],
+    for (std::size_t node = 0; node < grids_[g].observations.size(); ++node, ++index)
+      if (grids_[g].observations[node].seen())
+        visit(static_cast<int>(g), grids_[g].observations[node],
               world_from_grid * on_grid(grids_[g], static_cast<int>(node), state.grid_shift[node]), index);
   }
 }
@@ -139,7 +139,7 @@ void BundleProblem::visit_sightings(const BundleState& state, const Visit& visit
 double BundleProblem::cost(const BundleState& state) const {
   double sum = deviation(state).cwiseQuotient(sigma_).squaredNorm();
   for (const auto& shift : state.grid_shift) sum += (shift / options_.priors.grid_led_m).squaredNorm();
-  visit_sightings(state, [&](int c, const StillSighting& seen, const Vector3d& x, std::size_t index) {
+  visit_observations(state, [&](int c, const StillObservation& seen, const Vector3d& x, std::size_t index) {
     const double weight =
         index < tree_weight_.size() ? tree_weight_[index] : grid_weight_[index - tree_weight_.size()];
     sum += weight * chi2(state.rig.cameras[static_cast<std::size_t>(c)], x, seen);
@@ -149,7 +149,7 @@ double BundleProblem::cost(const BundleState& state) const {
 
 void BundleProblem::reweigh(const BundleState& state) {
   constexpr double kBound = 16.0;  // three residuals exceed it together once in 900
-  visit_sightings(state, [&](int c, const StillSighting& seen, const Vector3d& x, std::size_t index) {
+  visit_observations(state, [&](int c, const StillObservation& seen, const Vector3d& x, std::size_t index) {
     const double misfit = chi2(state.rig.cameras[static_cast<std::size_t>(c)], x, seen);
     double& weight =
         index < tree_weight_.size() ? tree_weight_[index] : grid_weight_[index - tree_weight_.size()];
@@ -164,17 +164,17 @@ BundleState BundleProblem::moved(const BundleState& state, const Step& step, dou
     auto& camera = out.rig.cameras[static_cast<std::size_t>(c)];
     VectorXd full = VectorXd::Zero(ParameterLayout(camera).count);
     for (; k < free_.size() && free_[k].camera == c; ++k)
-      full[free_[k].index] = share * step.global[static_cast<Eigen::Index>(k)];
+      full[free_[k].index] = share * step.shared[static_cast<Eigen::Index>(k)];
     camera = camera::moved(camera, full);
   }
-  const auto turn = [&](math::SE3& pose, const Vector6d& by) {
+  const auto move_pose = [&](math::SE3& pose, const Vector6d& by) {
     pose.rotation = math::exp_so3(share * by.head<3>()) * pose.rotation;
     pose.translation += share * by.tail<3>();
   };
   for (std::size_t g = 0; g < grids_.size(); ++g)
-    turn(out.cam_from_grid[g], step.global.segment<6>(static_cast<Eigen::Index>(free_.size() + 6 * g)));
+    move_pose(out.cam_from_grid[g], step.shared.segment<6>(static_cast<Eigen::Index>(free_.size() + 6 * g)));
   for (std::size_t p = 0; p < poses_.size(); ++p)
-    turn(out.world_from_tree[static_cast<std::size_t>(poses_[p])], step.poses[p]);
+    move_pose(out.world_from_tree[static_cast<std::size_t>(poses_[p])], step.poses[p]);
   for (std::size_t n = 0; n < out.grid_shift.size(); ++n) out.grid_shift[n] += share * step.nodes[n];
   return out;
 }
@@ -182,12 +182,12 @@ BundleState BundleProblem::moved(const BundleState& state, const Step& step, dou
 BundleProblem::Misfit BundleProblem::misfit(const BundleState& state) const {
   std::vector<double> all;
   Misfit out;
-  visit_sightings(state, [&](int c, const StillSighting& seen, const Vector3d& x, std::size_t index) {
+  visit_observations(state, [&](int c, const StillObservation& seen, const Vector3d& x, std::size_t index) {
     all.push_back(chi2(state.rig.cameras[static_cast<std::size_t>(c)], x, seen));
     out.outliers += (index < tree_weight_.size() ? tree_weight_[index]
                                                  : grid_weight_[index - tree_weight_.size()]) < 1.0 / 3.0;
   });
-  out.sightings = static_cast<int>(all.size());
+  out.observations = static_cast<int>(all.size());
   const auto leave = std::min<std::ptrdiff_t>(
       out.outliers,
       static_cast<std::ptrdiff_t>(options_.largest_outlier_share * static_cast<double>(all.size())));
@@ -201,7 +201,7 @@ BundleProblem::Misfit BundleProblem::misfit(const BundleState& state) const {
   }();
   const double taken = static_cast<double>(sigma_.size()) - variance.cwiseQuotient(sigma_.cwiseAbs2()).sum() +
                        6.0 * static_cast<double>(poses_.size()) + node_freedom_;
-  out.chi2_per_dof = sum / std::max(1.0, 3.0 * static_cast<double>(out.sightings - leave) - taken);
+  out.chi2_per_dof = sum / std::max(1.0, 3.0 * static_cast<double>(out.observations - leave) - taken);
   return out;
 }
 

@@ -27,16 +27,16 @@ struct BundleState {
 };
 
 /// Position of a grid node that is displaced by `shift`, in the grid, m.
-[[nodiscard]] Eigen::Vector3d on_grid(const GridSightings& grid, int node, const Eigen::Vector2d& shift);
+[[nodiscard]] Eigen::Vector3d on_grid(const GridObservations& grid, int node, const Eigen::Vector2d& shift);
 
 /// What the bundle minimises (bundle_problem.cc), and its normal equations with poses and grid nodes
 /// eliminated (bundle_normal.cc).
 ///
-/// Global unknowns: free parameters camera by camera, then six of each grid's pose. Rows of a sighting are
-/// the three parts of math::eliminate_scale, over its standard deviation.
+/// Shared unknowns: free parameters camera by camera, then six of each grid's pose. Rows of an observation
+/// are the three parts of math::eliminate_scale, over its standard deviation.
 class BundleProblem {
  public:
-  BundleProblem(data::Rig nominal, const StillPoses& tree, const std::vector<GridSightings>& grids,
+  BundleProblem(data::Rig nominal, const StillPoses& tree, const std::vector<GridObservations>& grids,
                 const BundleOptions& options);
 
   /// Poses of the tree that take part (default: all).
@@ -53,8 +53,8 @@ class BundleProblem {
 
   struct Step {
     bool solved = false;
-    double decrement = 0.0;  // g' A^-1 g: the predicted decrease of the cost by the step, times two
-    Eigen::VectorXd global;
+    double decrement = 0.0;  // g' A^-1 g: the predicted decrease of the cost by the whole step
+    Eigen::VectorXd shared;
     std::vector<Eigen::Matrix<double, 6, 1>> poses;  // by poses()
     std::vector<Eigen::Vector2d> nodes;
   };
@@ -72,32 +72,32 @@ class BundleProblem {
 
   struct Misfit {
     double chi2_per_dof = 0.0;
-    int sightings = 0, outliers = 0;
+    int observations = 0, outliers = 0;
   };
-  /// Misfit without weights, the worst share of the sightings left out. Uses the last solve() for the degrees
-  /// of freedom that priors take.
+  /// Misfit without weights, the worst share of the observations left out. Uses the last solve() for the
+  /// degrees of freedom that priors take.
   [[nodiscard]] Misfit misfit(const BundleState& state) const;
 
  private:
   struct Rows;
   void set_free(const data::Rig& rig);
   [[nodiscard]] Eigen::VectorXd deviation(
-      const BundleState& state) const;  // of the global unknowns from their priors
+      const BundleState& state) const;  // of the shared unknowns from their priors
   [[nodiscard]] int camera_columns(int camera) const;
   template <class Visit>
-  void visit_sightings(const BundleState& state, const Visit& visit) const;
+  void visit_observations(const BundleState& state, const Visit& visit) const;
   void add_tree(const BundleState& state, Eigen::MatrixXd& a, Eigen::VectorXd& g);
   void add_grids(const BundleState& state, Eigen::MatrixXd& a, Eigen::VectorXd& g);
 
   data::Rig nominal_;
   const StillPoses& tree_;
-  const std::vector<GridSightings>& grids_;
+  const std::vector<GridObservations>& grids_;
   BundleOptions options_;
   std::vector<int> poses_;
-  std::vector<double> tree_weight_, grid_weight_;  // robust weight of each sighting
+  std::vector<double> tree_weight_, grid_weight_;  // robust weight of each observation
   std::vector<FreeParameter> free_;
   std::vector<int> first_column_;  // per camera and one more: of grid 0
-  Eigen::VectorXd sigma_;          // of the global unknowns
+  Eigen::VectorXd sigma_;          // of the shared unknowns
   // Kept from the last solve: eliminated rows and the factor.
   Eigen::MatrixXd pose_rows_, node_rows_;  // L^-1 W', 6 or 2 rows per block
   Eigen::VectorXd pose_right_, node_right_;

@@ -31,7 +31,7 @@ std::optional<Eigen::Vector2d> find_spot(const data::Detector& detector, const E
   return spot;
 }
 
-std::optional<camera::Ray> sight_line(const data::Camera& camera, const Eigen::Vector4d& counts) {
+std::optional<camera::Ray> line_of_sight(const data::Camera& camera, const Eigen::Vector4d& counts) {
   const auto spot = find_spot(camera.detector, counts - camera.detector.offset_counts);
   return spot ? camera::unproject(camera, *spot) : std::nullopt;
 }

@@ -16,9 +16,9 @@ namespace kinemark::calibration::internal {
 [[nodiscard]] std::optional<Eigen::Vector2d> find_spot(const data::Detector& detector,
                                                        const Eigen::Vector4d& readings);
 
-/// Line of sight of a sighting, by find_spot() and camera::unproject().
-[[nodiscard]] std::optional<camera::Ray> sight_line(const data::Camera& camera,
-                                                    const Eigen::Vector4d& counts);
+/// Line of sight of an observation, by find_spot() and camera::unproject().
+[[nodiscard]] std::optional<camera::Ray> line_of_sight(const data::Camera& camera,
+                                                       const Eigen::Vector4d& counts);
 
 /// Point nearest to two rays or more; none when they are parallel.
 [[nodiscard]] std::optional<Eigen::Vector3d> meet(std::span<const camera::Ray> rays);

@@ -81,16 +81,16 @@ class CameraTask : public Task {
 
   void evaluate(const model::Model& model, const model::Workspace& w, double time_s,
                 TaskRows& out) const override {
-    const Vector3d place = model::point_in_world(w, body_, point_.x_in_body);
-    const Vector3d velocity = model::point_velocity(w, body_, place);
-    const Vector3d bias = model::point_bias_acceleration(w, body_, place);
+    const Vector3d position = model::point_in_world(w, body_, point_.x_in_body);
+    const Vector3d velocity = model::point_velocity(w, body_, position);
+    const Vector3d bias = model::point_bias_acceleration(w, body_, position);
     for (std::size_t c = 0; c < views_.size(); ++c) {
       const View& view = views_[c];
       const auto row = static_cast<Eigen::Index>(2 * c);
       out.sd.segment<2>(row).setConstant(view.sd);
       std::array<double, 6> goal{};
-      const auto there = camera::project(view.camera, place);
-      const double share = facing(there.x_in_cam) * look(view, time_s, goal);
+      const auto there = camera::project(view.camera, position);
+      const double share = facing(there.x_in_cam) * goal_at(view, time_s, goal);
       if (!(share > 0.0) || !there.image.allFinite() || !there.d_point.allFinite()) {
         out.weight.segment<2>(row).setZero();
         continue;
@@ -100,11 +100,12 @@ class CameraTask : public Task {
       out.goal_velocity.segment<2>(row) = Vector2d(goal[2], goal[3]);
       out.goal_acceleration.segment<2>(row) = Vector2d(goal[4], goal[5]);
       out.velocity.segment<2>(row) = there.d_point * velocity;
-      out.bias.segment<2>(row) = there.d_point * bias + bend(view.camera, place, velocity, depth);
+      out.bias.segment<2>(row) =
+          there.d_point * bias + curvature_term(view.camera, position, velocity, depth);
       for (const int column : model.bodies()[at(body_)].support) {
         const auto& s = w.column[at(column)];
         out.jacobian.block<2, 1>(row, model.columns()[at(column)].speed) +=
-            there.d_point * (s.v + s.w.cross(place));
+            there.d_point * (s.v + s.w.cross(position));
       }
       const Vector2d metres_per_unit(depth / view.camera.focal,
                                      depth / (view.camera.focal * view.camera.aspect));
@@ -115,18 +116,19 @@ class CameraTask : public Task {
  private:
   /// Part of the image acceleration due to the curvature of the projection: (change of d_point along the
   /// velocity) velocity, by central differences.
-  static Vector2d bend(const data::Camera& camera, const Vector3d& place, const Vector3d& velocity,
-                       double depth) {
+  static Vector2d curvature_term(const data::Camera& camera, const Vector3d& position,
+                                 const Vector3d& velocity, double depth) {
     const double speed = velocity.norm(), reach = kDifference * depth;
     if (!(speed > kStandstill_m_per_s)) return Vector2d::Zero();
     const Vector3d way = (reach / speed) * velocity;
     return speed / (2.0 * reach) *
-           ((camera::project(camera, place + way).d_point - camera::project(camera, place - way).d_point) *
+           ((camera::project(camera, position + way).d_point -
+             camera::project(camera, position - way).d_point) *
             velocity);
   }
 
   /// Goal and its two derivatives at a time; returns its weight, 0 to 1.
-  [[nodiscard]] double look(const View& view, double time_s, std::array<double, 6>& goal) const {
+  [[nodiscard]] double goal_at(const View& view, double time_s, std::array<double, 6>& goal) const {
     if (view.runs.empty()) return 0.0;
     const double frame = (time_s - time_.t0_s) * time_.rate_hz;
     auto run = std::ranges::upper_bound(view.runs, frame, {},

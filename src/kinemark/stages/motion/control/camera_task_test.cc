@@ -30,13 +30,13 @@ const BodyPoint kF2{.body = "forearm", .x_in_body = {-0.02, -0.25, 0.04}};
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
 
 /// A pinhole camera at a position, looking at the origin, with 1000 px per unit slope.
-data::Camera camera_at(const Vector3d& place) {
+data::Camera camera_at(const Vector3d& position) {
   data::Camera camera;
   camera.kind = data::CameraKind::pinhole;
   camera.focal = 1000.0;
-  const Vector3d z = -place.normalized(), x = Vector3d::UnitY().cross(z).normalized(), y = z.cross(x);
+  const Vector3d z = -position.normalized(), x = Vector3d::UnitY().cross(z).normalized(), y = z.cross(x);
   camera.cam_from_world.rotation << x.transpose(), y.transpose(), z.transpose();
-  camera.cam_from_world.translation = -camera.cam_from_world.rotation * place;
+  camera.cam_from_world.translation = -camera.cam_from_world.rotation * position;
   return camera;
 }
 
@@ -90,7 +90,7 @@ struct Still {
     model::kinematics(model, w, model.default_state());
     model::velocities(model, w, Eigen::VectorXd::Zero(model.speed_count()));
   }
-  const TaskRows& look(const Task& task, double time_s) {
+  const TaskRows& rows_at(const Task& task, double time_s) {
     rows.resize(task.rows(), model.speed_count());
     task.evaluate(model, w, time_s, rows);
     return rows;
@@ -115,7 +115,7 @@ TEST(CameraTask, VelocityJacobianAndBiasBelongTogether) {
     v[k] = 0.5 * std::sin(1.0 + k);
     a[k] = std::cos(2.0 * k);
   }
-  const auto look = [&](double t) {
+  const auto rows_at = [&](double t) {
     Eigen::VectorXd x = x0;
     model::integrate(model, x, v * t + 0.5 * a * t * t);
     model::kinematics(model, w, x);
@@ -126,7 +126,7 @@ TEST(CameraTask, VelocityJacobianAndBiasBelongTogether) {
     return rows;
   };
   const double h = 1e-5;
-  const TaskRows before = look(-h), after = look(h), now = look(0.0);
+  const TaskRows before = rows_at(-h), after = rows_at(h), now = rows_at(0.0);
   ASSERT_GT(now.weight.minCoeff(), 0.0);
   // Rows of the two cameras differ in size by their units: each is judged by its own.
   for (int row = 0; row < 4; ++row) {
@@ -147,14 +147,14 @@ TEST(CameraTask, AnImageCountsLikeTheMetresThatItCovers) {
   const auto task =
       camera_task(kF2, one_track({camera_at({3.0, 0.5, 2.0}), far}, 1, middle), "P", {.weight = 2.0});
   ASSERT_TRUE(task->bind(still.model));
-  const auto& rows = still.look(*task, 12.0);
-  const Vector3d place = model::point_in_world(still.w, still.model.body_of(2), kF2.x_in_body);
-  const double depth = (far.cam_from_world * place).z();
+  const auto& rows = still.rows_at(*task, 12.0);
+  const Vector3d position = model::point_in_world(still.w, still.model.body_of(2), kF2.x_in_body);
+  const double depth = (far.cam_from_world * position).z();
   EXPECT_NEAR(rows.weight[2], 2.0 * std::pow(depth / 1000.0, 2), 1e-15);
   EXPECT_NEAR(rows.weight[3], 2.0 * std::pow(depth / 1250.0, 2), 1e-15);
   // The weighted rows hardly change when the same camera counts other units.
   Eigen::MatrixXd J(3, still.model.speed_count());
-  model::point_jacobian(still.model, still.w, still.model.body_of(2), place, J);
+  model::point_jacobian(still.model, still.w, still.model.body_of(2), position, J);
   const double in_metres =
       (rows.weight.cwiseSqrt().asDiagonal() * rows.jacobian).row(2).norm() / std::sqrt(2.0);
   EXPECT_NEAR(in_metres / (far.cam_from_world.rotation.row(0) * J).norm(), 1.0, 0.1);
@@ -170,12 +170,12 @@ TEST(CameraTask, AMovingImageFeedsItsRateForward) {
   for (const double cutoff : {0.0, 6.0}) {
     const auto task = camera_task(kF2, tracks, "P", {.cutoff_hz = cutoff});
     ASSERT_TRUE(task->bind(still.model));
-    const auto& rows = still.look(*task, 1.005);
+    const auto& rows = still.rows_at(*task, 1.005);
     EXPECT_NEAR(rows.goal_velocity[0], 100.0 + 40.2, 1e-2) << cutoff;
     EXPECT_NEAR(rows.goal_velocity[1], -30.0, 1e-2) << cutoff;
     EXPECT_NEAR(rows.goal_acceleration[0], 40.0, 0.5) << cutoff;
-    const Vector3d place = model::point_in_world(still.w, still.model.body_of(2), kF2.x_in_body);
-    const Vector2d goal = rows.error + camera::project(tracks.cameras[0], place).image;
+    const Vector3d position = model::point_in_world(still.w, still.model.body_of(2), kF2.x_in_body);
+    const Vector2d goal = rows.error + camera::project(tracks.cameras[0], position).image;
     EXPECT_NEAR(goal.x(), 100.5 + 20.0 * 1.005 * 1.005, 1e-2) << cutoff;
   }
 }
@@ -188,11 +188,11 @@ TEST(CameraTask, DeviationIsTheNoiseThatTheLowPassLeaves) {
   });
   const auto task = camera_task(kF2, tracks, "P");
   ASSERT_TRUE(task->bind(still.model));
-  const Vector3d place = model::point_in_world(still.w, still.model.body_of(2), kF2.x_in_body);
-  const Vector2d there = camera::project(tracks.cameras[0], place).image;
+  const Vector3d position = model::point_in_world(still.w, still.model.body_of(2), kF2.x_in_body);
+  const Vector2d there = camera::project(tracks.cameras[0], position).image;
   double squares = 0.0;
   for (int f = 50; f < 3950; ++f)
-    squares += (still.look(*task, f / 100.0).error.head<2>() + there).squaredNorm();
+    squares += (still.rows_at(*task, f / 100.0).error.head<2>() + there).squaredNorm();
   EXPECT_NEAR(std::sqrt(squares / (2.0 * 3900.0)) / still.rows.sd[0], 1.0, 0.1);
   EXPECT_LT(still.rows.sd[0], 0.25);
 }
@@ -205,8 +205,8 @@ TEST(CameraTask, FadesBesideGapsButNotAtTheEnds) {
   tracks.image[one_frame] = tracks.image[one_frame + 1] = 1.0;  // a single frame is not enough for a goal
   const auto task = camera_task(kF2, tracks, "P");
   ASSERT_TRUE(task->bind(still.model));
-  const double full = still.look(*task, 0.0).weight[0];
-  const auto share = [&](double time_s) { return still.look(*task, time_s).weight[0] / full; };
+  const double full = still.rows_at(*task, 0.0).weight[0];
+  const auto share = [&](double time_s) { return still.rows_at(*task, time_s).weight[0] / full; };
   for (const double t : {0.0, 0.1, 0.29, 0.7, 0.99}) EXPECT_NEAR(share(t), 1.0, 1e-9) << t;
   for (const double t : {0.34, 0.65, 1.04, -0.05}) EXPECT_NEAR(share(t), 0.5, 1e-9) << t;
   for (const double t : {0.391, 0.45, 0.5, 0.505, 0.59, 1.1, -0.2}) {
@@ -214,7 +214,7 @@ TEST(CameraTask, FadesBesideGapsButNotAtTheEnds) {
     EXPECT_EQ(still.rows.error.head<2>(), Vector2d::Zero()) << t;
     EXPECT_TRUE(still.rows.jacobian.topRows<2>().isZero()) << t;
   }
-  EXPECT_GT(still.look(*task, 0.5).weight[2], 0.0);  // the other camera is not affected
+  EXPECT_GT(still.rows_at(*task, 0.5).weight[2], 0.0);  // the other camera is not affected
   double before = share(0.25);
   for (int i = 1; i < 500; ++i) {
     const double now = share(0.25 + 1e-3 * i);
@@ -231,7 +231,7 @@ TEST(CameraTask, WhatIsBehindTheCameraOrBesideItIsNotSeen) {
   beside.cam_from_world.translation += Vector3d(20.0, 0.0, -2.0);
   const auto task = camera_task(kF2, one_track({behind, beside}, 1, middle), "P");
   ASSERT_TRUE(task->bind(still.model));
-  const auto& rows = still.look(*task, 0.0);
+  const auto& rows = still.rows_at(*task, 0.0);
   EXPECT_EQ(rows.weight, Eigen::VectorXd::Zero(4));
   EXPECT_TRUE(rows.jacobian.isZero());
   EXPECT_EQ(rows.error, Eigen::VectorXd::Zero(4));
@@ -241,7 +241,7 @@ TEST(CameraTask, WhatIsBehindTheCameraOrBesideItIsNotSeen) {
 struct Pose {
   model::Model model = body();
   data::Trajectories trunk;
-  Vector3d place;  // of F2
+  Vector3d position;  // of F2
   data::ImageTracks tracks;
 
   explicit Pose(std::vector<data::Camera> cameras) {
@@ -251,7 +251,7 @@ struct Pose {
       for (std::int64_t m = 0; m < all.markers(); ++m)
         if (f != last) all.x(f, m) = Vector3d(all.x(last, m));
     tracks = film(all, std::move(cameras));
-    place = all.x(0, model.description().find_marker("F2"));
+    position = all.x(0, model.description().find_marker("F2"));
     trunk = data::Trajectories::all_missing({"T1", "T2", "T3", "T4"}, all.time);
     for (std::int64_t f = 0; f < 100; ++f)
       for (std::int64_t m = 0; m < 4; ++m) {
@@ -282,9 +282,10 @@ TEST(CameraTask, OneCameraPutsThePointOntoItsRayAndLeavesTheDepth) {
   EXPECT_EQ(result->flagged_frames, 0);
   const auto& camera = pose.tracks.cameras[0];
   const Vector3d found = pose.tracked(result->motion);
-  const Vector2d miss = camera::project(camera, found).image - camera::project(camera, pose.place).image;
+  const Vector2d miss = camera::project(camera, found).image - camera::project(camera, pose.position).image;
   EXPECT_LT(miss.norm(), 0.1);
-  EXPECT_GT(std::abs((camera.cam_from_world * found).z() - (camera.cam_from_world * pose.place).z()), 5e-3);
+  EXPECT_GT(std::abs((camera.cam_from_world * found).z() - (camera.cam_from_world * pose.position).z()),
+            5e-3);
   EXPECT_LT(result->rms_goal_error_m, 1e-3);  // the trunk stays with its markers
 }
 
@@ -293,7 +294,7 @@ TEST(CameraTask, TwoCamerasFixThePoint) {
   const auto result = pose.track();
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->rank[99], 9);
-  EXPECT_LT((pose.tracked(result->motion) - pose.place).norm(), 3e-4);
+  EXPECT_LT((pose.tracked(result->motion) - pose.position).norm(), 3e-4);
 }
 
 TEST(CameraTask, OneCameraOfAPairIsBetterThanNone) {

@@ -153,11 +153,11 @@ TEST(Controller, LockedSpeedsStayWhereTheyAre) {
   plan.apply_locks(x);
   const auto goal = goals_at(plan, pose(plan, 20));
   controller.start(x, goal, 0.0);
-  const int place = plan.problem.model.coordinates()[9].state_idx;
+  const int row = plan.problem.model.coordinates()[9].state_idx;
   for (int s = 0; s < 50; ++s) {
     ASSERT_TRUE(controller.evaluate(goal, 0.0));
     controller.advance(1e-3);
-    ASSERT_EQ(controller.x()[place], plan.rest[place]);
+    ASSERT_EQ(controller.x()[row], plan.rest[row]);
   }
 }
 

@@ -110,8 +110,8 @@ struct OnlineTracker::Impl {
   void read(const Eigen::VectorXd& x, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
     readout.find(x, v, a);
     pose.q = readout.q();
-    pose.v = readout.rate();
-    pose.a = readout.acceleration();
+    pose.qd = readout.rate();
+    pose.qdd = readout.acceleration();
     pose.tau = readout.tau();
   }
 
@@ -222,8 +222,8 @@ Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
                   fmt::format("no frame for {:.1f} s; after more than {:g} s begin a new stream", wait,
                               kLongestGap_s));
     // Counted from the first frame on, so that rounding does not add up.
-    const auto place = std::llround((time_s - s.t0_s) * s.plan.rate_hz);
-    const auto ahead = s.window().frames() - place;
+    const auto index = std::llround((time_s - s.t0_s) * s.plan.rate_hz);
+    const auto ahead = s.window().frames() - index;
     if (static_cast<double>(ahead) > std::max(2.0, kMostAhead_s * s.plan.rate_hz))
       return fail(
           Code::bad_input,

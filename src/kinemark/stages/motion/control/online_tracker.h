@@ -17,10 +17,10 @@ namespace kinemark::motion {
 
 /// One frame of a live stream; numbers as in data::JointMotion, n coordinates each.
 struct LivePose {
-  std::int64_t frame = 0;         ///< number of the frame, from 0
-  double time_s = 0.0;            ///< of the frame
-  Eigen::VectorXd q, v, a, tau;   ///< coordinates (rad, m), their rates and accelerations, forces (N m, N)
-  Eigen::VectorXd q_sd, q_bound;  ///< NaN where not determined; empty without error bars
+  std::int64_t frame = 0;           ///< number of the frame, from 0
+  double time_s = 0.0;              ///< of the frame
+  Eigen::VectorXd q, qd, qdd, tau;  ///< coordinates (rad, m), their rates and accelerations, forces (N m, N)
+  Eigen::VectorXd q_sd, q_bound;    ///< NaN where not determined; empty without error bars
   std::vector<std::uint8_t> determined;                      ///< empty without error bars
   int rank = 0;                                              ///< directions of motion that the markers hold
   double smallest_singular = 0.0;                            ///< as TrackResult, kg^-1/2
@@ -28,9 +28,9 @@ struct LivePose {
 };
 
 /// track_markers() on a stream: poses are returned `delay_frames()` after their frames, with the same numbers
-/// (q, v, a, tau) as from a file, provided that the first frame shows 95 % of the markers and that the same
-/// coordinates are locked. Standard deviations and bounds agree to rounding when the marker noise is given;
-/// otherwise it is estimated from the frames so far.
+/// (q, qd, qdd, tau) as from a file, provided that the first frame shows 95 % of the markers and that the
+/// same coordinates are locked. Standard deviations and bounds agree to rounding when the marker noise is
+/// given; otherwise it is estimated from the frames so far.
 ///
 /// The delay is the lookahead of the goals' filter, TrackOptions::lookahead_s, or the fading time where that
 /// is longer; a shorter lookahead reduces the delay and filters less well. Memory use is constant.

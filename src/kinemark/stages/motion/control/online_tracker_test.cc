@@ -64,8 +64,8 @@ TEST(OnlineTracker, GivesTheSameNumbersAsAFile) {
     for (std::int64_t c = 0; c < file.motion.size(); ++c) {
       const auto i = file.motion.index(f, c);
       ASSERT_EQ(pose.q[c], file.motion.q[i]) << f << ' ' << c;
-      ASSERT_EQ(pose.v[c], file.motion.v[i]);
-      ASSERT_EQ(pose.a[c], file.motion.a[i]);
+      ASSERT_EQ(pose.qd[c], file.motion.qd[i]);
+      ASSERT_EQ(pose.qdd[c], file.motion.qdd[i]);
       if (!std::isnan(pose.tau[c])) {
         ASSERT_EQ(pose.tau[c], file.motion.tau[i]);
       }

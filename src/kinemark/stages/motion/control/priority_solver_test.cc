@@ -33,7 +33,7 @@ MatrixXd times(const MatrixXd& a, const MatrixXd& b) {
   return out;
 }
 
-MatrixXd turned(const MatrixXd& a) {
+MatrixXd transposed(const MatrixXd& a) {
   MatrixXd out(a.cols(), a.rows());
   for (int i = 0; i < a.rows(); ++i)
     for (int j = 0; j < a.cols(); ++j) out(j, i) = a(i, j);
@@ -93,7 +93,7 @@ MatrixXd inverse(MatrixXd a) {
 
 MatrixXd random_mass(Random& random, int n) {
   const MatrixXd a = random_matrix(random, n, n);
-  return plus(times(a, turned(a)), 0.5, one(n));
+  return plus(times(a, transposed(a)), 0.5, one(n));
 }
 
 constexpr PriorityDamping kExact{.damping = 0.0, .truncation = 1e-9};
@@ -122,17 +122,17 @@ struct Textbook {
     force = MatrixXd::Zero(12, 1);
     for (std::size_t i = 0; i < levels; ++i) {
       const MatrixXd J = times(t.J[i], N);  // J restricted to what the levels above leave
-      const MatrixXd lambda = inverse(times(times(J, mobility), turned(J)));
-      Jbar = times(times(mobility, turned(J)), lambda);
+      const MatrixXd lambda = inverse(times(times(J, mobility), transposed(J)));
+      Jbar = times(times(mobility, transposed(J)), lambda);
       const MatrixXd rest = plus(t.r[i], -1.0, times(t.J[i], times(mobility, force)));
-      force = plus(force, 1.0, times(turned(J), times(lambda, rest)));
+      force = plus(force, 1.0, times(transposed(J), times(lambda, rest)));
       N = times(N, plus(one(12), -1.0, times(Jbar, J)));
     }
   }
   /// Accelerations with a posture in what the levels leave.
   [[nodiscard]] MatrixXd acceleration(const Tasks& t, const MatrixXd& posture) const {
     const MatrixXd wish = plus(posture, -1.0, times(mobility, force));
-    return times(mobility, plus(force, 1.0, times(turned(N), times(t.M, wish))));
+    return times(mobility, plus(force, 1.0, times(transposed(N), times(t.M, wish))));
   }
   MatrixXd mobility, N, Jbar, force;  ///< M^-1; null space of all levels; inverse of the last
 };
@@ -162,7 +162,7 @@ TEST(PrioritySolver, TheTextbookKeepsItsOwnLaws) {
     EXPECT_LT(apart(times(t.J[0], book.Jbar), one(3)), 1e-10);
     EXPECT_LT(apart(times(book.N, book.N), book.N), 1e-10);
     EXPECT_LT(length(times(t.J[0], book.N)), 1e-10);
-    EXPECT_LT(length(times(times(t.J[0], book.mobility), turned(book.N))), 1e-10);
+    EXPECT_LT(length(times(times(t.J[0], book.mobility), transposed(book.N))), 1e-10);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(PrioritySolver, OneLevelIsTheLeastMotionThatMeetsIt) {
   ASSERT_TRUE(solver.begin(t.M, kNothingHeld, VectorXd::Zero(12)));
   solver.add_level(t.J[0], t.r[0], kExact);
   const MatrixXd a = solver.acceleration();
-  const auto effort = [&](const MatrixXd& q) { return times(turned(q), times(t.M, q))(0, 0); };
+  const auto effort = [&](const MatrixXd& q) { return times(transposed(q), times(t.M, q))(0, 0); };
   const Textbook book(t, 1);
   Random random(8, 5);
   for (int i = 0; i < 10; ++i) {
@@ -232,14 +232,14 @@ TEST(PrioritySolver, MoreRowsThanSpeedsIsLeastSquares) {
   PrioritySolver solver(12);
   ASSERT_TRUE(solver.begin(M, kNothingHeld, VectorXd::Zero(12)));
   solver.add_level(J, r, kExact);
-  const MatrixXd normal = times(turned(J), J), pull = times(turned(J), r);
-  const MatrixXd expected = times(inverse(normal), pull);
+  const MatrixXd normal = times(transposed(J), J), right = times(transposed(J), r);
+  const MatrixXd expected = times(inverse(normal), right);
   EXPECT_LT(apart(solver.acceleration(), expected), 1e-9 * length(expected));
   EXPECT_EQ(solver.rank(), 12);
 
   const VectorXd rows = solver.acceleration();
   ASSERT_TRUE(solver.begin(M, kNothingHeld, VectorXd::Zero(12)));
-  ASSERT_TRUE(solver.add_full_level(normal, pull, 0.0, 1e-3));
+  ASSERT_TRUE(solver.add_full_level(normal, right, 0.0, 1e-3));
   EXPECT_LT(apart(solver.acceleration(), rows), 1e-9 * length(rows));
 }
 
@@ -251,10 +251,10 @@ TEST(PrioritySolver, DampingIsTheSameWithAndWithoutRows) {
   ASSERT_TRUE(rows.begin(M, kNothingHeld, VectorXd::Zero(12)));
   ASSERT_TRUE(full.begin(M, kNothingHeld, VectorXd::Zero(12)));
   rows.add_level(J, r, {.damping = 0.5, .truncation = 1e-6});
-  ASSERT_TRUE(full.add_full_level(times(turned(J), J), times(turned(J), r), 0.5, 1e-3));
+  ASSERT_TRUE(full.add_full_level(times(transposed(J), J), times(transposed(J), r), 0.5, 1e-3));
   EXPECT_LT(apart(rows.acceleration(), full.acceleration()), 1e-9);
   // The minimum of |J q'' - r|^2 + d^2 q'' M q''.
-  const MatrixXd damped = times(inverse(plus(times(turned(J), J), 0.25, M)), times(turned(J), r));
+  const MatrixXd damped = times(inverse(plus(times(transposed(J), J), 0.25, M)), times(transposed(J), r));
   EXPECT_LT(apart(rows.acceleration(), damped), 1e-9 * length(damped));
 }
 
@@ -265,7 +265,7 @@ TEST(PrioritySolver, AFullLevelThatLeavesADirectionOpenIsRefused) {
   for (int i = 0; i < 40; ++i) J(i, 7) = J(i, 3);  // no row tells speed 3 from speed 7
   PrioritySolver solver(12);
   ASSERT_TRUE(solver.begin(M, kNothingHeld, VectorXd::Zero(12)));
-  EXPECT_FALSE(solver.add_full_level(times(turned(J), J), VectorXd::Ones(12), 0.0, 1e-3));
+  EXPECT_FALSE(solver.add_full_level(times(transposed(J), J), VectorXd::Ones(12), 0.0, 1e-3));
   EXPECT_EQ(solver.rank(), 0);
   solver.add_level(J, VectorXd::Ones(40), {.damping = 0.0, .truncation = 1e-4});
   EXPECT_EQ(solver.rank(), 11);
@@ -291,7 +291,7 @@ TEST(PrioritySolver, HeldSpeedsKeepTheirAccelerationAndTheOthersAllowForIt) {
   PrioritySolver rows(12), full(12);
   ASSERT_TRUE(rows.begin(M, held, a) && full.begin(M, held, a));
   rows.add_level(tall, wide, kExact);
-  ASSERT_TRUE(full.add_full_level(times(turned(tall), tall), times(turned(tall), wide), 0.0, 1e-3));
+  ASSERT_TRUE(full.add_full_level(times(transposed(tall), tall), times(transposed(tall), wide), 0.0, 1e-3));
   EXPECT_LT(apart(rows.acceleration(), full.acceleration()), 1e-9);
 }
 

@@ -32,7 +32,7 @@ void expect_consistent(const model::Model& model, Task& task, double tolerance) 
     a[k] = std::cos(2.0 * k);
   }
   TaskRows rows;
-  const auto look = [&](double t) {
+  const auto rows_at = [&](double t) {
     Eigen::VectorXd x = x0;
     model::integrate(model, x, v * t + 0.5 * a * t * t);
     model::kinematics(model, w, x);
@@ -42,7 +42,7 @@ void expect_consistent(const model::Model& model, Task& task, double tolerance) 
     return rows;
   };
   const double h = 1e-5;
-  const TaskRows before = look(-h), after = look(h), now = look(0.0);
+  const TaskRows before = rows_at(-h), after = rows_at(h), now = rows_at(0.0);
   EXPECT_LT((now.jacobian * v - now.velocity).norm(), 1e-12);
   // The goal stands still: the error changes by minus the velocity, the velocity by J a + bias.
   const Eigen::VectorXd velocity = (before.error - after.error) / (2.0 * h);

@@ -20,7 +20,7 @@ namespace kinemark::motion {
 
 /// What track_markers() found: the motion, and how well it follows the markers.
 struct TrackResult {
-  /// q, v, a, tau, marker_error (measured minus model), status; with error bars also q_sd, determined and
+  /// q, qd, qdd, tau, marker_error (measured minus model), status; with error bars also q_sd, determined and
   /// q_bound. Status not_converged: the frame was flagged (explosion, restart, goals out of reach).
   data::JointMotion motion;
   data::MarkerFit fit;    ///< loop gaps are not computed

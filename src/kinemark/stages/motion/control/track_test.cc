@@ -147,7 +147,7 @@ TEST(Track, AMarkerThatAloneMovesACoordinateReturnsWithoutAJerk) {
   const double off = std::abs(motion.q[at(130)] - testing_body::coordinates(model, 130)[9]);
   ASSERT_GT(off, 0.1);
   double most = 0.0;
-  for (std::int64_t f = 130; f < 150; ++f) most = std::max(most, std::abs(motion.a[at(f)]));
+  for (std::int64_t f = 130; f < 150; ++f) most = std::max(most, std::abs(motion.qdd[at(f)]));
   EXPECT_LT(most, 15.0 * off / (0.1 * 0.1));  // a pull of omega = 100 / s begins with 100 times off / 0.1^2
   EXPECT_NEAR(motion.q[at(150)], testing_body::coordinates(model, 150)[9], 0.02);
   // Undetermined in the gap; on the way back the deviation says how far there is to go.
@@ -219,8 +219,8 @@ TEST(Track, TorquesDoTheWork) {
       const auto rate = [&](const Array<double>& x) {
         return 50.0 * (x[motion.index(f + 1, c)] - x[motion.index(f - 1, c)]);
       };
-      EXPECT_NEAR(rate(motion.q), motion.v[motion.index(f, c)], 0.01) << c;
-      EXPECT_NEAR(rate(motion.v), motion.a[motion.index(f, c)], 0.15) << c;
+      EXPECT_NEAR(rate(motion.q), motion.qd[motion.index(f, c)], 0.01) << c;
+      EXPECT_NEAR(rate(motion.qd), motion.qdd[motion.index(f, c)], 0.15) << c;
     }
   // The vertical force of the root carries the weight on average.
   const auto ty = motion.find("ty");
@@ -338,7 +338,7 @@ TEST(Track, GoalsOutOfReachAreFlaggedAndNeverAnExplosion) {
   ASSERT_EQ(track.fit.findings.size(), 1U);
   EXPECT_EQ(track.fit.findings[0].kind, data::FindingKind::flagged);
   EXPECT_EQ(track.fit.findings[0].size, static_cast<double>(track.flagged_frames));
-  for (const double v : track.motion.v) ASSERT_LT(std::abs(v), 2e3);
+  for (const double v : track.motion.qd) ASSERT_LT(std::abs(v), 2e3);
   EXPECT_NEAR(track.motion.q[track.motion.index(115, 9)], testing_body::coordinates(model, 115)[9], 5e-3);
 }
 
@@ -352,7 +352,7 @@ TEST(Track, GoalsThatTheModelCannotReachAreApproached) {
   EXPECT_EQ(track.restarts, 0);
   EXPECT_EQ(track.flagged_frames, 0);
   EXPECT_GT(track.max_goal_error_m, 0.02);
-  for (const double v : track.motion.v) ASSERT_LT(std::abs(v), 100.0);
+  for (const double v : track.motion.qd) ASSERT_LT(std::abs(v), 100.0);
 }
 
 TEST(Track, SaysWhatIsWrong) {

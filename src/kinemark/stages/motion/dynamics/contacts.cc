@@ -86,7 +86,7 @@ Result<ContactPlan> plan_contacts(const model::Model& model, const data::JointMo
                                   const data::Wrenches& wrenches, const DynamicsOptions& options) {
   auto feet = find_feet(model, options.feet);
   if (!feet) return std::unexpected(feet.error());
-  Feet places(model, motion, std::move(*feet));
+  Feet paths(model, motion, std::move(*feet));
   ContactPlan plan;
   const std::int64_t F = wrenches.frames();
   for (const auto& wrench : wrenches.items) {
@@ -107,7 +107,7 @@ Result<ContactPlan> plan_contacts(const model::Model& model, const data::JointMo
       if (!acts(f) || !known(f)) continue;
       std::int64_t last = f;
       while (last + 1 < F && acts(last + 1) && known(last + 1)) ++last;
-      const int body = given >= 0 ? given : places.nearest(wrench, f, last);
+      const int body = given >= 0 ? given : paths.nearest(wrench, f, last);
       std::fill(of_wrench.begin() + f, of_wrench.begin() + last + 1, body);
       plan.contacts.push_back({wrench.name,
                                model.description().bodies[at(model.bodies()[at(body)].description_idx)].name,

@@ -42,7 +42,7 @@ Status check_input(const model::Model& model, const data::JointMotion& motion,
         "needs a tree");
   if (std::ranges::all_of(model.bodies(), [](const auto& body) { return body.mass == 0.0; }))
     return fail(Code::bad_input, "no body of the model has a mass; torques need masses and inertias");
-  for (const auto* rates : {&motion.v, &motion.a})
+  for (const auto* rates : {&motion.qd, &motion.qdd})
     if (std::ranges::any_of(*rates, [](double r) { return !std::isfinite(r); }))
       return fail(Code::bad_input, "speeds or accelerations of the motion are not all finite numbers");
   if (!wrenches) return {};
@@ -70,8 +70,8 @@ class Worker {
     for (int c = 0; c < q_.size(); ++c) {
       const auto i = motion_.index(f, c);
       q_[c] = motion_.q[i];
-      qd_[c] = motion_.v[i];
-      qdd_[c] = motion_.a[i];
+      qd_[c] = motion_.qd[i];
+      qdd_[c] = motion_.qdd[i];
     }
     std::vector<AppliedForce> applied;
     for (std::size_t k = 0; wrenches_ && k < wrenches_->items.size(); ++k) {
@@ -152,7 +152,7 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
   DynamicsSummary summary;
   RateErrors estimated;
   const bool bars = options.error_bars;
-  summary.rates_estimated = motion.v.empty() || motion.a.empty();
+  summary.rates_estimated = motion.qd.empty() || motion.qdd.empty();
   if (summary.rates_estimated || (bars && !errors)) {
     auto rates = estimate_rates(model, motion);
     if (!rates) return std::unexpected(rates.error());

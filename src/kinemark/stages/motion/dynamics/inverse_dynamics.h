@@ -45,7 +45,7 @@ struct DynamicsSummary {
   std::vector<RootResidual> roots;    ///< one a free root
   std::vector<Contact> contacts;      ///< by wrench and time
   double body_weight_n = 0.0;         ///< mass of the model times gravity
-  bool rates_estimated = false;       ///< v and a were absent and were filled by estimate_rates()
+  bool rates_estimated = false;       ///< qd and qdd were absent and were filled by estimate_rates()
   std::vector<std::string> warnings;  ///< one sentence each
 };
 
@@ -55,11 +55,11 @@ struct DynamicsSummary {
 /// axis of each). Locked coordinates get the force that holds them; coupled coordinates and those that drive
 /// nothing NaN; frames in which a wrench is unknown NaN.
 ///
-/// v and a come from the motion; where they are empty estimate_rates() fills them. tau_sd is first order:
-/// the covariance of q, v and a (`errors`, or estimate_rates() again) through the derivatives of tau; errors
-/// of different coordinates are taken as independent, those of masses, model and wrenches are not in it.
-/// Where q_sd is present it is used for q. Fails for closed loops (their inner forces do not follow from the
-/// motion), for a massless model and for wrenches whose frames are not the motion's. About 10 us per
+/// qd and qdd come from the motion; where they are empty estimate_rates() fills them. tau_sd is first order:
+/// the covariance of q, qd and qdd (`errors`, or estimate_rates() again) through the derivatives of tau;
+/// errors of different coordinates are taken as independent, those of masses, model and wrenches are not in
+/// it. Where q_sd is present it is used for q. Fails for closed loops (their inner forces do not follow from
+/// the motion), for a massless model and for wrenches whose frames are not the motion's. About 10 us per
 /// frame, 0.6 ms with error bars (whole body).
 [[nodiscard]] Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointMotion& motion,
                                                        const DynamicsOptions& options = {},

@@ -38,8 +38,8 @@ data::JointMotion swing(const model::Model& model) {
     for (int c = 0; c < model.coordinate_count(); ++c) {
       const double omega = 2.0 + 0.2 * c, phase = omega * motion.time.time_s(f) + 0.7 * c;
       motion.q.push_back(0.6 * std::sin(phase));
-      motion.v.push_back(0.6 * omega * std::cos(phase));
-      motion.a.push_back(-0.6 * omega * omega * std::sin(phase));
+      motion.qd.push_back(0.6 * omega * std::cos(phase));
+      motion.qdd.push_back(-0.6 * omega * omega * std::sin(phase));
     }
   return motion;
 }
@@ -82,7 +82,7 @@ TEST(InverseDynamicsJudge, AgreesOnAWholeBodyWithAndWithoutAPush) {
       };
       const VectorXd q = row(motion.q), tau = row(motion.tau), x = model::state_from_coordinates(model, q);
       VectorXd v, vdot;
-      model::speeds_from_rates(model, q, row(motion.v), row(motion.a), v, vdot);
+      model::speeds_from_rates(model, q, row(motion.qd), row(motion.qdd), v, vdot);
       for (int i = 0; i < 7; ++i) data->qpos[i] = x[free.state_idx + i];
       for (int i = 0; i < 6; ++i) {
         data->qvel[i] = v[free.speed_idx + i];
@@ -122,15 +122,15 @@ TEST(InverseDynamicsJudge, AgreesOnAWholeBodyWithAndWithoutAPush) {
       model::kinematics(model, w, x);
       model::coordinate_jacobian(model, w, q, E);
       Eigen::Matrix3d rates;
-      Eigen::Vector3d ours_turn, ours_slide;
+      Eigen::Vector3d ours_rotation, ours_slide;
       for (int i = 0; i < 3; ++i) {
         rates.row(i) = E.block<1, 3>(free.rotation_coordinate[i], free.speed_idx + 3);
-        ours_turn[i] = tau[free.rotation_coordinate[i]];
+        ours_rotation[i] = tau[free.rotation_coordinate[i]];
         ours_slide[i] = tau[free.translation_coordinate[i]];
       }
       const double scale = theirs.cwiseAbs().maxCoeff();
       largest = std::max(largest, scale);
-      worst = std::max({worst, (rates.transpose() * ours_turn - theirs.segment<3>(3)).norm() / scale,
+      worst = std::max({worst, (rates.transpose() * ours_rotation - theirs.segment<3>(3)).norm() / scale,
                         (free.translation_axes * ours_slide - theirs.head<3>()).norm() / scale});
       for (int c = 0; c < model.coordinate_count(); ++c)
         if (dof[at(c)] >= 0) worst = std::max(worst, std::abs(tau[c] - theirs[dof[at(c)]]) / scale);

@@ -52,11 +52,11 @@ TEST(InverseDynamics, PendulumByHand) {
   const auto model = pendulum();
   auto motion = empty_motion(model, 3);
   motion.q = {0.3, -0.7, 1.2};
-  motion.v = {1.0, 2.0, -3.0};
-  motion.a = {0.5, 0.0, -8.0};
+  motion.qd = {1.0, 2.0, -3.0};
+  motion.qdd = {0.5, 0.0, -8.0};
   const auto summary = inverse_dynamics(model, motion, {.error_bars = false}).value();
   for (std::size_t f = 0; f < 3; ++f)
-    EXPECT_NEAR(motion.tau[f], (0.02 + 2.0 * 0.09) * motion.a[f] + 2.0 * 9.81 * 0.3 * std::sin(motion.q[f]),
+    EXPECT_NEAR(motion.tau[f], (0.02 + 2.0 * 0.09) * motion.qdd[f] + 2.0 * 9.81 * 0.3 * std::sin(motion.q[f]),
                 1e-12);
   EXPECT_TRUE(motion.tau_sd.empty());
   EXPECT_FALSE(summary.rates_estimated);
@@ -67,8 +67,8 @@ TEST(InverseDynamics, PendulumBarsByHand) {
   const auto model = pendulum();
   auto motion = empty_motion(model, 1);
   motion.q = {0.4};
-  motion.v = {1.0};
-  motion.a = {2.0};
+  motion.qd = {1.0};
+  motion.qdd = {2.0};
   const double qq = 1e-4, qa = -2e-3, aa = 0.09;
   const RateErrors errors{.covariance = {qq, 0.0, qa, 0.04, 0.0, aa}};
   (void)inverse_dynamics(model, motion, {}, nullptr, &errors).value();
@@ -97,13 +97,13 @@ struct Moving {
         const double omega = 2.0 * (0.4 + 0.07 * c), phase = omega * static_cast<double>(f) / kRate + 0.9 * c;
         const int source = c == 12 ? 11 : c;
         exact.q.push_back(q[c]);
-        exact.v.push_back(source == c ? 0.5 * omega * std::cos(phase) : 0.6 * exact.v.back());
-        exact.a.push_back(source == c ? -0.5 * omega * omega * std::sin(phase) : 0.6 * exact.a.back());
+        exact.qd.push_back(source == c ? 0.5 * omega * std::cos(phase) : 0.6 * exact.qd.back());
+        exact.qdd.push_back(source == c ? -0.5 * omega * omega * std::sin(phase) : 0.6 * exact.qdd.back());
       }
     }
     noisy = exact;
-    noisy.v.clear();
-    noisy.a.clear();
+    noisy.qd.clear();
+    noisy.qdd.clear();
     Random random(seed, 8);
     for (double& q : noisy.q) q += sd * random.gaussian();
     noisy.q_sd.assign(noisy.q.size(), sd);
@@ -150,8 +150,8 @@ TEST(InverseDynamics, BarsOfAMotionThatThePriorDescribesAreHonest) {
       for (std::int64_t f = 0; f < kFrames; ++f) {
         const auto i = moving.exact.index(f, c);
         moving.exact.q[i] = q;
-        moving.exact.v[i] = v;
-        moving.exact.a[i] = a;
+        moving.exact.qd[i] = v;
+        moving.exact.qdd[i] = a;
         moving.noisy.q[i] = q + kSd * random.gaussian();
         for (int k = 0; k < kSteps; ++k) {
           a += kJerk * std::sqrt(h) * random.gaussian();
@@ -163,9 +163,9 @@ TEST(InverseDynamics, BarsOfAMotionThatThePriorDescribesAreHonest) {
     for (std::int64_t f = 0; f < kFrames; ++f)
       for (auto* motion : {&moving.exact, &moving.noisy}) {
         motion->q[motion->index(f, 12)] = 0.6 * motion->q[motion->index(f, 11)] + 0.05;
-        if (motion->v.empty()) continue;
-        motion->v[motion->index(f, 12)] = 0.6 * motion->v[motion->index(f, 11)];
-        motion->a[motion->index(f, 12)] = 0.6 * motion->a[motion->index(f, 11)];
+        if (motion->qd.empty()) continue;
+        motion->qd[motion->index(f, 12)] = 0.6 * motion->qd[motion->index(f, 11)];
+        motion->qdd[motion->index(f, 12)] = 0.6 * motion->qdd[motion->index(f, 11)];
       }
     (void)inverse_dynamics(moving.model, moving.exact, {.error_bars = false}).value();
     (void)inverse_dynamics(moving.model, moving.noisy).value();
@@ -215,7 +215,7 @@ TEST(InverseDynamics, PowerIsTheRateOfEnergy) {
     return model::kinetic_energy(moving.model, w) + model::potential_energy(moving.model, w);
   };
   double power = 0.0;
-  for (int c = 0; c < 12; ++c) power += motion.tau[motion.index(1, c)] * motion.v[motion.index(1, c)];
+  for (int c = 0; c < 12; ++c) power += motion.tau[motion.index(1, c)] * motion.qd[motion.index(1, c)];
   const double slope = (energy_at(1.1) - energy_at(0.9)) / 0.2 * kRate;
   EXPECT_NEAR(power, slope, 1e-3 * std::abs(slope));
   EXPECT_TRUE(std::isnan(motion.tau[motion.index(1, 12)]));  // the kneecap is driven, not moved
@@ -241,8 +241,8 @@ struct Standing {
     for (std::size_t b = 0; b < model.bodies().size(); ++b)
       com += model::point_in_world(w, static_cast<int>(b), model.bodies()[b].com_in_body) / 6.0;
     for (int f = 0; f < 2; ++f) motion.q.insert(motion.q.end(), q.data(), q.data() + q.size());
-    motion.v.assign(motion.q.size(), 0.0);
-    motion.a.assign(motion.q.size(), 0.0);
+    motion.qd.assign(motion.q.size(), 0.0);
+    motion.qdd.assign(motion.q.size(), 0.0);
     wrenches.time = motion.time;
     // Two forces and a moment that hold the weight of 6 kg at the mass centre.
     Vector3d left, right;
@@ -336,7 +336,7 @@ TEST(InverseDynamics, BadInputIsToldInASentence) {
               HasSubstr("'hoof'"));
   EXPECT_THAT(inverse_dynamics(standing.model, standing.motion, {.contact_force_n = -1.0}).error().message,
               HasSubstr("contact force"));
-  standing.motion.a[3] = kNaN;
+  standing.motion.qdd[3] = kNaN;
   EXPECT_THAT(inverse_dynamics(standing.model, standing.motion).error().message, HasSubstr("finite"));
   auto description = testing_body::description();
   for (auto& body : description.bodies) body.mass = 0.0;

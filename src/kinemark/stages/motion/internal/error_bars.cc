@@ -89,10 +89,10 @@ struct Frame {
   void inverse_normal_matrix() {
     model::marker_normal_matrix(problem.model, w, weight, H);
     const double total = weight.sum();
-    if (!problem.pulls.empty()) {
+    if (!problem.coordinate_tasks.empty()) {
       model::coordinate_jacobian(problem.model, w, q, E);
-      for (const auto& pull : problem.pulls)
-        H.noalias() += total * pull.weight * E.row(pull.coordinate).transpose() * E.row(pull.coordinate);
+      for (const auto& task : problem.coordinate_tasks)
+        H.noalias() += total * task.weight * E.row(task.coordinate).transpose() * E.row(task.coordinate);
     }
     invert(H, kFloor * total, K);
   }
@@ -197,7 +197,7 @@ MarkerVariances estimate_variances(const internal::Problem& problem, const data:
     for (std::int64_t i = begin; i < end; ++i) {
       frame.visit(markers, states, i * stride);
       if (frame.weight.sum() == 0.0) continue;
-      if (!problem.pulls.empty()) {
+      if (!problem.coordinate_tasks.empty()) {
         frame.q.setZero();
         model::coordinates_from_state(model, frame.x, frame.q, frame.q);
       }

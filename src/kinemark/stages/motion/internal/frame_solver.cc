@@ -15,7 +15,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr double kLever_m = 0.1;      // converts radians to metres where both must be compared
-constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearisation is not valid
+constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearization is not valid
 constexpr double kFloor =
     1e-10;  // relative damping that is always added: keeps undetermined directions at rest
 constexpr double kNewtonDone = 1e-6;  // an exact Newton step below this leaves an error of its square
@@ -52,9 +52,9 @@ FrameSolver::FrameSolver(const Problem& problem, const IkOptions& options)
       scale_[coordinate.speed_idx] = 1.0;
   }
   for (const auto& free : model_.free_joints()) scale_.segment<3>(free.speed_idx).setOnes();
-  for (const auto& pull : problem.pulls)
-    pulls_on_free_joints_ =
-        pulls_on_free_joints_ || model_.coordinates()[at(pull.coordinate)].free_joint >= 0;
+  for (const auto& task : problem.coordinate_tasks)
+    tasks_on_free_joints_ =
+        tasks_on_free_joints_ || model_.coordinates()[at(task.coordinate)].free_joint >= 0;
 }
 
 double FrameSolver::merit() const { return cost_ + loop_penalty_ * gap_.lpNorm<1>(); }
@@ -86,34 +86,34 @@ double FrameSolver::visit(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weig
   }
   // All terms are multiplied by the total weight, so that the marker part is a plain weighted sum.
   cost_ = sum;
-  if (pulls_on_free_joints_) model::coordinates_from_state(model_, x, q_, q_);
-  for (const auto& pull : problem_.pulls) {
-    const double miss = pull.target(frame) - pulled_value(pull);
-    cost_ += total_weight_ * pull.weight * miss * miss;
+  if (tasks_on_free_joints_) model::coordinates_from_state(model_, x, q_, q_);
+  for (const auto& task : problem_.coordinate_tasks) {
+    const double miss = task.target(frame) - task_value(task);
+    cost_ += total_weight_ * task.weight * miss * miss;
   }
   if (gap_.size() > 0) model::point_constraint_gaps(model_, w_, gap_);
   return merit();
 }
 
-double FrameSolver::pulled_value(const Problem::Pull& pull) const {
-  return model_.coordinates()[at(pull.coordinate)].free_joint >= 0 ? q_[pull.coordinate]
-                                                                   : w_.q[pull.coordinate];
+double FrameSolver::task_value(const Problem::CoordinateTarget& task) const {
+  return model_.coordinates()[at(task.coordinate)].free_joint >= 0 ? q_[task.coordinate]
+                                                                   : w_.q[task.coordinate];
 }
 
 // Coordinate tasks enter like one more residual each, with the row of dq/dv as its derivative. That row has
 // one entry, except for the Euler angles of a free joint.
-void FrameSolver::add_pulls(std::int64_t frame) {
-  if (pulls_on_free_joints_) model::coordinate_jacobian(model_, w_, q_, E_);
-  for (const auto& pull : problem_.pulls) {
-    const double weight = total_weight_ * pull.weight;
-    const double miss = pull.target(frame) - pulled_value(pull);
-    const int speed = problem_.speed_of(pull.coordinate);
+void FrameSolver::add_coordinate_tasks(std::int64_t frame) {
+  if (tasks_on_free_joints_) model::coordinate_jacobian(model_, w_, q_, E_);
+  for (const auto& task : problem_.coordinate_tasks) {
+    const double weight = total_weight_ * task.weight;
+    const double miss = task.target(frame) - task_value(task);
+    const int speed = problem_.speed_of(task.coordinate);
     if (speed >= 0) {
-      const double slope = w_.q_slope[pull.coordinate];
+      const double slope = w_.q_slope[task.coordinate];
       g_[speed] += weight * miss * slope;
       gauss_newton_(speed, speed) += weight * slope * slope;
-    } else if (model_.coordinates()[at(pull.coordinate)].free_joint >= 0) {
-      const auto row = E_.row(pull.coordinate);
+    } else if (model_.coordinates()[at(task.coordinate)].free_joint >= 0) {
+      const auto row = E_.row(task.coordinate);
       for (Eigen::Index i = 0; i < row.size(); ++i) {
         g_[i] += weight * miss * row[i];
         for (Eigen::Index j = 0; j < row.size(); ++j) gauss_newton_(i, j) += weight * row[i] * row[j];
@@ -223,7 +223,7 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
     model::project_forces(model_, w_, g_);
     if (looped) g_.noalias() += C_.transpose() * multiplier_;
     model::marker_normal_matrix(model_, w_, effective_weight_, gauss_newton_);
-    add_pulls(frame);
+    add_coordinate_tasks(frame);
     fix_speeds(x);
 
     // The exact Hessian where it is positive definite, else Gauss-Newton; more damping after a refused step.
@@ -279,9 +279,9 @@ double FrameSolver::square_cost(const Eigen::Matrix3Xd& y, const Eigen::VectorXd
   double sum = 0.0;
   for (Eigen::Index m = 0; m < weight.size(); ++m) sum += weight[m] * residual_.col(m).squaredNorm();
   sum /= total_weight_;
-  for (const auto& pull : problem_.pulls) {
-    const double miss = pull.target(frame) - pulled_value(pull);
-    sum += pull.weight * miss * miss;
+  for (const auto& task : problem_.coordinate_tasks) {
+    const double miss = task.target(frame) - task_value(task);
+    sum += task.weight * miss * miss;
   }
   return sum;
 }

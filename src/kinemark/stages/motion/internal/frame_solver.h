@@ -40,9 +40,9 @@ class FrameSolver {
   /// Kinematics, residuals, loss weights and merit at x.
   double visit(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, std::int64_t frame,
                const Eigen::VectorXd& x);
-  void add_pulls(std::int64_t frame);
+  void add_coordinate_tasks(std::int64_t frame);
   /// Coordinate of a task at the pose last visited.
-  [[nodiscard]] double pulled_value(const Problem::Pull& pull) const;
+  [[nodiscard]] double task_value(const Problem::CoordinateTarget& task) const;
   void fix_speeds(const Eigen::VectorXd& x);
   /// Step from the current gradient and matrix; false when the matrix is not positive definite.
   bool step(double damping, bool exact);
@@ -62,7 +62,7 @@ class FrameSolver {
   Eigen::VectorXd x_try_;
   double total_weight_ = 0.0, cost_ = 0.0, loop_penalty_ = 0.0;
   std::int64_t iterations_ = 0;
-  bool pulls_on_free_joints_ = false;
+  bool tasks_on_free_joints_ = false;
 };
 
 }  // namespace kinemark::motion::internal

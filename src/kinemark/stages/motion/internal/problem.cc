@@ -93,7 +93,7 @@ Status match_markers(const model::Model& model, const data::Trajectories& marker
   return {};
 }
 
-Status place_pulls(const model::Model& model, const IkOptions& options, Problem& problem) {
+Status set_coordinate_tasks(const model::Model& model, const IkOptions& options, Problem& problem) {
   for (const auto& task : options.coordinate_tasks) {
     const int c = model.description().find_coordinate(task.coordinate);
     if (c < 0)
@@ -105,7 +105,7 @@ Status place_pulls(const model::Model& model, const IkOptions& options, Problem&
     if (std::any_of(task.values.begin(), task.values.end(), [](double v) { return !std::isfinite(v); }))
       return fail(Code::bad_input, fmt::format("the task of coordinate '{}' has a value that is not a number",
                                                task.coordinate));
-    if (task.weight > 0.0) problem.pulls.push_back({c, task.weight, task.value, task.values});
+    if (task.weight > 0.0) problem.coordinate_tasks.push_back({c, task.weight, task.value, task.values});
   }
   return {};
 }
@@ -219,7 +219,8 @@ Result<Problem> make_problem(const model::Model& model, const data::Trajectories
   data::ModelDescription reduced = model.description();
   if (auto status = match_markers(model, markers, options, problem, reduced); !status)
     return std::unexpected(status.error());
-  if (auto status = place_pulls(model, options, problem); !status) return std::unexpected(status.error());
+  if (auto status = set_coordinate_tasks(model, options, problem); !status)
+    return std::unexpected(status.error());
   auto compiled = model::Model::compile(std::move(reduced), {.free_roots = !model.free_joints().empty()});
   if (!compiled) return std::unexpected(compiled.error());
   problem.model = std::move(*compiled);

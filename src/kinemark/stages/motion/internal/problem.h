@@ -21,7 +21,7 @@ struct Problem {
   Eigen::VectorXd weight;        ///< per model marker, > 0
   data::MarkerFit fit;           ///< the markers, those left out, warnings; errors and noise not known yet
 
-  struct Pull {
+  struct CoordinateTarget {
     int coordinate = 0;
     double weight = 0.0;
     double value = 0.0;
@@ -30,7 +30,7 @@ struct Problem {
       return values.empty() ? value : values[static_cast<std::size_t>(frame)];
     }
   };
-  std::vector<Pull> pulls;
+  std::vector<CoordinateTarget> coordinate_tasks;
   /// Speed behind a plain or coupled coordinate, or -1 (free joints, coordinates that drive nothing).
   [[nodiscard]] int speed_of(int coordinate) const;
   std::vector<std::uint8_t> fixed_speed;  ///< 1: locked

@@ -54,10 +54,10 @@ void lay_over(const Problem& problem, model::Workspace& w, const Eigen::Matrix3X
     const Eigen::Vector3d frame_origin = model.bodies()[at(free.body)].parent_from_joint.translation;
     const Eigen::Vector3d origin = frame_origin + frame * x.segment<3>(free.state_idx);
     const Eigen::Vector3d moved = to_centre + R * (origin - from_centre);
-    const Eigen::Quaterniond turn(
+    const Eigen::Quaterniond rotation(
         Eigen::Matrix3d(frame.transpose() * R * w.joint_out_rotation[at(free.body)]));
     x.segment<3>(free.state_idx) = frame.transpose() * (moved - frame_origin);
-    x.segment<4>(free.state_idx + 3) << turn.w(), turn.x(), turn.y(), turn.z();
+    x.segment<4>(free.state_idx + 3) << rotation.w(), rotation.x(), rotation.y(), rotation.z();
     x.segment<4>(free.state_idx + 3).normalize();
   }
 }

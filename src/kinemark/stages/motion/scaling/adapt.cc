@@ -109,6 +109,7 @@ Result<AdaptResult> adapt_model(const data::ModelDescription& model, const data:
   // Limits help to find the first postures; afterwards they would conceal a wrong size.
   IkOptions first = options.ik;
   first.limits = given.ik.limits;
+  first.judge_samples = false;  // the frames picked lie far apart
   const auto start = solve_ik(*compiled, *picked, first);
   if (!start) return std::unexpected(start.error());
   MatrixXd states(compiled->state_count(), picked->frames());

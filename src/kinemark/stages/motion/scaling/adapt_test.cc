@@ -22,8 +22,8 @@ using testing_leg::leg;
 /// Sizes of the leg's segments, and all marker positions.
 std::vector<GeometryParameter> parameters(const data::ModelDescription& model) {
   auto out = scale_parameters(model, default_scale_groups(model), 0.3).value();
-  const auto places = marker_parameters(model, {}, 0.005).value();
-  out.insert(out.end(), places.begin(), places.end());
+  const auto positions = marker_parameters(model, {}, 0.005).value();
+  out.insert(out.end(), positions.begin(), positions.end());
   return out;
 }
 
@@ -169,12 +169,12 @@ TEST(AdaptModel, where_an_angle_has_its_zero_does_not_matter) {
   const auto list = parameters(leg());
   const auto recording =
       testing_leg::record(subject(list, 4).model, {.frames = 60, .noise_sd_m = 0.001, .amplitude = 0.2});
-  auto turned = leg();
-  turned.joints[3].parent_from_joint.rotation =
-      Eigen::AngleAxisd(0.8, turned.joints[3].axes[0].axis).toRotationMatrix() *
-      turned.joints[3].parent_from_joint.rotation;
-  expect_same_sizes(adapt_model(leg(), recording, list).value(), adapt_model(turned, recording, list).value(),
-                    0.01);
+  auto rotated = leg();
+  rotated.joints[3].parent_from_joint.rotation =
+      Eigen::AngleAxisd(0.8, rotated.joints[3].axes[0].axis).toRotationMatrix() *
+      rotated.joints[3].parent_from_joint.rotation;
+  expect_same_sizes(adapt_model(leg(), recording, list).value(),
+                    adapt_model(rotated, recording, list).value(), 0.01);
 }
 
 TEST(AdaptModel, where_the_laboratory_stands_does_not_matter) {

@@ -32,12 +32,12 @@ void set_free(ModelDescription& model, JointDescription& joint, const std::strin
   joint.type = "CustomJoint";
   joint.parameters.clear();
   joint.axes.clear();
-  const auto turn = [&](const char* name, const Vector3d& axis) {
+  const auto add_rotation = [&](const char* name, const Vector3d& axis) {
     joint.axes.push_back({.axis = axis, .coordinate_idx = static_cast<int>(model.coordinates.size())});
     model.coordinates.push_back({.name = name + side, .range_min = -kRange, .range_max = kRange});
   };
-  turn("clav_protraction", Vector3d(0.0, right, 0.0));
-  turn("clav_elevation", Vector3d(-right, 0.0, 0.0));
+  add_rotation("clav_protraction", Vector3d(0.0, right, 0.0));
+  add_rotation("clav_elevation", Vector3d(-right, 0.0, 0.0));
 }
 
 /// A clavicle between trunk and arm; the shoulder stays where it is.

@@ -47,8 +47,8 @@ data::ModelDescription torso(bool clavicles) {
 }
 
 /// Marker positions with one coordinate set.
-Eigen::Matrix3Xd places(const data::ModelDescription& description, const std::string& coordinate,
-                        double value) {
+Eigen::Matrix3Xd positions(const data::ModelDescription& description, const std::string& coordinate,
+                           double value) {
   const auto model = model::Model::compile(description).value();
   model::Workspace w(model);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(model.coordinate_count());
@@ -61,17 +61,17 @@ class Clavicles : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Clavicles, leave_the_shoulder_in_place_and_move_it_the_way_they_say) {
   auto model = torso(GetParam());
-  const auto before = places(model, "", 0.0);
+  const auto before = positions(model, "", 0.0);
   const auto added = add_clavicles(model);
   ASSERT_TRUE(added) << added.error().message;
   EXPECT_THAT(*added, ElementsAre("clavicle_r", "clavicle_l"));
-  EXPECT_LT((places(model, "", 0.0) - before).norm(), 1e-12);
+  EXPECT_LT((positions(model, "", 0.0) - before).norm(), 1e-12);
   for (int side = 0; side < 2; ++side) {
     const std::string suffix = side == 0 ? "_r" : "_l";
-    const Vector3d forward = places(model, "clav_protraction" + suffix, 0.1).col(side) - before.col(side);
+    const Vector3d forward = positions(model, "clav_protraction" + suffix, 0.1).col(side) - before.col(side);
     EXPECT_GT(forward.x(), 0.01) << suffix;
     EXPECT_NEAR(forward.y(), 0.0, 1e-12);
-    const Vector3d up = places(model, "clav_elevation" + suffix, 0.1).col(side) - before.col(side);
+    const Vector3d up = positions(model, "clav_elevation" + suffix, 0.1).col(side) - before.col(side);
     EXPECT_GT(up.y(), 0.01) << suffix;
     EXPECT_NEAR(up.x(), 0.0, 1e-12);
   }

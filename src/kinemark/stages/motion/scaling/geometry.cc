@@ -177,7 +177,7 @@ Result<std::vector<GeometryParameter>> joint_parameters(const data::ModelDescrip
 Result<std::vector<GeometryParameter>> marker_parameters(const data::ModelDescription& model,
                                                          std::span<const std::string> markers,
                                                          double prior_sd) {
-  if (auto s = check_prior(prior_sd, "marker places"); !s) return std::unexpected(s.error());
+  if (auto s = check_prior(prior_sd, "marker positions"); !s) return std::unexpected(s.error());
   std::vector<int> chosen;
   for (const auto& name : markers) {
     const auto m = find_marker(model, name);
@@ -191,7 +191,7 @@ Result<std::vector<GeometryParameter>> marker_parameters(const data::ModelDescri
     for (int axis = 0; axis < 3; ++axis)
       parameters.push_back(
           {.name = fmt::format("{}.{}", model.markers[at(m)].name, "xyz"[axis]),
-           .kind = ParameterKind::marker_place,
+           .kind = ParameterKind::marker_position,
            .initial = model.markers[at(m)].x_in_body[axis],
            .prior_sd = prior_sd,
            .terms = {{.moves = GeometryTerm::Moves::marker, .idx = m, .direction = Vector3d::Unit(axis)}}});

@@ -18,9 +18,9 @@ namespace kinemark::motion {
 
 /// What a geometry parameter is.
 enum class ParameterKind : std::uint8_t {
-  body_scale,    ///< size of one or more segments, 1 as the model has it
-  joint_offset,  ///< one coordinate of a joint's position in its parent, m
-  marker_place,  ///< one coordinate of a marker's position in its body, m
+  body_scale,       ///< size of one or more segments, 1 as the model has it
+  joint_offset,     ///< one coordinate of a joint's position in its parent, m
+  marker_position,  ///< one coordinate of a marker's position in its body, m
 };
 
 /// What a parameter moves, per unit.
@@ -41,8 +41,8 @@ struct GeometryTerm {
 
 /// One geometry parameter: its value in the model, its effect and its prior.
 struct GeometryParameter {
-  std::string name;                                  ///< in reports
-  ParameterKind kind = ParameterKind::marker_place;  ///< what it scales or moves
+  std::string name;                                     ///< in reports
+  ParameterKind kind = ParameterKind::marker_position;  ///< what it scales or moves
   double initial = 0.0;             ///< value in the description: 1 for sizes, m for positions
   double prior_sd = 0.0;            ///< > 0; of value - initial, in the units of the value
   std::vector<GeometryTerm> terms;  ///< all that the number moves

@@ -73,6 +73,7 @@ Result<PlaceResult> place_markers(const data::ModelDescription& model, const dat
   ik.first_time_s = -1e300;
   ik.last_time_s = 1e300;
   ik.error_bars = false;
+  ik.judge_samples = false;
   const auto solved = solve_ik(*compiled, *frame, ik);
   if (!solved) return std::unexpected(solved.error());
 

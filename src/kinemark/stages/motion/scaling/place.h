@@ -30,7 +30,7 @@ struct PlacedMarker {
 
 /// A model whose markers sit where the static trial shows them.
 struct PlaceResult {
-  data::ModelDescription model;       ///< with the new marker places
+  data::ModelDescription model;       ///< with the new marker positions
   std::vector<PlacedMarker> markers;  ///< those that model and trial share
   Eigen::VectorXd pose;               ///< coordinates of the static pose, in the model's order
   double rms_m = 0.0;                 ///< of the markers that took part in finding the pose

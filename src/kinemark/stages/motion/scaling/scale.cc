@@ -32,7 +32,7 @@ Matrix3d stretched_inertia(const Matrix3d& inertia, const Vector3d& factors) {
 }
 
 /// Marker positions of the model in its default pose, world.
-Result<Eigen::Matrix3Xd> default_places(const data::ModelDescription& model) {
+Result<Eigen::Matrix3Xd> default_positions(const data::ModelDescription& model) {
   const auto compiled = model::Model::compile(model);
   if (!compiled) return std::unexpected(compiled.error());
   model::Workspace w(*compiled);
@@ -66,7 +66,7 @@ struct Scaler {
   }
 
   Result<MeasuredPair> measure(const data::ScaleMeasurement& measurement, const data::MarkerPair& pair,
-                               const Eigen::Matrix3Xd& places) const {
+                               const Eigen::Matrix3Xd& positions) const {
     MeasuredPair out{.first = pair.first, .second = pair.second};
     const data::NameIndex index(recording->names);
     std::int64_t recorded[2];
@@ -85,7 +85,7 @@ struct Scaler {
             fmt::format("measurement '{}' needs marker '{}', which the recording does not have; it has {}",
                         measurement.name, name, index.instead_of(name)));
     }
-    out.model_m = (places.col(modelled[0]) - places.col(modelled[1])).norm();
+    out.model_m = (positions.col(modelled[0]) - positions.col(modelled[1])).norm();
     if (out.model_m < 1e-6)
       return fail(Code::bad_input,
                   fmt::format("measurement '{}': '{}' and '{}' are at one place in the model",
@@ -114,14 +114,14 @@ struct Scaler {
     if (recipe.measurements.empty()) return {};
     if (recording == nullptr)
       return fail(Code::usage, "measurements need a static trial; give one or leave them out");
-    const auto places = default_places(model);
-    if (!places) return std::unexpected(places.error());
+    const auto positions = default_positions(model);
+    if (!positions) return std::unexpected(positions.error());
     for (const auto& measurement : recipe.measurements) {
       if (measurement.pairs.empty())
         return fail(Code::bad_input, fmt::format("measurement '{}' has no marker pair", measurement.name));
       MeasurementResult out{.name = measurement.name, .factor = 0.0};
       for (const auto& pair : measurement.pairs) {
-        auto measured = measure(measurement, pair, *places);
+        auto measured = measure(measurement, pair, *positions);
         if (!measured) return std::unexpected(measured.error());
         out.factor +=
             measured->measured_m / measured->model_m / static_cast<double>(measurement.pairs.size());

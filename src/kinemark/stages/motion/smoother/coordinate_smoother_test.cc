@@ -66,15 +66,16 @@ TEST(CoordinateSmoother, IsTheDensePosterior) {
   }
   const Eigen::MatrixXd C = A.inverse();
   EXPECT_LT((C * b - smooth.value).cwiseAbs().maxCoeff(), 1e-8);
-  Eigen::RowVectorXd turn = Eigen::RowVectorXd::Zero(kFrames);
+  Eigen::RowVectorXd second_difference = Eigen::RowVectorXd::Zero(kFrames);
   for (const int f : {1, 15, 27, 38}) {
-    turn.setZero();
-    turn[f - 1] = turn[f + 1] = kRate * kRate;
-    turn[f] = -2.0 * kRate * kRate;
-    const double expected = turn * C * turn.transpose();
+    second_difference.setZero();
+    second_difference[f - 1] = second_difference[f + 1] = kRate * kRate;
+    second_difference[f] = -2.0 * kRate * kRate;
+    const double expected = second_difference * C * second_difference.transpose();
     EXPECT_NEAR(smooth.covariance(5, f), expected, 1e-5 * expected);
     EXPECT_NEAR(smooth.covariance(0, f), C(f, f), 1e-7 * C(f, f));
-    EXPECT_NEAR(smooth.covariance(2, f), turn.dot(C.col(f)), 1e-5 * std::sqrt(expected * C(f, f)));
+    EXPECT_NEAR(smooth.covariance(2, f), second_difference.dot(C.col(f)),
+                1e-5 * std::sqrt(expected * C(f, f)));
   }
 }
 

@@ -29,20 +29,20 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using internal::NodeFactor;
 
-constexpr double kLargestSd = 0.5;   // rad or m, as in the smoother
-constexpr double kFloor = 1e-6;      // 1/rad^2 or 1/m^2: holds undetermined directions
-constexpr double kLookAgain = 0.02;  // rad or m; a prediction that misses by more is linearised anew
-constexpr int kLooks = 4;
+constexpr double kLargestSd = 0.5;        // rad or m, as in the smoother
+constexpr double kFloor = 1e-6;           // 1/rad^2 or 1/m^2: holds undetermined directions
+constexpr double kLinearizeAgain = 0.02;  // rad or m; a prediction that misses by more is linearized anew
+constexpr int kLinearizations = 4;
 constexpr std::int64_t kFewestMarkers = 3;
 constexpr double kFarthest_m = 1e6;     // farther positions are not those of a marker
 constexpr double kLargestEntry = 1e60;  // of the normal equations: products of these are finite
 
 /// The markers of the newest frame.
-class NewestFrame final : public Sightings {
+class NewestFrame final : public Observations {
  public:
   explicit NewestFrame(std::vector<MarkerTrust> trust) : trust_(std::move(trust)) {}
   Eigen::Matrix3Xd x;
-  void look(std::int64_t, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override {
+  void linearize(std::int64_t, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override {
     out.clear(p.cols(), false);
     for (Eigen::Index m = 0; m < p.cols(); ++m)
       if (x.col(m).allFinite()) (void)add_point(trust_[at(m)], x.col(m) - p.col(m), m, out);
@@ -54,14 +54,14 @@ class NewestFrame final : public Sightings {
 
 }  // namespace
 
-Status OnlineSmootherOptions::check() const {
+Status OnlineMotionOptions::check() const {
   if (lag_frames < 3) return fail(Code::usage, fmt::format("lag is {} frames; need 3 or more", lag_frames));
   return {};
 }
 
-struct OnlineSmoother::Impl {
+struct OnlineMotionSmoother::Impl {
   Impl(model::Model of, std::vector<std::string> names, const SmootherTuning& tuning,
-       const OnlineSmootherOptions& chosen)
+       const OnlineMotionOptions& chosen)
       : model(std::move(of)),
         markers(std::move(names)),
         options(chosen),
@@ -82,7 +82,7 @@ struct OnlineSmoother::Impl {
   }
 
   struct Node {
-    VectorXd x;         ///< where it was linearised
+    VectorXd x;         ///< where it was linearized
     VectorXd step;      ///< from there to the best estimate
     NodeFactor factor;  ///< of the last three nodes: as if no more frames came
   };
@@ -128,10 +128,10 @@ struct OnlineSmoother::Impl {
     return x;
   }
 
-  /// The newest frame, linearised at x, in the slot after those in view.
+  /// The newest frame, linearized at x, in the slot after those in view.
   void add_newest(const VectorXd& x, internal::Window& into) {
     (void)rows.visit(newest, 0, x);
-    rows.pull(g);
+    rows.descent(g);
     rows.matrix(H);
     H.diagonal().array() += kFloor;
     const auto n = static_cast<int>(nodes.size());
@@ -158,7 +158,7 @@ struct OnlineSmoother::Impl {
   /// False when the normal equations or a step are not finite; the stored state is then invalid.
   [[nodiscard]] bool take_in(VectorXd x) {
     internal::Window with = window;
-    for (int look = 0; look < kLooks; ++look) {
+    for (int round = 0; round < kLinearizations; ++round) {
       with = window;
       add_newest(x, with);
       if (!(with.matrix().array().abs() <= kLargestEntry).all() ||
@@ -171,7 +171,7 @@ struct OnlineSmoother::Impl {
       nodes.push_back({.x = x});
       solve(with, nodes);
       if (!std::ranges::all_of(nodes, [](const Node& node) { return node.step.allFinite(); })) return false;
-      if (look + 1 == kLooks || nodes.back().step.cwiseAbs().maxCoeff() <= kLookAgain) break;
+      if (round + 1 == kLinearizations || nodes.back().step.cwiseAbs().maxCoeff() <= kLinearizeAgain) break;
       model::integrate(model, x, nodes.back().step);
       nodes.pop_back();
     }
@@ -186,9 +186,9 @@ struct OnlineSmoother::Impl {
   }
 
   /// The current estimate of the node at a position in the queue.
-  SmoothedFrame read(std::int64_t place) {
-    const std::int64_t from = std::max<std::int64_t>(0, place - 2),
-                       to = std::min<std::int64_t>(static_cast<std::int64_t>(nodes.size()), place + 3);
+  SmoothedFrame read(std::int64_t index) {
+    const std::int64_t from = std::max<std::int64_t>(0, index - 2),
+                       to = std::min<std::int64_t>(static_cast<std::int64_t>(nodes.size()), index + 3);
     MatrixXd states(model.state_count(), to - from);
     for (std::int64_t j = from; j < to; ++j) {
       VectorXd x = best(nodes[at(j)]);
@@ -202,21 +202,21 @@ struct OnlineSmoother::Impl {
       states.col(j - from) = x;
     }
     SmoothedFrame out;
-    out.frame = pushed - static_cast<std::int64_t>(nodes.size()) + place;
+    out.frame = pushed - static_cast<std::int64_t>(nodes.size()) + index;
     VectorXd v = VectorXd::Zero(model.speed_count()), vdot = v;
-    if (states.cols() >= 3) internal::speeds_of_states(model, states, place - from, rate_hz, v, vdot);
-    model::coordinates_from_state(model, states.col(place - from), near, out.q);
+    if (states.cols() >= 3) internal::speeds_of_states(model, states, index - from, rate_hz, v, vdot);
+    model::coordinates_from_state(model, states.col(index - from), near, out.q);
     near = out.q;
-    model::kinematics(model, w, states.col(place - from));
-    model::rates_from_speeds(model, w, out.q, v, vdot, out.v, out.a);
-    if (options.error_bars) add_bars(place, out);
+    model::kinematics(model, w, states.col(index - from));
+    model::rates_from_speeds(model, w, out.q, v, vdot, out.qd, out.qdd);
+    if (options.error_bars) add_bars(index, out);
     return out;
   }
 
-  void add_bars(std::int64_t place, SmoothedFrame& out) {
+  void add_bars(std::int64_t index, SmoothedFrame& out) {
     const int n = model.speed_count();
     internal::CovarianceWindow covariance(n);
-    for (auto j = static_cast<std::int64_t>(nodes.size()) - 1; j >= place; --j)
+    for (auto j = static_cast<std::int64_t>(nodes.size()) - 1; j >= index; --j)
       covariance.step_back(nodes[at(j)].factor);
     MatrixXd own = covariance.matrix().topLeftCorner(n, n), E;
     for (int i = 0; i < n; ++i)
@@ -238,7 +238,7 @@ struct OnlineSmoother::Impl {
 
   model::Model model;
   std::vector<std::string> markers;
-  OnlineSmootherOptions options;
+  OnlineMotionOptions options;
   double rate_hz;
   NewestFrame newest;
   internal::FrameRows rows;
@@ -252,14 +252,15 @@ struct OnlineSmoother::Impl {
   std::int64_t pushed = 0;  ///< frames, from the first with markers enough; the last node is the newest
 };
 
-OnlineSmoother::OnlineSmoother(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-OnlineSmoother::OnlineSmoother(OnlineSmoother&&) noexcept = default;
-OnlineSmoother& OnlineSmoother::operator=(OnlineSmoother&&) noexcept = default;
-OnlineSmoother::~OnlineSmoother() = default;
+OnlineMotionSmoother::OnlineMotionSmoother(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+OnlineMotionSmoother::OnlineMotionSmoother(OnlineMotionSmoother&&) noexcept = default;
+OnlineMotionSmoother& OnlineMotionSmoother::operator=(OnlineMotionSmoother&&) noexcept = default;
+OnlineMotionSmoother::~OnlineMotionSmoother() = default;
 
-Result<OnlineSmoother> OnlineSmoother::create(const model::Model& model,
-                                              const std::vector<std::string>& markers, SmootherTuning tuning,
-                                              const OnlineSmootherOptions& options) {
+Result<OnlineMotionSmoother> OnlineMotionSmoother::create(const model::Model& model,
+                                                          const std::vector<std::string>& markers,
+                                                          SmootherTuning tuning,
+                                                          const OnlineMotionOptions& options) {
   if (auto status = options.check(); !status) return std::unexpected(status.error());
   if (!(tuning.rate_hz > 0.0) || !std::isfinite(tuning.rate_hz))
     return fail(Code::usage,
@@ -272,13 +273,14 @@ Result<OnlineSmoother> OnlineSmoother::create(const model::Model& model,
     return fail(Code::usage, "the tuning has a step variance that is not a finite number above 0");
   for (std::size_t m = 0; m < markers.size(); ++m) {
     const auto& trust = tuning.markers[m];
-    if (!(trust.information > 0.0) || !std::isfinite(trust.information) || !(trust.bend_m > 0.0) ||
-        !std::isfinite(trust.bend_m))
+    if (!(trust.information > 0.0) || !std::isfinite(trust.information) || !(trust.huber_m > 0.0) ||
+        !std::isfinite(trust.huber_m))
       return fail(
           Code::usage,
-          fmt::format("the tuning of marker '{}' has an information of {} 1/m^2 and bends at {} m; both "
-                      "need to be finite and above 0",
-                      markers[m], trust.information, trust.bend_m));
+          fmt::format(
+              "the tuning of marker '{}' has an information of {} 1/m^2 and a Huber threshold of {} m; both "
+              "need to be finite and above 0",
+              markers[m], trust.information, trust.huber_m));
   }
   data::ModelDescription reduced = model.description();
   reduced.markers.clear();
@@ -289,10 +291,10 @@ Result<OnlineSmoother> OnlineSmoother::create(const model::Model& model,
   }
   auto compiled = model::Model::compile(std::move(reduced), {.free_roots = !model.free_joints().empty()});
   if (!compiled) return std::unexpected(compiled.error());
-  return OnlineSmoother(std::make_unique<Impl>(std::move(*compiled), markers, tuning, options));
+  return OnlineMotionSmoother(std::make_unique<Impl>(std::move(*compiled), markers, tuning, options));
 }
 
-Result<std::optional<SmoothedFrame>> OnlineSmoother::push(const Eigen::Matrix3Xd& x) {
+Result<std::optional<SmoothedFrame>> OnlineMotionSmoother::push(const Eigen::Matrix3Xd& x) {
   auto& live = *impl_;
   if (x.cols() != static_cast<Eigen::Index>(live.markers.size()))
     return fail(Code::bad_input,
@@ -317,18 +319,18 @@ Result<std::optional<SmoothedFrame>> OnlineSmoother::push(const Eigen::Matrix3Xd
     live.forget();
     return std::optional<SmoothedFrame>();
   }
-  const std::int64_t place = static_cast<std::int64_t>(live.nodes.size()) - 1 - live.options.lag_frames;
-  if (place < 0) return std::optional<SmoothedFrame>();
-  return std::optional<SmoothedFrame>(live.read(place));
+  const std::int64_t index = static_cast<std::int64_t>(live.nodes.size()) - 1 - live.options.lag_frames;
+  if (index < 0) return std::optional<SmoothedFrame>();
+  return std::optional<SmoothedFrame>(live.read(index));
 }
 
-std::vector<SmoothedFrame> OnlineSmoother::finish() {
+std::vector<SmoothedFrame> OnlineMotionSmoother::finish() {
   auto& live = *impl_;
   std::vector<SmoothedFrame> rest;
   const auto count = static_cast<std::int64_t>(live.nodes.size());
-  for (std::int64_t place = std::max<std::int64_t>(0, count - live.options.lag_frames); place < count;
-       ++place)
-    rest.push_back(live.read(place));
+  for (std::int64_t index = std::max<std::int64_t>(0, count - live.options.lag_frames); index < count;
+       ++index)
+    rest.push_back(live.read(index));
   live.forget();
   live.pushed = 0;
   return rest;

@@ -16,7 +16,7 @@
 namespace kinemark::motion {
 
 /// Options of the online smoother.
-struct OnlineSmootherOptions {
+struct OnlineMotionOptions {
   int lag_frames = 10;     ///< >= 3: what comes out has seen so many frames more
   bool error_bars = true;  ///< q_sd and determined; costs about as much as lag_frames pushes without
   bool limits = true;      ///< clamped coordinates stay in their range (by clipping)
@@ -26,26 +26,27 @@ struct OnlineSmootherOptions {
 
 /// One frame that is ready; n coordinates.
 struct SmoothedFrame {
-  std::int64_t frame = 0;   ///< counted from the first that was pushed
-  Eigen::VectorXd q, v, a;  ///< coordinates (rad, m), their rates and accelerations
-  Eigen::VectorXd q_sd;     ///< NaN where not determined; white noise only; empty without error bars
+  std::int64_t frame = 0;      ///< counted from the first that was pushed
+  Eigen::VectorXd q, qd, qdd;  ///< coordinates (rad, m), their rates and accelerations
+  Eigen::VectorXd q_sd;        ///< NaN where not determined; white noise only; empty without error bars
   std::vector<std::uint8_t> determined;  ///< empty without error bars
 };
 
 /// smooth_motion() on a stream. The strength of the jerk and the noise of the markers come from a recording
-/// of the same person (SmootherResult::tuning). Each frame is linearised once, where the frames before expect
+/// of the same person (SmootherResult::tuning). Each frame is linearized once, where the frames before expect
 /// it, so that a lag as long as the recording gives what smooth_motion() gives up to terms of second order in
 /// the error bars. About 1 ms per frame for a whole body, memory for lag_frames frames.
-class OnlineSmoother {
+class OnlineMotionSmoother {
  public:
   /// @param markers  names in the model, in the order in which they will come; `tuning` has as many
-  static Result<OnlineSmoother> create(const model::Model& model, const std::vector<std::string>& markers,
-                                       SmootherTuning tuning, const OnlineSmootherOptions& options = {});
-  OnlineSmoother(OnlineSmoother&&) noexcept;             ///< takes a running smoother over
-  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;  ///< replaces this one by another
-  OnlineSmoother(const OnlineSmoother&) = delete;
-  OnlineSmoother& operator=(const OnlineSmoother&) = delete;
-  ~OnlineSmoother();
+  static Result<OnlineMotionSmoother> create(const model::Model& model,
+                                             const std::vector<std::string>& markers, SmootherTuning tuning,
+                                             const OnlineMotionOptions& options = {});
+  OnlineMotionSmoother(OnlineMotionSmoother&&) noexcept;             ///< takes a running smoother over
+  OnlineMotionSmoother& operator=(OnlineMotionSmoother&&) noexcept;  ///< replaces this one by another
+  OnlineMotionSmoother(const OnlineMotionSmoother&) = delete;
+  OnlineMotionSmoother& operator=(const OnlineMotionSmoother&) = delete;
+  ~OnlineMotionSmoother();
 
   /// One frame: x (3 x markers, m, NaN where not seen); returns the frame that is lag_frames older, if there
   /// is one. Frames before the first with three markers or more are skipped and not counted. A marker more
@@ -58,7 +59,7 @@ class OnlineSmoother {
 
  private:
   struct Impl;
-  explicit OnlineSmoother(std::unique_ptr<Impl> impl);
+  explicit OnlineMotionSmoother(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -27,7 +27,7 @@ Eigen::Matrix3Xd frame_of(const data::Trajectories& markers, std::int64_t f) {
   return x;
 }
 
-std::vector<SmoothedFrame> stream(OnlineSmoother& live, const data::Trajectories& markers) {
+std::vector<SmoothedFrame> stream(OnlineMotionSmoother& live, const data::Trajectories& markers) {
   std::vector<SmoothedFrame> out;
   for (std::int64_t f = 0; f < markers.frames(); ++f)
     if (auto ready = live.push(frame_of(markers, f)).value()) out.push_back(std::move(*ready));
@@ -35,12 +35,13 @@ std::vector<SmoothedFrame> stream(OnlineSmoother& live, const data::Trajectories
   return out;
 }
 
-TEST(OnlineSmoother, ALagAsLongAsTheRecordingIsTheSmoother) {
+TEST(OnlineMotionSmoother, ALagAsLongAsTheRecordingIsTheSmoother) {
   const auto model = body();
   const auto markers = testing_body::record(model, kFrames, 0.002, 1);
   const auto offline = smooth_motion(model, markers).value();
   auto live =
-      OnlineSmoother::create(model, offline.motion.markers, offline.tuning, {.lag_frames = kFrames}).value();
+      OnlineMotionSmoother::create(model, offline.motion.markers, offline.tuning, {.lag_frames = kFrames})
+          .value();
   const auto frames = stream(live, markers);
   ASSERT_EQ(static_cast<std::int64_t>(frames.size()), kFrames);
   for (std::int64_t f = 0; f < kFrames; ++f) {
@@ -50,19 +51,19 @@ TEST(OnlineSmoother, ALagAsLongAsTheRecordingIsTheSmoother) {
       const auto i = offline.motion.index(f, c);
       EXPECT_NEAR(out.q[c], offline.motion.q[i], 0.15 * offline.motion.q_sd[i]) << f << " " << c;
       EXPECT_NEAR(out.q_sd[c], offline.motion.q_sd[i], 0.05 * offline.motion.q_sd[i]);
-      EXPECT_NEAR(out.v[c], offline.motion.v[i], 0.01);
+      EXPECT_NEAR(out.qd[c], offline.motion.qd[i], 0.01);
     }
   }
 }
 
-TEST(OnlineSmoother, ALongerLagIsBetterAndBarsSaySo) {
+TEST(OnlineMotionSmoother, ALongerLagIsBetterAndBarsSaySo) {
   const auto model = body();
   const auto markers = testing_body::record(model, kFrames, 0.002, 2);
   const auto tuning = smooth_motion(model, markers).value();
   double last_error = 1e9, last_sd = 1e9;
   for (const int lag : {3, 12}) {
-    auto live =
-        OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = lag}).value();
+    auto live = OnlineMotionSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = lag})
+                    .value();
     double squares = 0.0, variances = 0.0;
     std::int64_t count = 0;
     for (std::int64_t f = 0; f < kFrames; ++f) {
@@ -83,13 +84,14 @@ TEST(OnlineSmoother, ALongerLagIsBetterAndBarsSaySo) {
   }
 }
 
-TEST(OnlineSmoother, BridgesWhatTheStreamLacks) {
+TEST(OnlineMotionSmoother, BridgesWhatTheStreamLacks) {
   const auto model = body();
   auto markers = testing_body::record(model, kFrames, 0.002, 3);
   const auto tuning = smooth_motion(model, markers).value();
   for (std::int64_t f = 60; f < 70; ++f)
     for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m).setConstant(kNaN);
-  auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = 15}).value();
+  auto live =
+      OnlineMotionSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = 15}).value();
   const auto frames = stream(live, markers);
   ASSERT_EQ(static_cast<std::int64_t>(frames.size()), kFrames);
   for (const std::int64_t f : {55, 65, 75}) {
@@ -101,17 +103,18 @@ TEST(OnlineSmoother, BridgesWhatTheStreamLacks) {
   EXPECT_GT(frames[65].q_sd[9], 1.2 * frames[50].q_sd[9]);
 }
 
-TEST(OnlineSmoother, WaitsForMarkers) {
+TEST(OnlineMotionSmoother, WaitsForMarkers) {
   const auto model = body();
   const auto markers = testing_body::record(model, 30, 0.002, 4);
   const auto tuning = smooth_motion(model, markers).value();
-  auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = 3}).value();
+  auto live =
+      OnlineMotionSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = 3}).value();
   EXPECT_FALSE(live.push(Eigen::Matrix3Xd::Constant(3, 14, kNaN)).value());
   EXPECT_TRUE(live.finish().empty());
   EXPECT_EQ(stream(live, markers).front().frame, 0);
 }
 
-TEST(OnlineSmoother, ASpikeBeyondAllNumbersIsNotSeen) {
+TEST(OnlineMotionSmoother, ASpikeBeyondAllNumbersIsNotSeen) {
   const auto model = body();
   auto markers = testing_body::record(model, kFrames, 0.002, 6);
   const auto tuning = smooth_motion(model, markers).value();
@@ -119,22 +122,22 @@ TEST(OnlineSmoother, ASpikeBeyondAllNumbersIsNotSeen) {
     auto spoilt = markers, lacking = markers;
     spoilt.x(hit, 2).setConstant(1e200);
     lacking.x(hit, 2).setConstant(kNaN);
-    auto live = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
-    auto without = OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
+    auto live = OnlineMotionSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
+    auto without = OnlineMotionSmoother::create(model, tuning.motion.markers, tuning.tuning).value();
     const auto frames = stream(live, spoilt), wanted = stream(without, lacking);
     ASSERT_EQ(frames.size(), wanted.size());
     for (std::size_t f = 0; f < frames.size(); ++f) EXPECT_EQ(frames[f].q, wanted[f].q) << hit << " " << f;
   }
 }
 
-TEST(OnlineSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
+TEST(OnlineMotionSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
   const auto model = body();
   const auto markers = testing_body::record(model, kFrames, 0.002, 7);
   auto tuning = smooth_motion(model, markers).value();
   const int lag = 5;
   tuning.tuning.markers[3].information = 1e305;  // overflows wherever it is seen
   auto live =
-      OnlineSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = lag}).value();
+      OnlineMotionSmoother::create(model, tuning.motion.markers, tuning.tuning, {.lag_frames = lag}).value();
   const std::int64_t hit = 40, dark = 2;  // after the hit the markers stay away for two frames
   std::vector<std::int64_t> numbers;
   for (std::int64_t f = 0; f < kFrames; ++f) {
@@ -145,7 +148,7 @@ TEST(OnlineSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
     EXPECT_EQ(out.has_value(), f >= lag && (f < hit || f > hit + dark + lag)) << f;
     if (!out) continue;
     EXPECT_EQ(out->frame, f - lag);
-    EXPECT_TRUE(out->q.allFinite() && out->v.allFinite() && out->a.allFinite()) << f;
+    EXPECT_TRUE(out->q.allFinite() && out->qd.allFinite() && out->qdd.allFinite()) << f;
     if (f < hit + dark + lag + 20) continue;
     const auto truth = testing_body::coordinates(model, out->frame);
     for (int c = 0; c < 12; ++c) EXPECT_LT(std::abs(out->q[c] - truth[c]), 5.0 * out->q_sd[c]) << f;
@@ -155,36 +158,39 @@ TEST(OnlineSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
   EXPECT_TRUE(live.finish().empty());
 }
 
-TEST(OnlineSmoother, BadInputIsToldInASentence) {
+TEST(OnlineMotionSmoother, BadInputIsToldInASentence) {
   const auto model = body();
   const auto offline = smooth_motion(model, testing_body::record(model, 30, 0.002, 5)).value();
   const auto& names = offline.motion.markers;
-  EXPECT_THAT(OnlineSmoother::create(model, names, offline.tuning, {.lag_frames = 2}).error().message,
+  EXPECT_THAT(OnlineMotionSmoother::create(model, names, offline.tuning, {.lag_frames = 2}).error().message,
               HasSubstr("lag is 2 frames"));
-  EXPECT_THAT(OnlineSmoother::create(model, {"T1"}, offline.tuning).error().message, HasSubstr("need 1 and"));
+  EXPECT_THAT(OnlineMotionSmoother::create(model, {"T1"}, offline.tuning).error().message,
+              HasSubstr("need 1 and"));
   auto wrong = names;
   wrong[2] = "nose";
-  EXPECT_THAT(OnlineSmoother::create(model, wrong, offline.tuning).error().message, HasSubstr("'nose'"));
+  EXPECT_THAT(OnlineMotionSmoother::create(model, wrong, offline.tuning).error().message,
+              HasSubstr("'nose'"));
   auto tuning = offline.tuning;
   tuning.rate_hz = 0.0;
-  EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("0 Hz"));
+  EXPECT_THAT(OnlineMotionSmoother::create(model, names, tuning).error().message, HasSubstr("0 Hz"));
   for (const double rate : {kNaN, std::numeric_limits<double>::infinity()}) {
     tuning.rate_hz = rate;
-    EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("finite rate"));
+    EXPECT_THAT(OnlineMotionSmoother::create(model, names, tuning).error().message, HasSubstr("finite rate"));
   }
   for (const double bad : {0.0, -1.0, kNaN, std::numeric_limits<double>::infinity()}) {
     tuning = offline.tuning;
     tuning.markers[1].information = bad;
-    EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message,
+    EXPECT_THAT(OnlineMotionSmoother::create(model, names, tuning).error().message,
                 HasSubstr(fmt::format("marker '{}' has an information of", names[1])));
     tuning = offline.tuning;
-    tuning.markers[1].bend_m = bad;
-    EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("bends at"));
+    tuning.markers[1].huber_m = bad;
+    EXPECT_THAT(OnlineMotionSmoother::create(model, names, tuning).error().message,
+                HasSubstr("a Huber threshold of"));
   }
   tuning = offline.tuning;
   tuning.step_variance[0] = 0.0;
-  EXPECT_THAT(OnlineSmoother::create(model, names, tuning).error().message, HasSubstr("step variance"));
-  auto live = OnlineSmoother::create(model, names, offline.tuning).value();
+  EXPECT_THAT(OnlineMotionSmoother::create(model, names, tuning).error().message, HasSubstr("step variance"));
+  auto live = OnlineMotionSmoother::create(model, names, offline.tuning).value();
   EXPECT_THAT(live.push(Eigen::Matrix3Xd::Zero(3, 2)).error().message, HasSubstr("2 markers; need 14"));
 }
 

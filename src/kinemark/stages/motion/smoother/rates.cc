@@ -28,16 +28,16 @@ void couple_rates(const model::Model& model, data::JointMotion& motion) {
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
     for (int c = 0; c < n; ++c) {
       q[c] = motion.q[motion.index(f, c)];
-      qd[c] = motion.v[motion.index(f, c)];
-      qdd[c] = motion.a[motion.index(f, c)];
+      qd[c] = motion.qd[motion.index(f, c)];
+      qdd[c] = motion.qdd[motion.index(f, c)];
     }
     model::kinematics(model, w, model::state_from_coordinates(model, q));
     model::speeds_from_rates(model, q, qd, qdd, v, vdot);
     model::rates_from_speeds(model, w, q, v, vdot, all_qd, all_qdd);
     for (int c = 0; c < n; ++c) {
       if (coordinates[at(c)].source < 0) continue;
-      motion.v[motion.index(f, c)] = all_qd[c];
-      motion.a[motion.index(f, c)] = all_qdd[c];
+      motion.qd[motion.index(f, c)] = all_qd[c];
+      motion.qdd[motion.index(f, c)] = all_qdd[c];
     }
   }
 }
@@ -81,10 +81,10 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
       for (std::int64_t k = 0; k < 6; ++k) errors.covariance[6 * i + at(k)] = smooth.covariance(k, f);
     }
   }
-  const bool own = motion.v.empty() || motion.a.empty();
+  const bool own = motion.qd.empty() || motion.qdd.empty();
   if (own) {
-    motion.v = std::move(v);
-    motion.a = std::move(a);
+    motion.qd = std::move(v);
+    motion.qdd = std::move(a);
     couple_rates(model, motion);
   }
   return errors;

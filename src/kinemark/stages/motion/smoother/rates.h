@@ -12,17 +12,17 @@ namespace kinemark::motion {
 /// Covariance of coordinates and their rates, for each coordinate separately (errors of different coordinates
 /// are taken as independent).
 struct RateErrors {
-  /// F x n x 6: covariance of q, v, a as qq qv qa vv va aa. Zero where locked; NaN where a coordinate was
-  /// never determined and for coupled coordinates.
+  /// F x n x 6: covariance of q, qd, qdd, its upper triangle by rows. Zero where locked; NaN where a
+  /// coordinate was never determined and for coupled coordinates.
   Array<double> covariance;
 };
 
 /// Estimate dq/dt, d2q/dt2 and their covariance from the coordinates alone.
 ///
 /// Every independent coordinate is smoothed by itself (coordinate_smoother.h), weighted by q_sd and left open
-/// where it is not determined; bandwidth and noise follow from its own likelihood. q stays as it is. v and a
-/// are filled only where they are empty. The angles of a free root are smoothed as angles: near the attitude
-/// where the middle one is 90 deg prefer the smoother on the whole body. Fails below 8 frames.
+/// where it is not determined; bandwidth and noise follow from its own likelihood. q stays as it is. qd and
+/// qdd are filled only where they are empty. The angles of a free root are smoothed as angles: near the
+/// attitude where the middle one is 90 deg prefer the smoother on the whole body. Fails below 8 frames.
 [[nodiscard]] Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& motion);
 
 }  // namespace kinemark::motion

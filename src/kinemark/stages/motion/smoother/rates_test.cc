@@ -53,7 +53,7 @@ TEST(Rates, AreWithinTheirBars) {
   for (std::int64_t f = 0; f < 400; ++f)
     for (int c = 0; c < 12; ++c, ++all) {
       const double vv = errors.covariance[6 * motion.index(f, c) + 3];
-      inside += std::abs(motion.v[motion.index(f, c)] - true_rate(c, f)) < std::sqrt(vv);
+      inside += std::abs(motion.qd[motion.index(f, c)] - true_rate(c, f)) < std::sqrt(vv);
     }
   EXPECT_GT(inside, 0.60 * all);
   EXPECT_LT(inside, 0.85 * all);
@@ -64,8 +64,8 @@ TEST(Rates, CoupledCoordinatesFollow) {
   auto motion = noisy_motion(model, 100, 0.001);
   const auto errors = estimate_rates(model, motion).value();
   for (const std::int64_t f : {0, 50, 99}) {
-    EXPECT_NEAR(motion.v[motion.index(f, 12)], 0.6 * motion.v[motion.index(f, 11)], 1e-12);
-    EXPECT_NEAR(motion.a[motion.index(f, 12)], 0.6 * motion.a[motion.index(f, 11)], 1e-10);
+    EXPECT_NEAR(motion.qd[motion.index(f, 12)], 0.6 * motion.qd[motion.index(f, 11)], 1e-12);
+    EXPECT_NEAR(motion.qdd[motion.index(f, 12)], 0.6 * motion.qdd[motion.index(f, 11)], 1e-10);
     EXPECT_TRUE(std::isnan(errors.covariance[6 * motion.index(f, 12)]));
   }
 }
@@ -73,11 +73,11 @@ TEST(Rates, CoupledCoordinatesFollow) {
 TEST(Rates, KeepWhatIsThere) {
   const auto model = body();
   auto motion = noisy_motion(model, 50, 0.001);
-  motion.v.assign(motion.q.size(), 7.0);
-  motion.a.assign(motion.q.size(), 8.0);
+  motion.qd.assign(motion.q.size(), 7.0);
+  motion.qdd.assign(motion.q.size(), 8.0);
   const auto errors = estimate_rates(model, motion).value();
-  EXPECT_EQ(motion.v[10], 7.0);
-  EXPECT_EQ(motion.a[10], 8.0);
+  EXPECT_EQ(motion.qd[10], 7.0);
+  EXPECT_EQ(motion.qdd[10], 8.0);
   EXPECT_GT(errors.covariance[6 * motion.index(20, 3) + 5], 0.0);
 }
 
@@ -89,7 +89,7 @@ TEST(Rates, CoordinatesNeverDeterminedStandStill) {
     motion.q_sd[motion.index(f, 9)] = std::numeric_limits<double>::quiet_NaN();
   }
   const auto errors = estimate_rates(model, motion).value();
-  EXPECT_EQ(motion.a[motion.index(25, 9)], 0.0);
+  EXPECT_EQ(motion.qdd[motion.index(25, 9)], 0.0);
   EXPECT_TRUE(std::isnan(errors.covariance[6 * motion.index(25, 9)]));
 }
 
@@ -99,7 +99,7 @@ TEST(Rates, LockedCoordinatesHaveNone) {
   const auto model = model::Model::compile(description).value();
   auto motion = noisy_motion(model, 50, 0.001);
   const auto errors = estimate_rates(model, motion).value();
-  EXPECT_EQ(motion.v[motion.index(25, 9)], 0.0);
+  EXPECT_EQ(motion.qd[motion.index(25, 9)], 0.0);
   EXPECT_EQ(errors.covariance[6 * motion.index(25, 9) + 5], 0.0);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -61,12 +62,12 @@ void fill_marker_errors(const Problem& problem, const data::Trajectories& marker
 }
 
 /// q_sd, determined, the covariances and the frames' status.
-void fill_bars(const Problem& problem, const Sightings& sightings, const internal::NoiseSplit& noise,
+void fill_bars(const Problem& problem, const Observations& observations, const internal::NoiseSplit& noise,
                const MatrixXd& states, internal::WholeTrajectory& trajectory, SmootherResult& result) {
   const auto& model = problem.model;
   auto& motion = result.motion;
   const std::int64_t F = motion.frames(), n = motion.size();
-  const internal::SlowErrors slow(model, sightings, noise, problem.fixed_speed, motion, states);
+  const internal::SlowErrors slow(model, observations, noise, problem.fixed_speed, motion, states);
   motion.q_sd.assign(at(F * n), kNaN);
   motion.determined.assign(at(F * n), 0);
   result.errors.covariance.assign(at(6 * F * n), kNaN);
@@ -74,13 +75,13 @@ void fill_bars(const Problem& problem, const Sightings& sightings, const interna
   VectorXd q(n);
   MatrixXd E, covariance;
   const auto coordinates = model.coordinates();
-  const auto do_frame = [&](std::int64_t f, int place, const MatrixXd& joint) {
+  const auto do_frame = [&](std::int64_t f, int index, const MatrixXd& joint) {
     std::copy_n(motion.q.data() + motion.index(f, 0), n, q.data());
     model::kinematics(model, w, states.col(f));
     model::coordinate_jacobian(model, w, q, E);
     for (Eigen::Index i = 0; i < E.cols(); ++i)
       if (problem.fixed_speed[at(i)]) E.col(i).setZero();
-    internal::coordinate_covariances(joint, place, motion.time.rate_hz, E, covariance);
+    internal::coordinate_covariances(joint, index, motion.time.rate_hz, E, covariance);
     bool all = true;
     for (int c = 0; c < n; ++c) {
       const auto i = motion.index(f, c);
@@ -102,11 +103,26 @@ void fill_bars(const Problem& problem, const Sightings& sightings, const interna
   });
 }
 
+/// The recording without the samples that least squares left out; none where it kept all.
+std::optional<data::Trajectories> without_rejected(const Problem& problem, const data::Trajectories& markers,
+                                                   const data::JointMotion& start) {
+  std::optional<data::Trajectories> kept;
+  const std::size_t M = problem.data_marker.size();
+  for (std::size_t i = 0; i < start.marker_state.size(); ++i) {
+    if (start.marker_state[i] != data::SampleState::rejected) continue;
+    if (!kept) kept = markers;
+    kept->set_missing(problem.first_frame + static_cast<std::int64_t>(i / M), problem.data_marker[i % M],
+                      data::SampleState::rejected);
+  }
+  return kept;
+}
+
 SmootherResult begin_result(IkResult& start, const model::Model& model) {
   SmootherResult result;
   result.fit = std::move(start.fit);
   auto& motion = result.motion;
   motion.markers = start.motion.markers;
+  motion.marker_state = start.motion.marker_state;
   motion.time = start.motion.time;
   for (const auto& coordinate : model.description().coordinates) {
     motion.coordinates.push_back(coordinate.name);
@@ -132,15 +148,18 @@ Result<Prepared> prepare(const model::Model& model, const data::Trajectories& ma
   if (problem->frames < kFewestSamples)
     return fail(Code::bad_input, fmt::format("the time range holds {} frames; the smoother needs {} or more",
                                              problem->frames, kFewestSamples));
-  if (ik.marker_noise_sd_m <= 0.0 && options.bend_sd > 0.0)
-    internal::leave_out_outliers(*problem, markers, options.bend_sd, ik.threads, *start);
-  return Prepared{
-      .problem = std::move(*problem), .start = std::move(*start), .seconds = seconds_since(begun)};
+  auto kept = without_rejected(*problem, markers, start->motion);
+  if (ik.marker_noise_sd_m <= 0.0 && options.huber_sd > 0.0)
+    internal::leave_out_outliers(*problem, kept ? *kept : markers, options.huber_sd, ik.threads, *start);
+  return Prepared{.problem = std::move(*problem),
+                  .start = std::move(*start),
+                  .seconds = seconds_since(begun),
+                  .kept = std::move(kept)};
 }
 
-Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers, const Sightings& sightings,
-                           const NoiseSplit& noise, const SmootherOptions& options,
-                           const Progress& progress) {
+Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers,
+                           const Observations& observations, const NoiseSplit& noise,
+                           const SmootherOptions& options, const Progress& progress) {
   const auto solving = std::chrono::steady_clock::now();
   const Problem& problem = prepared.problem;
   MatrixXd states = bridged_states(problem.model, prepared.start.motion);
@@ -148,7 +167,7 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   SmootherResult result = begin_result(prepared.start, problem.model);
   result.start_seconds = prepared.seconds;
   result.tuning = {.step_variance = variance, .markers = noise.trust, .rate_hz = markers.time.rate_hz};
-  WholeTrajectory trajectory(problem.model, sightings, problem.frames, variance,
+  WholeTrajectory trajectory(problem.model, observations, problem.frames, variance,
                              {.fixed = problem.fixed_speed, .lower = problem.lower, .upper = problem.upper});
   const auto outcome = trajectory.solve(states, options.max_iterations, progress);
   if (outcome.stopped) return fail(Code::cancelled, "the smoother was stopped");
@@ -161,7 +180,7 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   fill_coordinates(problem.model, states, result.motion);
   result.motion.status.assign(at(problem.frames), outcome.converged ? data::FrameStatus::converged
                                                                     : data::FrameStatus::not_converged);
-  if (options.error_bars) fill_bars(problem, sightings, noise, states, trajectory, result);
+  if (options.error_bars) fill_bars(problem, observations, noise, states, trajectory, result);
   fill_marker_errors(problem, markers, states, result);
   result.solve_seconds = seconds_since(solving);
   return result;
@@ -175,9 +194,10 @@ Result<SmootherResult> smooth_motion(const model::Model& model, const data::Traj
   if (!prepared) return std::unexpected(prepared.error());
   const auto& problem = prepared->problem;
   const auto noise =
-      internal::split_noise(problem, prepared->start, options.ik.marker_noise_sd_m, options.bend_sd);
-  const MarkerSightings sightings(markers, problem.data_marker, problem.first_frame, noise.trust);
-  return internal::run(*prepared, markers, sightings, noise, options, progress);
+      internal::split_noise(problem, prepared->start, options.ik.marker_noise_sd_m, options.huber_sd);
+  const auto& believed = prepared->believed(markers);
+  const MarkerObservations observations(believed, problem.data_marker, problem.first_frame, noise.trust);
+  return internal::run(*prepared, believed, observations, noise, options, progress);
 }
 
 }  // namespace kinemark::motion

@@ -15,13 +15,13 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 #include "kinemark/stages/motion/smoother/rates.h"
-#include "kinemark/stages/motion/smoother/sightings.h"
 #include "kinemark/stages/motion/smoother/smoother_options.h"
 
 namespace kinemark::motion {
 
-/// What the smoother learnt from a recording; the live twin (online_smoother.h) starts from it.
+/// What the smoother learnt from a recording; the live counterpart (online_smoother.h) starts from it.
 struct SmootherTuning {
   Eigen::VectorXd step_variance;     ///< nv, of the third difference of each speed's own coordinate
   std::vector<MarkerTrust> markers;  ///< one per used marker, in the order of motion.markers
@@ -30,10 +30,10 @@ struct SmootherTuning {
 
 /// What the smoother found: the motion, and how well it fits the markers.
 struct SmootherResult {
-  /// q, v, a, q_sd, determined, marker_error (measured minus model), status. A frame without any marker is
+  /// q, qd, qdd, q_sd, determined, marker_error (measured minus model), status. A frame without any marker is
   /// bridged like any other gap. Determined: the SD is at most 0.5 rad or 0.5 m.
   data::JointMotion motion;
-  RateErrors errors;       ///< covariance of q, v, a by coordinate; empty without error bars
+  RateErrors errors;       ///< covariance of q, qd, qdd by coordinate; empty without error bars
   data::MarkerFit fit;     ///< markers used and left out, and how well they fit
   SmootherTuning tuning;   ///< as used
   int iterations = 0;      ///< steps over the whole recording

@@ -15,8 +15,8 @@ Status SmootherOptions::check() const {
                                          ik.coordinate_tasks.front().coordinate));
   if (ik.loss != Loss::square)
     return fail(Code::usage, "the smoother has its own robust loss; need the square loss");
-  if (!std::isfinite(bend_sd) || bend_sd < 0.0)
-    return fail(Code::usage, fmt::format("the Huber threshold is {} SD; need 0 (never) or more", bend_sd));
+  if (!std::isfinite(huber_sd) || huber_sd < 0.0)
+    return fail(Code::usage, fmt::format("the Huber threshold is {} SD; need 0 (never) or more", huber_sd));
   if (max_iterations < 1)
     return fail(Code::usage, fmt::format("iteration limit is {}; need 1 or more", max_iterations));
   return {};

@@ -13,10 +13,10 @@ struct SmootherOptions {
   /// estimated), limits, time range, seed, threads. The smoother takes no coordinate tasks and no other loss
   /// than its own.
   IkOptions ik;
-  double bend_sd = 4.5;     ///< Huber threshold in SDs: larger residuals of a marker count linearly; 0: never
+  double huber_sd = 4.5;    ///< Huber threshold in SDs: larger residuals of a marker count linearly; 0: never
   int max_iterations = 10;  ///< Gauss-Newton steps over the whole recording, >= 1
   bool error_bars =
-      true;  ///< q_sd and the covariance of q, v and a; without them nothing is marked undetermined
+      true;  ///< q_sd and the covariance of q, qd and qdd; without them nothing is marked undetermined
 
   [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };

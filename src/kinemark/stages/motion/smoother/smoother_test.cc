@@ -79,14 +79,14 @@ TEST(Smoother, RatesAreThoseOfTheMotion) {
     for (int c = 0; c < 12; ++c) {
       const double omega = 2.0 * (0.4 + 0.07 * c), phase = omega * static_cast<double>(f) / 100.0 + 0.9 * c;
       const auto i = smooth.motion.index(f, c);
-      EXPECT_NEAR(smooth.motion.v[i], 0.5 * omega * std::cos(phase), 0.08) << c;
-      EXPECT_NEAR(smooth.motion.v[i], 0.5 * omega * std::cos(phase),
+      EXPECT_NEAR(smooth.motion.qd[i], 0.5 * omega * std::cos(phase), 0.08) << c;
+      EXPECT_NEAR(smooth.motion.qd[i], 0.5 * omega * std::cos(phase),
                   5.0 * std::sqrt(smooth.errors.covariance[6 * i + 3]));
-      EXPECT_NEAR(smooth.motion.a[i], -0.5 * omega * omega * std::sin(phase),
+      EXPECT_NEAR(smooth.motion.qdd[i], -0.5 * omega * omega * std::sin(phase),
                   5.0 * std::sqrt(smooth.errors.covariance[6 * i + 5]));
     }
-  EXPECT_NEAR(smooth.motion.v[smooth.motion.index(50, 12)],
-              0.6 * smooth.motion.v[smooth.motion.index(50, 11)], 1e-9);
+  EXPECT_NEAR(smooth.motion.qd[smooth.motion.index(50, 12)],
+              0.6 * smooth.motion.qd[smooth.motion.index(50, 11)], 1e-9);
 }
 
 TEST(Smoother, BridgesMarkersThatAreMissing) {
@@ -156,7 +156,7 @@ TEST(Smoother, AnOutlierCountsForLittle) {
   const auto clean = smooth_motion(model, markers).value();
   markers.x(100, markers.find("F2")).x() += 0.1;
   const auto hit = smooth_motion(model, markers).value();
-  const auto hit_square = smooth_motion(model, markers, {.bend_sd = 0.0}).value();
+  const auto hit_square = smooth_motion(model, markers, {.huber_sd = 0.0}).value();
   const auto elbow = clean.motion.index(100, 9);
   EXPECT_LT(std::abs(hit.motion.q[elbow] - clean.motion.q[elbow]),
             0.5 * std::abs(hit_square.motion.q[elbow] - clean.motion.q[elbow]));
@@ -203,7 +203,7 @@ TEST(Smoother, BadInputIsToldInASentence) {
   options.max_iterations = 0;
   EXPECT_THAT(smooth_motion(model, markers, options).error().message, HasSubstr("iteration limit"));
   options = {};
-  options.bend_sd = -1.0;
+  options.huber_sd = -1.0;
   EXPECT_THAT(smooth_motion(model, markers, options).error().message, HasSubstr("-1 SD"));
   EXPECT_THAT(smooth_motion(model, testing_body::record(model, 7)).error().message, HasSubstr("7 frames"));
   int asked = 0;

@@ -27,7 +27,7 @@ constexpr double kNoise_m = 0.01, kStepSd_m = 0.002;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of a marker on the block: beside the rail.
-Eigen::Vector3d place(int marker) { return {0.0, marker == 1 ? 0.3 : 0.0, marker == 2 ? 0.3 : 0.0}; }
+Eigen::Vector3d position(int marker) { return {0.0, marker == 1 ? 0.3 : 0.0, marker == 2 ? 0.3 : 0.0}; }
 
 model::Model rail() {
   data::ModelDescription m;
@@ -39,7 +39,7 @@ model::Model rail() {
        .child_body_idx = 0,
        .axes = {{.is_rotation = false, .axis = Eigen::Vector3d::UnitX(), .coordinate_idx = 0}}});
   for (int i = 0; i < 3; ++i)
-    m.markers.push_back({.name = std::string(1, "ABC"[i]), .body_idx = 0, .x_in_body = place(i)});
+    m.markers.push_back({.name = std::string(1, "ABC"[i]), .body_idx = 0, .x_in_body = position(i)});
   return model::Model::compile(std::move(m)).value();
 }
 
@@ -53,7 +53,7 @@ data::Trajectories record(std::uint64_t seed) {
     for (int m = 0; m < 3; ++m) {
       const double x = truth(f) + kNoise_m * random.gaussian();
       if (f >= 20 && f < 30) continue;
-      markers.x(f, m) = place(m) + x * Eigen::Vector3d::UnitX();
+      markers.x(f, m) = position(m) + x * Eigen::Vector3d::UnitX();
       markers.state[markers.index(f, m)] = data::SampleState::measured;
     }
   return markers;
@@ -96,9 +96,9 @@ struct Solved {
 
 Solved solve(const model::Model& model, const data::Trajectories& markers, const VectorXd& start,
              double low = -kInfinity, double high = kInfinity) {
-  const MarkerSightings sightings(markers, {0, 1, 2}, 0, trust());
+  const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
   WholeTrajectory trajectory(
-      model, sightings, kFrames, step_variance(),
+      model, observations, kFrames, step_variance(),
       {.fixed = {0}, .lower = VectorXd::Constant(1, low), .upper = VectorXd::Constant(1, high)});
   const int row = model.coordinates()[0].state_idx;
   MatrixXd states = MatrixXd::Zero(model.state_count(), kFrames);
@@ -194,9 +194,9 @@ TEST(WholeTrajectory, LimitsAreInequalities) {
 TEST(WholeTrajectory, AFixedSpeedNeverMoves) {
   const auto model = rail();
   const auto markers = record(4);
-  const MarkerSightings sightings(markers, {0, 1, 2}, 0, trust());
+  const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
   WholeTrajectory trajectory(
-      model, sightings, kFrames, step_variance(),
+      model, observations, kFrames, step_variance(),
       {.fixed = {1}, .lower = VectorXd::Constant(1, -kInfinity), .upper = VectorXd::Constant(1, kInfinity)});
   MatrixXd states = MatrixXd::Constant(model.state_count(), kFrames, 0.125);
   const MatrixXd before = states;
@@ -207,18 +207,18 @@ TEST(WholeTrajectory, AFixedSpeedNeverMoves) {
 TEST(WholeTrajectory, ThreeFramesAreNoTrajectory) {
   const auto model = rail();
   const auto markers = record(1);
-  const MarkerSightings sightings(markers, {0, 1, 2}, 0, trust());
-  EXPECT_THROW(WholeTrajectory(model, sightings, 3, step_variance(), {}), ContractError);
+  const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
+  EXPECT_THROW(WholeTrajectory(model, observations, 3, step_variance(), {}), ContractError);
 }
 
-TEST(OnlineSmoother, InALinearWorldItsAnswersAreTheBatchSolution) {
+TEST(OnlineMotionSmoother, InALinearWorldItsAnswersAreTheBatchSolution) {
   const auto model = rail();
   const auto markers = record(5);
   const MatrixXd C = Dense(markers).covariance();
   const VectorXd b = Dense(markers).b;
-  auto live = OnlineSmoother::create(model, {"A", "B", "C"},
-                                     {.step_variance = step_variance(), .markers = trust(), .rate_hz = 50.0},
-                                     {.lag_frames = kFrames});
+  auto live = OnlineMotionSmoother::create(
+      model, {"A", "B", "C"}, {.step_variance = step_variance(), .markers = trust(), .rate_hz = 50.0},
+      {.lag_frames = kFrames});
   ASSERT_TRUE(live) << live.error().message;
   for (int f = 0; f < kFrames; ++f) {
     Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Constant(3, 3, std::numeric_limits<double>::quiet_NaN());

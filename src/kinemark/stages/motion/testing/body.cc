@@ -17,7 +17,7 @@ using math::ScalarFunction;
 
 namespace {
 
-AxisDescription turn(int coordinate, const Vector3d& axis, ScalarFunction f = {}) {
+AxisDescription rotation(int coordinate, const Vector3d& axis, ScalarFunction f = {}) {
   return {.is_rotation = true, .axis = axis, .coordinate_idx = coordinate, .function = std::move(f)};
 }
 AxisDescription slide(int coordinate, const Vector3d& axis, ScalarFunction f = {}) {
@@ -41,33 +41,33 @@ data::ModelDescription description() {
   m.joints = {
       {.name = "root",
        .child_body_idx = 0,
-       .axes = {turn(0, Z), turn(1, X), turn(2, Y), slide(3, X), slide(4, Y), slide(5, Z)}},
+       .axes = {rotation(0, Z), rotation(1, X), rotation(2, Y), slide(3, X), slide(4, Y), slide(5, Z)}},
       {.name = "shoulder",
        .parent_body_idx = 0,
        .child_body_idx = 1,
        .parent_from_joint = {math::from_body_xyz({0.1, -0.2, 0.3}), {0.0, 0.4, 0.2}},
-       .axes = {turn(6, Z), turn(7, X), turn(8, Y)}},
+       .axes = {rotation(6, Z), rotation(7, X), rotation(8, Y)}},
       {.name = "elbow",
        .parent_body_idx = 1,
        .child_body_idx = 2,
        .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.0, -0.3, 0.0}},
        .child_from_joint = {math::from_body_xyz({0.0, 0.2, 0.0}), {0.01, 0.0, 0.0}},
-       .axes = {turn(9, Vector3d(0.2, 0.05, 0.97))}},
+       .axes = {rotation(9, Vector3d(0.2, 0.05, 0.97))}},
       {.name = "hip",
        .parent_body_idx = 0,
        .child_body_idx = 3,
        .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.0, -0.1, 0.1}},
-       .axes = {turn(10, Z)}},
+       .axes = {rotation(10, Z)}},
       {.name = "knee",
        .parent_body_idx = 3,
        .child_body_idx = 4,
        .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.0, -0.4, 0.0}},
-       .axes = {turn(11, Z), turn(11, X, ScalarFunction::linear(0.1, 0.0)), slide(11, X, *rolling)}},
+       .axes = {rotation(11, Z), rotation(11, X, ScalarFunction::linear(0.1, 0.0)), slide(11, X, *rolling)}},
       {.name = "kneecap",
        .parent_body_idx = 3,
        .child_body_idx = 5,
        .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.04, -0.4, 0.0}},
-       .axes = {turn(12, Z)}},
+       .axes = {rotation(12, Z)}},
   };
   m.couplings = {{.name = "kneecap follows",
                   .dependent_idx = 12,

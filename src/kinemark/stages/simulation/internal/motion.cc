@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kMarginOfRange = 0.05;
 constexpr double kWalkingSpeed_m_s = 1.1;
 
@@ -50,7 +50,7 @@ Vector3d vertical(const model::Model& model) {
 
 double Wave::operator()(double t_s) const {
   double sum = centre;
-  for (const auto& s : sines) sum += s.amplitude * std::sin(kTurn * s.frequency_hz * t_s + s.phase);
+  for (const auto& s : sines) sum += s.amplitude * std::sin(kTwoPi * s.frequency_hz * t_s + s.phase);
   return sum;
 }
 
@@ -60,7 +60,7 @@ Motion::Motion(const model::Model& model, const SubjectOptions& options)
   stride_hz_ = random.uniform(0.8, 1.05);
   if (options.motion == MotionKind::walk && options.full_turns != 0.0)
     circle_radius_m_ =
-        std::min(3.0, kWalkingSpeed_m_s * options.duration_s / (kTurn * std::abs(options.full_turns)));
+        std::min(3.0, kWalkingSpeed_m_s * options.duration_s / (kTwoPi * std::abs(options.full_turns)));
   waves_.resize(at(model.coordinate_count()));
   for (int c = 0; c < model.coordinate_count(); ++c) draw_coordinate(c);
   roots_.resize(model.free_joints().size());
@@ -68,7 +68,7 @@ Motion::Motion(const model::Model& model, const SubjectOptions& options)
 }
 
 Wave::Sine Motion::sine(double amplitude, double low_hz, double high_hz, Random& random) const {
-  return {amplitude, random.uniform(low_hz, high_hz), random.uniform(0.0, kTurn)};
+  return {amplitude, random.uniform(low_hz, high_hz), random.uniform(0.0, kTwoPi)};
 }
 
 void Motion::draw_coordinate(int c) {
@@ -91,8 +91,8 @@ void Motion::draw_coordinate(int c) {
   // The parts add up to the amplitude, so that the sum never leaves the range.
   switch (options_.motion) {
     case MotionKind::walk: {
-      const double share = random.uniform(0.6, 0.9), phase = random.uniform(0.0, kTurn),
-                   second = random.uniform(0.0, kTurn);
+      const double share = random.uniform(0.6, 0.9), phase = random.uniform(0.0, kTwoPi),
+                   second = random.uniform(0.0, kTwoPi);
       wave.sines = {{share * amplitude, stride_hz_, phase},
                     {(1.0 - share) * amplitude, 2.0 * stride_hz_, second}};
       break;
@@ -111,13 +111,13 @@ void Motion::draw_coordinate(int c) {
 
   // Walking: the left side repeats the motion of the right side half a stride later, about the same centre.
   if (options_.motion == MotionKind::walk && coordinate.name.ends_with("_l")) {
-    const int twin =
+    const int opposite =
         model_.description().find_coordinate(coordinate.name.substr(0, coordinate.name.size() - 2) + "_r");
-    if (twin >= 0 && twin < c && !waves_[at(twin)].sines.empty() && coordinate.clamped) {
-      const auto& other = model_.description().coordinates[at(twin)];
+    if (opposite >= 0 && opposite < c && !waves_[at(opposite)].sines.empty() && coordinate.clamped) {
+      const auto& other = model_.description().coordinates[at(opposite)];
       if (other.range_min == coordinate.range_min && other.range_max == coordinate.range_max) {
-        wave = waves_[at(twin)];
-        wave.sines[0].phase += 0.5 * kTurn;
+        wave = waves_[at(opposite)];
+        wave.sines[0].phase += 0.5 * kTwoPi;
       }
     }
   }
@@ -158,9 +158,9 @@ Eigen::VectorXd Motion::state(double t_s) const {
   for (int c = 0; c < model_.coordinate_count(); ++c)
     if (const int i = model_.coordinates()[at(c)].state_idx; i >= 0) x[i] = waves_[at(c)](t_s);
 
-  const double heading = kTurn * options_.full_turns * t_s / options_.duration_s;
+  const double heading = kTwoPi * options_.full_turns * t_s / options_.duration_s;
   const Vector3d up = vertical(model_);
-  const Matrix3d turned = math::axis_angle(up, heading);
+  const Matrix3d heading_rotation = math::axis_angle(up, heading);
   for (std::size_t r = 0; r < roots_.size(); ++r) {
     const auto& free = model_.free_joints()[r];
     const Matrix3d frame = model_.bodies()[at(free.body)].parent_from_joint.rotation;
@@ -177,12 +177,13 @@ Eigen::VectorXd Motion::state(double t_s) const {
     const Vector3d forward = level.norm() > 1e-6 ? Vector3d(level.normalized()) : up.unitOrthogonal();
     const Vector3d to_centre =
         (options_.full_turns >= 0.0 ? 1.0 : -1.0) * circle_radius_m_ * up.cross(forward);
-    const Vector3d walked = to_centre - turned * to_centre;
+    const Vector3d walked = to_centre - heading_rotation * to_centre;
     const Vector3d moved =
-        walked + turned * (shift[0] * forward + shift[1] * up + shift[2] * forward.cross(up));
+        walked + heading_rotation * (shift[0] * forward + shift[1] * up + shift[2] * forward.cross(up));
     x.segment<3>(free.state_idx) += frame.transpose() * moved;
-    const Eigen::Quaterniond turn(Matrix3d(frame.transpose() * turned * attitude * math::exp_so3(sway)));
-    x.segment<4>(free.state_idx + 3) << turn.w(), turn.x(), turn.y(), turn.z();
+    const Eigen::Quaterniond rotation(
+        Matrix3d(frame.transpose() * heading_rotation * attitude * math::exp_so3(sway)));
+    x.segment<4>(free.state_idx + 3) << rotation.w(), rotation.x(), rotation.y(), rotation.z();
     x.segment<4>(free.state_idx + 3).normalize();
   }
   return x;

@@ -32,7 +32,7 @@ double flesh(const Segment& segment) {
   return std::min(1.0, segment.mass / segment.length_m / kThigh_kg_m);
 }
 
-double place(const Segment& segment, const Vector3d& marker) {
+double near_joints(const Segment& segment, const Vector3d& marker) {
   if (is_trunk(segment)) return 1.0;
   double nearest = (marker - segment.own_joint).norm();
   for (const auto& joint : segment.carried_joints) nearest = std::min(nearest, (marker - joint).norm());
@@ -99,7 +99,7 @@ VectorXd tissue_amplitudes(const Segments& segments) {
     if (segments.of_marker[m] < 0) continue;  // markers on the ground have no flesh
     const Segment& segment = segments.all[at(segments.of_marker[m])];
     rms[static_cast<Eigen::Index>(m)] =
-        kRigid_m + kFleshy_m * flesh(segment) * place(segment, segments.marker_in_segment[m]);
+        kRigid_m + kFleshy_m * flesh(segment) * near_joints(segment, segments.marker_in_segment[m]);
   }
   return rms;
 }

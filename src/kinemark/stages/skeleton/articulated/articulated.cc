@@ -150,13 +150,13 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const articulated::Obse
   out.kind = hinge ? data::JointKind::hinge : data::JointKind::ball;
   out.range_of_motion_rad = seen.range_rad;
   out.method = "articulated";
-  out.words = describe_motion(seen, hinge, common_sd_m);
+  out.description = describe_motion(seen, hinge, common_sd_m);
   // The chain may see the joint from its other side.
-  const bool turned = w.tree.holder[at(layout_joint)] != named.parent;
+  const bool reversed = w.tree.holder[at(layout_joint)] != named.parent;
   Vector3d above = w.fit.chain.joint.col(j), below = Vector3d::Zero();
   Matrix3d above_C = w.fit.joint_covariance(j, true), below_C = w.fit.joint_covariance(j, false);
   Vector3d above_axis = seen.axis_in_parent, below_axis = seen.axis_in_child;
-  if (turned) {
+  if (reversed) {
     std::swap(above, below);
     std::swap(above_C, below_C);
     std::swap(above_axis, below_axis);
@@ -187,9 +187,9 @@ double common_variance(const Work& w, int j) {
 void widen_hinge(const Work& w, data::Skeleton& skeleton, int j) {
   const int layout_joint = w.tree.joint_order[at(j)];
   const data::SkeletonJoint& joint = skeleton.joints[at(layout_joint)];
-  const bool turned = w.tree.holder[at(layout_joint)] != joint.parent_segment;
+  const bool reversed = w.tree.holder[at(layout_joint)] != joint.parent_segment;
   articulated::widen_along_axis(w.pass.sampled, w.fit.chain.layout.parent[at(j)],
-                                turned ? joint.axis_in_child : joint.axis_in_parent, layout_joint,
+                                reversed ? joint.axis_in_child : joint.axis_in_parent, layout_joint,
                                 w.fit.chain.scale(), skeleton);
 }
 
@@ -203,16 +203,16 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
     const auto k = static_cast<std::size_t>(f);
     const std::size_t to = skeleton.index(f, layout_joint);
     CentreState state = w.pass.state[at(j)][k];
-    Vector3d centre = w.pass.points[at(j)][k].place;
+    Vector3d centre = w.pass.points[at(j)][k].position;
     const bool alone = state == CentreState::determined;
     Matrix3d C = state == CentreState::undetermined
                      ? Matrix3d::Zero()
                      : articulated::load_symmetric(w.pass.covariance[at(j)].data() + 6 * k);
-    if (!path.place.empty() && path.known(k)) {
+    if (!path.position.empty() && path.known(k)) {
       const Matrix3d own = path.covariance_at(k);
       if (alone || own.trace() < widest) {
         state = alone ? CentreState::determined : CentreState::bridged;
-        centre = path.place[k];
+        centre = path.position[k];
         C = own + (alone ? articulated::load_symmetric(w.pass.common[at(j)].data() + 6 * k)
                          : Matrix3d(shared * Matrix3d::Identity()));
       }
@@ -237,7 +237,7 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
     articulated::store_symmetric(skeleton.covariance.data() + 6 * to, C);
   }
   summary.common_sd_m = std::sqrt(3.0 * shared);
-  summary.white_jerk = path.place.empty() ? 0.0 : w.continuity.prior[at(j)].white_jerk;
+  summary.white_jerk = path.position.empty() ? 0.0 : w.continuity.prior[at(j)].white_jerk;
 }
 
 /// Along a hinge's axis its place is not known, nor is that part of a length from it.
@@ -286,7 +286,7 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
                       name(loose.marker), kMm * loose.rms_m, kMm * w.fit.noise_sd_m));
   }
   for (std::size_t j = 0; j < w.continuity.prior.size() && w.options.continuity; ++j)
-    if (w.continuity.path[j].place.empty())
+    if (w.continuity.path[j].position.empty())
       warnings.push_back(
           fmt::format("joint '{}': nothing was smoothed, for the determined frames do not follow "
                       "each other in time",

@@ -79,7 +79,7 @@ TEST(FitArticulated, StaysAtTheBoundForSolidSegments) {
   EXPECT_EQ(fit.joints[0].determined, static_cast<std::int64_t>(n));
   EXPECT_EQ(fit.joints[0].determined + fit.joints[0].ambiguous + fit.joints[0].undetermined, 200);
   EXPECT_GT(fit.joints[0].modes, fit.joints[0].ambiguous) << "an ambiguous frame shows two places or more";
-  EXPECT_THAT(fit.skeleton.joints[0].words, HasSubstr("deg of motion: centre known to"));
+  EXPECT_THAT(fit.skeleton.joints[0].description, HasSubstr("deg of motion: centre known to"));
   EXPECT_GT(fit.skeleton.joints[0].range_of_motion_rad, 2.5);
 }
 
@@ -101,7 +101,8 @@ TEST(FitArticulated, LinesNeedTwoMarkersOfOneSegment) {
 }
 
 TEST(FitArticulated, ContinuityAnswersEveryFrame) {
-  const Limb limb = make_limb({.frames = 400, .stagger_m = 0.02, .missing = 0.4, .turn_hz = 0.5, .seed = 3});
+  const Limb limb =
+      make_limb({.frames = 400, .stagger_m = 0.02, .missing = 0.4, .rotation_hz = 0.5, .seed = 3});
   auto options = alone(SegmentKind::solid);
   const auto single = fit_articulated(limb.markers, limb.layout, options).value();
   options.continuity = true;
@@ -132,7 +133,8 @@ TEST(FitArticulated, FramesThatDoNotFollowEachOtherAreNotSmoothed) {
 }
 
 TEST(FitArticulated, SameBitsForAnyNumberOfThreads) {
-  const Limb limb = make_limb({.frames = 1100, .stagger_m = 0.02, .missing = 0.3, .turn_hz = 0.5, .seed = 5});
+  const Limb limb =
+      make_limb({.frames = 1100, .stagger_m = 0.02, .missing = 0.3, .rotation_hz = 0.5, .seed = 5});
   auto options = alone(SegmentKind::solid);
   options.continuity = true;
   options.max_fit_frames = 50;
@@ -153,12 +155,12 @@ TEST(FitArticulated, ChainsInAnyOrderGiveTheSameJoints) {
   // The second joint first, and named from the hand inwards.
   std::swap(limb.layout.joints[0], limb.layout.joints[1]);
   std::swap(limb.layout.joints[0].parent, limb.layout.joints[0].child);
-  const auto turned = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid, 3)).value();
+  const auto reversed = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid, 3)).value();
   for (std::int64_t f = 0; f < 120; ++f)
     for (int j = 0; j < 2; ++j)
-      EXPECT_LT((straight.skeleton.centre(f, j) - turned.skeleton.centre(f, 1 - j)).norm(), 2e-4) << f;
-  EXPECT_EQ(turned.skeleton.joints[0].name, "j1");
-  EXPECT_EQ(turned.skeleton.joints[0].parent_segment, 2);
+      EXPECT_LT((straight.skeleton.centre(f, j) - reversed.skeleton.centre(f, 1 - j)).norm(), 2e-4) << f;
+  EXPECT_EQ(reversed.skeleton.joints[0].name, "j1");
+  EXPECT_EQ(reversed.skeleton.joints[0].parent_segment, 2);
 }
 
 TEST(FitArticulated, AHingeIsKnownButForItsPlaceAlongTheAxis) {
@@ -166,14 +168,14 @@ TEST(FitArticulated, AHingeIsKnownButForItsPlaceAlongTheAxis) {
                                .markers_per_segment = 4,
                                .stagger_m = 0.03,
                                .noise_sd_m = 0.0005,
-                               .turn_hz = 0.5,
-                               .turn_rad = 0.5,
+                               .rotation_hz = 0.5,
+                               .rotation_rad = 0.5,
                                .one_axis = true,
                                .seed = 7});
   const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid)).value();
   const data::SkeletonJoint& joint = fit.skeleton.joints[0];
   EXPECT_EQ(joint.kind, data::JointKind::hinge);
-  EXPECT_THAT(joint.words, HasSubstr("position along it not"));
+  EXPECT_THAT(joint.description, HasSubstr("position along it not"));
   EXPECT_NEAR(joint.axis_in_parent.norm(), 1.0, 1e-9);
   EXPECT_LT(joint.axis_sd_rad, 0.02);
   EXPECT_NEAR(joint.range_of_motion_rad, 1.0, 0.1);
@@ -235,7 +237,7 @@ TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   EXPECT_GT(joint.axis_sd_rad, 0.0);
   EXPECT_GT(joint.axis_in_parent.dot(joint.covariance_in_parent * joint.axis_in_parent), 0.03 * 0.03);
   EXPECT_GT(fit.skeleton.centre_covariance(100, 0).trace(), 0.03 * 0.03);
-  EXPECT_THAT(joint.words, HasSubstr("position along it not"));
+  EXPECT_THAT(joint.description, HasSubstr("position along it not"));
 }
 
 TEST(FitArticulated, AMarkerWithoutAPlaceIsLeftOutByName) {
@@ -262,15 +264,15 @@ TEST(FitArticulated, AJointThatNeverMovesSaysSo) {
   const Limb limb = make_limb({.frames = 200,
                                .markers_per_segment = 4,
                                .stagger_m = 0.03,
-                               .turn_hz = 0.5,
-                               .turn_rad = 0.001,
+                               .rotation_hz = 0.5,
+                               .rotation_rad = 0.001,
                                .seed = 8});
   const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid));
   if (!fit) {
     EXPECT_THAT(fit.error().message, HasSubstr("mo"));
     return;
   }
-  EXPECT_THAT(fit->skeleton.joints[0].words, HasSubstr("neither axis nor centre known"));
+  EXPECT_THAT(fit->skeleton.joints[0].description, HasSubstr("neither axis nor centre known"));
   for (std::int64_t f = 0; f < 200; ++f) {
     if (fit->skeleton.state[fit->skeleton.index(f, 0)] == CentreState::undetermined) continue;
     EXPECT_LT(error_of(limb, fit->skeleton, f, 0).squaredNorm(),
@@ -280,7 +282,7 @@ TEST(FitArticulated, AJointThatNeverMovesSaysSo) {
 
 TEST(FitArticulated, FindsAMarkerThatSlipped) {
   Limb limb =
-      make_limb({.frames = 240, .markers_per_segment = 5, .stagger_m = 0.03, .turn_hz = 0.5, .seed = 9});
+      make_limb({.frames = 240, .markers_per_segment = 5, .stagger_m = 0.03, .rotation_hz = 0.5, .seed = 9});
   for (std::int64_t f = 120; f < 240; ++f) {
     // Along the bone: 10 mm towards the next marker of the same segment.
     const Eigen::Vector3d way = (limb.markers.x(f, 3) - limb.markers.x(f, 2)).normalized();
@@ -294,7 +296,7 @@ TEST(FitArticulated, FindsAMarkerThatSlipped) {
 
 TEST(FitArticulated, FindsExchangedNames) {
   Limb limb =
-      make_limb({.frames = 160, .markers_per_segment = 4, .stagger_m = 0.03, .turn_hz = 0.5, .seed = 10});
+      make_limb({.frames = 160, .markers_per_segment = 4, .stagger_m = 0.03, .rotation_hz = 0.5, .seed = 10});
   for (std::int64_t f = 120; f < 126; ++f) {
     const Eigen::Vector3d a = limb.markers.x(f, 1), b = limb.markers.x(f, 6);
     limb.markers.x(f, 1) = b;

@@ -146,7 +146,7 @@ class Limb {
     return points;
   }
 
-  [[nodiscard]] Vector3d place(std::int64_t frame, int point) const {
+  [[nodiscard]] Vector3d position(std::int64_t frame, int point) const {
     const double* x =
         point >= 0 ? truth_.x_in_world.data() + 3 * markers_.index(frame, point)
                    : truth_.centre_in_world.data() +
@@ -156,7 +156,7 @@ class Limb {
   }
 
   [[nodiscard]] Vector3d from_origin(std::int64_t frame, int segment, int point) const {
-    return place(frame, point) - place(frame, -1 - tree_.origin[at(segment)]);
+    return position(frame, point) - position(frame, -1 - tree_.origin[at(segment)]);
   }
 
   void rotate(MatrixXd& A, int segment, const Matrix3d& R, const Vector3d& arm) const {
@@ -220,11 +220,11 @@ Result<CentreBound> calc_centre_bound(const data::Trajectories& markers, const d
   std::vector<FrameBound> frames(static_cast<std::size_t>(markers.frames()));
   std::vector<Matrix3d> R(layout.segments.size());
   MatrixXd information = MatrixXd::Zero(limb.geometry_parameters(), limb.geometry_parameters()), A, B;
-  const auto turn_axes = [&](std::int64_t f) {
+  const auto rotate_axes = [&](std::int64_t f) {
     for (int s = 0; s < S; ++s) R[at(s)] = limb.axes(f, s);
   };
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
-    turn_axes(f);
+    rotate_axes(f);
     MatrixXd H = MatrixXd::Zero(limb.frame_unknowns(), limb.frame_unknowns()),
              G = MatrixXd::Zero(limb.frame_unknowns(), limb.geometry_parameters());
     for (int s = 0; s < S; ++s) {
@@ -260,7 +260,7 @@ Result<CentreBound> calc_centre_bound(const data::Trajectories& markers, const d
   bound.determined.assign(n, 0);
   const double noise2 = noise_sd_m * noise_sd_m;
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
-    turn_axes(f);
+    rotate_axes(f);
     const FrameBound& frame = frames[static_cast<std::size_t>(f)];
     for (int j = 0; j < J; ++j) {
       limb.jacobian(f, -1, -1, j, R, A, B);
@@ -274,7 +274,7 @@ Result<CentreBound> calc_centre_bound(const data::Trajectories& markers, const d
     }
   }
   // A length is the difference of two joints of one segment; turning that segment does not change it.
-  turn_axes(0);
+  rotate_axes(0);
   MatrixXd A2, B2;
   for (const auto& [a, b] : articulated::joint_pairs(layout)) {
     const double* x = truth.centre_in_world.data();

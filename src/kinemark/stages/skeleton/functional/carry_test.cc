@@ -12,12 +12,12 @@
 namespace kinemark::skeleton {
 namespace {
 
-using testing::Turns;
+using testing::Rotations;
 
 testing::ChainSetup trial(std::uint64_t seed, double noise_sd_m) {
   return {.per_segment = 5,
           .stagger_m = 0.04,
-          .turns = Turns::cone,
+          .rotations = Rotations::cone,
           .range_rad = 1.2,
           .noise_sd_m = noise_sd_m,
           .seed = seed};

@@ -75,7 +75,7 @@ struct Seen {
 };
 
 /// Sum of squares of the distances' errors; normal matrix and right-hand side as well.
-double linearise(const std::vector<Seen>& seen, const Eigen::Vector3d& at, Eigen::Matrix3d& normal,
+double linearize(const std::vector<Seen>& seen, const Eigen::Vector3d& at, Eigen::Matrix3d& normal,
                  Eigen::Vector3d& right) {
   normal.setZero();
   right.setZero();
@@ -99,12 +99,12 @@ Eigen::Matrix3d regress(const std::vector<Seen>& seen, Eigen::Vector3d& at) {
   at /= static_cast<double>(seen.size());
   Eigen::Matrix3d normal, next_normal;
   Eigen::Vector3d right, next_right;
-  double cost = linearise(seen, at, normal, right), damping = 1e-3;
+  double cost = linearize(seen, at, normal, right), damping = 1e-3;
   for (int i = 0; i < kRegressionSteps && damping < 1e12; ++i) {
     Eigen::Matrix3d damped = normal;
     damped.diagonal() += damping * (normal.diagonal().array() + 1e-9).matrix();
     const Eigen::Vector3d step = damped.ldlt().solve(right), next = at + step;
-    const double now = linearise(seen, next, next_normal, next_right);
+    const double now = linearize(seen, next, next_normal, next_right);
     if (!(now <= cost)) {
       damping *= 4.0;
       continue;

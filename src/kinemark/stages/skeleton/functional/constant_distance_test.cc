@@ -64,7 +64,7 @@ TEST(ConstantDistance, NeedsTwoMarkersOnOneSegmentAndOneOnTheOther) {
   EXPECT_EQ(f->state[50], data::CentreState::undetermined);
   EXPECT_EQ(f->state[51], data::CentreState::undetermined);
   EXPECT_TRUE(f->centre_in_world[51].array().isNaN().all());
-  EXPECT_EQ(f->state[52], data::CentreState::ambiguous) << "three distances always have a mirror twin";
+  EXPECT_EQ(f->state[52], data::CentreState::ambiguous) << "three distances always have a mirror image";
   EXPECT_TRUE(f->centre_in_world[52].allFinite() && f->covariance[52].allFinite());
   EXPECT_NE(f->state[53], data::CentreState::undetermined);
 }

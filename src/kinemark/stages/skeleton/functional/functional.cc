@@ -8,8 +8,8 @@
 
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/stages/skeleton/functional/description.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
-#include "kinemark/stages/skeleton/functional/words.h"
 
 namespace kinemark::skeleton {
 namespace {
@@ -88,7 +88,7 @@ std::string find_joint(const Samples& samples, const internal::JointTask& task,
     carry_into_segments(*fit, task, carried);
     internal::describe(carried, task.motion, out);
     if (!carried.in_parent && !carried.in_child)
-      out.words =
+      out.description =
           fmt::format("distances of the markers from the joint keep to {:.1f} mm", 1e3 * fit->distance_sd_m);
     internal::place_joint(*fit, j, skeleton);
     placed = true;
@@ -164,7 +164,7 @@ Result<data::Skeleton> find_joints(const data::Trajectories& trajectories, const
     out.covariance_in_parent.setConstant(kNaN);
     out.covariance_in_child.setConstant(kNaN);
     out.range_of_motion_rad = kNaN;
-    out.words = "nothing can be known";
+    out.description = "nothing can be known";
     skeleton.joints.push_back(std::move(out));
   }
   skeleton.allocate_centres();

@@ -16,7 +16,7 @@ namespace {
 
 using testing::centre_error;
 using testing::make_chain;
-using testing::Turns;
+using testing::Rotations;
 
 constexpr FunctionalMethod kAll[] = {FunctionalMethod::score,    FunctionalMethod::sara,
                                      FunctionalMethod::gamage,   FunctionalMethod::gamage_plain,
@@ -53,7 +53,7 @@ TEST(Functional, EveryMethodPlacesTheJointsOfAChain) {
 }
 
 TEST(Functional, SidesAgreeOnExactData) {
-  const auto chain = make_chain({.per_segment = 4, .turns = Turns::cone});
+  const auto chain = make_chain({.per_segment = 4, .rotations = Rotations::cone});
   for (const auto method : {FunctionalMethod::score, FunctionalMethod::gamage})
     for (const auto sides : {Sides::both, Sides::parent, Sides::child}) {
       const auto skeleton = find_joints(chain.markers, chain.layout, {.method = method, .sides = sides});
@@ -65,16 +65,19 @@ TEST(Functional, SidesAgreeOnExactData) {
 }
 
 TEST(Functional, TheDataChooseTheHinge) {
-  const auto chain = make_chain(
-      {.per_segment = 4, .stagger_m = 0.03, .turns = Turns::hinge, .range_rad = 1.0, .noise_sd_m = 0.0005});
+  const auto chain = make_chain({.per_segment = 4,
+                                 .stagger_m = 0.03,
+                                 .rotations = Rotations::hinge,
+                                 .range_rad = 1.0,
+                                 .noise_sd_m = 0.0005});
   for (const auto method : {FunctionalMethod::score, FunctionalMethod::sara, FunctionalMethod::cylinder}) {
     const auto skeleton = find_joints(chain.markers, chain.layout, {.method = method});
     ASSERT_TRUE(skeleton);
     const auto& joint = skeleton->joints[0];
     EXPECT_EQ(joint.kind, data::JointKind::hinge);
     EXPECT_NEAR(joint.axis_in_parent.norm(), 1.0, 1e-9);
-    EXPECT_NE(joint.words.find("axis direction known"), std::string::npos) << joint.words;
-    EXPECT_NE(joint.words.find("position along it not"), std::string::npos) << joint.words;
+    EXPECT_NE(joint.description.find("axis direction known"), std::string::npos) << joint.description;
+    EXPECT_NE(joint.description.find("position along it not"), std::string::npos) << joint.description;
     EXPECT_NEAR(joint.range_of_motion_rad, 1.0, 0.05);
   }
   const auto forced = find_joints(chain.markers, chain.layout, {.kind = data::JointChoice::ball});
@@ -150,12 +153,16 @@ TEST(Functional, OneSentenceForWhatCannotBe) {
 }
 
 TEST(Functional, AJointThatNeverMovesIsReturnedWide) {
-  const auto chain = make_chain(
-      {.per_segment = 4, .stagger_m = 0.03, .turns = Turns::cone, .range_rad = 0.0, .noise_sd_m = 0.001});
+  const auto chain = make_chain({.per_segment = 4,
+                                 .stagger_m = 0.03,
+                                 .rotations = Rotations::cone,
+                                 .range_rad = 0.0,
+                                 .noise_sd_m = 0.001});
   const auto skeleton = find_joints(chain.markers, chain.layout);
   ASSERT_TRUE(skeleton);
   EXPECT_GT(skeleton->joints[0].covariance_in_parent.trace(), 0.05 * 0.05);
-  EXPECT_EQ(skeleton->joints[0].words.find("centre known"), std::string::npos) << skeleton->joints[0].words;
+  EXPECT_EQ(skeleton->joints[0].description.find("centre known"), std::string::npos)
+      << skeleton->joints[0].description;
 }
 
 TEST(Functional, SwappedLabelsAreToldAndLeftOut) {
@@ -186,8 +193,11 @@ data::Trajectories moved(const data::Trajectories& from, const Eigen::Matrix3d& 
 // Where the room's axes point, where its origin is and in what unit it is measured changes no method's
 // answer.
 TEST(Functional, CentresTurnShiftAndScaleWithTheRoom) {
-  const auto chain = make_chain(
-      {.frames = 200, .per_segment = 4, .stagger_m = 0.03, .turns = Turns::cone, .noise_sd_m = 0.0005});
+  const auto chain = make_chain({.frames = 200,
+                                 .per_segment = 4,
+                                 .stagger_m = 0.03,
+                                 .rotations = Rotations::cone,
+                                 .noise_sd_m = 0.0005});
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
   const Eigen::Vector3d t(3.0, -1.0, 2.0);
@@ -210,11 +220,11 @@ TEST(Functional, CentresTurnShiftAndScaleWithTheRoom) {
 
 TEST(Functional, NamesAndOrderOfMarkersDoNotMatter) {
   const auto chain = make_chain({.frames = 150, .per_segment = 5, .noise_sd_m = 0.0005, .missing = 0.1});
-  auto turned = chain;
-  for (auto& segment : turned.layout.segments) std::reverse(segment.markers.begin(), segment.markers.end());
-  for (auto& name : turned.markers.names) name = "any " + name;
+  auto permuted = chain;
+  for (auto& segment : permuted.layout.segments) std::reverse(segment.markers.begin(), segment.markers.end());
+  for (auto& name : permuted.markers.names) name = "any " + name;
   const auto a = find_joints(chain.markers, chain.layout).value();
-  const auto b = find_joints(turned.markers, turned.layout).value();
+  const auto b = find_joints(permuted.markers, permuted.layout).value();
   for (std::int64_t f = 0; f < 150; ++f) {
     ASSERT_EQ(a.state[a.index(f, 0)], b.state[b.index(f, 0)]) << f;
     if (a.state[a.index(f, 0)] == data::CentreState::undetermined) continue;

@@ -28,7 +28,4 @@ struct RelativeMotion {
 /// Over the frames in which both poses are known. O(F).
 [[nodiscard]] RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& child);
 
-/// Rotation vector of a rotation, length 0 to pi.
-[[nodiscard]] Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation);
-
 }  // namespace kinemark::skeleton

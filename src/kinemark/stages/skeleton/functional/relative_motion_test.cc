@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
 #include "kinemark/stages/skeleton/functional/testing/random_chain.h"
 
 namespace kinemark::skeleton {
@@ -18,31 +16,26 @@ RelativeMotion motion_of(const testing::ChainSetup& setup) {
                         find_segment_poses(samples, "b", chain.layout.segments[1].markers));
 }
 
-TEST(RelativeMotion, RotationVectorsTurnAsFarAsTheyAreLong) {
-  const Eigen::Vector3d v(0.3, -1.1, 0.4);
-  EXPECT_LT((rotation_vector(Eigen::AngleAxisd(v.norm(), v.normalized()).toRotationMatrix()) - v).norm(),
-            1e-12);
-  EXPECT_EQ(rotation_vector(Eigen::Matrix3d::Identity()).norm(), 0.0);
-}
-
 TEST(RelativeMotion, AHingeIsAHingeAndABallABall) {
-  using testing::Turns;
-  const auto hinge = motion_of({.turns = Turns::hinge, .range_rad = 1.0});
+  using testing::Rotations;
+  const auto hinge = motion_of({.rotations = Rotations::hinge, .range_rad = 1.0});
   EXPECT_EQ(hinge.kind(0.0), data::JointKind::hinge);
   EXPECT_NEAR(hinge.range_rad, 1.0, 0.02);
   EXPECT_NEAR(hinge.sd_rad(0), 1.0 / std::sqrt(12.0), 0.02);
   EXPECT_LT(hinge.sd_rad(1), 1e-6);
-  const auto cone = motion_of({.turns = Turns::cone, .range_rad = 1.0});
+  const auto cone = motion_of({.rotations = Rotations::cone, .range_rad = 1.0});
   EXPECT_EQ(cone.kind(0.0), data::JointKind::ball);
   EXPECT_GT(cone.range_rad, 0.9);
-  EXPECT_EQ(motion_of({.turns = Turns::anywhere}).kind(0.0), data::JointKind::ball);
+  EXPECT_EQ(motion_of({.rotations = Rotations::anywhere}).kind(0.0), data::JointKind::ball);
 }
 
 TEST(RelativeMotion, NoiseAcrossAHingeDoesNotMakeABallOfIt) {
-  const auto motion = motion_of({.turns = testing::Turns::hinge, .range_rad = 0.5, .noise_sd_m = 0.001});
+  const auto motion =
+      motion_of({.rotations = testing::Rotations::hinge, .range_rad = 0.5, .noise_sd_m = 0.001});
   EXPECT_EQ(motion.kind(0.03), data::JointKind::hinge);
-  EXPECT_EQ(motion_of({.turns = testing::Turns::hinge, .range_rad = 0.0, .noise_sd_m = 0.001}).kind(0.05),
-            data::JointKind::ball)
+  EXPECT_EQ(
+      motion_of({.rotations = testing::Rotations::hinge, .range_rad = 0.0, .noise_sd_m = 0.001}).kind(0.05),
+      data::JointKind::ball)
       << "what does not move is no hinge";
 }
 

@@ -61,7 +61,8 @@ Matrix6 noise_of_poses(const Samples& samples, const SegmentPoses& a, const Segm
   const std::int64_t looked = std::min(n, kNoiseFrames);
   for (std::int64_t i = 0; i < looked; ++i) {
     const std::int64_t f = motion.frames[static_cast<std::size_t>(i * n / looked)];
-    const Eigen::Matrix3d ta = pose_noise(samples, a, f).turn, tb = pose_noise(samples, b, f).turn;
+    const Eigen::Matrix3d ta = pose_noise(samples, a, f).rotation_covariance,
+                          tb = pose_noise(samples, b, f).rotation_covariance;
     noise.topLeftCorner<3, 3>() += ta.trace() * Eigen::Matrix3d::Identity() - ta;
     noise.bottomRightCorner<3, 3>() += tb.trace() * Eigen::Matrix3d::Identity() - tb;
   }

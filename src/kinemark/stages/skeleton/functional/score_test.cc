@@ -13,7 +13,7 @@
 namespace kinemark::skeleton {
 namespace {
 
-using testing::Turns;
+using testing::Rotations;
 
 struct Both {
   testing::TestChain chain;
@@ -36,8 +36,8 @@ struct Both {
 };
 
 TEST(Score, ExactDataGiveTheExactCentre) {
-  for (const auto turns : {Turns::anywhere, Turns::cone}) {
-    const Both both({.turns = turns, .missing = 0.1});
+  for (const auto rotations : {Rotations::anywhere, Rotations::cone}) {
+    const Both both({.rotations = rotations, .missing = 0.1});
     const auto fit = both.fit(data::JointKind::ball);
     ASSERT_TRUE(fit.in_parent && fit.in_child);
     EXPECT_LT(fit.residual_rms_m, 1e-7);
@@ -49,7 +49,7 @@ TEST(Score, ExactDataGiveTheExactCentre) {
 }
 
 TEST(Score, AHingeHasItsAxisAndAPointOnIt) {
-  const Both both({.turns = Turns::hinge, .range_rad = 1.2});
+  const Both both({.rotations = Rotations::hinge, .range_rad = 1.2});
   const auto fit = both.fit(data::JointKind::hinge);
   EXPECT_EQ(fit.method, "SARA");
   for (const auto f : both.motion.frames) {
@@ -69,7 +69,7 @@ TEST(Score, CovarianceCoversTheTruth) {
     const Both both({.frames = 200,
                      .per_segment = 4,
                      .stagger_m = 0.03,
-                     .turns = Turns::cone,
+                     .rotations = Rotations::cone,
                      .range_rad = 1.2,
                      .noise_sd_m = 0.001,
                      .seed = static_cast<std::uint64_t>(seed)});
@@ -82,15 +82,21 @@ TEST(Score, CovarianceCoversTheTruth) {
 
 TEST(Score, WhatTheMotionLeavesOpenIsWide) {
   // A hinge fitted as a ball: the position is not determined along the axis, but across it.
-  const Both both(
-      {.per_segment = 5, .stagger_m = 0.04, .turns = Turns::hinge, .range_rad = 1.0, .noise_sd_m = 0.0005});
+  const Both both({.per_segment = 5,
+                   .stagger_m = 0.04,
+                   .rotations = Rotations::hinge,
+                   .range_rad = 1.0,
+                   .noise_sd_m = 0.0005});
   const auto fit = both.fit(data::JointKind::ball);
   const auto hinge = both.fit(data::JointKind::hinge);
   const Eigen::Matrix3d c = fit.covariance.topLeftCorner<3, 3>();
   EXPECT_GT(std::sqrt(hinge.axis_in_parent.dot(c * hinge.axis_in_parent)), 0.05);
   EXPECT_LT(hinge.axis_sd_rad, 0.02);
-  const Both still(
-      {.per_segment = 5, .stagger_m = 0.04, .turns = Turns::cone, .range_rad = 0.0, .noise_sd_m = 0.0005});
+  const Both still({.per_segment = 5,
+                    .stagger_m = 0.04,
+                    .rotations = Rotations::cone,
+                    .range_rad = 0.0,
+                    .noise_sd_m = 0.0005});
   const Eigen::Matrix3d open = still.fit(data::JointKind::ball).covariance.topLeftCorner<3, 3>();
   EXPECT_GT(open.trace(), 0.05 * 0.05);
 }

@@ -102,7 +102,7 @@ void pose_all_frames(const internal::RigidShape& shape, const SegmentPoseOptions
   const double sd = out.noise_sd_m;
   for (std::size_t i = 0; i < out.known.size(); ++i) {
     if (!out.known[i]) continue;
-    if (!std::isnan(sd) && sd > options.max_turn_sd_rad * std::sqrt(least[i])) out.known[i] = 0;
+    if (!std::isnan(sd) && sd > options.max_rotation_sd_rad * std::sqrt(least[i])) out.known[i] = 0;
     out.known_frames += out.known[i];
   }
 }
@@ -111,7 +111,7 @@ void pose_all_frames(const internal::RigidShape& shape, const SegmentPoseOptions
 
 Eigen::Matrix3d PoseNoise::at(const Eigen::Matrix3d& world_from_segment, const Eigen::Vector3d& x) const {
   const Eigen::Matrix3d arm = world_from_segment * math::skew(x - visible_mean);
-  return mean_variance * Eigen::Matrix3d::Identity() + arm * turn * arm.transpose();
+  return mean_variance * Eigen::Matrix3d::Identity() + arm * rotation_covariance * arm.transpose();
 }
 
 PoseNoise pose_noise(const Samples& samples, const SegmentPoses& poses, std::int64_t frame) {
@@ -136,7 +136,7 @@ PoseNoise pose_noise(const Samples& samples, const SegmentPoses& poses, std::int
   }
   const double variance = std::isnan(poses.noise_sd_m) ? 0.0 : poses.noise_sd_m * poses.noise_sd_m;
   noise.mean_variance = variance / n;
-  noise.turn = variance * internal::inertia(squares).inverse();
+  noise.rotation_covariance = variance * internal::inertia(squares).inverse();
   return noise;
 }
 
@@ -148,7 +148,7 @@ SegmentPoses find_segment_poses(const Samples& samples, const std::string& name,
     lay_on_line(samples, out);
     return out;
   }
-  out.x_in_segment = shape.places();
+  out.x_in_segment = shape.positions();
   out.kind = data::SegmentKind::solid;
   pose_all_frames(shape, options, out);
   if (out.known_frames == 0) lay_on_line(samples, out);
@@ -161,7 +161,7 @@ SegmentPoses pose_known_shape(const Samples& samples, const std::string& name,
   check(x_in_segment.cols() == static_cast<Eigen::Index>(markers.size()), "one place a marker");
   SegmentPoses out = without_poses(samples, name, markers);
   internal::RigidShape shape(samples, markers);
-  shape.set_places(x_in_segment);
+  shape.set_positions(x_in_segment);
   out.x_in_segment = x_in_segment;
   out.kind = data::SegmentKind::solid;
   pose_all_frames(shape, options, out);

@@ -64,9 +64,9 @@ struct SegmentPoses {
 
 /// Options of find_segment_poses() and pose_known_shape().
 struct SegmentPoseOptions {
-  double noise_sd_m = 0.0;        ///< per axis; 0: found from the shape's residuals
-  double max_turn_sd_rad = 0.35;  ///< a frame whose rotation is less certain has no pose
-  double odd_factor = 8.0;        ///< a frame this many times worse than the median is odd
+  double noise_sd_m = 0.0;            ///< per axis; 0: found from the shape's residuals
+  double max_rotation_sd_rad = 0.35;  ///< a frame whose rotation is less certain has no pose
+  double odd_factor = 8.0;            ///< a frame this many times worse than the median is odd
 };
 
 /// Generalised Procrustes analysis on whatever is visible: a frame that shows many markers starts the shape,
@@ -85,7 +85,7 @@ struct SegmentPoseOptions {
 /// Uncertainty of a segment's pose in a frame, from the noise of the markers (none where that is unknown).
 struct PoseNoise {
   Eigen::Vector3d visible_mean = Eigen::Vector3d::Zero();  ///< of the visible markers, in the segment, m
-  Eigen::Matrix3d turn =
+  Eigen::Matrix3d rotation_covariance =
       Eigen::Matrix3d::Zero();  ///< covariance of the rotation error, in the segment, rad^2
   double mean_variance = 0.0;   ///< of the visible markers' mean, per axis, m^2
 

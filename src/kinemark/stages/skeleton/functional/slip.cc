@@ -79,46 +79,40 @@ Part summarise(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
   return part;
 }
 
-std::optional<Slip> compare_marker(const Path& path, const SlipOptions& options) {
+std::optional<data::Finding> compare_marker(const Path& path, const SlipOptions& options) {
   if (path.x.cols() < kLeastSlipFrames) return std::nullopt;
   const Eigen::Index at = change_point(path);
   const Part before = summarise(path.x.leftCols(at)), after = summarise(path.x.rightCols(path.x.cols() - at));
-  Slip slip;
-  slip.shift_m = (after.mean - before.mean).norm();
-  slip.sd_m = std::sqrt(before.variance + after.variance);
-  slip.frame = path.frames[static_cast<std::size_t>(at)];
+  data::Finding slip{.kind = data::FindingKind::marker_slip,
+                     .first_frame = path.frames[static_cast<std::size_t>(at)],
+                     .size = (after.mean - before.mean).norm(),
+                     .size_sd = std::sqrt(before.variance + after.variance)};
   // NaN is not reported as a slip.
-  if (!(slip.shift_m >= options.least_m) || !(slip.shift_m >= options.sure_sd * slip.sd_m))
-    return std::nullopt;
+  if (!(slip.size >= options.least_m) || !(slip.size >= options.sure_sd * slip.size_sd)) return std::nullopt;
   return slip;
 }
 
-void find_marker_slips(const Samples& samples, const SegmentPoses& poses, int segment,
-                       const SlipOptions& options, std::vector<Slip>& slips) {
-  std::vector<Slip> found;
+void find_marker_slips(const Samples& samples, const SegmentPoses& poses, const SlipOptions& options,
+                       std::vector<data::Finding>& slips) {
+  std::vector<data::Finding> found;
   double largest = 0.0;
   for (const int marker : poses.markers) {
     auto slip = compare_marker(path_in_segment(samples, poses, marker), options);
     if (!slip) continue;
-    slip->segment = segment;
-    slip->marker = marker;
-    largest = std::max(largest, slip->shift_m);
+    slip->subject = samples.trajectories.names[static_cast<std::size_t>(marker)];
+    slip->partner = poses.name;
+    slip->last_frame = samples.trajectories.frames() - 1;
+    largest = std::max(largest, slip->size);
     found.push_back(std::move(*slip));
   }
-  for (Slip& slip : found) {
-    if (slip.shift_m < kAlsoShare * largest) continue;
-    slip.sentence =
-        fmt::format("Marker '{}' moved {:.1f} mm (SD {:.1f}) on '{}' at about {:.2f} s",
-                    samples.trajectories.names[static_cast<std::size_t>(slip.marker)], 1e3 * slip.shift_m,
-                    1e3 * slip.sd_m, poses.name, samples.trajectories.time.time_s(slip.frame));
-    slips.push_back(std::move(slip));
-  }
+  for (data::Finding& slip : found)
+    if (slip.size >= kAlsoShare * largest) slips.push_back(std::move(slip));
 }
 
 /// The joint's position in each segment, first half against second.
 void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout, int joint,
                       const std::vector<SegmentPoses>& poses, const SlipOptions& options,
-                      std::vector<Slip>& slips) {
+                      std::vector<data::Finding>& slips) {
   const auto& j = layout.joints[static_cast<std::size_t>(joint)];
   const SegmentPoses& a = poses[static_cast<std::size_t>(j.parent)];
   const SegmentPoses& b = poses[static_cast<std::size_t>(j.child)];
@@ -141,14 +135,13 @@ void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout,
     if (!(shift.norm() >= options.least_m) || !(far >= options.sure_sd)) continue;
     const Eigen::Vector3d along = shift.normalized();
     const int segment = side == 0 ? j.parent : j.child;
-    Slip slip{.segment = segment, .joint = joint, .shift_m = shift.norm(), .frame = *middle};
-    slip.sd_m = std::sqrt(along.dot(covariance * along));
-    slip.sentence = fmt::format(
-        "Joint '{}' lies {:.1f} mm (SD {:.1f}) elsewhere in '{}' in the second half than in the first: did "
-        "its "
-        "markers slip together?",
-        j.name, 1e3 * slip.shift_m, 1e3 * slip.sd_m, layout.segments[static_cast<std::size_t>(segment)].name);
-    slips.push_back(std::move(slip));
+    slips.push_back({.kind = data::FindingKind::joint_slip,
+                     .subject = j.name,
+                     .partner = layout.segments[static_cast<std::size_t>(segment)].name,
+                     .first_frame = *middle,
+                     .last_frame = samples.trajectories.frames() - 1,
+                     .size = shift.norm(),
+                     .size_sd = std::sqrt(along.dot(covariance * along))});
   }
 }
 
@@ -161,16 +154,16 @@ Status SlipOptions::check() const {
   return {};
 }
 
-Result<std::vector<Slip>> find_slips(const data::Trajectories& trajectories,
-                                     const data::SegmentLayout& layout, const SlipOptions& options) {
+Result<std::vector<data::Finding>> find_slips(const data::Trajectories& trajectories,
+                                              const data::SegmentLayout& layout, const SlipOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = layout.validate(trajectories.markers()); !s) return std::unexpected(s.error());
   const Samples samples{trajectories, {}};
   std::vector<SegmentPoses> poses;
-  std::vector<Slip> slips;
+  std::vector<data::Finding> slips;
   for (const auto& segment : layout.segments) {
     poses.push_back(find_segment_poses(samples, segment.name, segment.markers));
-    find_marker_slips(samples, poses.back(), static_cast<int>(poses.size()) - 1, options, slips);
+    find_marker_slips(samples, poses.back(), options, slips);
   }
   for (int j = 0; j < static_cast<int>(layout.joints.size()); ++j)
     find_joint_slips(samples, layout, j, poses, options, slips);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/functional/slip.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,13 +12,13 @@
 namespace kinemark::skeleton {
 namespace {
 
-using testing::Turns;
+using testing::Rotations;
 
 testing::ChainSetup setup() {
   return {.frames = 600,
           .per_segment = 5,
           .stagger_m = 0.03,
-          .turns = Turns::cone,
+          .rotations = Rotations::cone,
           .range_rad = 1.2,
           .noise_sd_m = 0.001};
 }
@@ -37,7 +38,7 @@ TEST(Slip, NothingSlipsWhereNothingDoes) {
     const auto chain = testing::make_chain(s);
     const auto slips = find_slips(chain.markers, chain.layout);
     ASSERT_TRUE(slips);
-    EXPECT_TRUE(slips->empty()) << slips->front().sentence;
+    EXPECT_TRUE(slips->empty()) << sentence_of(slips->front(), chain.markers.time);
   }
 }
 
@@ -47,12 +48,15 @@ TEST(Slip, OneMarkerIsFoundWithItsFrame) {
   const auto slips = find_slips(chain.markers, chain.layout);
   ASSERT_TRUE(slips);
   ASSERT_FALSE(slips->empty());
-  EXPECT_EQ(slips->front().marker, 6);
-  EXPECT_EQ(slips->front().segment, 1);
-  EXPECT_NEAR(static_cast<double>(slips->front().frame), 350.0, 5.0);
-  EXPECT_NEAR(slips->front().shift_m, 0.012, 0.006) << "the pose gives way to it by its share";
-  EXPECT_NE(slips->front().sentence.find("'s1m1'"), std::string::npos);
-  EXPECT_NE(slips->front().sentence.find("at about 5.8"), std::string::npos) << slips->front().sentence;
+  EXPECT_EQ(slips->front().kind, data::FindingKind::marker_slip);
+  EXPECT_EQ(slips->front().subject, "s1m1");
+  EXPECT_EQ(slips->front().partner, chain.layout.segments[1].name);
+  EXPECT_TRUE(slips->front().validate());
+  EXPECT_NEAR(static_cast<double>(slips->front().first_frame), 350.0, 5.0);
+  EXPECT_NEAR(slips->front().size, 0.012, 0.006) << "the pose gives way to it by its share";
+  EXPECT_NE(sentence_of(slips->front(), chain.markers.time).find("'s1m1'"), std::string::npos);
+  EXPECT_NE(sentence_of(slips->front(), chain.markers.time).find("at about 5.8"), std::string::npos)
+      << sentence_of(slips->front(), chain.markers.time);
 }
 
 // So short that the seven frames after the change are fewer than the blocks of longer recordings.
@@ -65,15 +69,15 @@ TEST(Slip, AFewFramesAtTheEndHaveAScatterOfTheirOwn) {
   const auto slips = find_slips(slipped.markers, slipped.layout);
   ASSERT_TRUE(slips);
   ASSERT_FALSE(slips->empty());
-  EXPECT_EQ(slips->front().marker, 6);
-  for (const Slip& slip : *slips) EXPECT_TRUE(std::isfinite(slip.sd_m)) << slip.sentence;
+  EXPECT_EQ(slips->front().subject, slipped.markers.names[6]);
+  for (const data::Finding& slip : *slips) EXPECT_TRUE(std::isfinite(slip.size_sd)) << slip.subject;
   // To and fro by 40 mm: a mean of 6 mm with an SD of 15.
   for (std::int64_t f = 63; f < 70; ++f) {
     slide(shaken, f, {6}, f == 63 ? 0.040 : f % 2 == 0 ? -0.080 : 0.080);
   }
   const auto none = find_slips(shaken.markers, shaken.layout);
   ASSERT_TRUE(none);
-  for (const Slip& slip : *none) EXPECT_LT(slip.marker, 0) << slip.sentence;
+  for (const data::Finding& slip : *none) EXPECT_EQ(slip.kind, data::FindingKind::joint_slip) << slip.subject;
 }
 
 TEST(Slip, AWholeSleeveIsSeenByItsJoint) {
@@ -82,10 +86,11 @@ TEST(Slip, AWholeSleeveIsSeenByItsJoint) {
   const auto slips = find_slips(chain.markers, chain.layout);
   ASSERT_TRUE(slips);
   ASSERT_EQ(slips->size(), 1U);
-  EXPECT_EQ(slips->front().marker, -1);
-  EXPECT_EQ(slips->front().joint, 0);
-  EXPECT_EQ(slips->front().segment, 1);
-  EXPECT_NEAR(slips->front().shift_m, 0.010, 0.003);
+  EXPECT_EQ(slips->front().kind, data::FindingKind::joint_slip);
+  EXPECT_EQ(slips->front().subject, chain.layout.joints[0].name);
+  EXPECT_EQ(slips->front().partner, chain.layout.segments[1].name);
+  EXPECT_THAT(sentence_of(slips->front(), chain.markers.time), ::testing::EndsWith("slip together?"));
+  EXPECT_NEAR(slips->front().size, 0.010, 0.003);
 }
 
 TEST(Slip, RefusesWhatDoesNotFit) {

@@ -55,7 +55,7 @@ struct Moments {
 };
 
 struct Centre {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
   Eigen::Vector3d open =
       Eigen::Vector3d::Zero();  ///< SD along each direction due to undetermined directions, m
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
@@ -95,8 +95,8 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
   means /= total;
   Eigen::Vector3d corrected = right;
   for (int i = 0; i < kCorrections; ++i) {
-    const Eigen::Vector3d before = c.place;
-    c.place.setZero();
+    const Eigen::Vector3d before = c.position;
+    c.position.setZero();
     // A distance's variance s^2 counts in these equations as 4 r^2 s^2; the prior is weighed against that.
     const double r2 = std::max(1e-12, (eigen.eigenvalues().sum() + (means - before).squaredNorm()));
     const double prior =
@@ -106,23 +106,23 @@ Centre solve(const std::vector<Moments>& points, const SphereOptions& options) {
       const Eigen::Vector3d e = c.directions.col(k);
       const double value = std::max(0.0, eigen.eigenvalues()(k));
       // The prior ties the centre to the points' mean.
-      c.place += e * ((e.dot(corrected) + prior * e.dot(means)) / (value + prior));
+      c.position += e * ((e.dot(corrected) + prior * e.dot(means)) / (value + prior));
       const double from_prior = prior / (value + prior);
       const double from_noise = std::min(1.0, 2.0 * c.noise_variance / (value + prior));
-      const double drawn = options.correct_bias ? 0.0 : from_noise * std::abs(e.dot(c.place - means));
+      const double drawn = options.correct_bias ? 0.0 : from_noise * std::abs(e.dot(c.position - means));
       c.open(k) = std::min(data::kJointPriorSd_m,
                            data::kJointPriorSd_m * (from_prior + from_noise * from_noise) + drawn);
     }
     if (options.about_axis) {
       c.open(0) = data::kJointPriorSd_m;
-      c.place += c.axis * c.axis.dot(means);
+      c.position += c.axis * c.axis.dot(means);
     }
     double variance = 0.0;
     for (const Moments& p : points)
-      if (p.n >= kLeastSamples) variance += p.n * distance_variance(p, c.place);
+      if (p.n >= kLeastSamples) variance += p.n * distance_variance(p, c.position);
     c.noise_variance = variance / total;
-    if (options.correct_bias) corrected = right - 2.0 * c.noise_variance * (means - c.place);
-    if ((c.place - before).norm() < kSettled_m) break;
+    if (options.correct_bias) corrected = right - 2.0 * c.noise_variance * (means - c.position);
+    if ((c.position - before).norm() < kSettled_m) break;
   }
   return c;
 }
@@ -165,13 +165,13 @@ SphereFit fit_spheres(const Samples& samples, const SegmentPoses& still, const s
 
   const Centre best = solve(all, options);
   fit.found = true;
-  fit.centre = origin + best.place;
+  fit.centre = origin + best.position;
   fit.axis = best.axis;
   fit.residual_rms_m = std::sqrt(best.noise_variance);
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].n < 1.0) continue;
     const double r2 =
-        (all[k].squares - 2.0 * best.place.dot(all[k].first)) / all[k].n + best.place.squaredNorm();
+        (all[k].squares - 2.0 * best.position.dot(all[k].first)) / all[k].n + best.position.squaredNorm();
     fit.radii_m(static_cast<Eigen::Index>(k)) = std::sqrt(std::max(0.0, r2));
   }
   const double scale = static_cast<double>(blocks - 1) / static_cast<double>(blocks);
@@ -180,7 +180,7 @@ SphereFit fit_spheres(const Samples& samples, const SegmentPoses& still, const s
     std::vector<Moments> rest(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) rest[k] = all[k].without(part[k]);
     const Centre without = solve(rest, options);
-    Eigen::Vector3d d = without.place - best.place;
+    Eigen::Vector3d d = without.position - best.position;
     if (options.about_axis) {
       const Eigen::Vector3d axis = without.axis.dot(best.axis) < 0.0 ? -without.axis : without.axis;
       tilts += scale * 0.5 * (axis - best.axis).squaredNorm();

@@ -12,7 +12,7 @@
 namespace kinemark::skeleton {
 namespace {
 
-using testing::Turns;
+using testing::Rotations;
 
 struct Still {
   testing::TestChain chain;
@@ -32,7 +32,7 @@ struct Still {
 };
 
 TEST(Sphere, ExactDataGiveCentreAndRadii) {
-  const Still still({.per_segment = 4, .turns = Turns::cone, .range_rad = 0.8, .missing = 0.1});
+  const Still still({.per_segment = 4, .rotations = Rotations::cone, .range_rad = 0.8, .missing = 0.1});
   const auto fit = still.fit();
   ASSERT_TRUE(fit.found);
   EXPECT_LT((fit.centre - still.truth()).norm(), 1e-6);
@@ -42,7 +42,7 @@ TEST(Sphere, ExactDataGiveCentreAndRadii) {
 }
 
 TEST(Sphere, OneMarkerSuffices) {
-  const Still still({.per_segment = 4, .turns = Turns::anywhere});
+  const Still still({.per_segment = 4, .rotations = Rotations::anywhere});
   const auto fit =
       fit_spheres({still.chain.markers, {}}, still.a, {still.chain.layout.segments[1].markers[2]});
   ASSERT_TRUE(fit.found);
@@ -57,7 +57,7 @@ TEST(Sphere, CorrectionTakesTheBiasAway) {
     testing::ChainSetup setup{.frames = 200,
                               .per_segment = 6,
                               .stagger_m = 0.05,
-                              .turns = Turns::cone,
+                              .rotations = Rotations::cone,
                               .range_rad = 0.5,
                               .seed = static_cast<std::uint64_t>(seed)};
     const Still exact(setup);
@@ -75,7 +75,7 @@ TEST(Sphere, CorrectionTakesTheBiasAway) {
 }
 
 TEST(Sphere, CirclesHaveAnAxis) {
-  const Still still({.per_segment = 4, .turns = Turns::hinge, .range_rad = 1.0});
+  const Still still({.per_segment = 4, .rotations = Rotations::hinge, .range_rad = 1.0});
   const auto fit = still.fit({.about_axis = true});
   for (std::int64_t f = 0; f < 20; ++f) {
     const Eigen::Vector3d axis = still.chain.world_from_segment[0][static_cast<std::size_t>(f)].col(0);
@@ -93,7 +93,7 @@ TEST(Sphere, CovarianceCoversTheTruth) {
     const Still still({.frames = 200,
                        .per_segment = 5,
                        .stagger_m = 0.04,
-                       .turns = Turns::cone,
+                       .rotations = Rotations::cone,
                        .range_rad = 1.2,
                        .noise_sd_m = 0.0005,
                        .seed = static_cast<std::uint64_t>(seed)});
@@ -105,7 +105,7 @@ TEST(Sphere, CovarianceCoversTheTruth) {
 }
 
 TEST(Sphere, PointsThatDoNotMoveTellNothing) {
-  const Still still({.per_segment = 4, .turns = Turns::cone, .range_rad = 0.0, .noise_sd_m = 0.001});
+  const Still still({.per_segment = 4, .rotations = Rotations::cone, .range_rad = 0.0, .noise_sd_m = 0.001});
   const auto fit = still.fit();
   EXPECT_GT(fit.covariance.trace(), 0.05 * 0.05);
   const Still few({.frames = 3});

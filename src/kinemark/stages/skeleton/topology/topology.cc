@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMostWork = 1e9;         ///< largest number of pair samples
 constexpr std::int64_t kFewFrames = 200;  ///< fewest frames, even if that limit is exceeded
-constexpr std::size_t kNamesTold = 8;
+constexpr std::size_t kNamesListed = 8;
 
 std::vector<std::int64_t> draw_frames(const data::Trajectories& t, const TopologyOptions& options) {
   const double pairs = std::max(1.0, static_cast<double>(t.markers()) * static_cast<double>(t.markers()));
@@ -83,7 +83,7 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
   }
   if (!doubtful.empty())
     out.warnings.push_back(fmt::format("Segment of {} of {} markers doubtful: {}.", doubtful.size(),
-                                       clusters.markers.size(), join_some(doubtful, kNamesTold)));
+                                       clusters.markers.size(), join_some(doubtful, kNamesListed)));
 }
 
 /// Tree edges as joints that lead away from the first segment of each tree.
@@ -115,11 +115,11 @@ void add_joints(const std::vector<internal::TreeEdge>& tree, const TopologyOptio
   }
   if (!doubtful.empty())
     out.warnings.push_back(fmt::format("Another joint would do nearly as well (times worse) in place of: {}.",
-                                       join_some(doubtful, kNamesTold)));
+                                       join_some(doubtful, kNamesListed)));
   if (roots.size() > 1)
     out.warnings.push_back(
         fmt::format("The segments make {} groups that were never seen together, beginning with: {}.",
-                    roots.size(), join_some(roots, kNamesTold)));
+                    roots.size(), join_some(roots, kNamesListed)));
 }
 
 void warn_of_unseen(const Clusters& clusters, const std::vector<std::string>& names, Topology& out) {
@@ -135,10 +135,10 @@ void warn_of_unseen(const Clusters& clusters, const std::vector<std::string>& na
   for (const int m : out.left_out) lost.push_back(names[static_cast<std::size_t>(m)]);
   if (!pairs.empty())
     out.warnings.push_back(fmt::format("{} pairs of markers were hardly ever seen together: {}.",
-                                       pairs.size(), join_some(pairs, kNamesTold)));
+                                       pairs.size(), join_some(pairs, kNamesListed)));
   if (!lost.empty())
     out.warnings.push_back(fmt::format("{} markers were hardly ever seen and are on no segment: {}.",
-                                       lost.size(), join_some(lost, kNamesTold)));
+                                       lost.size(), join_some(lost, kNamesListed)));
 }
 
 Clusters find_clusters(const Samples& samples, const std::vector<std::int64_t>& frames,

@@ -13,7 +13,7 @@ namespace kinemark::skeleton {
 namespace {
 
 using testing::make_chain;
-using testing::Turns;
+using testing::Rotations;
 
 /// Segments and joints exactly as the chain was made.
 ::testing::AssertionResult right(const Topology& found, const data::SegmentLayout& truth) {
@@ -71,7 +71,7 @@ TEST(Topology, OneMarkerMovesAboutASolidSegment) {
 
 TEST(Topology, NothingMovesIsOneSegmentAndSaidSo) {
   const auto chain =
-      make_chain({.per_segment = 4, .turns = Turns::hinge, .range_rad = 0.0, .noise_sd_m = 0.001});
+      make_chain({.per_segment = 4, .rotations = Rotations::hinge, .range_rad = 0.0, .noise_sd_m = 0.001});
   const auto found = find_topology(chain.markers);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->layout.segments.size(), 1U);

@@ -7,59 +7,60 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include "kinemark/core/check.h"
-#include "kinemark/stages/trajectory/from_counts/internal/wiener_filter.h"
+#include "kinemark/math/golden_section.h"
 
 namespace kinemark::trajectory {
 namespace {
 
-using Scalars = std::vector<internal::Sight<1>>;
+using Scalars = std::vector<math::PositionObservation<1>>;
 
-/// Pieces of a record on three axes along which its sights are nearly independent.
+/// Pieces of a record on three axes along which its observations are nearly independent.
 struct Problem {
   std::vector<Scalars> series;  // each piece, each axis
   double information = 0.0;     // typical, per axis
   double interval_s = 0.0;
 };
 
-Problem split(std::span<const PositionSight> sights, std::size_t max_sights) {
+Problem split(std::span<const LedObservation> observations, std::size_t max_observations) {
   Problem problem;
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (const auto& s : sights) mean += s.information;
+  for (const auto& s : observations) mean += s.information;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(mean);
   const Eigen::Matrix3d axes = eigen.eigenvectors();
-  const double least = 1e-3 * eigen.eigenvalues()(0) / static_cast<double>(sights.size());
+  const double least = 1e-3 * eigen.eigenvalues()(0) / static_cast<double>(observations.size());
   const auto add = [&](std::size_t first, std::size_t last) {
     std::array<Scalars, 3> piece;
     bool begun = false;
     for (std::size_t k = first; k < last; ++k) {
-      const Eigen::Matrix3d h = axes.transpose() * sights[k].information * axes;
-      const Eigen::Vector3d z = axes.transpose() * sights[k].position;
+      const Eigen::Matrix3d h = axes.transpose() * observations[k].information * axes;
+      const Eigen::Vector3d z = axes.transpose() * observations[k].position;
       const Eigen::Matrix3d c = h.inverse();
-      // Incomplete sights stay as instants without information; they may not begin a piece, whose first value
-      // starts the filter.
+      // Incomplete observations stay as instants without information; they may not begin a piece, whose first
+      // value starts the filter.
       const bool complete =
           c.allFinite() && c.diagonal().minCoeff() > 0.0 && c.diagonal().maxCoeff() * least < 1.0;
       begun = begun || complete;
       if (!begun) continue;
       for (int a = 0; a < 3; ++a) {
-        internal::Sight<1> s;
-        s.time_s = sights[k].time_s;
+        math::PositionObservation<1> s;
+        s.time_s = observations[k].time_s;
         s.information(0) = complete ? 1.0 / c(a, a) : 0.0;
-        s.value(0) = complete ? z(a) : 0.0;
+        s.position(0) = complete ? z(a) : 0.0;
         piece[static_cast<std::size_t>(a)].push_back(s);
       }
     }
     for (auto& p : piece)
       if (!p.empty()) problem.series.push_back(std::move(p));
   };
-  const std::size_t n = sights.size();
-  if (n <= max_sights) {
+  const std::size_t n = observations.size();
+  if (n <= max_observations) {
     add(0, n);
   } else {
-    const std::size_t length = max_sights / 4;
+    const std::size_t length = max_observations / 4;
     for (std::size_t i = 0; i < 4; ++i) add(i * (n - length) / 3, i * (n - length) / 3 + length);
   }
   double logs = 0.0;
@@ -80,24 +81,23 @@ Problem split(std::span<const PositionSight> sights, std::size_t max_sights) {
 
 constexpr double kLongestGap = 4.5;  // intervals: longer gaps carry little information on the bandwidth
 
-template <int kOrder>
 double risk(const Problem& problem, const Bandwidth& at) {
-  internal::WienerFilter<kOrder, 1> filter(at.spectral_density, at.time_constant_s);
+  const math::WienerProcess process{
+      .order = at.order, .spectral_density = at.spectral_density, .time_scale_s = at.time_constant_s};
+  math::WienerOptions<1> options;
+  options.covariance = math::WienerCovariance::position;
   double sum = 0.0;
-  for (const auto& series : problem.series)
-    for (const auto& [first, count] : internal::runs_between_gaps(series, kLongestGap * problem.interval_s))
-      filter.smooth(
-          std::span(series).subspan(first, count), true, [&](std::size_t k, const auto& x, const auto* p) {
-            const double h = series[first + k].information(0), r = series[first + k].value(0) - x(0);
-            if (h > 0.0) sum += h * r * r + 2.0 * h * (*p)(0, 0);
-          });
-  return sum;
-}
-
-double risk(const Problem& problem, const Bandwidth& at) {
-  const double sum = at.order == 3   ? risk<3>(problem, at)
-                     : at.order == 4 ? risk<4>(problem, at)
-                                     : risk<5>(problem, at);
+  for (const auto& series : problem.series) {
+    const std::span<const math::PositionObservation<1>> observations(series);
+    for (const auto& [first, count] : math::runs_between_gaps(observations, kLongestGap * problem.interval_s))
+      math::smooth_wiener<1>(process, observations.subspan(first, count), options,
+                             [&, first](std::size_t k, const math::WienerEstimate<1>& x) {
+                               const auto& sight = observations[first + k];
+                               const double h = sight.information(0),
+                                            r = sight.position(0) - x.derivatives(0);
+                               if (h > 0.0) sum += h * r * r + 2.0 * h * x.covariance(0, 0);
+                             });
+  }
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
@@ -118,41 +118,36 @@ namespace {
 /// Octaves first; then the golden section of the two octaves around the best.
 template <class Risk>
 Bandwidth search(const Risk& risk_at, double highest, int octaves) {
-  constexpr int kSections = 5;
-  const double octave = std::log(2.0), ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  const double octave = std::log(2.0);
   Bandwidth found;
   found.sure = std::numeric_limits<double>::infinity();
+  const auto look = [&](double log_hz) {
+    const Bandwidth at = risk_at(log_hz);
+    if (at.sure < found.sure) found = at;
+    return at.sure;
+  };
   int best = 0;
+  double least = found.sure;
   for (int i = 0; i < octaves; ++i)
-    if (const auto at = risk_at(highest - i * octave); at.sure < found.sure) found = at, best = i;
-  double low = highest - (best + 1) * octave, high = highest - std::max(best - 1, 0) * octave;
-  double a = high - ratio * (high - low), b = low + ratio * (high - low);
-  auto fa = risk_at(a), fb = risk_at(b);
-  for (int i = 0; i < kSections; ++i) {
-    if (fa.sure < found.sure) found = fa;
-    if (fb.sure < found.sure) found = fb;
-    if (fa.sure < fb.sure) {
-      high = b, b = a, fb = fa;
-      a = high - ratio * (high - low), fa = risk_at(a);
-    } else {
-      low = a, a = b, fa = fb;
-      b = low + ratio * (high - low), fb = risk_at(b);
-    }
-  }
+    if (const double sure = look(highest - i * octave); sure < least) least = sure, best = i;
+  std::ignore = math::golden_section(look, highest - (best + 1) * octave,
+                                     highest - std::max(best - 1, 0) * octave, {.sections = 4});
   return found;
 }
 
 }  // namespace
 
-Bandwidth choose_bandwidth(std::span<const PositionSight> sights, const BandwidthOptions& options) {
-  const Problem problem =
-      sights.empty() ? Problem{} : split(sights, std::max<std::size_t>(options.max_sights, 48));
+Bandwidth choose_bandwidth(std::span<const LedObservation> observations, const BandwidthOptions& options) {
+  const Problem problem = observations.empty()
+                              ? Problem{}
+                              : split(observations, std::max<std::size_t>(options.max_observations, 48));
   const int fallback_order = options.order > 0 ? options.order : 4;
   const double fallback_hz = options.half_gain_hz > 0.0 ? options.half_gain_hz : 6.0;
   if (problem.series.empty()) {
-    const double span = sights.size() > 1 ? sights.back().time_s - sights.front().time_s : 0.0;
+    const double span =
+        observations.size() > 1 ? observations.back().time_s - observations.front().time_s : 0.0;
     return bandwidth_at(fallback_order, fallback_hz, 1e6,
-                        span > 0.0 ? span / static_cast<double>(sights.size() - 1) : 0.01);
+                        span > 0.0 ? span / static_cast<double>(observations.size() - 1) : 0.01);
   }
   Bandwidth best;
   best.sure = std::numeric_limits<double>::infinity();

@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <span>
+
+#include "kinemark/math/wiener_smoother.h"
 
 namespace kinemark::trajectory {
 
 /// One observation of a point in space: position and inverse covariance (singular where only one camera saw
 /// it, zero where none did).
-struct PositionSight {
-  double time_s = 0.0;                                    ///< strictly increasing
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< m^-2
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< m
-};
+using LedObservation = math::PositionObservation<3>;
 
 /// A smoother of the family "order-times integrated Wiener process".
 struct Bandwidth {
@@ -30,19 +28,19 @@ struct Bandwidth {
 
 /// Options of the choice of a bandwidth.
 struct BandwidthOptions {
-  int order = 0;                  ///< 3, 4 or 5; 0: the best of them
-  double half_gain_hz = 0.0;      ///< 0: the best
-  double around_hz = 0.0;         ///< half gain: search only within two octaves around it; 0: everywhere
-  std::size_t max_sights = 1200;  ///< records longer than that are judged by four pieces of them
+  int order = 0;              ///< 3, 4 or 5; 0: the best of them
+  double half_gain_hz = 0.0;  ///< 0: the best
+  double around_hz = 0.0;     ///< half gain: search only within two octaves around it; 0: everywhere
+  std::size_t max_observations = 1200;  ///< records longer than that are judged by four pieces of them
 };
 
 /// Order and bandwidth with the least estimated risk (Stein's unbiased estimate with known covariances):
-/// sum (z - x)' H (z - x) + 2 tr(P H), over the sights that fix all three coordinates.
+/// sum (z - x)' H (z - x) + 2 tr(P H), over the observations that fix all three coordinates.
 ///
-/// Falls back to a 6 Hz filter of order 4 when fewer than 12 sights are complete. Cost: about 50 filters over
-/// min(F, max_sights) sights.
-/// Stein (1981), Ann. Stat. 9:1135; Craven & Wahba (1979), Numer. Math. 31:377.
-[[nodiscard]] Bandwidth choose_bandwidth(std::span<const PositionSight> sights,
+/// Falls back to a 6 Hz filter of order 4 when fewer than 12 observations are complete. Cost: about 50
+/// filters over min(F, max_observations) observations. Stein (1981), Ann. Stat. 9:1135; Craven & Wahba
+/// (1979), Numer. Math. 31:377.
+[[nodiscard]] Bandwidth choose_bandwidth(std::span<const LedObservation> observations,
                                          const BandwidthOptions& options = {});
 
 }  // namespace kinemark::trajectory

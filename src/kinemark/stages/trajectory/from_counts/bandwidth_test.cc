@@ -14,9 +14,9 @@
 namespace kinemark::trajectory {
 namespace {
 
-std::vector<PositionSight> wave(double hz, double sd, int n, std::uint64_t seed = 3) {
+std::vector<LedObservation> wave(double hz, double sd, int n, std::uint64_t seed = 3) {
   Random random(seed, 1);
-  std::vector<PositionSight> out;
+  std::vector<LedObservation> out;
   for (int k = 0; k < n; ++k) {
     const double t = 0.01 * k, phase = 2.0 * std::numbers::pi * hz * t;
     const Eigen::Vector3d noise{random.gaussian(), random.gaussian(), random.gaussian()};
@@ -46,32 +46,33 @@ TEST(Bandwidth, KeepsWhatWasAskedFor) {
 }
 
 TEST(Bandwidth, ANarrowSearchFindsTheSame) {
-  const auto sights = wave(1.5, 5e-4, 400);
-  const auto wide = choose_bandwidth(sights);
+  const auto observations = wave(1.5, 5e-4, 400);
+  const auto wide = choose_bandwidth(observations);
   const double hz = 0.5 / (3.14159265 * wide.time_constant_s);
-  const auto narrow = choose_bandwidth(sights, {.around_hz = 1.2 * hz});
+  const auto narrow = choose_bandwidth(observations, {.around_hz = 1.2 * hz});
   EXPECT_LT(narrow.sure, wide.sure + 0.5);
 }
 
 TEST(Bandwidth, LongRecordsAreJudgedByPieces) {
-  const auto whole = choose_bandwidth(wave(1.5, 5e-4, 3000), {.max_sights = 100'000});
+  const auto whole = choose_bandwidth(wave(1.5, 5e-4, 3000), {.max_observations = 100'000});
   const auto pieces = choose_bandwidth(wave(1.5, 5e-4, 3000));
   EXPECT_NEAR(pieces.cutoff_hz / whole.cutoff_hz, 1.0, 0.35);
 }
 
-TEST(Bandwidth, IncompleteSightsDoNotCount) {
-  auto sights = wave(1.5, 5e-4, 400);
+TEST(Bandwidth, IncompleteObservationsDoNotCount) {
+  auto observations = wave(1.5, 5e-4, 400);
   for (std::size_t k = 100; k < 130; ++k) {
-    sights[k].information.row(2).setZero();
-    sights[k].information.col(2).setZero();
-    sights[k].position.z() = 1e3;
+    observations[k].information.row(2).setZero();
+    observations[k].information.col(2).setZero();
+    observations[k].position.z() = 1e3;
   }
-  const double ratio = choose_bandwidth(sights).cutoff_hz / choose_bandwidth(wave(1.5, 5e-4, 400)).cutoff_hz;
+  const double ratio =
+      choose_bandwidth(observations).cutoff_hz / choose_bandwidth(wave(1.5, 5e-4, 400)).cutoff_hz;
   EXPECT_GT(ratio, 0.5);
   EXPECT_LT(ratio, 2.0);
 }
 
-TEST(Bandwidth, TooFewSightsFallBackToSixHertz) {
+TEST(Bandwidth, TooFewObservationsFallBackToSixHertz) {
   const auto found = choose_bandwidth(wave(1.5, 5e-4, 8));
   EXPECT_EQ(found.order, 4);
   EXPECT_NEAR(found.time_constant_s, 1.0 / (12.0 * std::numbers::pi), 1e-12);

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <utility>
 
+#include "kinemark/camera/usable.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
-#include "kinemark/math/statistics.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
 
@@ -24,37 +24,12 @@ using Eigen::Vector3d;
 
 Status check_shapes(const data::Counts& counts, const data::Rig& rig, const data::Trajectories& start) {
   if (auto s = counts.validate(); !s) return s;
-  if (counts.camera_count() != rig.camera_count())
-    return fail(Code::bad_input,
-                fmt::format("the recording has {} cameras and the rig {}; they must be the same",
-                            counts.camera_count(), rig.camera_count()));
+  if (auto s = data::check_same_rig(counts, rig); !s) return s;
   if (start.names != counts.leds || start.frames() != counts.frames())
     return fail(Code::bad_input,
                 fmt::format("{} markers in {} frames to start from do not fit {} LEDs in {} frames",
                             start.markers(), start.frames(), counts.led_count(), counts.frames()));
   return {};
-}
-
-/// F x L x C: enough light, complete, not saturated.
-std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_share) {
-  constexpr std::uint8_t kUnusable = data::kCountSaturated | data::kCountOccluded | data::kCountLost;
-  constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
-  std::vector<std::uint8_t> out(counts.flags.size(), 0);
-  std::vector<double> light;
-  for (std::int64_t led = 0; led < counts.led_count(); ++led)
-    for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
-      light.clear();
-      for (std::int64_t f = 0; f < counts.frames(); ++f)
-        if ((counts.flags[counts.index(f, led, c)] & kUnusable) == 0)
-          light.push_back(counts.at(f, led, c).sum());
-      if (light.empty()) continue;
-      const double least = std::max(dim_share * math::upper_median(light), kDark);
-      for (std::int64_t f = 0; f < counts.frames(); ++f) {
-        const auto i = counts.index(f, led, c);
-        out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > least;
-      }
-    }
-  return out;
 }
 
 /// Positions to start from: straight lines over missing ones, the nearest beyond both ends. Empty when none
@@ -150,14 +125,15 @@ void put(const internal::LedPath::Sample& s, std::size_t index, SmoothedCounts& 
 
 /// Add the statistics of one stretch to those of its LED.
 void merge(LedFit& all, const LedFit& one) {
-  const auto total = all.sightings + one.sightings;
+  const auto total = all.observations + one.observations;
   if (total > 0)
-    all.chi2_per_dof = (all.chi2_per_dof * static_cast<double>(all.sightings) +
-                        one.chi2_per_dof * static_cast<double>(one.sightings)) /
+    all.chi2_per_dof = (all.chi2_per_dof * static_cast<double>(all.observations) +
+                        one.chi2_per_dof * static_cast<double>(one.observations)) /
                        static_cast<double>(total);
-  if (one.sightings >= all.sightings) all.bandwidth = one.bandwidth, all.flicker_counts = one.flicker_counts;
+  if (one.observations >= all.observations)
+    all.bandwidth = one.bandwidth, all.flicker_counts = one.flicker_counts;
   all.name = one.name;
-  all.sightings = total;
+  all.observations = total;
   all.rejected += one.rejected;
   all.held_down += one.held_down;
 }
@@ -188,7 +164,7 @@ Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig
                                      const data::Trajectories& start, const SmoothCountsOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = check_shapes(counts, rig, start); !s) return std::unexpected(s.error());
-  const auto usable = usable_views(counts, options.dim_share);
+  const auto usable = camera::usable_views(counts, options.dim_share);
   const auto dark = options.flicker == Flicker::dark_slot ? dark_flicker(counts, options.flicker_hz)
                                                           : std::vector<Vector2d>{};
   SmoothedCounts out = all_missing(counts);
@@ -211,7 +187,7 @@ Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig
             put(sample, out.points.index(f, led), out);
         }
       }
-      if (fit.sightings == 0) continue;
+      if (fit.observations == 0) continue;
       out.derivatives.filters[static_cast<std::size_t>(led)] = {.method = "kalman",
                                                                 .order = fit.bandwidth.order,
                                                                 .cutoff_hz = fit.bandwidth.cutoff_hz,

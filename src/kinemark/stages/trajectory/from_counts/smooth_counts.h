@@ -28,7 +28,8 @@ struct SmoothCountsOptions {
   double half_gain_hz = 0.0;           ///< of the filter; 0: chosen for each LED by SURE
   Flicker flicker = Flicker::regress;  ///< what is done about the room's lamps
   double flicker_hz = 120.0;           ///< of the lamps' light
-  double dim_share = 0.3;  ///< light below this share of the LED's median (each camera's own) is no sighting
+  double dim_share =
+      0.3;  ///< light below this share of the LED's median (each camera's own) is no observation
   double student_freedom = 6.0;  ///< of the weights on each camera's misfit
   double reject_chi2 = 40.0;     ///< misfit of one camera (3 degrees of freedom) from which it is not used
   double longest_gap_s = 0.3;    ///< longer ones stay missing, and the path is cut there
@@ -41,19 +42,20 @@ struct SmoothCountsOptions {
 
 /// Parameters and statistics of one LED's path.
 struct LedFit {
-  std::string name;            ///< of the LED
-  Bandwidth bandwidth;         ///< of its filter
-  double chi2_per_dof = 0.0;   ///< of the sightings used, robust weights left out; near 1 when noise is all
-  std::int64_t sightings = 0;  ///< used, of F x C
-  std::int64_t rejected = 0;   ///< misfit above reject_chi2
-  std::int64_t held_down = 0;  ///< weight below one half
+  std::string name;           ///< of the LED
+  Bandwidth bandwidth;        ///< of its filter
+  double chi2_per_dof = 0.0;  ///< of the observations used, robust weights left out; near 1 when noise is all
+  std::int64_t observations = 0;       ///< used, of F x C
+  std::int64_t rejected = 0;           ///< misfit above reject_chi2
+  std::int64_t held_down = 0;          ///< weight below one half
   std::vector<double> flicker_counts;  ///< amplitude found, per camera
 };
 
 /// Paths of all LEDs, with their rates.
 struct SmoothedCounts {
-  /// One marker per LED, at the times of the frames. Frames with a sighting are measured, frames between
-  /// sightings model_filled (with their covariance), frames before the first and after the last one missing.
+  /// One marker per LED, at the times of the frames. Frames with an observation are measured, frames between
+  /// observations model_filled (with their covariance), frames before the first and after the last one
+  /// missing.
   data::Trajectories points;
   data::Derivatives derivatives;  ///< velocity and acceleration
   std::vector<LedFit> leds;       ///< L
@@ -67,8 +69,8 @@ struct SmoothedCounts {
 /// risk.
 ///
 /// @param start  F x L points to begin from (reconstruct()), right to a centimetre or so; missing ones are
-/// bridged Fails when shapes disagree. An LED without two complete sightings stays missing. Cost: about 50 us
-/// per frame and LED. Theory: docs/theory/reconstruction.md
+/// bridged Fails when shapes disagree. An LED without two complete observations stays missing. Cost: about 50
+/// us per frame and LED. Theory: docs/theory/reconstruction.md
 [[nodiscard]] Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig& rig,
                                                    const data::Trajectories& start,
                                                    const SmoothCountsOptions& options = {});

@@ -220,17 +220,17 @@ void write(const Filler& filler, const data::GapAccount& account, const Combinat
   }
 }
 
-data::Defect tell(const data::Trajectories& in, const internal::Swap& s) {
-  return {.kind = data::DefectKind::label_swap,
-          .marker = s.first_marker,
-          .other_marker = s.second_marker,
-          .first_frame = s.first,
-          .last_frame = s.end - 1,
-          .sentence = fmt::format(
-              "markers '{}' and '{}' have exchanged labels in frames {} to {}, {:.0f} mm apart",
-              in.names[static_cast<std::size_t>(s.first_marker)],
-              in.names[static_cast<std::size_t>(s.second_marker)], s.first, s.end - 1, 1e3 * s.distance_m),
-          .done = "not relied on when filling; left as it is"};
+data::Finding tell(const data::Trajectories& in, const internal::Swap& s) {
+  data::Finding swap{.kind = data::FindingKind::label_swap,
+                     .subject = in.names[static_cast<std::size_t>(s.first_marker)],
+                     .partner = in.names[static_cast<std::size_t>(s.second_marker)],
+                     .first_frame = s.first,
+                     .last_frame = s.end - 1,
+                     .size = s.distance_m};
+  swap.description =
+      fmt::format("markers '{}' and '{}' have exchanged labels in frames {} to {}, {:.0f} mm apart",
+                  swap.subject, swap.partner, s.first, s.end - 1, 1e3 * s.distance_m);
+  return swap;
 }
 
 }  // namespace

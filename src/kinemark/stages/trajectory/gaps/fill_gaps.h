@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/defect.h"
+#include "kinemark/data/finding.h"
 #include "kinemark/data/gap_account.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/trajectory/gaps/gap_options.h"
@@ -22,7 +22,7 @@ struct GapResult {
   std::vector<data::GapAccount> gaps;  ///< by marker and frame; every gap has its account
   /// Label swaps that the label check found, of markers of a rigid group that sit in each other's place for a
   /// while. Nothing is relabelled.
-  std::vector<data::Defect> swaps;
+  std::vector<data::Finding> swaps;
 
   [[nodiscard]] std::int64_t filled_frames() const;  ///< sum over the markers
 };

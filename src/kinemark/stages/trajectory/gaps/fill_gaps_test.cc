@@ -123,17 +123,17 @@ TEST(FillGaps, MovesWithTheLab) {
 TEST(FillGaps, DoesNotDependOnTheOrderOfTheMarkers) {
   Trajectories t = moving_bodies({.noise_m = kNoiseM});
   hide(t, 3, 250, 320);
-  Trajectories turned = t;
+  Trajectories permuted = t;
   const auto other = [&](std::int64_t m) { return t.markers() - 1 - m; };
   for (std::int64_t m = 0; m < t.markers(); ++m) {
-    turned.names[static_cast<std::size_t>(other(m))] = t.names[static_cast<std::size_t>(m)];
+    permuted.names[static_cast<std::size_t>(other(m))] = t.names[static_cast<std::size_t>(m)];
     for (std::int64_t f = 0; f < t.frames(); ++f) {
-      turned.x(f, other(m)) = t.x(f, m);
-      turned.state[t.index(f, other(m))] = t.state[t.index(f, m)];
+      permuted.x(f, other(m)) = t.x(f, m);
+      permuted.state[t.index(f, other(m))] = t.state[t.index(f, m)];
     }
   }
   const GapResult a = fill(t);
-  const GapResult b = fill(turned);
+  const GapResult b = fill(permuted);
   for (std::int64_t f = 250; f <= 320; ++f)
     EXPECT_LT((a.trajectories.x(f, 3) - b.trajectories.x(f, other(3))).norm(), 1e-9) << f;
 }
@@ -271,11 +271,12 @@ TEST(FillGaps, FindsASwapInTheBodyAndIsNotMisledByIt) {
   hide(t, 0, 230, 269);
   const GapResult r = fill(t);
   ASSERT_EQ(r.swaps.size(), 1U);
-  EXPECT_EQ(r.swaps[0].marker, 1);
-  EXPECT_EQ(r.swaps[0].other_marker, 2);
+  EXPECT_EQ(r.swaps[0].kind, data::FindingKind::label_swap);
+  EXPECT_EQ(r.swaps[0].subject, "b0m1");
+  EXPECT_EQ(r.swaps[0].partner, "b0m2");
   EXPECT_NEAR(static_cast<double>(r.swaps[0].first_frame), 210.0, 1.0);
   EXPECT_NEAR(static_cast<double>(r.swaps[0].last_frame), 289.0, 1.0);
-  EXPECT_THAT(r.swaps[0].sentence, HasSubstr("'b0m1' and 'b0m2'"));
+  EXPECT_THAT(r.swaps[0].description, HasSubstr("'b0m1' and 'b0m2'"));
   EXPECT_EQ(r.trajectories.x(250, 1), t.x(250, 1));  // reported, not changed
   EXPECT_LT(rms_between(r.trajectories, clean, 0, 230, 269), 3.0 * kNoiseM);
   EXPECT_TRUE(fill(moving_bodies({.noise_m = kNoiseM})).swaps.empty());

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
+#include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 #include "kinemark/stages/trajectory/screening/internal/phase_table.h"
@@ -15,7 +18,7 @@
 namespace kinemark::trajectory {
 namespace internal {
 
-std::string frames_in_words(std::int64_t first, std::int64_t last) {
+std::string describe_frames(std::int64_t first, std::int64_t last) {
   return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
 }
 
@@ -39,9 +42,31 @@ double rounding_of(const data::Trajectories& t, std::int64_t marker) {
   return step;
 }
 
+data::Finding as_finding(Defect defect, const data::Trajectories& t) {
+  const auto name_of = [&](std::int64_t marker) { return marker < 0 ? std::string() : t.names[at(marker)]; };
+  return {.kind = defect.kind,
+          .subject = name_of(defect.marker),
+          .partner = name_of(defect.other_marker),
+          .first_frame = defect.first_frame,
+          .last_frame = defect.last_frame,
+          .size = defect.size,
+          .confidence = defect.confidence,
+          .description = std::move(defect.description)};
+}
+
+void reject(const Defect& defect, data::Trajectories& t) {
+  if (defect.kind == FindingKind::clock_jump) return;
+  for (std::int64_t m = 0; m < t.markers(); ++m) {
+    const bool partner = defect.kind == FindingKind::label_swap && m == defect.other_marker;
+    if (defect.marker != -1 && m != defect.marker && !partner) continue;
+    for (std::int64_t f = defect.first_frame; f <= defect.last_frame; ++f)
+      if (t.present(f, m)) t.set_missing(f, m, data::SampleState::rejected);
+  }
+}
+
 }  // namespace internal
 
-using data::DefectKind;
+using internal::FindingKind;
 
 Status ScreenOptions::check() const {
   const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
@@ -57,65 +82,66 @@ Status ScreenOptions::check() const {
   return {};
 }
 
-Result<std::vector<data::Defect>> screen(const data::Trajectories& t, const ScreenOptions& options,
-                                         std::span<const double> frame_time_s) {
+Result<std::vector<data::Finding>> screen(const data::Trajectories& t, const ScreenOptions& options,
+                                          std::span<const double> frame_time_s) {
   if (const Status s = options.check(); !s) return std::unexpected(s.error());
   if (const Status s = t.validate(); !s) return std::unexpected(s.error());
   if (!frame_time_s.empty() && static_cast<std::int64_t>(frame_time_s.size()) != t.frames())
     return fail(Code::bad_input,
                 fmt::format("{} frame times were given for {} frames", frame_time_s.size(), t.frames()));
-  internal::Defects findings;
-  if (options.zeros) internal::find_zeros(t, findings);
-  if (options.unit_slips) {
-    // Zeros are a thousand times smaller than anything.
-    const auto seen = reject_defects(t, findings, 0.0);
-    internal::find_unit_slips(*seen, findings);
-  }
-  // Both leave jumps behind that are no defects of their own.
-  const data::Trajectories rest = findings.empty() ? t : *reject_defects(t, findings, 0.0);
+  internal::Defects found;
+  data::Trajectories rest = t;
+  const auto without = [&](const internal::Defects& defects) {
+    rest = t;
+    for (const auto& defect : defects) reject(defect, rest);
+  };
+  if (options.zeros) internal::find_zeros(t, found);
+  without(found);
+  // Zeros are a thousand times smaller than anything.
+  if (options.unit_slips) internal::find_unit_slips(rest, found);
+  without(found);  // both leave jumps behind that are no defects of their own
   internal::Defects repeats;
   internal::find_duplicated_frames(rest, repeats);  // found in any case: they are not stuck values
   if (options.stuck) internal::find_stuck(rest, options, repeats);
   if (!options.duplicated_frames)
-    std::erase_if(repeats, [](const data::Defect& f) { return f.kind == DefectKind::duplicated_frame; });
-  findings.insert(findings.end(), repeats.begin(), repeats.end());
-  if (options.clock_jumps && !frame_time_s.empty()) internal::find_clock_jumps(frame_time_s, findings);
-  if (options.clock_jumps && frame_time_s.empty()) internal::find_leaps(rest, findings);
+    std::erase_if(repeats, [](const auto& d) { return d.kind == FindingKind::duplicated_frame; });
+  std::ranges::move(repeats, std::back_inserter(found));
+  if (options.clock_jumps && !frame_time_s.empty()) internal::find_clock_jumps(frame_time_s, found);
+  if (options.clock_jumps && frame_time_s.empty()) internal::find_leaps(rest, found);
   internal::Defects jumps;
   internal::find_swaps(rest, options, jumps);
   if (options.spikes) internal::find_spikes(rest, options, jumps);
   if (!options.swaps)
-    std::erase_if(jumps, [](const data::Defect& f) {
-      return f.kind == DefectKind::swap_within || f.kind == DefectKind::label_swap;
+    std::erase_if(jumps, [](const auto& d) {
+      return d.kind == FindingKind::swap_within || d.kind == FindingKind::label_swap;
     });
-  findings.insert(findings.end(), jumps.begin(), jumps.end());
-  std::erase_if(findings, [&](const data::Defect& f) { return f.confidence < options.min_confidence; });
-  std::ranges::stable_sort(findings, {}, [](const data::Defect& f) {
-    return std::tuple(f.marker, f.first_frame, f.kind, f.other_marker);
-  });
-  return findings;
+  std::ranges::move(jumps, std::back_inserter(found));
+  std::erase_if(found, [&](const auto& d) { return d.confidence < options.min_confidence; });
+  std::ranges::stable_sort(
+      found, {}, [](const auto& d) { return std::tuple(d.marker, d.first_frame, d.kind, d.other_marker); });
+  std::vector<data::Finding> out;
+  for (auto& defect : found) out.push_back(as_finding(std::move(defect), t));
+  return out;
 }
 
-Result<data::Trajectories> reject_defects(const data::Trajectories& t, std::span<const data::Defect> findings,
+Result<data::Trajectories> reject_defects(const data::Trajectories& t, std::span<const data::Finding> defects,
                                           double min_confidence) {
   if (const Status s = t.validate(); !s) return std::unexpected(s.error());
   data::Trajectories out = t;
-  for (const data::Defect& f : findings) {
-    if (f.marker < -1 || f.marker >= t.markers() || f.other_marker < -1 || f.other_marker >= t.markers() ||
+  for (const data::Finding& f : defects) {
+    const internal::Defect defect{.kind = f.kind,
+                                  .marker = f.subject.empty() ? -1 : t.find(f.subject),
+                                  .other_marker = f.partner.empty() ? -1 : t.find(f.partner),
+                                  .first_frame = f.first_frame,
+                                  .last_frame = f.last_frame};
+    if ((!f.subject.empty() && defect.marker < 0) || (!f.partner.empty() && defect.other_marker < 0) ||
         f.first_frame < 0 || f.last_frame < f.first_frame || f.last_frame >= t.frames())
-      return fail(
-          Code::bad_input,
-          fmt::format("a finding is about marker {} and {} of the trajectories; they have {} markers and {} "
-                      "frames",
-                      f.marker, internal::frames_in_words(f.first_frame, f.last_frame), t.markers(),
-                      t.frames()));
-    if (f.confidence < min_confidence || f.kind == DefectKind::clock_jump) continue;
-    for (std::int64_t m = 0; m < t.markers(); ++m) {
-      const bool partner = f.kind == DefectKind::label_swap && m == f.other_marker;
-      if (f.marker != -1 && m != f.marker && !partner) continue;
-      for (std::int64_t n = f.first_frame; n <= f.last_frame; ++n)
-        if (out.present(n, m)) out.set_missing(n, m, data::SampleState::rejected);
-    }
+      return fail(Code::bad_input,
+                  fmt::format("a finding is about marker '{}' and {}; that marker or these frames are not "
+                              "among the {} markers and {} frames of the trajectories",
+                              f.subject, internal::describe_frames(f.first_frame, f.last_frame), t.markers(),
+                              t.frames()));
+    if (!(f.confidence < min_confidence)) reject(defect, out);
   }
   return out;
 }

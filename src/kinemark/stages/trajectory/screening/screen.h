@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/defect.h"
+#include "kinemark/data/finding.h"
 #include "kinemark/data/trajectories.h"
 
 namespace kinemark::trajectory {
@@ -32,20 +32,20 @@ struct ScreenOptions {
 /// still: a
 ///                      clock jump. Without it only gaps of the clock that show as a simultaneous leap of all
 ///                      markers are seen.
-/// @return              By marker and frame; those of all markers first.
+/// @return              By marker and frame; those of all markers first. Each tells its evidence in words.
 /// Frames, markers and their confidence: docs/stages/clean-screening.md. Swaps of markers that pass one
 /// another closer than min_jump_m, and any defect that lasts the whole recording except zeros and unit slips,
 /// cannot be seen. Fails when the trajectories are invalid, the options do not hold or frame_time_s has
 /// another length. O(F M), swaps O(F M + jumps M).
-[[nodiscard]] Result<std::vector<data::Defect>> screen(const data::Trajectories& trajectories,
-                                                       const ScreenOptions& options = {},
-                                                       std::span<const double> frame_time_s = {});
+[[nodiscard]] Result<std::vector<data::Finding>> screen(const data::Trajectories& trajectories,
+                                                        const ScreenOptions& options = {},
+                                                        std::span<const double> frame_time_s = {});
 
 /// The repair: samples of all defects of at least that confidence get the state `rejected` and lose their
 /// coordinates; label swaps lose both markers. Clock jumps have no wrong samples and reject nothing.
 /// Code::bad_input when a defect does not fit the trajectories.
 [[nodiscard]] Result<data::Trajectories> reject_defects(const data::Trajectories& trajectories,
-                                                        std::span<const data::Defect> defects,
+                                                        std::span<const data::Finding> defects,
                                                         double min_confidence = 0.8);
 
 }  // namespace kinemark::trajectory

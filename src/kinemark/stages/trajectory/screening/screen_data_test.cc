@@ -15,17 +15,16 @@
 namespace kinemark::trajectory {
 namespace {
 
-using data::DefectKind;
+using data::FindingKind;
 
 /// "defect marker first-last", runs of repeated frames as one.
 std::set<std::string> summary(const data::Trajectories& t) {
   std::set<std::string> lines;
   const auto findings = screen(t).value();
-  for (const data::Defect& f : findings) {
+  for (const data::Finding& f : findings) {
     std::string line(to_string(f.kind));
-    if (f.marker >= 0)
-      line += " " + t.names[static_cast<std::size_t>(f.marker)] + " " + std::to_string(f.first_frame) + "-" +
-              std::to_string(f.last_frame);
+    if (!f.subject.empty())
+      line += " " + f.subject + " " + std::to_string(f.first_frame) + "-" + std::to_string(f.last_frame);
     lines.insert(line);
   }
   return lines;
@@ -86,8 +85,8 @@ TEST(ScreenRealRecordings, ZerosWrittenForAMarkerThatWasNeverSeen) {
   }
   const auto findings = screen(trial.markers).value();
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].kind, DefectKind::zero);
-  EXPECT_EQ(findings[0].marker, bicep);
+  EXPECT_EQ(findings[0].kind, FindingKind::zero);
+  EXPECT_EQ(findings[0].subject, trial.markers.names[static_cast<std::size_t>(bicep)]);
 }
 
 }  // namespace

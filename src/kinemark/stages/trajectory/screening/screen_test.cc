@@ -5,14 +5,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "kinemark/stages/trajectory/screening/testing/walker.h"
 
 namespace kinemark::trajectory {
 namespace {
 
-using data::DefectKind;
+using data::FindingKind;
 
 using data::SampleState;
 using data::Trajectories;
@@ -20,23 +23,25 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-std::vector<data::Defect> found(const Trajectories& t, std::span<const double> times = {}) {
+std::vector<data::Finding> found(const Trajectories& t, std::span<const double> times = {}) {
   return screen(t, {}, times).value();
 }
 
 /// The one finding there is.
-data::Defect only(const Trajectories& t, std::span<const double> times = {}) {
+data::Finding only(const Trajectories& t, std::span<const double> times = {}) {
   const auto findings = found(t, times);
   EXPECT_THAT(findings, SizeIs(1));
-  for (const data::Defect& f : findings) SCOPED_TRACE(f.sentence);
-  return findings.empty() ? data::Defect{} : findings.front();
+  for (const data::Finding& f : findings) SCOPED_TRACE(f.description);
+  return findings.empty() ? data::Finding{} : findings.front();
 }
 
-void expect(const data::Defect& f, DefectKind kind, std::int64_t marker, std::int64_t first,
+void expect(const data::Finding& f, FindingKind kind, std::int64_t marker, std::int64_t first,
             std::int64_t last, std::int64_t other = -1) {
-  EXPECT_EQ(to_string(f.kind), to_string(kind)) << f.sentence;
-  EXPECT_EQ(f.marker, marker);
-  EXPECT_EQ(f.other_marker, other);
+  EXPECT_EQ(to_string(f.kind), to_string(kind)) << f.description;
+  const auto name_of = [](std::int64_t m) { return m < 0 ? std::string() : "M" + std::to_string(m); };
+  EXPECT_EQ(f.subject, name_of(marker));
+  EXPECT_EQ(f.partner, name_of(other));
+  EXPECT_TRUE(f.validate());
   EXPECT_EQ(f.first_frame, first);
   EXPECT_EQ(f.last_frame, last);
   EXPECT_GE(f.confidence, 0.8);
@@ -63,10 +68,10 @@ TEST(Screen, ARecordingThatRestsIsClean) {
 TEST(Screen, ZerosAreMissingSamples) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 50; f <= 53; ++f) t.x(f, 2).setZero();
-  expect(only(t), DefectKind::zero, 2, 50, 53);
+  expect(only(t), FindingKind::zero, 2, 50, 53);
   Trajectories always = testing::walker();
   for (std::int64_t f = 0; f < always.frames(); ++f) always.x(f, 5).setZero();
-  expect(only(always), DefectKind::zero, 5, 0, always.frames() - 1);
+  expect(only(always), FindingKind::zero, 5, 0, always.frames() - 1);
 }
 
 TEST(Screen, PassingThroughTheOriginIsNoZero) {
@@ -78,10 +83,10 @@ TEST(Screen, PassingThroughTheOriginIsNoZero) {
 TEST(Screen, AHeldValueIsStuck) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 201; f <= 230; ++f) t.x(f, 4) = t.x(200, 4);
-  expect(only(t), DefectKind::stuck, 4, 200, 230);
+  expect(only(t), FindingKind::stuck, 4, 200, 230);
   Trajectories to_the_end = testing::walker();
   for (std::int64_t f = 581; f < 600; ++f) to_the_end.x(f, 1) = to_the_end.x(580, 1);
-  expect(only(to_the_end), DefectKind::stuck, 1, 580, 599);
+  expect(only(to_the_end), FindingKind::stuck, 1, 580, 599);
 }
 
 TEST(Screen, HeldByTheRecorderAtARegularFactorIsNotStuckNorDuplicated) {
@@ -97,8 +102,8 @@ TEST(Screen, RepeatedFramesAreDuplicated) {
     for (std::int64_t f = 301; f <= 302; ++f) t.x(f, m) = t.x(300, m);
   const auto findings = found(t);
   ASSERT_FALSE(findings.empty());
-  expect(findings.front(), DefectKind::duplicated_frame, -1, 301, 302);
-  for (const data::Defect& f : findings) EXPECT_NE(f.kind, DefectKind::stuck);
+  expect(findings.front(), FindingKind::duplicated_frame, -1, 301, 302);
+  for (const data::Finding& f : findings) EXPECT_NE(f.kind, FindingKind::stuck);
   const Trajectories out = reject_defects(t, findings).value();
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     EXPECT_TRUE(out.present(300, m));
@@ -117,8 +122,8 @@ TEST(Screen, FramesHeldIrregularlyAreDuplicated) {
   }
   const auto findings = found(t);
   std::int64_t called = 0;
-  for (const data::Defect& f : findings)
-    called += f.kind == DefectKind::duplicated_frame ? f.last_frame - f.first_frame + 1 : 0;
+  for (const data::Finding& f : findings)
+    called += f.kind == FindingKind::duplicated_frame ? f.last_frame - f.first_frame + 1 : 0;
   EXPECT_GT(repeats, 200);
   EXPECT_GT(called, repeats * 8 / 10);
 }
@@ -127,15 +132,15 @@ TEST(Screen, AClockThatJumpsIsToldFromItsTimes) {
   const Trajectories t = testing::walker({.markers = 2, .frames = 50});
   std::vector<double> times;
   for (int f = 0; f < 50; ++f) times.push_back(0.01 * f + (f >= 20 ? 0.03 : 0.0));
-  expect(only(t, times), DefectKind::clock_jump, -1, 20, 20);
+  expect(only(t, times), FindingKind::clock_jump, -1, 20, 20);
   times[30] = times[29];
   times[40] = std::numeric_limits<double>::quiet_NaN();
   const auto findings = found(t, times);
   std::vector<std::int64_t> frames;
-  for (const data::Defect& f : findings) frames.push_back(f.first_frame);
+  for (const data::Finding& f : findings) frames.push_back(f.first_frame);
   EXPECT_EQ(frames, (std::vector<std::int64_t>{20, 30, 31, 40}));
   EXPECT_EQ(reject_defects(t, findings).value().x_in_world, t.x_in_world);
-  expect(only(t, std::vector<double>(50, 1.0)), DefectKind::clock_jump, -1, 0, 49);
+  expect(only(t, std::vector<double>(50, 1.0)), FindingKind::clock_jump, -1, 0, 49);
 }
 
 TEST(Screen, LostFramesShowAsALeapOfAllMarkers) {
@@ -143,9 +148,10 @@ TEST(Screen, LostFramesShowAsALeapOfAllMarkers) {
   Trajectories t = testing::walker({.frames = 400});
   for (std::int64_t f = 0; f < 400; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) = whole.x(f < 150 ? f : f + 1, m);
-  const data::Defect f = only(t);
-  expect(f, DefectKind::clock_jump, -1, 150, 150);
-  EXPECT_NEAR(f.evidence, 2.0, 0.05);
+  const data::Finding f = only(t);
+  expect(f, FindingKind::clock_jump, -1, 150, 150);
+  EXPECT_EQ(f.size, 1.0) << "one frame lost";
+  EXPECT_THAT(f.description, HasSubstr("all 8 markers that are seen go "));
 }
 
 TEST(Screen, FramesLeftOutAgainAndAgainAreOneFinding) {
@@ -153,25 +159,25 @@ TEST(Screen, FramesLeftOutAgainAndAgainAreOneFinding) {
   Trajectories t = testing::walker({.frames = 500});
   for (std::int64_t f = 0; f < 500; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) = whole.x(f / 5 * 6 + f % 5, m);
-  EXPECT_THAT(only(t).sentence, HasSubstr("120 Hz from which every 6th frame was left out"));
+  EXPECT_THAT(only(t).description, HasSubstr("120 Hz from which every 6th frame was left out"));
 }
 
 TEST(Screen, AMarkerInMillimetresAmongMetres) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 0; f < t.frames(); ++f) t.x(f, 3) *= 1000.0;
-  expect(only(t), DefectKind::unit_slip, 3, 0, t.frames() - 1);
+  expect(only(t), FindingKind::unit_slip, 3, 0, t.frames() - 1);
   Trajectories part = testing::walker();
   for (std::int64_t f = 100; f < 140; ++f) part.x(f, 3) /= 1000.0;
-  expect(only(part), DefectKind::unit_slip, 3, 100, 139);
+  expect(only(part), FindingKind::unit_slip, 3, 100, 139);
 }
 
 TEST(Screen, ARecordingThatChangesItsUnitIsOneFinding) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 480; f < 600; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) *= 1000.0;
-  expect(only(t), DefectKind::unit_slip, -1, 480, 599);
+  expect(only(t), FindingKind::unit_slip, -1, 480, 599);
   for (double& x : t.x_in_world) x *= 1000.0;
-  EXPECT_THAT(found(t).front().sentence, HasSubstr("whole recording"));
+  EXPECT_THAT(found(t).front().description, HasSubstr("whole recording"));
 }
 
 TEST(Screen, ForcesKeptAsPointsAreNoUnitSlip) {
@@ -187,7 +193,7 @@ TEST(Screen, SpikesOfOneToThreeSamples) {
   for (const int width : {1, 2, 3}) {
     Trajectories t = testing::walker();
     for (int i = 0; i < width; ++i) t.x(321 + i, 6) += Eigen::Vector3d(0.01, -0.015, 0.02);
-    expect(only(t), DefectKind::spike, 6, 321, 320 + width);
+    expect(only(t), FindingKind::spike, 6, 321, 320 + width);
   }
 }
 
@@ -205,7 +211,7 @@ TEST(Screen, TwoMarkersThatExchangeTheirLabels) {
       t.x(f, 1) = t.x(f, 2);
       t.x(f, 2) = one;
     }
-    expect(only(t), DefectKind::label_swap, 1, 250, last, 2);
+    expect(only(t), FindingKind::label_swap, 1, 250, last, 2);
     const Trajectories out = reject_defects(t, found(t)).value();
     EXPECT_EQ(out.state[out.index(250, 1)], SampleState::rejected);
     EXPECT_EQ(out.state[out.index(last, 2)], SampleState::rejected);
@@ -221,9 +227,9 @@ TEST(Screen, AnExchangeThatNeverEndsNamesTheShorterSide) {
     t.x(f, 0) = t.x(f, 7);
     t.x(f, 7) = one;
   }
-  const data::Defect f = only(t);
-  expect(f, DefectKind::label_swap, 0, 0, 89, 7);
-  EXPECT_THAT(f.sentence, HasSubstr("cannot be decided"));
+  const data::Finding f = only(t);
+  expect(f, FindingKind::label_swap, 0, 0, 89, 7);
+  EXPECT_THAT(f.description, HasSubstr("cannot be decided"));
 }
 
 TEST(Screen, AMarkerThatVisitsThePathOfALostOne) {
@@ -232,13 +238,13 @@ TEST(Screen, AMarkerThatVisitsThePathOfALostOne) {
     t.x(f, 5) = t.x(f, 4);
     t.set_missing(f, 4);
   }
-  expect(only(t), DefectKind::swap_within, 5, 400, 412, 4);
+  expect(only(t), FindingKind::swap_within, 5, 400, 412, 4);
 }
 
 TEST(Screen, AMarkerThatShowsASeenOneTwice) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 400; f <= 401; ++f) t.x(f, 5) = t.x(f, 4);
-  expect(only(t), DefectKind::swap_within, 5, 400, 401, 4);
+  expect(only(t), FindingKind::swap_within, 5, 400, 401, 4);
 }
 
 TEST(Screen, DefectsAreFoundBesideOneAnother) {
@@ -248,9 +254,118 @@ TEST(Screen, DefectsAreFoundBesideOneAnother) {
   for (std::int64_t f = 301; f <= 330; ++f) t.x(f, 7) = t.x(300, 7);
   const auto findings = found(t);
   ASSERT_THAT(findings, SizeIs(3));
-  expect(findings[0], DefectKind::spike, 0, 100, 100);
-  expect(findings[1], DefectKind::zero, 0, 200, 202);
-  expect(findings[2], DefectKind::stuck, 7, 300, 330);
+  expect(findings[0], FindingKind::spike, 0, 100, 100);
+  expect(findings[1], FindingKind::zero, 0, 200, 202);
+  expect(findings[2], FindingKind::stuck, 7, 300, 330);
+}
+
+/// A spike, a stuck marker, an exchange of labels and a visit, far from one another; one marker with a gap.
+Trajectories spoilt() {
+  Trajectories t = testing::walker();
+  t.x(100, 0).z() += 0.05;
+  for (std::int64_t f = 201; f <= 230; ++f) t.x(f, 7) = t.x(200, 7);
+  for (std::int64_t f = 320; f <= 359; ++f) {
+    const Eigen::Vector3d one = t.x(f, 1);
+    t.x(f, 1) = t.x(f, 2);
+    t.x(f, 2) = one;
+  }
+  for (std::int64_t f = 450; f <= 462; ++f) {
+    t.x(f, 5) = t.x(f, 4);
+    t.set_missing(f, 4);
+  }
+  for (std::int64_t f = 520; f <= 540; ++f) t.set_missing(f, 6);
+  return t;
+}
+
+/// "kind subject partner first-last" of each, in alphabetical order.
+std::vector<std::string> told(const Trajectories& t) {
+  std::vector<std::string> out;
+  for (const data::Finding& f : found(t)) {
+    std::string one = f.subject, other = f.partner;
+    if (f.kind == FindingKind::label_swap && other < one) std::swap(one, other);  // named in either order
+    out.push_back(std::string(to_string(f.kind)) + " " + one + " " + other + " " +
+                  std::to_string(f.first_frame) + "-" + std::to_string(f.last_frame));
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+const std::vector<std::string> kSpoilt{"label swap M1 M2 320-359", "spike M0  100-100", "stuck M7  200-230",
+                                       "swap within M5 M4 450-462"};
+
+TEST(ScreenLaws, WhatIsSpoiltIsFound) { EXPECT_EQ(told(spoilt()), kSpoilt); }
+
+TEST(ScreenLaws, TheLaboratoryMayLieElsewhere) {
+  Trajectories t = spoilt();
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(2.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  for (std::int64_t f = 0; f < t.frames(); ++f)
+    for (std::int64_t m = 0; m < t.markers(); ++m)
+      t.x(f, m) = (rotation * t.x(f, m) + Eigen::Vector3d(12.0, -3.0, 0.7)).eval();
+  EXPECT_EQ(told(t), kSpoilt);
+}
+
+TEST(ScreenLaws, MarkersMayComeInAnyOrder) {
+  const Trajectories t = spoilt();
+  for (const std::int64_t step : {3, 5, 7}) {  // of 8 markers
+    std::vector<std::string> names;
+    for (std::int64_t m = 0; m < 8; ++m) names.push_back(t.names[static_cast<std::size_t>(step * m % 8)]);
+    auto other = Trajectories::all_missing(names, t.time);
+    for (std::int64_t f = 0; f < t.frames(); ++f)
+      for (std::int64_t m = 0; m < 8; ++m) {
+        other.x(f, m) = t.x(f, step * m % 8);
+        other.state[other.index(f, m)] = t.state[t.index(f, step * m % 8)];
+      }
+    EXPECT_EQ(told(other), kSpoilt) << step;
+  }
+}
+
+TEST(ScreenLaws, AnotherMarkerThatIsNeverSeenChangesNothing) {
+  const Trajectories t = spoilt();
+  auto names = t.names;
+  names.emplace_back("ghost");
+  auto more = Trajectories::all_missing(names, t.time);
+  for (std::int64_t f = 0; f < t.frames(); ++f)
+    for (std::int64_t m = 0; m < t.markers(); ++m) {
+      more.x(f, m) = t.x(f, m);
+      more.state[more.index(f, m)] = t.state[t.index(f, m)];
+    }
+  EXPECT_EQ(told(more), kSpoilt);
+}
+
+TEST(ScreenLaws, WhatWasRejectedIsNotFoundAgain) {
+  const Trajectories t = spoilt();
+  const Trajectories rest = reject_defects(t, found(t)).value();
+  EXPECT_THAT(told(rest), IsEmpty());
+  // 1 of the spike, 31 stuck, 40 of each of two labels, 13 of the visit; nothing else was touched.
+  EXPECT_EQ(rest.count_missing() - t.count_missing(), 1 + 31 + 2 * 40 + 13);
+  EXPECT_EQ(reject_defects(rest, found(t)).value().state, rest.state) << "rejected twice is rejected";
+}
+
+TEST(ScreenLaws, WordsNameTheMarkersAndTheFrames) {
+  const Trajectories t = spoilt();
+  for (const data::Finding& f : found(t)) {
+    const std::string sentence = sentence_of(f, t.time);
+    EXPECT_THAT(sentence, HasSubstr("'" + f.subject + "'"));
+    if (!f.partner.empty()) {
+      EXPECT_THAT(sentence, HasSubstr("'" + f.partner + "'"));
+    }
+    EXPECT_THAT(sentence, HasSubstr(std::to_string(f.first_frame)));
+    EXPECT_THAT(sentence, HasSubstr(std::to_string(f.last_frame)));
+    EXPECT_TRUE(sentence.starts_with('M') && sentence.ends_with('.')) << sentence;
+    EXPECT_EQ(sentence.find(".."), std::string::npos) << sentence;
+  }
+}
+
+TEST(ScreenLaws, SizesAreThoseOfTheDamage) {
+  for (const data::Finding& f : found(spoilt())) {
+    if (f.kind == FindingKind::spike) {
+      EXPECT_NEAR(f.size, 0.05, 0.005);
+    }
+    if (f.kind == FindingKind::swap_within) {
+      EXPECT_GT(f.size, 0.03) << "no shorter jump is looked for";
+    }
+  }
 }
 
 TEST(Screen, EachKindCanBeSwitchedOff) {
@@ -290,17 +405,18 @@ TEST(Screen, RefusesWhatDoesNotHold) {
               HasSubstr("stuck"));
   EXPECT_THAT(screen(t, {.min_confidence = 2.0}).error().message, HasSubstr("0 to 1"));
   EXPECT_THAT(screen(t, {}, std::vector<double>(3)).error().message, HasSubstr("3 frame times"));
-  EXPECT_EQ(reject_defects(t, std::vector<data::Defect>{{.marker = 99}}).error().code, Code::bad_input);
-  EXPECT_EQ(reject_defects(t, std::vector<data::Defect>{{.marker = 0, .first_frame = 5, .last_frame = 600}})
-                .error()
-                .code,
-            Code::bad_input);
+  for (const data::Finding& wrong : {data::Finding{.subject = "M99", .first_frame = 0, .last_frame = 0},
+                                     {.subject = "M0"},
+                                     {.subject = "M0", .first_frame = 5, .last_frame = 600},
+                                     {.subject = "M0", .first_frame = 5, .last_frame = 4},
+                                     {.subject = "M0", .partner = "m1", .first_frame = 5, .last_frame = 5}})
+    EXPECT_EQ(reject_defects(t, std::vector{wrong}).error().code, Code::bad_input) << wrong.subject;
 }
 
 TEST(RejectFindings, TakesOnlyWhatIsSureEnough) {
   const Trajectories t = testing::walker();
-  const std::vector<data::Defect> findings{
-      {.kind = DefectKind::spike, .marker = 1, .first_frame = 7, .last_frame = 8, .confidence = 0.6}};
+  const std::vector<data::Finding> findings{
+      {.kind = FindingKind::spike, .subject = "M1", .first_frame = 7, .last_frame = 8, .confidence = 0.6}};
   EXPECT_EQ(reject_defects(t, findings).value().state, t.state);
   const Trajectories out = reject_defects(t, findings, 0.5).value();
   EXPECT_TRUE(out.validate());

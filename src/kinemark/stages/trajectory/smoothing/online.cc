@@ -15,7 +15,7 @@
 namespace kinemark::trajectory {
 
 /// The part common to all orders: the delay line of frames and the output arrays.
-class OnlineSmoother::Core {
+class OnlineTrajectorySmoother::Core {
  public:
   Core(std::int64_t markers, const OnlineOptions& options)
       : markers_(markers), lag_(options.lag_frames), values_(4), sd_(static_cast<std::size_t>(4 * markers)) {
@@ -70,7 +70,7 @@ using smoothing::Square;
 using smoothing::Step;
 
 template <int m>
-class CoreOf final : public OnlineSmoother::Core {
+class CoreOf final : public OnlineTrajectorySmoother::Core {
  public:
   CoreOf(std::int64_t markers, double rate_hz, const OnlineOptions& options)
       : Core(markers, options),
@@ -208,27 +208,29 @@ Status OnlineOptions::check(double rate_hz) const {
   return {};
 }
 
-Result<OnlineSmoother> OnlineSmoother::create(std::int64_t markers, double rate_hz,
-                                              const OnlineOptions& options) {
+Result<OnlineTrajectorySmoother> OnlineTrajectorySmoother::create(std::int64_t markers, double rate_hz,
+                                                                  const OnlineOptions& options) {
   if (const auto status = options.check(rate_hz); !status) return std::unexpected(status.error());
   if (markers < 0) return fail(Code::usage, fmt::format("markers is {}; expected 0 or more", markers));
   switch (options.order) {
     case 2:
-      return OnlineSmoother(std::make_unique<CoreOf<2>>(markers, rate_hz, options));
+      return OnlineTrajectorySmoother(std::make_unique<CoreOf<2>>(markers, rate_hz, options));
     case 3:
-      return OnlineSmoother(std::make_unique<CoreOf<3>>(markers, rate_hz, options));
+      return OnlineTrajectorySmoother(std::make_unique<CoreOf<3>>(markers, rate_hz, options));
     case 4:
-      return OnlineSmoother(std::make_unique<CoreOf<4>>(markers, rate_hz, options));
+      return OnlineTrajectorySmoother(std::make_unique<CoreOf<4>>(markers, rate_hz, options));
     default:
-      return OnlineSmoother(std::make_unique<CoreOf<5>>(markers, rate_hz, options));
+      return OnlineTrajectorySmoother(std::make_unique<CoreOf<5>>(markers, rate_hz, options));
   }
 }
 
-OnlineSmoother::OnlineSmoother(std::unique_ptr<Core> core) : core_(std::move(core)) {}
-OnlineSmoother::OnlineSmoother(OnlineSmoother&&) noexcept = default;
-OnlineSmoother& OnlineSmoother::operator=(OnlineSmoother&&) noexcept = default;
-OnlineSmoother::~OnlineSmoother() = default;
-std::optional<OnlineFrame> OnlineSmoother::push(std::span<const double> x) { return core_->push(x); }
-std::optional<OnlineFrame> OnlineSmoother::drain() { return core_->drain(); }
+OnlineTrajectorySmoother::OnlineTrajectorySmoother(std::unique_ptr<Core> core) : core_(std::move(core)) {}
+OnlineTrajectorySmoother::OnlineTrajectorySmoother(OnlineTrajectorySmoother&&) noexcept = default;
+OnlineTrajectorySmoother& OnlineTrajectorySmoother::operator=(OnlineTrajectorySmoother&&) noexcept = default;
+OnlineTrajectorySmoother::~OnlineTrajectorySmoother() = default;
+std::optional<OnlineFrame> OnlineTrajectorySmoother::push(std::span<const double> x) {
+  return core_->push(x);
+}
+std::optional<OnlineFrame> OnlineTrajectorySmoother::drain() { return core_->drain(); }
 
 }  // namespace kinemark::trajectory

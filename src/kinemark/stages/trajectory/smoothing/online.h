@@ -34,14 +34,15 @@ struct OnlineFrame {
 
 /// Fixed-lag smoother. Evenly spaced frames; a gap is a frame of NaN. With a lag as long as the recording the
 /// results are those of smooth() with the same order and cut-off.
-class OnlineSmoother {
+class OnlineTrajectorySmoother {
  public:
   /// Fails with usage when the options do not check() or markers is negative. All memory is taken here:
   /// about 700 bytes per marker and frame of lag at order 5.
-  static Result<OnlineSmoother> create(std::int64_t markers, double rate_hz, const OnlineOptions& options);
-  OnlineSmoother(OnlineSmoother&&) noexcept;             ///< takes a running smoother over
-  OnlineSmoother& operator=(OnlineSmoother&&) noexcept;  ///< replaces this one by another
-  ~OnlineSmoother();
+  static Result<OnlineTrajectorySmoother> create(std::int64_t markers, double rate_hz,
+                                                 const OnlineOptions& options);
+  OnlineTrajectorySmoother(OnlineTrajectorySmoother&&) noexcept;  ///< takes a running smoother over
+  OnlineTrajectorySmoother& operator=(OnlineTrajectorySmoother&&) noexcept;  ///< replaces this one by another
+  ~OnlineTrajectorySmoother();
 
   /// The next frame, M x 3 in m; a marker with a coordinate that is not finite is missing. Gives the frame
   /// `lag_frames` ago, or nothing while there is none. Allocates nothing; O(markers lag).
@@ -52,7 +53,7 @@ class OnlineSmoother {
   class Core;
 
  private:
-  explicit OnlineSmoother(std::unique_ptr<Core> core);
+  explicit OnlineTrajectorySmoother(std::unique_ptr<Core> core);
   std::unique_ptr<Core> core_;
 };
 

@@ -42,7 +42,7 @@ std::span<const double> frame_of(const Trajectories& t, std::int64_t frame) {
   return {t.x_in_world.data() + 3 * t.index(frame, 0), static_cast<std::size_t>(3 * t.markers())};
 }
 
-TEST(OnlineSmoother, EqualsTheOfflineSmootherWhenItWaitsForAll) {
+TEST(OnlineTrajectorySmoother, EqualsTheOfflineSmootherWhenItWaitsForAll) {
   constexpr int kFrames = 400;
   const Trajectories in = recording(kFrames);
   for (int order = 2; order <= 5; ++order) {
@@ -53,7 +53,7 @@ TEST(OnlineSmoother, EqualsTheOfflineSmootherWhenItWaitsForAll) {
     offline.max_bridge_s = 10.0;
     offline.max_bridge_sd_m = 1e6;
     const auto expected = smooth(in, offline).value();
-    auto online = OnlineSmoother::create(2, 100.0, {order, 6.0, 0.0005, kFrames, true}).value();
+    auto online = OnlineTrajectorySmoother::create(2, 100.0, {order, 6.0, 0.0005, kFrames, true}).value();
     for (int f = 0; f < kFrames; ++f) ASSERT_FALSE(online.push(frame_of(in, f)));
     for (int f = 0; f < kFrames; ++f) {
       const auto out = online.drain();
@@ -76,11 +76,11 @@ TEST(OnlineSmoother, EqualsTheOfflineSmootherWhenItWaitsForAll) {
   }
 }
 
-TEST(OnlineSmoother, EachFrameUsesTheLagAndNoMore) {
+TEST(OnlineTrajectorySmoother, EachFrameUsesTheLagAndNoMore) {
   // At a lag of L, frame f must be the last but L of an offline run over frames up to f + L.
   constexpr int kLag = 9;
   const Trajectories in = recording(200);
-  auto online = OnlineSmoother::create(2, 100.0, {4, 6.0, 0.0005, kLag, false}).value();
+  auto online = OnlineTrajectorySmoother::create(2, 100.0, {4, 6.0, 0.0005, kLag, false}).value();
   SmoothOptions offline;
   offline.order = 4;
   offline.cutoff_hz = 6.0;
@@ -104,9 +104,9 @@ TEST(OnlineSmoother, EachFrameUsesTheLagAndNoMore) {
   }
 }
 
-TEST(OnlineSmoother, StandardDeviationsHaveSettledToTheFormula) {
+TEST(OnlineTrajectorySmoother, StandardDeviationsHaveSettledToTheFormula) {
   // Long after the start: sd^2 of position = sigma^2 w dt / (2 m sin(pi / 2 m)) for a lag without end.
-  auto online = OnlineSmoother::create(1, 1000.0, {4, 6.0, 0.001, 1500, false}).value();
+  auto online = OnlineTrajectorySmoother::create(1, 1000.0, {4, 6.0, 0.001, 1500, false}).value();
   const std::vector<double> still{0.1, 0.2, 0.3};
   std::optional<OnlineFrame> out;
   for (int f = 0; f < 3001; ++f) out = online.push(still);
@@ -117,10 +117,10 @@ TEST(OnlineSmoother, StandardDeviationsHaveSettledToTheFormula) {
   EXPECT_NEAR(out->acceleration[1], 0.0, 1e-6);
 }
 
-TEST(OnlineSmoother, AllocatesNothingPerFrame) {
+TEST(OnlineTrajectorySmoother, AllocatesNothingPerFrame) {
   if (!testing_support::counts_allocations()) GTEST_SKIP() << "the sanitizer owns the allocator";
   const Trajectories in = recording(300);
-  auto online = OnlineSmoother::create(2, 100.0, {5, 8.0, 0.0005, 20, true}).value();
+  auto online = OnlineTrajectorySmoother::create(2, 100.0, {5, 8.0, 0.0005, 20, true}).value();
   const auto before = testing_support::allocations_on_this_thread();
   for (int f = 0; f < 300; ++f) (void)online.push(frame_of(in, f));
   while (online.drain()) {
@@ -128,9 +128,9 @@ TEST(OnlineSmoother, AllocatesNothingPerFrame) {
   EXPECT_EQ(testing_support::allocations_on_this_thread(), before);
 }
 
-TEST(OnlineSmoother, MissingStaysMissing) {
+TEST(OnlineTrajectorySmoother, MissingStaysMissing) {
   const Trajectories in = recording(200);
-  auto online = OnlineSmoother::create(2, 100.0, {4, 6.0, 0.0005, 0, false}).value();
+  auto online = OnlineTrajectorySmoother::create(2, 100.0, {4, 6.0, 0.0005, 0, false}).value();
   for (int f = 0; f < 200; ++f) {
     const auto out = online.push(frame_of(in, f));
     ASSERT_TRUE(out);
@@ -139,9 +139,9 @@ TEST(OnlineSmoother, MissingStaysMissing) {
   }
 }
 
-TEST(OnlineSmoother, RefusesWhatItCannotDo) {
+TEST(OnlineTrajectorySmoother, RefusesWhatItCannotDo) {
   const auto message = [](std::int64_t markers, double rate, const OnlineOptions& options) {
-    const auto made = OnlineSmoother::create(markers, rate, options);
+    const auto made = OnlineTrajectorySmoother::create(markers, rate, options);
     return made ? std::string("made") : made.error().message;
   };
   EXPECT_THAT(message(1, 100.0, {6, 6.0, 0.001, 5, false}), HasSubstr("order is 6"));
@@ -150,7 +150,7 @@ TEST(OnlineSmoother, RefusesWhatItCannotDo) {
   EXPECT_THAT(message(1, 100.0, {4, 6.0, 0.001, -1, false}), HasSubstr("lag_frames is -1"));
   EXPECT_THAT(message(1, std::nan(""), {}), HasSubstr("rate_hz"));
   EXPECT_THAT(message(-1, 100.0, {}), HasSubstr("markers is -1"));
-  auto online = OnlineSmoother::create(2, 100.0, {}).value();
+  auto online = OnlineTrajectorySmoother::create(2, 100.0, {}).value();
   EXPECT_THROW((void)online.push(std::vector<double>(5, 0.0)), ContractError);
 }
 

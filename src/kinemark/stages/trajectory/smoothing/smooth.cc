@@ -6,15 +6,62 @@
 #include <cmath>
 #include <optional>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/trajectory/smoothing/internal/account.h"
 #include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
 #include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+#include "kinemark/stages/trajectory/smoothing/internal/whiteness.h"
 
 namespace kinemark::trajectory {
 namespace {
+
+Status run_filter(const smoothing::MarkerSamples& samples, const data::Trajectories& in,
+                  const SmoothOptions& options, MarkerResult& result) {
+  switch (options.method) {
+    case FilterMethod::kalman:
+    case FilterMethod::gcv:
+      smoothing::smooth_kalman(samples, in, options, result);
+      return {};
+    case FilterMethod::savgol:
+      return smoothing::smooth_savgol(samples, options, in.time.rate_hz, result);
+    case FilterMethod::none:
+    case FilterMethod::butterworth:
+    case FilterMethod::classic:
+      return smoothing::smooth_butterworth(samples, options, in.time.rate_hz, result);
+  }
+  return {};
+}
+
+/// What the filter that was used makes of a 1 among zeros, in the middle; empty for none.
+std::vector<double> impulse_response(const data::FilterUsed& used, const SmoothOptions& asked,
+                                     double rate_hz) {
+  if (asked.method == FilterMethod::none || !(used.cutoff_hz > 0.0)) return {};
+  constexpr std::int64_t kMiddle = smoothing::kWhitenessFrames;
+  SmoothOptions options;
+  // The chain of 1986 is a Butterworth filter whose cut-off was named before its second pass.
+  options.method = asked.method == FilterMethod::classic ? FilterMethod::butterworth : asked.method;
+  options.order = used.order;
+  options.cutoff_hz = used.cutoff_hz;
+  options.noise_sd_m = 1.0;
+  smoothing::MarkerSamples impulse;
+  impulse.frames = impulse.measured = 2 * kMiddle + 1;
+  impulse.interval_s = 1.0 / rate_hz;
+  impulse.x.assign(at(3 * impulse.frames), 0.0);
+  impulse.x[at(3 * kMiddle)] = 1.0;
+  impulse.present.assign(at(impulse.frames), 1);
+  impulse.judged = impulse.present;
+  data::Trajectories in;
+  in.time.rate_hz = rate_hz;
+  MarkerResult result;
+  result.state.assign(at(impulse.frames), data::SampleState::measured);
+  if (!run_filter(impulse, in, options, result)) return {};
+  std::vector<double> response(at(impulse.frames));
+  for (std::int64_t f = 0; f < impulse.frames; ++f) response[at(f)] = result.x[at(3 * f)];
+  return response;
+}
 
 Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOptions& options,
                                    std::int64_t marker) {
@@ -31,29 +78,16 @@ Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOpt
   account.used.cutoff_hz = account.used.noise_sd_m = kNaN;
   account.measured = samples->measured;
   account.bad_variances = samples->bad_variances;
-  Status status;
-  switch (options.method) {
-    case FilterMethod::kalman:
-    case FilterMethod::gcv:
-      smoothing::smooth_kalman(*samples, in, options, result);
-      break;
-    case FilterMethod::savgol:
-      status = smoothing::smooth_savgol(*samples, options, in.time.rate_hz, result);
-      break;
-    case FilterMethod::none:
-    case FilterMethod::butterworth:
-    case FilterMethod::classic:
-      status = smoothing::smooth_butterworth(*samples, options, in.time.rate_hz, result);
-      break;
-  }
-  if (!status) return std::unexpected(status.error());
-  smoothing::judge_residuals(*samples, in.time.rate_hz, result);
+  if (const auto status = run_filter(*samples, in, options, result); !status)
+    return std::unexpected(status.error());
+  smoothing::judge_residuals(*samples, impulse_response(account.used, options, in.time.rate_hz),
+                             in.time.rate_hz, result);
   return result;
 }
 
 /// Copy one marker's numbers, `width` to a frame, into the array of all markers; made on first use.
-void place(const Array<double>& from, Array<double>& to, std::int64_t marker, std::int64_t markers,
-           int width) {
+void copy_marker(const Array<double>& from, Array<double>& to, std::int64_t marker, std::int64_t markers,
+                 int width) {
   if (from.empty()) return;
   const std::int64_t frames = std::ssize(from) / width;
   if (to.empty()) to.assign(static_cast<std::size_t>(frames * markers * width), kNaN);
@@ -97,14 +131,14 @@ Result<SmoothResult> smooth(const data::Trajectories& in, const SmoothOptions& o
   const auto numbers = in.x_in_world.size();
   for (Array<double>* values : {&d.velocity, &d.acceleration, &d.jerk}) values->assign(numbers, kNaN);
   const auto status = smooth_each(in, options, [&](MarkerResult&& one) -> Status {
-    place(one.x, t.x_in_world, one.marker, markers, 3);
-    place(one.covariance, t.covariance, one.marker, markers, 6);
-    place(one.velocity, d.velocity, one.marker, markers, 3);
-    place(one.velocity_sd, d.velocity_sd, one.marker, markers, 3);
-    place(one.acceleration, d.acceleration, one.marker, markers, 3);
-    place(one.acceleration_sd, d.acceleration_sd, one.marker, markers, 3);
-    place(one.jerk, d.jerk, one.marker, markers, 3);
-    place(one.jerk_sd, d.jerk_sd, one.marker, markers, 3);
+    copy_marker(one.x, t.x_in_world, one.marker, markers, 3);
+    copy_marker(one.covariance, t.covariance, one.marker, markers, 6);
+    copy_marker(one.velocity, d.velocity, one.marker, markers, 3);
+    copy_marker(one.velocity_sd, d.velocity_sd, one.marker, markers, 3);
+    copy_marker(one.acceleration, d.acceleration, one.marker, markers, 3);
+    copy_marker(one.acceleration_sd, d.acceleration_sd, one.marker, markers, 3);
+    copy_marker(one.jerk, d.jerk, one.marker, markers, 3);
+    copy_marker(one.jerk_sd, d.jerk_sd, one.marker, markers, 3);
     for (std::int64_t f = 0; f < in.frames(); ++f) {
       if (one.state[static_cast<std::size_t>(f)] == in.state[in.index(f, one.marker)]) continue;
       t.state[in.index(f, one.marker)] = one.state[static_cast<std::size_t>(f)];

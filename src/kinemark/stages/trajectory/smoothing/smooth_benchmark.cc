@@ -57,11 +57,12 @@ BENCHMARK(BM_SmoothMinute)->DenseRange(0, 5)->Unit(benchmark::kMillisecond);
 /// A live frame of 40 markers; argument: frames of lag.
 void BM_OnlineFrame(benchmark::State& state) {
   const auto in = circling(4000, 40);
-  auto twin =
-      OnlineSmoother::create(40, kRateHz, {5, 8.0, 0.0005, static_cast<int>(state.range(0)), false}).value();
+  auto online =
+      OnlineTrajectorySmoother::create(40, kRateHz, {5, 8.0, 0.0005, static_cast<int>(state.range(0)), false})
+          .value();
   std::int64_t f = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(twin.push({in.x_in_world.data() + 3 * in.index(f, 0), 120}));
+    benchmark::DoNotOptimize(online.push({in.x_in_world.data() + 3 * in.index(f, 0), 120}));
     f = (f + 1) % in.frames();
   }
   state.SetItemsProcessed(state.iterations() * 40);

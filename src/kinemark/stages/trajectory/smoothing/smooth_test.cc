@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr double kSigma = 0.0005;
 
-Eigen::Vector3d place(double t, int derivative) {
+Eigen::Vector3d position(double t, int derivative) {
   Eigen::Vector3d p;
   for (int axis = 0; axis < 3; ++axis) {
     const double w = 2.0 * M_PI * (0.8 + 0.4 * axis);
@@ -37,7 +37,7 @@ Trajectories hand(int frames = 400, double rate_hz = 100.0, std::uint64_t seed =
   for (int m = 0; m < markers; ++m) {
     Random random(seed, static_cast<std::uint64_t>(m));
     for (int f = 0; f < frames; ++f) {
-      Eigen::Vector3d x = place(f / rate_hz, 0);
+      Eigen::Vector3d x = position(f / rate_hz, 0);
       for (int axis = 0; axis < 3; ++axis) x[axis] += kSigma * random.gaussian();
       t.x(f, m) = x;
       t.state[t.index(f, m)] = SampleState::measured;
@@ -55,7 +55,7 @@ double rms_error(const Array<double>& values, int derivative, double rate_hz) {
   for (std::size_t i = 0; i < values.size() / 3; ++i) {
     if (std::isnan(values[3 * i])) continue;
     sum += (Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * i) -
-            place(static_cast<double>(i) / rate_hz, derivative))
+            position(static_cast<double>(i) / rate_hz, derivative))
                .squaredNorm();
     count += 3.0;
   }
@@ -75,9 +75,11 @@ TEST(Smooth, FindsTheMovementItsDerivativesAndTheNoise) {
   EXPECT_NEAR(account.used.noise_sd_m, kSigma, 0.1 * kSigma);
   EXPECT_EQ(account.used.method, "kalman");
   EXPECT_EQ(account.candidates.size(), 4u);
-  EXPECT_TRUE(account.white);
+  EXPECT_TRUE(account.judged());
+  EXPECT_FALSE(account.coloured());
+  EXPECT_THAT(account.description, HasSubstr("is consistent with white noise"));
   EXPECT_EQ(account.measured, 400);
-  EXPECT_THAT(account.words, HasSubstr("SURE"));
+  EXPECT_THAT(account.description, HasSubstr("SURE"));
 }
 
 SmoothOptions with(FilterMethod method) {
@@ -98,7 +100,7 @@ TEST(Smooth, EveryMethodFollowsTheMovement) {
     EXPECT_LT(rms_error(result->derivatives.velocity, 1, 100.0), method == FilterMethod::none ? 0.08 : 0.03)
         << to_string(method);
     EXPECT_EQ(result->derivatives.filters.front().method, to_string(method));
-    EXPECT_FALSE(result->markers.front().words.empty());
+    EXPECT_FALSE(result->markers.front().description.empty());
   }
 }
 
@@ -139,7 +141,7 @@ TEST(Smooth, BridgesWhatIsAskedAndCertainEnough) {
   for (int f = 100; f < 106; ++f) {
     EXPECT_EQ(result->trajectories.state[static_cast<std::size_t>(f)], SampleState::interpolated);
     EXPECT_EQ(result->trajectories.made_by(f, 0), "kalman");
-    EXPECT_LT((result->trajectories.x(f, 0) - place(f / 100.0, 0)).norm(), 0.003);
+    EXPECT_LT((result->trajectories.x(f, 0) - position(f / 100.0, 0)).norm(), 0.003);
   }
   EXPECT_FALSE(result->trajectories.present(2, 0));
   EXPECT_FALSE(result->trajectories.present(230, 0));
@@ -160,7 +162,7 @@ TEST(Smooth, ErrorBarsKeepTheirWord) {
                                    &result.derivatives.acceleration_sd};
     for (std::size_t i = 0; i < 1200; ++i) {
       for (int d = 0; d < 3; ++d) {
-        const double truth = place(static_cast<double>(i / 3) / 100.0, d)[static_cast<int>(i % 3)];
+        const double truth = position(static_cast<double>(i / 3) / 100.0, d)[static_cast<int>(i % 3)];
         const double sd =
             d == 0 ? std::sqrt(result.trajectories.covariance[6 * (i / 3) + math::kSymmetric3Diagonal[i % 3]])
                    : (*sds[d])[i];
@@ -180,11 +182,11 @@ TEST(Smooth, ErrorBarsKeepTheirWord) {
 
 TEST(Smooth, TurnsWithTheLab) {
   // The same gains for all axes: a rotated recording gives the rotated result.
-  Trajectories in = hand(), turned = in;
+  Trajectories in = hand(), rotated = in;
   Eigen::Matrix3d r;
   r << 0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6;
-  for (int f = 0; f < 400; ++f) turned.x(f, 0) = r * in.x(f, 0);
-  const auto a = smooth(in).value(), b = smooth(turned).value();
+  for (int f = 0; f < 400; ++f) rotated.x(f, 0) = r * in.x(f, 0);
+  const auto a = smooth(in).value(), b = smooth(rotated).value();
   for (std::size_t f = 0; f < 400; ++f) {
     const Eigen::Vector3d v = Eigen::Map<const Eigen::Vector3d>(a.derivatives.acceleration.data() + 3 * f);
     EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(b.derivatives.acceleration.data() + 3 * f) - r * v).norm(),
@@ -219,16 +221,16 @@ TEST(Smooth, SamplesAreSmoothedAtTheirOwnTimes) {
   for (int f = 0; f < 400; ++f) {
     const double offset = random.uniform(-0.004, 0.004);
     in.sample_offset_s[static_cast<std::size_t>(f)] = offset;
-    in.x(f, 0) = place(f / 100.0 + offset, 0);
+    in.x(f, 0) = position(f / 100.0 + offset, 0);
   }
   SmoothOptions options;
   options.noise_sd_m = 1e-5;
   const auto result = smooth(in, options).value();
   for (int f = 20; f < 380; ++f) {
     const double t = f / 100.0 + in.sample_offset_s[static_cast<std::size_t>(f)];
-    EXPECT_LT(
-        (Eigen::Map<const Eigen::Vector3d>(result.derivatives.velocity.data() + 3 * f) - place(t, 1)).norm(),
-        0.01);
+    EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(result.derivatives.velocity.data() + 3 * f) - position(t, 1))
+                  .norm(),
+              0.01);
   }
   EXPECT_EQ(result.trajectories.sample_offset_s, in.sample_offset_s);
   const auto refused = smooth(in, with(FilterMethod::butterworth));
@@ -371,7 +373,7 @@ TEST(Smooth, FilledStretchesCountAsOneObservation) {
   const auto result = smooth(in).value();
   EXPECT_EQ(result.trajectories.made_by(120, 0), "cubic");
   EXPECT_EQ(result.trajectories.state[120], SampleState::interpolated);
-  EXPECT_LT((result.trajectories.x(97, 0) - place(0.97, 0)).norm(), 3.0 * kSigma);
+  EXPECT_LT((result.trajectories.x(97, 0) - position(0.97, 0)).norm(), 3.0 * kSigma);
   EXPECT_EQ(result.markers.front().measured, 360);
 }
 
@@ -381,15 +383,18 @@ TEST(Smooth, ColouredNoiseIsToldFromWhite) {
   double wander = 0.0;
   for (int f = 0; f < 2000; ++f) {
     wander = 0.9 * wander + kSigma * random.gaussian();
-    in.x(f, 0) = place(f / 100.0, 0) + Eigen::Vector3d::Constant(wander);
+    in.x(f, 0) = position(f / 100.0, 0) + Eigen::Vector3d::Constant(wander);
   }
   SmoothOptions options;
   options.order = 4;
   options.cutoff_hz = 4.0;
   const auto result = smooth(in, options).value();
-  EXPECT_FALSE(result.markers.front().white);
-  EXPECT_LT(result.markers.front().ljung_box_p, 1e-6);
-  EXPECT_THAT(result.markers.front().words, HasSubstr("not white"));
+  const data::MarkerAccount& account = result.markers.front();
+  EXPECT_TRUE(account.coloured());
+  EXPECT_LT(account.white_p, 1e-6);
+  EXPECT_GT(account.white_departure, 0.1);
+  EXPECT_THAT(account.description, HasSubstr("not white"));
+  EXPECT_THAT(account.description, HasSubstr("too low in frequency"));
 }
 
 TEST(Smooth, TheSpectrumHasThePowerOfTheNoise) {

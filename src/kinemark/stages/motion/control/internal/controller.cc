@@ -91,10 +91,10 @@ void Controller::find_commands(const GoalValues& goal, double time_s) {
       command_.col(m).setZero();
       continue;
     }
-    const Eigen::Vector3d place = w_.marker.col(m);
-    const Eigen::Vector3d velocity = model::point_velocity(w_, model_.markers()[at(m)].body, place);
+    const Eigen::Vector3d position = w_.marker.col(m);
+    const Eigen::Vector3d velocity = model::point_velocity(w_, model_.markers()[at(m)].body, position);
     command_.col(m) = feed * goal.a.col(m) + plan_.kd * (feed * goal.v.col(m) - velocity) +
-                      plan_.kp * (goal.x.col(m) - place) - bias_.segment<3>(3 * m);
+                      plan_.kp * (goal.x.col(m) - position) - bias_.segment<3>(3 * m);
   }
   for (std::size_t i = 0; i < plan_.levels.size(); ++i)
     for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {

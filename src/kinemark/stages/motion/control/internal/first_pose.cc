@@ -11,8 +11,8 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr std::int64_t kLookedAt = 100;  // poses, to find coordinates that no goal moves
-constexpr std::int64_t kInstants = 8;    // of the recording, at which tasks are evaluated
+constexpr std::int64_t kPosesChecked = 100;  // poses, to find coordinates that no goal moves
+constexpr std::int64_t kInstants = 8;        // of the recording, at which tasks are evaluated
 
 /// First frame with at least 95 % as many goals as the best one.
 std::int64_t find_anchor(const Problem& p, const data::Trajectories& goals) {
@@ -43,19 +43,19 @@ Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, Loc
     if (weight.sum() > 0.0)
       find_start(p, plan.start_options, solver, y, weight, 0, plan.start_options.starts, x);
     if (lock == LockMode::automatic) {
-      Looks looks;
+      IdlePoses idle_poses;
       Eigen::VectorXd pose = x;
-      const std::int64_t stride = std::max<std::int64_t>(1, p.frames / kLookedAt);
+      const std::int64_t stride = std::max<std::int64_t>(1, p.frames / kPosesChecked);
       for (std::int64_t f = anchor; f < p.frames; f += stride) {
         p.observe(goals, f, y, weight);
         if (weight.sum() > 0.0) solver.solve(y, weight, 0, pose);
-        looks.followed.push_back(pose);
+        idle_poses.followed.push_back(pose);
       }
-      looks.around = poses_around(plan, x);
-      looks.times_s.clear();
+      idle_poses.around = poses_around(plan, x);
+      idle_poses.times_s.clear();
       for (std::int64_t i = 0; i <= kInstants; ++i)
-        looks.times_s.push_back(goals.time.time_s(p.first_frame + i * (p.frames - 1) / kInstants));
-      lock_idle(plan, looks);
+        idle_poses.times_s.push_back(goals.time.time_s(p.first_frame + i * (p.frames - 1) / kInstants));
+      lock_idle(plan, idle_poses);
     }
   }
   plan.apply_locks(x);
@@ -77,10 +77,10 @@ Eigen::VectorXd find_first_pose(Plan& plan, const Eigen::Matrix3Xd& goal, const 
     find_start(p, plan.start_options, solver, goal, weight, 0, plan.start_options.starts, x);
   }
   if (lock == LockMode::automatic) {
-    Looks looks{.followed = poses_around(plan, x)};
-    looks.around = looks.followed;
-    looks.followed.push_back(x);
-    lock_idle(plan, looks);
+    IdlePoses idle_poses{.followed = poses_around(plan, x)};
+    idle_poses.around = idle_poses.followed;
+    idle_poses.followed.push_back(x);
+    lock_idle(plan, idle_poses);
   }
   plan.apply_locks(x);
   FrameSolver solver(p, plan.start_options);

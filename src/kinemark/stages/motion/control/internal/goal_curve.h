@@ -24,7 +24,7 @@ class GoalCurve {
 
  private:
   TimeBase time_;
-  Eigen::MatrixXd values_, bend_;  // bend: second derivative per frame^2
+  Eigen::MatrixXd values_, curvature_;  // curvature: second derivative per frame^2
 };
 
 }  // namespace kinemark::motion::internal

@@ -51,8 +51,8 @@ std::vector<double> make_kernel(double cutoff, std::int64_t reach) {
     m4 += 2.0 * kernel[at(k)] * square * square;
   }
   const double determinant = m0 * m4 - m2 * m2;
-  const double level = (m4 + m2 / 3.0) / determinant, bend = (-m0 / 3.0 - m2) / determinant;
-  for (std::int64_t k = 0; k <= reach; ++k) kernel[at(k)] *= level + bend * static_cast<double>(k * k);
+  const double level = (m4 + m2 / 3.0) / determinant, curvature = (-m0 / 3.0 - m2) / determinant;
+  for (std::int64_t k = 0; k <= reach; ++k) kernel[at(k)] *= level + curvature * static_cast<double>(k * k);
   return kernel;
 }
 
@@ -181,8 +181,8 @@ void GoalFilter::build(const SampleWindow& samples, std::int64_t first, const da
   find_gaps(samples, first, cell);
   const double h = 1.0 / rate_hz_;
   const auto rate = [&](const Array<double>& values, std::int64_t frame, int m) {
-    const auto place = 3 * at((first_frame + frame) * markers_in_d + marker[at(m)]);
-    return Eigen::Vector3d(values[place], values[place + 1], values[place + 2]);
+    const auto index = 3 * at((first_frame + frame) * markers_in_d + marker[at(m)]);
+    return Eigen::Vector3d(values[index], values[index + 1], values[index + 2]);
   };
   for (int m = 0; m < samples.markers(); ++m) {
     Eigen::Vector3d v0, v1, a0, a1;

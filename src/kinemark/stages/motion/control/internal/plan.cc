@@ -20,7 +20,7 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kRestPull =
+constexpr double kRestWeight =
     1e-6;  // m^2/rad^2, on the first pose only: for coordinates that the markers do not determine
 constexpr double kIdleLever = 0.01;  // m per rad
 constexpr double kIdleShare = 0.05;  // of the poses
@@ -172,8 +172,8 @@ Status lock_named(const TrackOptions& options, Plan& plan) {
 
 void Plan::apply_locks(Eigen::VectorXd& x) const {
   for (const int c : locked) {
-    const int place = problem.model.coordinates()[at(c)].state_idx;
-    x[place] = rest[place];
+    const int row = problem.model.coordinates()[at(c)].state_idx;
+    x[row] = rest[row];
   }
 }
 
@@ -206,7 +206,7 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   for (int c = 0; c < model.coordinate_count(); ++c)
     if (model.coordinates()[at(c)].speed_idx >= 0)
       ik.coordinate_tasks.push_back({.coordinate = model.description().coordinates[at(c)].name,
-                                     .weight = kRestPull,
+                                     .weight = kRestWeight,
                                      .value = (*rest)[c]});
   auto problem = make_problem(model, markers, ik);
   if (!problem) return std::unexpected(problem.error());
@@ -248,7 +248,7 @@ std::vector<Eigen::VectorXd> poses_around(const Plan& plan, const Eigen::VectorX
   return poses;
 }
 
-void lock_idle(Plan& plan, const Looks& looks) {
+void lock_idle(Plan& plan, const IdlePoses& idle_poses) {
   const auto& model = plan.problem.model;
   model::Workspace w(model);
   Eigen::MatrixXd J;
@@ -269,7 +269,7 @@ void lock_idle(Plan& plan, const Looks& looks) {
       for (const auto& level : plan.levels)
         for (const auto& task : level.tasks) {
           most.setZero(model.speed_count());
-          for (const double time_s : looks.times_s) {
+          for (const double time_s : idle_poses.times_s) {
             rows.resize(task->rows(), model.speed_count());
             task->evaluate(model, w, time_s, rows);
             for (Eigen::Index k = 0; k < most.size(); ++k)
@@ -281,14 +281,15 @@ void lock_idle(Plan& plan, const Looks& looks) {
     }
     return idle;
   };
-  const Eigen::VectorXi followed = idle_in(looks.followed, true), around = idle_in(looks.around, false);
+  const Eigen::VectorXi followed = idle_in(idle_poses.followed, true),
+                        around = idle_in(idle_poses.around, false);
   const auto often = [](int idle, const std::vector<Eigen::VectorXd>& poses) {
     return poses.empty() || idle > kIdleShare * static_cast<double>(poses.size());
   };
   for (int c = 0; c < model.coordinate_count(); ++c) {
     const int speed = model.coordinates()[at(c)].speed_idx;
     if (speed < 0 || plan.problem.fixed_speed[at(speed)] != 0) continue;
-    if (!often(followed[speed], looks.followed) || !often(around[speed], looks.around)) continue;
+    if (!often(followed[speed], idle_poses.followed) || !often(around[speed], idle_poses.around)) continue;
     plan.problem.fixed_speed[at(speed)] = 1;
     plan.locked.push_back(c);
   }

@@ -49,7 +49,7 @@ struct Plan {
 [[nodiscard]] GoalFilter make_filter(double rate_hz, const TrackOptions& options);
 
 /// Poses in which the coordinates moved by the goals are determined.
-struct Looks {
+struct IdlePoses {
   std::vector<Eigen::VectorXd> followed;  ///< poses found by following the goals
   /// A task that is not a point may have zero derivatives in all of `followed` (a distance along a straight
   /// arm), so tasks are also evaluated in these poses, drawn within the limits around one of the others.
@@ -62,7 +62,7 @@ struct Looks {
 
 /// Lock the coordinates of joints that move the goals by less than 1 cm per rad (or m) in more than 5 % of
 /// the poses.
-void lock_idle(Plan& plan, const Looks& looks);
+void lock_idle(Plan& plan, const IdlePoses& idle_poses);
 
 /// Checks that the mass matrix of the free speeds is positive definite in pose x.
 [[nodiscard]] Status check_mass(const Plan& plan, const Eigen::VectorXd& x);

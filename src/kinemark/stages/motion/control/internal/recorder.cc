@@ -28,7 +28,7 @@ Recorder::Recorder(const Plan& plan, const data::Trajectories& markers, Walker& 
   auto& motion = result.motion;
   const auto F = plan.problem.frames;
   const auto n = static_cast<std::int64_t>(motion.coordinates.size());
-  for (auto* column : {&motion.q, &motion.v, &motion.a, &motion.tau}) column->assign(at(F * n), 0.0);
+  for (auto* column : {&motion.q, &motion.qd, &motion.qdd, &motion.tau}) column->assign(at(F * n), 0.0);
   motion.marker_error.assign(at(3 * F * plan.problem.model.marker_count()), kNaN);
   motion.status.assign(at(F), FrameStatus::no_markers);
   track.states.resize(plan.problem.model.state_count(), F);
@@ -59,8 +59,8 @@ void Recorder::store() {
     std::copy(from.data(), from.data() + from.size(), to.data() + motion.index(f, 0));
   };
   keep(motion.q, readout_.q());
-  keep(motion.v, readout_.rate());
-  keep(motion.a, readout_.acceleration());
+  keep(motion.qd, readout_.rate());
+  keep(motion.qdd, readout_.acceleration());
   keep(motion.tau, readout_.tau());
   track_.states.col(f) = body.x();
   result_.rank[at(f)] = body.rank();
@@ -77,14 +77,14 @@ void Recorder::store() {
 
 void Recorder::store_marker_errors(std::int64_t f) {
   const auto M = static_cast<std::int64_t>(plan_.problem.model.marker_count());
-  const auto& place = walker_.controller().workspace().marker;
+  const auto& position = walker_.controller().workspace().marker;
   for (std::int64_t m = 0; m < M; ++m) {
     const auto in_data = plan_.problem.data_marker[at(m)];
     if (!markers_.present(plan_.problem.first_frame + f, in_data)) continue;
-    const Eigen::Vector3d error = markers_.x(plan_.problem.first_frame + f, in_data) - place.col(m);
+    const Eigen::Vector3d error = markers_.x(plan_.problem.first_frame + f, in_data) - position.col(m);
     std::copy(error.data(), error.data() + 3, result_.motion.marker_error.data() + (f * M + m) * 3);
     if (walker_.goal().weight[m] <= 0.0) continue;
-    const double miss = (walker_.goal().x.col(m) - place.col(m)).norm();
+    const double miss = (walker_.goal().x.col(m) - position.col(m)).norm();
     goal_squares_ += miss * miss;
     ++goals_;
     result_.max_goal_error_m = std::max(result_.max_goal_error_m, miss);

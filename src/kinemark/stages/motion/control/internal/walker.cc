@@ -78,10 +78,10 @@ void Walker::lead_new_markers(double time_s, double u) {
     if (!returning_.is_new(m, goal_.weight)) continue;
     if (!looked) cell_.at(u, before_);
     looked = true;
-    const Eigen::Vector3d place = w.marker.col(m);
+    const Eigen::Vector3d position = w.marker.col(m);
     const int body = plan_.problem.model.markers()[static_cast<std::size_t>(m)].body;
-    returning_.lead(m, time_s, place - before_.x.col(m),
-                    model::point_velocity(w, body, place) - before_.v.col(m));
+    returning_.lead(m, time_s, position - before_.x.col(m),
+                    model::point_velocity(w, body, position) - before_.v.col(m));
   }
 }
 
@@ -101,10 +101,10 @@ void Walker::restart() {
 
 void Walker::judge() {
   double squares = 0.0, weight = 0.0;
-  const auto& place = controller_.workspace().marker;
+  const auto& position = controller_.workspace().marker;
   for (Eigen::Index m = 0; m < goal_.weight.size(); ++m) {
     if (goal_.weight[m] == 0.0) continue;
-    squares += goal_.weight[m] * (goal_.x.col(m) - place.col(m)).squaredNorm();
+    squares += goal_.weight[m] * (goal_.x.col(m) - position.col(m)).squaredNorm();
     weight += goal_.weight[m];
   }
   if (weight > 0.0 && !(std::sqrt(squares / weight) <= plan_.max_error_m)) flagged_ = true;

@@ -69,10 +69,10 @@ void FrameDynamics::to_coordinates(const VectorXd& tau, VectorXd& out) const {
     if (speed >= 0) out[c] = tau[speed];
   }
   for (const auto& free : model_.free_joints()) {
-    const Vector3d turns = angular_from_rates(free, E_).transpose() * tau.segment<3>(free.speed_idx + 3);
+    const Vector3d torques = angular_from_rates(free, E_).transpose() * tau.segment<3>(free.speed_idx + 3);
     const Vector3d slides = free.translation_axes.transpose() * tau.segment<3>(free.speed_idx);
     for (int i = 0; i < 3; ++i) {
-      out[free.rotation_coordinate[i]] = turns[i];
+      out[free.rotation_coordinate[i]] = torques[i];
       out[free.translation_coordinate[i]] = slides[i];
     }
   }

@@ -14,7 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kTold = 0.5;  // share of its prior that a determined parameter's deviation stays below
+constexpr double kDeterminedShare =
+    0.5;  // share of its prior that a determined parameter's deviation stays below
 
 /// Derivative of a length by every parameter.
 VectorXd slope(const std::vector<GeometryParameter>& parameters, const SegmentLength& length,
@@ -43,9 +44,9 @@ void describe(const data::ModelDescription& model, const std::vector<GeometryPar
                          .prior_sd = parameter.prior_sd,
                          .sd = std::sqrt(std::max(0.0, result.covariance(k, k))),
                          .data_sd = std::sqrt(std::max(0.0, data_covariance(k, k)))};
-    const bool place = parameter.kind == ParameterKind::marker_place;
-    out.determined = (place ? out.sd : out.data_sd) < kTold * parameter.prior_sd;
-    if (!out.determined && !place) result.not_determined.push_back(parameter.name);
+    const bool position = parameter.kind == ParameterKind::marker_position;
+    out.determined = (position ? out.sd : out.data_sd) < kDeterminedShare * parameter.prior_sd;
+    if (!out.determined && !position) result.not_determined.push_back(parameter.name);
     result.parameters.push_back(std::move(out));
   }
   for (const auto& length : segment_lengths(model)) {
@@ -57,12 +58,12 @@ void describe(const data::ModelDescription& model, const std::vector<GeometryPar
     double prior = 0.0;
     for (Index k = 0; k < gradient.size(); ++k)
       prior += std::pow(gradient[k] * parameters[at(k)].prior_sd, 2);
-    const double told = std::sqrt(gradient.dot(data_covariance * gradient) / prior);
+    const double share = std::sqrt(gradient.dot(data_covariance * gradient) / prior);
     AdaptedLength out{.name = length.name,
                       .initial_m = length.length_m,
                       .length_m = span.norm(),
                       .sd_m = std::sqrt(gradient.dot(result.covariance * gradient)),
-                      .determined = told < kTold};
+                      .determined = share < kDeterminedShare};
     if (!out.determined) result.not_determined.push_back(length.name);
     result.lengths.push_back(std::move(out));
   }

@@ -24,7 +24,7 @@ constexpr std::int64_t kStartFrames = 80;
 constexpr int kNoiseRounds = 4;  // until the noise agrees with the residuals
 constexpr double kSameNoise = 0.03;
 constexpr double kLeastGain = 1e-7;  // of the cost
-constexpr double kNoPlacePrior_m = 1.0;
+constexpr double kNoPositionPrior_m = 1.0;
 constexpr double kLeastNoise_m = 1e-5;
 constexpr double kSettled = 0.1;  // standard deviations: largest distance to the minimum after the last step
 constexpr double kNear = 0.3;     // standard deviations: gain of a step below which settle() takes over
@@ -78,12 +78,12 @@ Status Adaptation::run(AdaptResult& result) {
 }
 
 /// Weight of every parameter's prior in units of the squares.
-VectorXd Adaptation::priors(double place_sd) const {
+VectorXd Adaptation::priors(double position_sd) const {
   VectorXd weight(x_.size());
   for (Index k = 0; k < weight.size(); ++k) {
     const auto& parameter = parameters_[at(k)];
-    const bool free_place = place_sd > 0.0 && parameter.kind == ParameterKind::marker_place;
-    const double sd = free_place ? std::max(place_sd, parameter.prior_sd) : parameter.prior_sd;
+    const bool free_position = position_sd > 0.0 && parameter.kind == ParameterKind::marker_position;
+    const double sd = free_position ? std::max(position_sd, parameter.prior_sd) : parameter.prior_sd;
     weight[k] = noise_m_ * noise_m_ / (sd * sd);
   }
   return weight;
@@ -204,12 +204,12 @@ std::optional<double> Adaptation::step_by(const Quiet& quiet) {
 Status Adaptation::find_covariance(AdaptResult& result) {
   TissueModel tissue;
   std::optional<TissuePass> pass;
-  const auto look = [&] {
+  const auto detect_tissue = [&] {
     const auto variances = estimate_variances(projection_.problem(), markers_, states_, options_.threads);
     pass.emplace(projection_.problem(), projection_.layout(), markers_, states_, options_.threads);
     tissue = pass->detect(variances);
   };
-  if (options_.soft_tissue) look();
+  if (options_.soft_tissue) detect_tissue();
   if (tissue.found) {
     // Correlated samples have less weight against the priors.
     noise_m_ = result.noise_sd_m * std::sqrt(tissue.inflation);
@@ -217,11 +217,11 @@ Status Adaptation::find_covariance(AdaptResult& result) {
     result.noise_sd_m = options_.marker_noise_sd_m > 0.0 ? options_.marker_noise_sd_m : residual_noise();
   }
   if (auto s = settle(result); !s) return s;
-  if (tissue.found) look();
+  if (tissue.found) detect_tissue();
   result.tissue_sd_m = tissue.found ? tissue.sd_m : 0.0;
   const double s2 = noise_m_ * noise_m_;
-  const auto covariance = [&](double place_sd) {
-    const VectorXd prior = priors(place_sd);
+  const auto covariance = [&](double position_sd) {
+    const VectorXd prior = priors(position_sd);
     const MatrixXd inverse_S = inverse(of_motion_, prior);
     if (!tissue.found) return MatrixXd(s2 * inverse_S);
     MatrixXd middle = pass->middle(tissue, inverse_S);
@@ -229,7 +229,7 @@ Status Adaptation::find_covariance(AdaptResult& result) {
     return MatrixXd(inverse_S * middle * inverse_S);
   };
   result.covariance = covariance(0.0);
-  data_covariance_ = covariance(kNoPlacePrior_m);
+  data_covariance_ = covariance(kNoPositionPrior_m);
   if (!result.covariance.allFinite() || !data_covariance_.allFinite())
     return fail(Code::bad_input,
                 "these data give no finite deviations of sizes; give more frames or markers");

@@ -37,7 +37,7 @@ class Adaptation {
   [[nodiscard]] const Eigen::MatrixXd& states() const { return states_; }
 
  private:
-  [[nodiscard]] Eigen::VectorXd priors(double place_sd = 0.0) const;
+  [[nodiscard]] Eigen::VectorXd priors(double position_sd = 0.0) const;
   [[nodiscard]] double residual_noise() const;
   [[nodiscard]] double cost(const ProjectedSums& sums, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& prior) const;

@@ -105,7 +105,7 @@ class BruteForce {
 };
 
 struct Case {
-  std::vector<GeometryParameter> list = testing_leg::sizes_and_places(leg(), {"THI", "TOE"});
+  std::vector<GeometryParameter> list = testing_leg::sizes_and_positions(leg(), {"THI", "TOE"});
   data::Trajectories recording;
   testing_leg::Solved solved;
   Projection projection;

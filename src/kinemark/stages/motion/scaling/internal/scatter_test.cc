@@ -88,7 +88,7 @@ TEST(MeasureScatter, nothing_can_be_said_of_fewer_than_two_samples) {
 
 struct Measured {
   data::Trajectories recording;
-  std::vector<GeometryParameter> list = testing_leg::sizes_and_places(leg(), {});
+  std::vector<GeometryParameter> list = testing_leg::sizes_and_positions(leg(), {});
   testing_leg::Solved solved;
   GeometryLayout layout;
 

@@ -88,11 +88,11 @@ FrameEquations::FrameEquations(const Problem& problem, const GeometryLayout& lay
       q_(VectorXd::Zero(problem.model.coordinate_count())) {}
 
 void FrameEquations::add_tasks(double total, const VectorXd& x) {
-  if (problem_.pulls.empty()) return;
+  if (problem_.coordinate_tasks.empty()) return;
   model::coordinates_from_state(problem_.model, x, q_, q_);
   model::coordinate_jacobian(problem_.model, w, q_, E_);
-  for (const auto& pull : problem_.pulls)
-    H_.noalias() += total * pull.weight * E_.row(pull.coordinate).transpose() * E_.row(pull.coordinate);
+  for (const auto& task : problem_.coordinate_tasks)
+    H_.noalias() += total * task.weight * E_.row(task.coordinate).transpose() * E_.row(task.coordinate);
 }
 
 void FrameEquations::visit(const Eigen::Matrix3Xd& y, const VectorXd& given_weight, const VectorXd& x) {

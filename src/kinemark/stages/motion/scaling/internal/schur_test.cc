@@ -32,7 +32,7 @@ struct Case {
   explicit Case(const data::ModelDescription& model = leg())
       : recording(testing_leg::record(leg(), {.frames = 3, .noise_sd_m = 0.002})),
         solved(testing_leg::solve(model, recording)),
-        list(testing_leg::sizes_and_places(model, {"TIB"})),
+        list(testing_leg::sizes_and_positions(model, {"TIB"})),
         layout(solved.problem, model, list),
         frame(solved.problem, layout),
         y(3, solved.problem.model.marker_count()),

@@ -151,7 +151,7 @@ double geometry_response(const FrameEquations& frame, Index m, MatrixXd& G, Matr
 }  // namespace
 
 void TissuePass::add_frame(const FrameEquations& frame, std::int64_t f, Sums& sums) const {
-  MatrixXd G(layout_.columns, 3), half, turned;
+  MatrixXd G(layout_.columns, 3), half, rotated;
   for (Index m = 0; m < frame.weight.size(); ++m) {
     const int body = problem_.model.markers()[at(m)].body;
     if (frame.weight[m] == 0.0 || body < 0) continue;
@@ -162,10 +162,10 @@ void TissuePass::add_frame(const FrameEquations& frame, std::int64_t f, Sums& su
     if (phi.cols() == 0) continue;
     const double visible = geometry_response(frame, m, G, half);
     const Eigen::Matrix3d& R = frame.w.rotation[at(body)];
-    turned.noalias() = G * R;
+    rotated.noalias() = G * R;
     const Vector3d r_in_body = R.transpose() * r;
     for (Index k = 0; k < phi.cols(); ++k) {
-      sums.slide[at(m)].middleCols(3 * k, 3) += phi(f, k) * turned;
+      sums.slide[at(m)].middleCols(3 * k, 3) += phi(f, k) * rotated;
       sums.residual[at(m)].col(k) += phi(f, k) * r_in_body;
       sums.field_visible[at(m)][k] += phi(f, k) * phi(f, k) * visible;
     }

@@ -20,7 +20,7 @@ using testing_leg::leg;
 struct Case {
   data::Trajectories recording;
   testing_leg::Solved solved;
-  std::vector<GeometryParameter> list = testing_leg::sizes_and_places(leg(), {});
+  std::vector<GeometryParameter> list = testing_leg::sizes_and_positions(leg(), {});
   GeometryLayout layout;
 
   explicit Case(const testing_leg::Recording& how)

@@ -23,7 +23,7 @@ constexpr double kKneeBent = -0.6;  // about which it moves, rad
 data::ModelDescription leg() {
   data::ModelDescription model;
   model.name = "leg";
-  const auto turn = [&](data::JointDescription& joint, const char* name, const Vector3d& axis) {
+  const auto add_rotation = [&](data::JointDescription& joint, const char* name, const Vector3d& axis) {
     joint.axes.push_back({.axis = axis, .coordinate_idx = static_cast<int>(model.coordinates.size())});
     model.coordinates.push_back({.name = name});
   };
@@ -31,12 +31,12 @@ data::ModelDescription leg() {
     model.bodies.push_back({.name = name, .mass = mass, .com_in_body = com});
     model.bodies.back().inertia_about_com = 0.01 * mass * Vector3d(1.0, 0.3, 0.9).asDiagonal();
   };
-  const auto joint = [&](const char* name, int parent, const Vector3d& place) {
+  const auto joint = [&](const char* name, int parent, const Vector3d& position) {
     data::JointDescription out{.name = name,
                                .type = "CustomJoint",
                                .parent_body_idx = parent,
                                .child_body_idx = static_cast<int>(model.joints.size())};
-    out.parent_from_joint.translation = place;
+    out.parent_from_joint.translation = position;
     return out;
   };
   body("pelvis", 11.0, Vector3d(-0.07, 0.0, 0.0));
@@ -46,24 +46,24 @@ data::ModelDescription leg() {
 
   auto root = joint("ground_pelvis", data::kGround, Vector3d::Zero());
   root.child_from_joint.translation = Vector3d(0.05, 0.0, 0.0);
-  turn(root, "tilt", Vector3d::UnitZ());
-  turn(root, "list", Vector3d::UnitX());
-  turn(root, "rotation", Vector3d::UnitY());
+  add_rotation(root, "tilt", Vector3d::UnitZ());
+  add_rotation(root, "list", Vector3d::UnitX());
+  add_rotation(root, "rotation", Vector3d::UnitY());
   for (const auto& [name, axis] :
        {std::pair{"tx", Vector3d(1, 0, 0)}, {"ty", Vector3d(0, 1, 0)}, {"tz", Vector3d(0, 0, 1)}}) {
-    turn(root, name, axis);
+    add_rotation(root, name, axis);
     root.axes.back().is_rotation = false;
     model.coordinates.back().is_rotation = false;
   }
   model.joints.push_back(root);
   auto hip = joint("hip_r", 0, Vector3d(-0.07, -0.066, 0.083));
   hip.child_from_joint.translation = Vector3d(0.0, 0.01, 0.0);
-  turn(hip, "hip_flexion", Vector3d::UnitZ());
-  turn(hip, "hip_adduction", Vector3d::UnitX());
-  turn(hip, "hip_rotation", Vector3d::UnitY());
+  add_rotation(hip, "hip_flexion", Vector3d::UnitZ());
+  add_rotation(hip, "hip_adduction", Vector3d::UnitX());
+  add_rotation(hip, "hip_rotation", Vector3d::UnitY());
   model.joints.push_back(hip);
   auto knee = joint("knee_r", 1, Vector3d(0.0, -0.4, 0.0));
-  turn(knee, "knee_angle", Vector3d::UnitZ());
+  add_rotation(knee, "knee_angle", Vector3d::UnitZ());
   // The shank rolls forward on the thigh.
   knee.axes.push_back({.is_rotation = false,
                        .axis = Vector3d::UnitX(),
@@ -71,7 +71,7 @@ data::ModelDescription leg() {
                        .function = math::ScalarFunction::linear(-0.01, 0.002)});
   model.joints.push_back(knee);
   auto ankle = joint("ankle_r", 2, Vector3d(0.0, -0.43, 0.0));
-  turn(ankle, "ankle_angle", Vector3d(0.1, 0.17, 0.98).normalized());
+  add_rotation(ankle, "ankle_angle", Vector3d(0.1, 0.17, 0.98).normalized());
   model.joints.push_back(ankle);
 
   const auto marker = [&](const char* name, int on, double x, double y, double z) {

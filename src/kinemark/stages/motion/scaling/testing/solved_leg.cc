@@ -25,12 +25,12 @@ Solved solve(const data::ModelDescription& model, const data::Trajectories& mark
   return {.options = options, .problem = std::move(problem), .states = std::move(states)};
 }
 
-std::vector<GeometryParameter> sizes_and_places(const data::ModelDescription& model,
-                                                const std::vector<std::string>& markers) {
+std::vector<GeometryParameter> sizes_and_positions(const data::ModelDescription& model,
+                                                   const std::vector<std::string>& markers) {
   auto list = scale_parameters(model, default_scale_groups(model)).value();
   if (markers.empty()) return list;
-  const auto places = marker_parameters(model, markers).value();
-  list.insert(list.end(), places.begin(), places.end());
+  const auto positions = marker_parameters(model, markers).value();
+  list.insert(list.end(), positions.begin(), positions.end());
   return list;
 }
 

@@ -24,7 +24,7 @@ struct Solved {
 [[nodiscard]] Solved solve(const data::ModelDescription& model, const data::Trajectories& markers);
 
 /// Sizes of the leg's segments and the positions of these markers, with their usual priors.
-[[nodiscard]] std::vector<GeometryParameter> sizes_and_places(const data::ModelDescription& model,
-                                                              const std::vector<std::string>& markers);
+[[nodiscard]] std::vector<GeometryParameter> sizes_and_positions(const data::ModelDescription& model,
+                                                                 const std::vector<std::string>& markers);
 
 }  // namespace kinemark::motion::testing_leg

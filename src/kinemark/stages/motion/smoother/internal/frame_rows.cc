@@ -15,9 +15,9 @@ constexpr double kLoopInformation = 1e10;  // 1/m^2
 
 FrameRows::FrameRows(const model::Model& model) : model_(model), w_(model) {}
 
-double FrameRows::visit(const Sightings& sightings, std::int64_t f, const Eigen::VectorXd& x) {
+double FrameRows::visit(const Observations& observations, std::int64_t f, const Eigen::VectorXd& x) {
   model::kinematics(model_, w_, x);
-  sightings.look(f, w_.marker, seen_);
+  observations.linearize(f, w_.marker, seen_);
   double cost = seen_.cost;
   if (!model_.point_constraints().empty()) {
     model::point_constraint_gaps(model_, w_, gap_);
@@ -26,10 +26,10 @@ double FrameRows::visit(const Sightings& sightings, std::int64_t f, const Eigen:
   return cost;
 }
 
-void FrameRows::pull(Eigen::VectorXd& g) {
+void FrameRows::descent(Eigen::VectorXd& g) {
   model::clear_forces(w_);
   for (int m = 0; m < model_.marker_count(); ++m)
-    model::add_force(w_, model_.markers()[at(m)].body, w_.marker.col(m), seen_.pull.col(m));
+    model::add_force(w_, model_.markers()[at(m)].body, w_.marker.col(m), seen_.descent.col(m));
   model::project_forces(model_, w_, g);
   if (gap_.size() == 0) return;
   model::point_constraint_jacobian(model_, w_, C_);

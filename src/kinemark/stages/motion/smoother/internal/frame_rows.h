@@ -5,20 +5,20 @@
 #include <Eigen/Core>
 
 #include "kinemark/model/workspace.h"
-#include "kinemark/stages/motion/smoother/sightings.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 
 namespace kinemark::motion::internal {
 
-/// Sightings of one frame turned into normal equations of its posture; closed loops count as sightings to
-/// 10 um. One thread's scratch.
+/// Observations of one frame turned into normal equations of its posture; closed loops count as observations
+/// to 10 um. One thread's scratch.
 class FrameRows {
  public:
   explicit FrameRows(const model::Model& model);
 
   /// Cost of posture x; keeps what the two functions below need.
-  double visit(const Sightings& sightings, std::int64_t f, const Eigen::VectorXd& x);
+  double visit(const Observations& observations, std::int64_t f, const Eigen::VectorXd& x);
   /// Minus the gradient of the cost by the motion of the posture.
-  void pull(Eigen::VectorXd& g);
+  void descent(Eigen::VectorXd& g);
   /// Gauss-Newton matrix, full.
   void matrix(Eigen::MatrixXd& H);
   [[nodiscard]] model::Workspace& workspace() { return w_; }

@@ -50,7 +50,7 @@ void fill_coordinates(const model::Model& model, const MatrixXd& states, data::J
   const std::int64_t F = motion.frames();
   VectorXd near(n), q(n), v, vdot, qd, qdd;
   for (int c = 0; c < n; ++c) near[c] = model.description().coordinates[at(c)].default_value;
-  for (auto* out : {&motion.q, &motion.v, &motion.a}) out->resize(at(F * n));
+  for (auto* out : {&motion.q, &motion.qd, &motion.qdd}) out->resize(at(F * n));
   model::Workspace w(model);
   for (std::int64_t f = 0; f < F; ++f) {
     model::coordinates_from_state(model, states.col(f), near, q);
@@ -59,20 +59,20 @@ void fill_coordinates(const model::Model& model, const MatrixXd& states, data::J
     model::kinematics(model, w, states.col(f));
     model::rates_from_speeds(model, w, q, v, vdot, qd, qdd);
     std::copy_n(q.data(), n, motion.q.data() + motion.index(f, 0));
-    std::copy_n(qd.data(), n, motion.v.data() + motion.index(f, 0));
-    std::copy_n(qdd.data(), n, motion.a.data() + motion.index(f, 0));
+    std::copy_n(qd.data(), n, motion.qd.data() + motion.index(f, 0));
+    std::copy_n(qdd.data(), n, motion.qdd.data() + motion.index(f, 0));
   }
 }
 
-void coordinate_covariances(const MatrixXd& joint, int place, double rate_hz, const MatrixXd& E,
+void coordinate_covariances(const MatrixXd& joint, int index, double rate_hz, const MatrixXd& E,
                             MatrixXd& out) {
   const Index n = E.cols();
   const double r = rate_hz;
   Eigen::Matrix3d T = Eigen::Matrix3d::Zero(), window;
-  T(0, place) = 1.0;
-  if (place == 0)
+  T(0, index) = 1.0;
+  if (index == 0)
     T.row(1) << -1.5 * r, 2.0 * r, -0.5 * r;
-  else if (place == 1)
+  else if (index == 1)
     T.row(1) << -0.5 * r, 0.0, 0.5 * r;
   else
     T.row(1) << 0.5 * r, -2.0 * r, 1.5 * r;

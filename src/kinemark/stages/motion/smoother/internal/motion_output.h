@@ -16,12 +16,12 @@ namespace kinemark::motion::internal {
 void speeds_of_states(const model::Model& model, const Eigen::MatrixXd& states, std::int64_t f,
                       double rate_hz, Eigen::VectorXd& v, Eigen::VectorXd& vdot);
 
-/// Fill q (angles of free joints continuous), v and a from the states.
+/// Fill q (angles of free joints continuous), qd and qdd from the states.
 void fill_coordinates(const model::Model& model, const Eigen::MatrixXd& states, data::JointMotion& motion);
 
-/// Covariance of each coordinate, its rate and its acceleration (6 x n: qq qv qa vv va aa) in one of three
-/// neighbouring frames (`place` 0, 1, 2) from their joint covariance (3 nv x 3 nv). E: dq/dv.
-void coordinate_covariances(const Eigen::MatrixXd& joint, int place, double rate_hz, const Eigen::MatrixXd& E,
+/// Covariance of each coordinate, its rate and its acceleration (6 x n: the upper triangle by rows) in one of
+/// three neighbouring frames (`index` 0, 1, 2) from their joint covariance (3 nv x 3 nv). E: dq/dv.
+void coordinate_covariances(const Eigen::MatrixXd& joint, int index, double rate_hz, const Eigen::MatrixXd& E,
                             Eigen::MatrixXd& out);
 
 }  // namespace kinemark::motion::internal

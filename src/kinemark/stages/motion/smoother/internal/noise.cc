@@ -35,9 +35,9 @@ double slow_share(const data::JointMotion& motion, Index m) {
     const auto error = [&](std::int64_t frame) {
       return Eigen::Map<const Vector3d>(motion.marker_error.data() + (frame * M + m) * 3);
     };
-    const Vector3d turn = error(f - 1) - 2.0 * error(f) + error(f + 1);
-    if (!turn.allFinite()) continue;
-    second += turn.squaredNorm() / 6.0;
+    const Vector3d second_difference = error(f - 1) - 2.0 * error(f) + error(f + 1);
+    if (!second_difference.allFinite()) continue;
+    second += second_difference.squaredNorm() / 6.0;
     plain += error(f).squaredNorm();
     ++count;
   }
@@ -71,7 +71,7 @@ Spread spread(const data::JointMotion& motion, Index m) {
 
 }  // namespace
 
-void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
+void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double huber_sd,
                         int threads, IkResult& start) {
   constexpr std::int64_t kRare = 10;  // one frame in so many
   auto& motion = start.motion;
@@ -81,9 +81,9 @@ void leave_out_outliers(const Problem& problem, const data::Trajectories& marker
   for (std::int64_t m = 0; m < M; ++m) {
     const double usual = spread(motion, m).usual;
     if (usual <= 0.0) continue;
-    const double bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual));
+    const double huber_m = huber_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual));
     for (std::int64_t f = 0; f < F; ++f)
-      if (Eigen::Map<const Vector3d>(motion.marker_error.data() + (f * M + m) * 3).norm() > bend_m)
+      if (Eigen::Map<const Vector3d>(motion.marker_error.data() + (f * M + m) * 3).norm() > huber_m)
         wild[at(f)] = 1;
   }
   const auto count = std::ranges::count(wild, 1);
@@ -101,7 +101,7 @@ void leave_out_outliers(const Problem& problem, const data::Trajectories& marker
   add_marker_noise(problem.model, estimate_variances(problem, calm, states, threads), start.fit);
 }
 
-NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double bend_sd) {
+NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m, double huber_sd) {
   const auto M = static_cast<Index>(problem.model.marker_count());
   const auto bodies = static_cast<Index>(problem.model.bodies().size());
   NoiseSplit split;
@@ -137,9 +137,9 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
     MarkerTrust trust;
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;
     // Outliers are judged by the other frames, not by a variance that they have raised themselves.
-    if (bend_sd > 0.0) {
+    if (huber_sd > 0.0) {
       const double usual_frames = given_sd_m > 0.0 ? 1.0 : spread(start.motion, m).share;
-      trust.bend_m = bend_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual_frames * total[m]));
+      trust.huber_m = huber_sd * std::sqrt(3.0 * std::max(kSmallestVariance, usual_frames * total[m]));
     }
     split.trust.push_back(trust);
   }

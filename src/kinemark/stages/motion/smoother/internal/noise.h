@@ -8,7 +8,7 @@
 
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/internal/problem.h"
-#include "kinemark/stages/motion/smoother/sightings.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 
 namespace kinemark::motion::internal {
 
@@ -22,14 +22,14 @@ struct NoiseSplit {
 };
 
 /// Least squares has no robust loss: one outlier raises the estimated noise of its own marker and lowers that
-/// of the others on its segment, in all frames. Frames with a residual beyond `bend_sd` of what most frames
+/// of the others on its segment, in all frames. Frames with a residual beyond `huber_sd` of what most frames
 /// of that marker show lose their residuals in start.motion, and the noise in start.fit is estimated anew
 /// without them; more than a tenth of all frames are not treated as outliers, and nothing changes.
-void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double bend_sd,
+void leave_out_outliers(const Problem& problem, const data::Trajectories& markers, double huber_sd,
                         int threads, IkResult& start);
 
 /// From the least-squares solution with its estimated (or given) noise.
 [[nodiscard]] NoiseSplit split_noise(const Problem& problem, const IkResult& start, double given_sd_m,
-                                     double bend_sd);
+                                     double huber_sd);
 
 }  // namespace kinemark::motion::internal

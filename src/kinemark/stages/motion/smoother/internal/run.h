@@ -3,6 +3,8 @@
 // What smooth_motion() and smooth_images() share.
 #pragma once
 
+#include <optional>
+
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/smoother/internal/noise.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
@@ -13,6 +15,12 @@ struct Prepared {
   Problem problem;
   IkResult start;
   double seconds = 0.0;
+  std::optional<data::Trajectories>
+      kept;  ///< the recording without what the start left out; none: all was kept
+  /// The samples that are believed.
+  [[nodiscard]] const data::Trajectories& believed(const data::Trajectories& markers) const {
+    return kept ? *kept : markers;
+  }
 };
 
 /// Options checked, model and recording matched, least squares solved.
@@ -21,7 +29,7 @@ struct Prepared {
 
 /// Runs the smoother from `prepared`, whose marker summaries are moved into the result.
 [[nodiscard]] Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers,
-                                         const Sightings& sightings, const NoiseSplit& noise,
+                                         const Observations& observations, const NoiseSplit& noise,
                                          const SmootherOptions& options, const Progress& progress);
 
 }  // namespace kinemark::motion::internal

@@ -21,9 +21,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBlock_s = 0.2;    // three of them are about the smoother's time constant
-constexpr std::int64_t kLooks = 4;  // frames used of each block
-constexpr double kBlind = 100.0;    // times the usual variance: the block is not determined by its markers
+constexpr double kBlock_s = 0.2;            // three of them are about the smoother's time constant
+constexpr std::int64_t kFramesOfBlock = 4;  // frames used of each block
+constexpr double kBlind = 100.0;  // times the usual variance: the block is not determined by its markers
 
 /// J'W S W J of one frame.
 void spread_of(const model::Model& model, FrameRows& rows, const NoiseSplit& noise, MatrixXd& B) {
@@ -60,7 +60,7 @@ void bridge(VectorXd& row) {
 
 }  // namespace
 
-SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, const NoiseSplit& noise,
+SlowErrors::SlowErrors(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
                        const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
                        const MatrixXd& states) {
   const std::int64_t F = motion.frames();
@@ -71,9 +71,9 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
   std::vector<MatrixXd> H(at(blocks), MatrixXd::Zero(n, n)), B = H;
   FrameRows rows(model);
   MatrixXd own;
-  const std::int64_t stride = std::max<std::int64_t>(1, block_ / kLooks);
+  const std::int64_t stride = std::max<std::int64_t>(1, block_ / kFramesOfBlock);
   for (std::int64_t f = 0; f < F; f += stride) {
-    (void)rows.visit(sightings, f, states.col(f));
+    (void)rows.visit(observations, f, states.col(f));
     rows.matrix(own);
     H[at(f / block_)] += own;
     spread_of(model, rows, noise, own);
@@ -102,14 +102,14 @@ SlowErrors::SlowErrors(const model::Model& model, const Sightings& sightings, co
     // frames used.
     const std::int64_t used =
         1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
-    const auto looks = static_cast<double>(used);
+    const auto frames_used = static_cast<double>(used);
     const std::int64_t middle = std::min(F - 1, b * block_ + block_ / 2);
     std::copy_n(motion.q.data() + motion.index(middle, 0), C, q.data());
     model::kinematics(model, w, states.col(middle));
     model::coordinate_jacobian(model, w, q, E);
     const MatrixXd gain = sum_H.ldlt().solve(E.transpose());  // n x C
     for (Index c = 0; c < C; ++c)
-      variance_(c, b) = std::max(0.0, looks * gain.col(c).dot(sum_B * gain.col(c)));
+      variance_(c, b) = std::max(0.0, frames_used * gain.col(c).dot(sum_B * gain.col(c)));
   }
   for (Index c = 0; c < C; ++c) {
     VectorXd row = variance_.row(c).transpose();

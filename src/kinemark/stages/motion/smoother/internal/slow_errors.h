@@ -12,14 +12,14 @@
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/smoother/internal/noise.h"
-#include "kinemark/stages/motion/smoother/sightings.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 
 namespace kinemark::motion::internal {
 
 class SlowErrors {
  public:
   /// At the solved states. Fixed speeds have no error.
-  SlowErrors(const model::Model& model, const Sightings& sightings, const NoiseSplit& noise,
+  SlowErrors(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
              const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
              const Eigen::MatrixXd& states);
 

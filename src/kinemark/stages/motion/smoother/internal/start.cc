@@ -116,7 +116,7 @@ MatrixXd bridged_states(const model::Model& model, const data::JointMotion& moti
 VectorXd step_variances(const model::Model& model, const data::JointMotion& motion, const MatrixXd& states) {
   const std::int64_t F = motion.frames();
   VectorXd variance = VectorXd::Constant(model.speed_count(), kNaN);
-  std::vector<std::uint8_t> turns(at(model.speed_count()), 0);
+  std::vector<std::uint8_t> is_rotation(at(model.speed_count()), 0);
   std::vector<double> y(at(F)), sd(at(F));
   const auto estimate = [&](int speed) {
     const auto smooth = smooth_coordinate(y, sd, motion.time.rate_hz);
@@ -125,7 +125,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
   for (int c = 0; c < model.coordinate_count(); ++c) {
     const auto& coordinate = model.coordinates()[at(c)];
     if (coordinate.speed_idx < 0) continue;
-    turns[at(coordinate.speed_idx)] = motion.is_rotation[at(c)];
+    is_rotation[at(coordinate.speed_idx)] = motion.is_rotation[at(c)];
     if (model.description().coordinates[at(c)].locked) continue;  // locked: any number will do
     for (std::int64_t f = 0; f < F; ++f) {
       y[at(f)] = states(coordinate.state_idx, f);
@@ -144,13 +144,13 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     }
     // Rotations add up along the path, in the axes of the body.
     MatrixXd path = MatrixXd::Zero(3, F);
-    VectorXd turn;
+    VectorXd step;
     for (std::int64_t f = 1; f < F; ++f) {
-      model::difference(model, states.col(f - 1), states.col(f), turn);
-      path.col(f) = path.col(f - 1) + turn.segment<3>(free.speed_idx + 3);
+      model::difference(model, states.col(f - 1), states.col(f), step);
+      path.col(f) = path.col(f - 1) + step.segment<3>(free.speed_idx + 3);
     }
     for (int i = 0; i < 3; ++i) {
-      turns[at(free.speed_idx + 3 + i)] = 1;
+      is_rotation[at(free.speed_idx + 3 + i)] = 1;
       for (std::int64_t f = 0; f < F; ++f) {
         y[at(f)] = path(i, f);
         sd[at(f)] = pooled_sd(motion, f, free.rotation_coordinate);
@@ -162,10 +162,10 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
   for (const bool rotation : {true, false}) {
     std::vector<double> known;
     for (Index i = 0; i < variance.size(); ++i)
-      if (std::isfinite(variance[i]) && (turns[at(i)] != 0) == rotation) known.push_back(variance[i]);
+      if (std::isfinite(variance[i]) && (is_rotation[at(i)] != 0) == rotation) known.push_back(variance[i]);
     const double usual = usual_of(known, fallback);
     for (Index i = 0; i < variance.size(); ++i)
-      if (std::isnan(variance[i]) && (turns[at(i)] != 0) == rotation) variance[i] = usual;
+      if (std::isnan(variance[i]) && (is_rotation[at(i)] != 0) == rotation) variance[i] = usual;
   }
   return variance;
 }

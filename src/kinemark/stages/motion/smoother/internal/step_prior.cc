@@ -40,7 +40,7 @@ StepPrior::StepPrior(const model::Model& model, VectorXd variance)
     for (int i = 3; i < 6; ++i) plain_[at(free.speed_idx + i)] = 0;
   for (auto& d : d_) d.setZero(model.speed_count());
   e_.setZero(model.speed_count());
-  turn_.resize(model.free_joints().size());
+  rotation_.resize(model.free_joints().size());
 }
 
 double StepPrior::visit(const VectorXd& x0, const VectorXd& x1, const VectorXd& x2, const VectorXd& x3) {
@@ -48,14 +48,14 @@ double StepPrior::visit(const VectorXd& x0, const VectorXd& x1, const VectorXd& 
   model::difference(model_, x1, x2, d_[1]);
   model::difference(model_, x2, x3, d_[2]);
   e_ = d_[2] - 2.0 * d_[1] + d_[0];
-  for (std::size_t j = 0; j < turn_.size(); ++j) {
+  for (std::size_t j = 0; j < rotation_.size(); ++j) {
     const int speed = model_.free_joints()[j].speed_idx + 3;
     std::array<Matrix3d, 3> R;
     for (std::size_t i = 0; i < 3; ++i) R[i] = inverse_right_jacobian(d_[i].segment<3>(speed));
-    turn_[j][0] = -R[0].transpose();
-    turn_[j][1] = R[0] + 2.0 * R[1].transpose();
-    turn_[j][2] = -2.0 * R[1] - R[2].transpose();
-    turn_[j][3] = R[2];
+    rotation_[j][0] = -R[0].transpose();
+    rotation_[j][1] = R[0] + 2.0 * R[1].transpose();
+    rotation_[j][2] = -2.0 * R[1] - R[2].transpose();
+    rotation_[j][3] = R[2];
   }
   return 0.5 * (e_.array().square() / variance_.array()).sum();
 }
@@ -63,10 +63,10 @@ double StepPrior::visit(const VectorXd& x0, const VectorXd& x1, const VectorXd& 
 void StepPrior::add_gradient(int a, Eigen::Ref<VectorXd> g) const {
   for (Index i = 0; i < e_.size(); ++i)
     if (plain_[at(i)]) g[i] += kSlope[at(a)] * e_[i] / variance_[i];
-  for (std::size_t j = 0; j < turn_.size(); ++j) {
+  for (std::size_t j = 0; j < rotation_.size(); ++j) {
     const int speed = model_.free_joints()[j].speed_idx + 3;
     const Vector3d weighed = e_.segment<3>(speed).cwiseQuotient(variance_.segment<3>(speed));
-    g.segment<3>(speed) += turn_[j][at(a)].transpose() * weighed;
+    g.segment<3>(speed) += rotation_[j][at(a)].transpose() * weighed;
   }
 }
 
@@ -78,11 +78,11 @@ void StepPrior::add_to(Window& window, bool with_gradient) const {
       const double product = kSlope[at(a)] * kSlope[at(b)];
       for (Index i = 0; i < n; ++i)
         if (plain_[at(i)]) M(a * n + i, b * n + i) += product / variance_[i];
-      for (std::size_t j = 0; j < turn_.size(); ++j) {
+      for (std::size_t j = 0; j < rotation_.size(); ++j) {
         const int speed = model_.free_joints()[j].speed_idx + 3;
         const Vector3d weight = variance_.segment<3>(speed).cwiseInverse();
         M.block<3, 3>(a * n + speed, b * n + speed) +=
-            turn_[j][at(a)].transpose() * weight.asDiagonal() * turn_[j][at(b)];
+            rotation_[j][at(a)].transpose() * weight.asDiagonal() * rotation_[j][at(b)];
       }
     }
   if (!with_gradient) return;

@@ -36,7 +36,7 @@ class StepPrior {
   std::vector<std::uint8_t> plain_;  ///< per speed: slope is (-1, 3, -3, 1)
   std::array<Eigen::VectorXd, 3> d_;
   Eigen::VectorXd e_;
-  std::vector<std::array<Eigen::Matrix3d, 4>> turn_;  ///< per free joint
+  std::vector<std::array<Eigen::Matrix3d, 4>> rotation_;  ///< per free joint
 };
 
 /// Inverse of the right Jacobian of SO(3) at a rotation vector (below 180 deg).

@@ -21,15 +21,15 @@ constexpr std::int64_t kOneSegment = 1024, kSegment = 256;  // frames whose fact
 // Prior SD (rad or m) over the whole recording of a speed that nothing determines.
 constexpr double kFloorSd = 30.0;
 constexpr double kDone = 1e-4;        // half the squared step over its variance: 0.015 standard deviations
-constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearisation is not valid
+constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearization is not valid
 constexpr int kHalvings = 10;
 
 }  // namespace
 
-WholeTrajectory::WholeTrajectory(const model::Model& model, const Sightings& sightings, std::int64_t frames,
-                                 const VectorXd& variance, SpeedBounds bounds)
+WholeTrajectory::WholeTrajectory(const model::Model& model, const Observations& observations,
+                                 std::int64_t frames, const VectorXd& variance, SpeedBounds bounds)
     : model_(model),
-      sightings_(sightings),
+      observations_(observations),
       frames_(frames),
       segment_(frames <= kOneSegment ? frames : kSegment),
       bounds_(std::move(bounds)),
@@ -48,7 +48,7 @@ WholeTrajectory::WholeTrajectory(const model::Model& model, const Sightings& sig
 double WholeTrajectory::cost(const MatrixXd& states) {
   double sum = 0.0;
   for (std::int64_t k = 0; k < frames_; ++k) {
-    sum += rows_.visit(sightings_, k, states.col(k));
+    sum += rows_.visit(observations_, k, states.col(k));
     if (k + 3 < frames_)
       sum += prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
   }
@@ -59,8 +59,8 @@ double WholeTrajectory::evaluate(const MatrixXd& states) {
   double sum = 0.0;
   gradient_.setZero();
   for (std::int64_t k = 0; k < frames_; ++k) {
-    sum += rows_.visit(sightings_, k, states.col(k));
-    rows_.pull(g_);
+    sum += rows_.visit(observations_, k, states.col(k));
+    rows_.descent(g_);
     gradient_.col(k) -= g_;
     if (k + 3 >= frames_) continue;
     sum += prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
@@ -84,9 +84,9 @@ void WholeTrajectory::hold(const MatrixXd& states) {
   }
 }
 
-// Frame k becomes part of the window: its sightings, and the prior that ties it to the next three.
+// Frame k becomes part of the window: its observations, and the prior that ties it to the next three.
 void WholeTrajectory::load(const MatrixXd& states, std::int64_t k, bool with_right) {
-  (void)rows_.visit(sightings_, k, states.col(k));
+  (void)rows_.visit(observations_, k, states.col(k));
   rows_.matrix(H_);
   H_.diagonal().array() += floor_;
   if (with_right)

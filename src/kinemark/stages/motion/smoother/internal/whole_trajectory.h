@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Gauss-Newton over all frames of a recording: sightings of every frame, white third differences between
+// Gauss-Newton over all frames of a recording: observations of every frame, white third differences between
 // them, limits as an active set.
 #pragma once
 
@@ -25,7 +25,7 @@ struct SpeedBounds {
 class WholeTrajectory {
  public:
   /// @param variance  per speed, of a third difference.
-  WholeTrajectory(const model::Model& model, const Sightings& sightings, std::int64_t frames,
+  WholeTrajectory(const model::Model& model, const Observations& observations, std::int64_t frames,
                   const Eigen::VectorXd& variance, SpeedBounds bounds);
 
   struct Outcome {
@@ -54,7 +54,7 @@ class WholeTrajectory {
   void clip(const Eigen::MatrixXd& states);
 
   const model::Model& model_;
-  const Sightings& sightings_;
+  const Observations& observations_;
   std::int64_t frames_, segment_;
   SpeedBounds bounds_;
   FrameRows rows_;

@@ -4,12 +4,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/euler.h"
 
 namespace kinemark::skeleton::articulated {
 
@@ -160,32 +162,49 @@ void move_joint(Chain& chain, int joint, bool in_parent, const Vector3d& change)
   }
 }
 
+Eigen::Matrix3Xd joint_by_geometry(const Chain& chain, int j, bool in_parent,
+                                   std::span<const double> marker_weight) {
+  const int s = in_parent ? chain.layout.parent[j] : j + 1;
+  const Vector3d p = in_parent ? Vector3d(chain.joint.col(j)) : Vector3d(Vector3d::Zero());
+  const auto holds = [&](int k) {
+    return marker_weight.empty() || marker_weight[static_cast<std::size_t>(k)] > 0.0;
+  };
+  std::vector<int> markers = chain.layout.markers_of(s);
+  std::erase_if(markers, [&](int k) { return !holds(k); });  // their positions are not known
+  const auto n = static_cast<double>(markers.size());
+  Vector3d mean = Vector3d::Zero();
+  for (const int k : markers) mean += chain.marker.col(k) / n;
+  Matrix3d inertia = Matrix3d::Zero();
+  for (const int k : markers) {
+    const Vector3d d = chain.marker.col(k) - mean;
+    inertia += d.squaredNorm() * Matrix3d::Identity() - d * d.transpose();
+  }
+  // Collinear markers do not show a rotation about their line.
+  inertia.diagonal().array() += 1e-9 * inertia.trace() + 1e-300;
+  const Matrix3d mobility = inertia.inverse();
+  const auto& parameters = chain.geometry_parameters();
+  Eigen::Matrix3Xd out = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t g = 0; g < parameters.size(); ++g) {
+    if (parameters[g].segment != s) continue;
+    const Vector3d e = Vector3d::Unit(parameters[g].axis);
+    auto column = out.col(static_cast<Eigen::Index>(g));
+    if (parameters[g].marker < 0) {
+      if (in_parent && parameters[g].joint == j) column = e;
+    } else if (holds(parameters[g].marker)) {
+      const Vector3d rotation = mobility * (chain.marker.col(parameters[g].marker) - mean).cross(e);
+      column = -e / n - rotation.cross(p - mean);
+    }
+  }
+  return out;
+}
+
 void move_pose(const Chain& chain, const Eigen::VectorXd& step, ChainPose& pose) {
   pose.joint0 += step.head<3>();
   for (int s = 0; s < chain.segments(); ++s) {
-    const double* turn = step.data() + chain.rotation_offset(s);
-    pose.rotation[s] *= exponential({turn[0], turn[1], chain.rotation_size(s) == 3 ? turn[2] : 0.0});
+    const double* rotation = step.data() + chain.rotation_offset(s);
+    pose.rotation[s] *=
+        math::exp_so3({rotation[0], rotation[1], chain.rotation_size(s) == 3 ? rotation[2] : 0.0});
   }
-}
-
-Matrix3d exponential(const Vector3d& v) {
-  const double angle2 = v.squaredNorm();
-  const double angle = std::sqrt(angle2);
-  const double sine = angle > 1e-8 ? std::sin(angle) / angle : 1.0 - angle2 / 6.0;
-  const double half = angle > 1e-8 ? std::sin(0.5 * angle) / (0.5 * angle) : 1.0 - angle2 / 24.0;
-  const double versine = 0.5 * half * half;
-  Matrix3d R;
-  // I + sine [v] + versine [v]^2, with [v]^2 = v v^T - |v|^2 I.
-  R(0, 0) = 1.0 + versine * (v[0] * v[0] - angle2);
-  R(1, 1) = 1.0 + versine * (v[1] * v[1] - angle2);
-  R(2, 2) = 1.0 + versine * (v[2] * v[2] - angle2);
-  R(0, 1) = versine * v[0] * v[1] - sine * v[2];
-  R(1, 0) = versine * v[0] * v[1] + sine * v[2];
-  R(0, 2) = versine * v[0] * v[2] + sine * v[1];
-  R(2, 0) = versine * v[0] * v[2] - sine * v[1];
-  R(1, 2) = versine * v[1] * v[2] - sine * v[0];
-  R(2, 1) = versine * v[1] * v[2] + sine * v[0];
-  return R;
 }
 
 Matrix3d nearest_rotation(const Matrix3d& A) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "kinemark/core/array.h"
@@ -117,11 +118,14 @@ void make_canonical(Chain& chain);
 /// other way.
 void move_joint(Chain& chain, int joint, bool in_parent, const Vector3d& change);
 
+/// Change (3 x n_g) of a joint's position with the geometry parameters, in axes of its parent or of its child
+/// that the mean and the rotation of the segment's markers hold; so it does not change along the gauge.
+/// Markers whose weight (K; empty: all 1) is 0 do not hold.
+[[nodiscard]] Eigen::Matrix3Xd joint_by_geometry(const Chain& chain, int joint, bool in_parent,
+                                                 std::span<const double> marker_weight = {});
+
 /// Move a pose by a step in the frame's parameters.
 void move_pose(const Chain& chain, const Eigen::VectorXd& step, ChainPose& pose);
-
-/// Rotation by the vector v: angle |v| about v.
-[[nodiscard]] Matrix3d exponential(const Vector3d& v);
 
 /// The rotation R that maximises trace(R^T A), A = sum of w y x^T for y near R x (Horn 1987, by quaternion).
 [[nodiscard]] Matrix3d nearest_rotation(const Matrix3d& A);

@@ -16,17 +16,6 @@ using data::SegmentKind;
 using testing_limbs::make_random_chain;
 using testing_limbs::random_rotation;
 
-TEST(Chain, ExponentialTurnsByTheVectorsLengthAboutIt) {
-  Random random(1, 1);
-  for (const double size : {0.0, 1e-9, 1e-3, 0.7, 3.0}) {
-    Vector3d axis;
-    for (int i = 0; i < 3; ++i) axis[i] = random.gaussian();
-    axis.normalize();
-    const Matrix3d expected = Eigen::AngleAxisd(size, axis).toRotationMatrix();
-    EXPECT_LT((exponential(size * axis) - expected).norm(), 1e-12) << size;
-  }
-}
-
 TEST(Chain, NearestRotationUndoesARotation) {
   Random random(2, 1);
   for (int round = 0; round < 20; ++round) {
@@ -87,13 +76,13 @@ TEST(Chain, GaugeOnlyTurnsAxes) {
     EXPECT_LT((gauge.transpose() * gauge - Eigen::MatrixXd::Identity(gauge.cols(), gauge.cols())).norm(),
               1e-12);
     for (Eigen::Index c = 0; c < gauge.cols(); ++c) {
-      Chain turned = limb.chain;
-      turned.move_geometry(1e-6 * gauge.col(c));
-      for (int a = 0; a < turned.markers(); ++a) {
-        EXPECT_NEAR(turned.marker.col(a).norm(), limb.chain.marker.col(a).norm(), 1e-10);
+      Chain rotated = limb.chain;
+      rotated.move_geometry(1e-6 * gauge.col(c));
+      for (int a = 0; a < rotated.markers(); ++a) {
+        EXPECT_NEAR(rotated.marker.col(a).norm(), limb.chain.marker.col(a).norm(), 1e-10);
         for (int b = 0; b < a; ++b) {
-          if (turned.layout.segment_of_marker[a] != turned.layout.segment_of_marker[b]) continue;
-          EXPECT_NEAR((turned.marker.col(a) - turned.marker.col(b)).norm(),
+          if (rotated.layout.segment_of_marker[a] != rotated.layout.segment_of_marker[b]) continue;
+          EXPECT_NEAR((rotated.marker.col(a) - rotated.marker.col(b)).norm(),
                       (limb.chain.marker.col(a) - limb.chain.marker.col(b)).norm(), 1e-10);
         }
       }
@@ -103,17 +92,17 @@ TEST(Chain, GaugeOnlyTurnsAxes) {
 
 TEST(Chain, CanonicalAxesKeepAFlatSegmentsShape) {
   auto limb = make_random_chain({.segments = 3, .kind = SegmentKind::plane});
-  Chain turned = limb.chain;
+  Chain rotated = limb.chain;
   Random random(3, 1);
   const Matrix3d R = random_rotation(random);
-  turned.marker = (R * turned.marker).eval();
-  turned.joint = (R * turned.joint).eval();
-  make_canonical(turned);
-  EXPECT_LT(turned.marker.row(1).norm(), 1e-12);
-  for (int k = 0; k < turned.markers(); ++k) {
-    EXPECT_NEAR(turned.marker.col(k).norm(), limb.chain.marker.col(k).norm(), 1e-12);
+  rotated.marker = (R * rotated.marker).eval();
+  rotated.joint = (R * rotated.joint).eval();
+  make_canonical(rotated);
+  EXPECT_LT(rotated.marker.row(1).norm(), 1e-12);
+  for (int k = 0; k < rotated.markers(); ++k) {
+    EXPECT_NEAR(rotated.marker.col(k).norm(), limb.chain.marker.col(k).norm(), 1e-12);
   }
-  EXPECT_NEAR(turned.joint.col(1).dot(turned.marker.col(4)),
+  EXPECT_NEAR(rotated.joint.col(1).dot(rotated.marker.col(4)),
               limb.chain.joint.col(1).dot(limb.chain.marker.col(4)), 1e-12);
 }
 

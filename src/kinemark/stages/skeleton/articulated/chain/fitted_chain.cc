@@ -2,43 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/chain/fitted_chain.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace kinemark::skeleton::articulated {
 
 Matrix3d FittedChain::joint_covariance(int j, bool in_parent) const {
-  const int s = in_parent ? chain.layout.parent[j] : j + 1;
-  const Vector3d p = in_parent ? Vector3d(chain.joint.col(j)) : Vector3d(Vector3d::Zero());
-  std::vector<int> markers = chain.layout.markers_of(s);
-  std::erase_if(markers, [&](int k) { return !(marker_weight[k] > 0.0); });  // their positions are not known
-  const auto n = static_cast<double>(markers.size());
-  Vector3d mean = Vector3d::Zero();
-  for (const int k : markers) mean += chain.marker.col(k) / n;
-  Matrix3d inertia = Matrix3d::Zero();
-  for (const int k : markers) {
-    const Vector3d d = chain.marker.col(k) - mean;
-    inertia += d.squaredNorm() * Matrix3d::Identity() - d * d.transpose();
-  }
-  // Collinear markers do not show a rotation about their line.
-  inertia.diagonal().array() += 1e-9 * inertia.trace() + 1e-300;
-  const Matrix3d mobility = inertia.inverse();
-  const auto& parameters = chain.geometry_parameters();
-  Eigen::Matrix3Xd L = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(parameters.size()));
-  for (std::size_t g = 0; g < parameters.size(); ++g) {
-    if (parameters[g].segment != s) continue;
-    const Vector3d e = Vector3d::Unit(parameters[g].axis);
-    if (parameters[g].marker < 0) {
-      if (in_parent && parameters[g].joint == j) L.col(g) = e;
-      continue;
-    }
-    if (!(marker_weight[parameters[g].marker] > 0.0)) continue;
-    const Vector3d turn = mobility * (chain.marker.col(parameters[g].marker) - mean).cross(e);
-    L.col(g) = -e / n - turn.cross(p - mean);
-  }
-  return L * geometry_covariance * L.transpose();
+  const Eigen::Matrix3Xd by_geometry = joint_by_geometry(chain, j, in_parent, marker_weight);
+  return by_geometry * geometry_covariance * by_geometry.transpose();
 }
 
 std::vector<FittedChain::Length> FittedChain::lengths() const {

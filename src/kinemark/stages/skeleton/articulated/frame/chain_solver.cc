@@ -170,13 +170,13 @@ void ChainSolver::Work::judge(ChainFrame& out) {
     // these have just merged.
     const bool four = seen(parent) + seen(child) >= 4;
     const bool whole = std::max(seen(parent), seen(child)) >= 3;
-    bool one_place = true;
+    bool one_position = true;
     if (elsewhere >= fit.alternative_max)
-      one_place = four && gather(out, j);
+      one_position = four && gather(out, j);
     else if (!whole && !profile_is_gaussian(solver, out.modes[0].pose, out.modes[0].cost, j,
                                             out.covariance[j], fit.noise_sd_m))
-      one_place = four && follow_profile(out, j);
-    if (!one_place) out.state[j] = CentreState::ambiguous;
+      one_position = four && follow_profile(out, j);
+    if (!one_position) out.state[j] = CentreState::ambiguous;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/testing/known_geometry.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
@@ -185,7 +186,7 @@ TEST(ChainSolver, MovesWithTheLab) {
   RandomChain limb =
       make_random_chain({.segments = 3, .markers_per_segment = 4, .frames = 30, .missing = 0.1});
   const FittedChain fit = known_geometry(limb, 0.001);
-  const Matrix3d R = exponential({0.7, -0.4, 1.1});
+  const Matrix3d R = math::exp_so3({0.7, -0.4, 1.1});
   const Vector3d shift(0.5, -1.0, 2.0);
   RandomChain moved = limb;
   move_lab(moved, R, shift);

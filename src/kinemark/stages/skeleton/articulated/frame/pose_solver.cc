@@ -139,8 +139,8 @@ void PoseSolver::normal(const ChainPose& pose, std::span<const JointPrior> prior
       const int size_i = c.rotation_size(i);
       const Vector3d v = c.joint.col(j);
       const Matrix3d lever = skew(v) * pose.rotation[i].transpose();
-      const Vector3d turned = pose.rotation[i].transpose() * residual;
-      add(b_, at_i, size_i, v.cross(turned));
+      const Vector3d in_segment = pose.rotation[i].transpose() * residual;
+      add(b_, at_i, size_i, v.cross(in_segment));
       add(H_, at_i, size_i, 0, 3, s.w * lever);
       add(H_, at, size, at_i, size_i, own * R.transpose() * lever.transpose());
       for (const int j2 : c.joints_to(q)) {
@@ -150,7 +150,7 @@ void PoseSolver::normal(const ChainPose& pose, std::span<const JointPrior> prior
         add(H_, at_i, size_i, c.rotation_offset(i2), c.rotation_size(i2), s.w * lever * lever2.transpose());
       }
       if (observed && size_i == 2) {
-        const double more = v[2] * turned[2];
+        const double more = v[2] * in_segment[2];
         H_(at_i, at_i) += more;
         H_(at_i + 1, at_i + 1) += more;
       }
@@ -246,8 +246,8 @@ void PoseSolver::linearize_geometry(const ChainPose& pose, const double* x, std:
     const auto couple = [&](std::size_t g, const Vector3d& d) {
       // d: derivative of this marker's position by parameter g.
       G.block<3, 1>(0, g) += w * d;
-      const Vector3d turn = m.cross(R.transpose() * d);
-      for (int r = 0; r < c.rotation_size(q); ++r) G(c.rotation_offset(q) + r, g) += w * turn[r];
+      const Vector3d by_rotation = m.cross(R.transpose() * d);
+      for (int r = 0; r < c.rotation_size(q); ++r) G(c.rotation_offset(q) + r, g) += w * by_rotation[r];
       for (const int j : c.joints_to(q)) {
         const int i = c.layout.parent[j];
         const Vector3d lever = Vector3d(c.joint.col(j)).cross(pose.rotation[i].transpose() * d);
@@ -288,8 +288,8 @@ void PoseSolver::joint_jacobian(const ChainPose& pose, int j, Eigen::Matrix3Xd& 
   by_frame.leftCols<3>().setIdentity();
   for (const int step : c.joints_to(j + 1)) {
     const int i = c.layout.parent[step];
-    const Matrix3d turn = -pose.rotation[i] * skew(c.joint.col(step));
-    by_frame.middleCols(c.rotation_offset(i), c.rotation_size(i)) = turn.leftCols(c.rotation_size(i));
+    const Matrix3d by_rotation = -pose.rotation[i] * skew(c.joint.col(step));
+    by_frame.middleCols(c.rotation_offset(i), c.rotation_size(i)) = by_rotation.leftCols(c.rotation_size(i));
     for (std::size_t g = 0; g < c.geometry_parameters().size(); ++g) {
       if (c.geometry_parameters()[g].joint == step)
         by_geometry.col(g) = pose.rotation[i].col(c.geometry_parameters()[g].axis);

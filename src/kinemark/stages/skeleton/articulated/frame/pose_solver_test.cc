@@ -26,9 +26,9 @@ struct MixedTree {
 
   MixedTree() {
     Random random(7, 1);
-    Eigen::VectorXd places(chain.geometry_parameters().size());
-    for (double& place : places) place = random.uniform(-0.15, 0.15);
-    chain.move_geometry(places);
+    Eigen::VectorXd offsets(chain.geometry_parameters().size());
+    for (double& offset : offsets) offset = random.uniform(-0.15, 0.15);
+    chain.move_geometry(offsets);
     for (int s = 0; s < 4; ++s) pose.rotation.push_back(random_rotation(random));
     pose.joint0 = Vector3d(0.4, -0.1, 0.9);
     samples = {.frames = 1, .markers = 10, .x = {}};

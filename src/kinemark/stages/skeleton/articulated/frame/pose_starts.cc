@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinemark/math/euler.h"
+
 namespace kinemark::skeleton::articulated {
 
 namespace {
@@ -76,10 +78,10 @@ void PoseStarts::anchor(const PoseSolver& solver, int segment) {
   // Two markers leave the rotation about their line open. Between two segments the distances to the joint
   // determine it; in a longer chain they may not.
   const bool open = s.seen == 2 && chain_->joints() > 1;
-  const int turns = open ? 4 : 2;
-  for (int i = 0; i < turns; ++i) {
+  const int rotations = open ? 4 : 2;
+  for (int i = 0; i < rotations; ++i) {
     ChainPose& pose = next();
-    pose.rotation[segment] = R * exponential(2.0 * std::numbers::pi * i / turns * axis);
+    pose.rotation[segment] = R * math::exp_so3(2.0 * std::numbers::pi * i / rotations * axis);
     origin_[segment] = mean_x - pose.rotation[segment] * mean_m;
     done_[segment] = 1;
     complete(solver, pose);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/frame/modes.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
@@ -66,7 +67,7 @@ TEST(PoseStarts, OneOfThemIsThePoseItselfOnExactData) {
 
 TEST(PoseStarts, MoveWithTheLab) {
   RandomChain limb = make_random_chain({.segments = 3, .frames = 8});
-  const Matrix3d R = articulated::exponential({0.4, 1.1, -0.7});
+  const Matrix3d R = math::exp_so3({0.4, 1.1, -0.7});
   for (int f = 0; f < 8; ++f) {
     const auto before = start_costs(limb.chain, limb.samples.frame(f));
     double* x = limb.samples.x.data() + 27 * static_cast<std::ptrdiff_t>(f);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
@@ -161,7 +162,7 @@ TEST(FitChain, LeavesOutAMarkerThatIsNeverSeen) {
 TEST(FitChain, DoesNotChangeWithTheLab) {
   RandomChain limb = make_random_chain({.segments = 3, .frames = 80, .missing = 0.1});
   const auto here = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid, 3));
-  move_lab(limb, exponential({1.1, 0.2, -0.6}), {1.0, 2.0, 0.3});
+  move_lab(limb, math::exp_so3({1.1, 0.2, -0.6}), {1.0, 2.0, 0.3});
   const auto there = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid, 3));
   ASSERT_TRUE(here && there);
   EXPECT_NEAR(here->noise_sd_m, there->noise_sd_m, 1e-6);

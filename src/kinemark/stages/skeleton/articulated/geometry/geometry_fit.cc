@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kinemark/data/joint_choice.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
@@ -19,6 +20,19 @@ namespace {
 constexpr double kUnknownPosition = 1.0;  // m, SD of a parameter that no frame shows
 constexpr double kDifference = 1e-5;      // m, for derivatives of log det H
 constexpr double kShrinkage = 300.0;      // residuals' degrees of freedom that the common noise weighs
+constexpr double kHold =                  // information of a hold over that of the prior
+    data::kJointPriorSd_m / kHingeHold_m * (data::kJointPriorSd_m / kHingeHold_m);
+
+Eigen::VectorXd geometry_of(const Chain& chain) {
+  const auto& parameters = chain.geometry_parameters();
+  Eigen::VectorXd out(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t g = 0; g < parameters.size(); ++g) {
+    const Chain::GeometryParameter& what = parameters[g];
+    out[static_cast<Eigen::Index>(g)] =
+        what.marker >= 0 ? chain.marker(what.axis, what.marker) : chain.joint(what.axis, what.joint);
+  }
+  return out;
+}
 
 // Rotations without information get a trace of it; their part of G is zero, so nothing else changes.
 void hold_loose_rotations(const Chain& chain, Eigen::MatrixXd& H) {
@@ -46,14 +60,16 @@ GeometryFit::GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames&
 
 void GeometryFit::set_noise(double sigma_m) { prior_weight_ = std::pow(sigma_m / data::kJointPriorSd_m, 2); }
 
-Matrix3d GeometryFit::prior_information(int j, bool in_parent) const {
-  Matrix3d out = prior_weight_ * Matrix3d::Identity();
-  const double hold = prior_weight_ * std::pow(data::kJointPriorSd_m / kHingeHold_m, 2);
-  for (const HingeAxis& hinge : hinges_) {
-    const Vector3d& axis = in_parent ? hinge.in_parent : hinge.in_child;
-    if (hinge.joint == j) out += hold * axis * axis.transpose();
-  }
-  return out;
+void GeometryFit::hold(const std::vector<HingeAxis>& hinges) {
+  holds_.clear();
+  for (const HingeAxis& hinge : hinges)
+    for (const bool in_parent : {true, false}) {
+      const Vector3d& axis = in_parent ? hinge.in_parent : hinge.in_child;
+      Hold hold{.by_geometry = joint_by_geometry(chain_, hinge.joint, in_parent).transpose() * axis};
+      hold.offset_m = axis.dot(joint_from_markers(chain_, hinge.joint, in_parent)) -
+                      hold.by_geometry.dot(geometry_of(chain_));
+      holds_.push_back(std::move(hold));
+    }
 }
 
 double GeometryFit::prior_cost(const Chain& chain) const {
@@ -62,8 +78,11 @@ double GeometryFit::prior_cost(const Chain& chain) const {
   for (int j = 0; j < chain.joints(); ++j)
     for (const bool in_parent : {true, false}) {
       const Vector3d d = joint_from_markers(chain, j, in_parent);
-      sum += d.dot(prior_information(j, in_parent) * d);
+      sum += d.dot(prior_weight_ * d);
     }
+  const Eigen::VectorXd geometry = geometry_of(chain);
+  for (const Hold& hold : holds_)
+    sum += prior_weight_ * kHold * std::pow(hold.offset_m + hold.by_geometry.dot(geometry), 2);
   return sum;
 }
 
@@ -83,10 +102,16 @@ void GeometryFit::add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const {
         else if (in_parent && parameters[g].joint == j)
           by_geometry(parameters[g].axis, static_cast<Eigen::Index>(g)) = 1.0;
       }
-      const Eigen::MatrixX3d weighed = by_geometry.transpose() * prior_information(j, in_parent);
+      const Eigen::MatrixX3d weighed = prior_weight_ * by_geometry.transpose();
       S.noalias() += weighed * by_geometry;
       right.noalias() -= weighed * joint_from_markers(chain_, j, in_parent);
     }
+  if (holds_.empty()) return;
+  const Eigen::VectorXd geometry = geometry_of(chain_);
+  for (const Hold& hold : holds_) {
+    S.noalias() += prior_weight_ * kHold * hold.by_geometry * hold.by_geometry.transpose();
+    right -= prior_weight_ * kHold * (hold.offset_m + hold.by_geometry.dot(geometry)) * hold.by_geometry;
+  }
 }
 
 double GeometryFit::refine_all(PoseSolver& solver, std::vector<ChainPose>& poses, int iterations) {

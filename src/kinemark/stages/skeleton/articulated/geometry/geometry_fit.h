@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
 #include <vector>
 
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
@@ -14,8 +13,9 @@
 
 namespace kinemark::skeleton::articulated {
 
-/// SD of a joint about the mean of a segment's markers along an axis on which it is held, m; on the others it
-/// is data::kJointPriorSd_m.
+/// SD of a joint about the mean of a segment's markers along an axis on which it is held, m. Held in the
+/// parent and in the child, a joint is known along its axis by 1 / sqrt(2) of it. On other axes it is
+/// data::kJointPriorSd_m.
 constexpr double kHingeHold_m = 1e-3;
 
 /// A joint's position relative to the mean of the markers of one of its segments, in that segment's axes, m.
@@ -54,8 +54,10 @@ class GeometryFit {
   [[nodiscard]] double cost();
   /// Noise against which the prior weighs, m.
   void set_noise(double sigma_m);
-  /// Hold joints along their axes at the position nearest to their markers, by kHingeHold_m.
-  void hold(std::vector<HingeAxis> hinges) { hinges_ = std::move(hinges); }
+  /// Hold joints along their axes at the position nearest to their markers, by kHingeHold_m, in the axes that
+  /// the markers have now: a rotation of a segment's own axes, which no frame shows, does not loosen the
+  /// hold.
+  void hold(const std::vector<HingeAxis>& hinges);
   /// Noise variance of each marker over the common one, from residuals and their leverage, shrunk towards 1.
   [[nodiscard]] std::vector<double> marker_variance(double sigma_m);
   /// Student weights from the residuals.
@@ -65,14 +67,20 @@ class GeometryFit {
   double refine_all(PoseSolver& solver, std::vector<ChainPose>& poses, int iterations);
   void accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep);
   void add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const;
-  [[nodiscard]] Matrix3d prior_information(int joint, bool in_parent) const;
   [[nodiscard]] double prior_cost(const Chain& chain) const;
+
+  /// A joint's position along its axis from the mean of a segment's markers is offset_m + by_geometry * (the
+  /// geometry parameters).
+  struct Hold {
+    Eigen::VectorXd by_geometry;
+    double offset_m = 0.0;
+  };
 
   Chain& chain_;
   const ChainSamples& samples_;
   PosedFrames& frames_;
   PoseSolver solver_;
-  std::vector<HingeAxis> hinges_;
+  std::vector<Hold> holds_;
   double prior_weight_ = 0.0;                 // (noise / kJointPriorSd_m)^2
   std::vector<Eigen::MatrixXd> by_geometry_;  // H^-1 G, frame by frame
   std::vector<Eigen::VectorXd> step_;         // H^-1 b

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
 #include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
@@ -93,7 +94,7 @@ TEST(LogEvidence, DoesNotChangeWithTheLab) {
   RandomChain limb = make_random_chain({.frames = 20});
   PosedFrames frames = true_poses(limb);
   const double before = log_evidence(limb.chain, limb.samples, frames, 0.001);
-  move_lab(limb, exponential({0.3, -0.9, 1.4}), {1.0, -2.0, 0.5});
+  move_lab(limb, math::exp_so3({0.3, -0.9, 1.4}), {1.0, -2.0, 0.5});
   frames = true_poses(limb);
   EXPECT_NEAR(log_evidence(limb.chain, limb.samples, frames, 0.001), before, 1e-5);
 }

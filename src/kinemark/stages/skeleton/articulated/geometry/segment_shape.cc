@@ -80,8 +80,8 @@ void make_principal(Eigen::Matrix3Xd& points, SegmentKind kind) {
 }
 
 // Each known marker's mean position in the segment's axes, over frames that fix these axes.
-void average_places(const ChainSamples& samples, std::span<const int> markers, const std::vector<int>& known,
-                    std::span<const int> targets, Eigen::Matrix3Xd& shape) {
+void average_positions(const ChainSamples& samples, std::span<const int> markers,
+                       const std::vector<int>& known, std::span<const int> targets, Eigen::Matrix3Xd& shape) {
   std::vector<int> known_markers;
   Eigen::Matrix3Xd known_shape(3, known.size());
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -229,9 +229,9 @@ Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples, std::span<co
       }
       if (next < 0) break;
       const std::array<int, 1> target{next};
-      average_places(samples, markers, known, target, shape);
+      average_positions(samples, markers, known, target, shape);
       known.push_back(next);
-      for (int round = 0; round < 3; ++round) average_places(samples, markers, known, known, shape);
+      for (int round = 0; round < 3; ++round) average_positions(samples, markers, known, known, shape);
     }
   }
   if (n >= 3 && !line) {
@@ -239,7 +239,7 @@ Result<Eigen::Matrix3Xd> segment_shape(const ChainSamples& samples, std::span<co
     for (int i = 0; i < n; ++i) {
       if (placed(shape, i)) all.push_back(i);
     }
-    for (int round = 0; round < 8; ++round) average_places(samples, markers, all, all, shape);
+    for (int round = 0; round < 8; ++round) average_positions(samples, markers, all, all, shape);
   }
   make_principal(shape, kind);
   return shape;

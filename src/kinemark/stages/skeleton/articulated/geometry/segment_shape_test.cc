@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/testing/distance_error.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
@@ -86,7 +87,7 @@ TEST(SegmentShape, DoesNotChangeWithTheLab) {
   RandomChain limb = make_random_chain({.markers_per_segment = 5, .frames = 80, .missing = 0.2});
   const std::vector<int> markers{0, 1, 2, 3, 4};
   const auto here = segment_shape(limb.samples, markers, SegmentKind::solid, 0.001).value();
-  move_lab(limb, exponential({-0.8, 0.5, 0.9}), {3.0, -1.0, 0.2});
+  move_lab(limb, math::exp_so3({-0.8, 0.5, 0.9}), {3.0, -1.0, 0.2});
   const auto there = segment_shape(limb.samples, markers, SegmentKind::solid, 0.001).value();
   EXPECT_LT(distance_error(here, there), 1e-9);
 }

@@ -25,7 +25,7 @@ constexpr double kWeakest = 1e-6;            // of a joint's information, relati
 /// A joint's position in one frame as its path predicts it, the frame itself not having been used.
 struct PredictedJoint {
   bool known = false;
-  Vector3d place = Vector3d::Zero();
+  Vector3d position = Vector3d::Zero();
   Matrix3d covariance = Matrix3d::Zero();  ///< of the path
   Matrix3d inverse = Matrix3d::Zero();     ///< of path and noise together, for distances
 };
@@ -35,9 +35,9 @@ std::vector<PredictedJoint> predict_joints(const Continuity& continuity, std::si
   std::vector<PredictedJoint> out(continuity.path.size());
   for (std::size_t j = 0; j < out.size(); ++j) {
     const SmoothedPath& path = continuity.path[j];
-    if (path.place.empty() || !path.known(frame)) continue;
+    if (path.position.empty() || !path.known(frame)) continue;
     out[j].known = true;
-    out[j].place = path.place[frame];
+    out[j].position = path.position[frame];
     out[j].covariance = path.covariance_at(frame);
     const double slack = 4.0 * noise_sd_m * noise_sd_m;
     out[j].inverse = (out[j].covariance + slack * Matrix3d::Identity()).inverse();
@@ -46,7 +46,7 @@ std::vector<PredictedJoint> predict_joints(const Continuity& continuity, std::si
 }
 
 double squared_distance(const Vector3d& x, const PredictedJoint& path) {
-  const Vector3d d = x - path.place;
+  const Vector3d d = x - path.position;
   return d.dot(path.inverse * d);
 }
 
@@ -66,10 +66,10 @@ int choose(const FlaggedFrame& flagged, const std::vector<PredictedJoint>& paths
   for (std::size_t j = 0; j < paths.size(); ++j) {
     if (!open[j]) continue;
     if (!paths[j].known) return -1;
-    const Vector3d& place = flagged.modes[best].centre[j];
-    if (squared_distance(place, paths[j]) > kFarthest) return -1;
+    const Vector3d& position = flagged.modes[best].centre[j];
+    if (squared_distance(position, paths[j]) > kFarthest) return -1;
     for (std::size_t i = 0; i < n; ++i) {
-      const bool same = (flagged.modes[i].centre[j] - place).norm() < 0.2 * noise_sd_m;
+      const bool same = (flagged.modes[i].centre[j] - position).norm() < 0.2 * noise_sd_m;
       if (i != best && !same && score[i] > score[best] - kLead) return -1;
     }
   }
@@ -82,14 +82,14 @@ PathPoint without_prior(const Vector3d& centre, const Matrix3d& information, con
                         const Vector3d& target) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(information);
   const double weakest = kWeakest * std::max(eigen.eigenvalues()[2], 0.0);
-  PathPoint point{.place = centre};
+  PathPoint point{.position = centre};
   const Vector3d gradient = prior * (centre - target);
   for (int i = 0; i < 3; ++i) {
     const double w = eigen.eigenvalues()[i];
     if (w <= weakest) continue;
     const Vector3d v = eigen.eigenvectors().col(i);
     point.information += w * v * v.transpose();
-    point.place += v.dot(gradient) / w * v;
+    point.position += v.dot(gradient) / w * v;
   }
   return point;
 }
@@ -113,7 +113,7 @@ class Bridge {
       const double cost = solver_.solve_near(x, pose_, {}, frame_);
       for (std::size_t j = 0; j < J; ++j)
         if (open[j] && accept(cost, j, paths[j]))
-          pass_.points[j][k] = {.place = frame_.centre[j], .information = frame_.information[j]};
+          pass_.points[j][k] = {.position = frame_.centre[j], .information = frame_.information[j]};
       return;
     }
     if (shows_enough(flagged.frame)) fill_in(x, k, paths, open);
@@ -148,19 +148,20 @@ class Bridge {
     std::vector<Matrix3d> weight(J, Matrix3d::Zero());
     for (std::size_t j = 0; j < J; ++j) {
       if (!paths[j].known) return;
-      centres_[j] = paths[j].place;
+      centres_[j] = paths[j].position;
       if (!open[j]) continue;
       // A thousandth of the noise more, so that a path known exactly does not make the problem singular.
       weight[j] = (paths[j].covariance + 1e-3 * noise2 * Matrix3d::Identity()).inverse();
       priors_.push_back(
-          {.joint = static_cast<int>(j), .target = paths[j].place, .weight = noise2 * weight[j]});
+          {.joint = static_cast<int>(j), .target = paths[j].position, .weight = noise2 * weight[j]});
     }
     solver_.pose_from_centres(x, centres_, pose_);
     const double cost = solver_.solve_near(x, pose_, priors_, frame_);
     for (std::size_t j = 0; j < J; ++j) {
       if (!open[j] || !accept(cost, j, paths[j]) || paths[j].covariance.trace() > kLooseEnds_m * kLooseEnds_m)
         continue;
-      pass_.points[j][k] = without_prior(frame_.centre[j], frame_.information[j], weight[j], paths[j].place);
+      pass_.points[j][k] =
+          without_prior(frame_.centre[j], frame_.information[j], weight[j], paths[j].position);
     }
   }
 
@@ -182,7 +183,7 @@ Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, dou
   const std::size_t J = pass.points.size();
   Continuity continuity{.prior = std::vector<PathPrior>(J), .path = std::vector<SmoothedPath>(J)};
   for (std::size_t j = 0; j < J; ++j) {
-    if (std::ranges::count_if(pass.points[j], holds_a_place) < 10) continue;
+    if (std::ranges::count_if(pass.points[j], holds_a_position) < 10) continue;
     continuity.prior[j] = find_path_prior(pass.points[j], rate_hz);
     if (continuity.prior[j].follows)
       continuity.path[j] = smooth_path(pass.points[j], rate_hz, continuity.prior[j].white_jerk);

@@ -55,7 +55,7 @@ TEST(Continuity, ThePathChoosesAmongMirroredPositions) {
   for (std::size_t f = 80; f < 86; ++f) {
     EXPECT_NE(found.pass.state[0][f], CentreState::determined) << f;
     ASSERT_TRUE(found.continuity.path[0].known(f)) << f;
-    EXPECT_LT(error_of(limb, found.continuity.path[0].place[f], f), 0.005) << f;
+    EXPECT_LT(error_of(limb, found.continuity.path[0].position[f], f), 0.005) << f;
   }
 }
 
@@ -65,11 +65,11 @@ TEST(Continuity, APathThroughFramesWithoutMarkersIsWideAndHonest) {
     for (int k = 0; k < 6; ++k) hide(limb.samples, f, k);
   const Followed found = follow(limb);
   const SmoothedPath& path = found.continuity.path[0];
-  ASSERT_EQ(path.place.size(), 180U);
+  ASSERT_EQ(path.position.size(), 180U);
   EXPECT_GT(path.covariance_at(95).trace(), path.covariance_at(60).trace());
   for (std::size_t f = 90; f < 100; ++f) {
     EXPECT_TRUE(found.pass.points[0][f].information.isZero(0.0)) << "the frame shows nothing";
-    EXPECT_LT(std::pow(error_of(limb, path.place[f], f), 2), 25.0 * path.covariance_at(f).trace()) << f;
+    EXPECT_LT(std::pow(error_of(limb, path.position[f], f), 2), 25.0 * path.covariance_at(f).trace()) << f;
   }
 }
 
@@ -78,8 +78,8 @@ TEST(Continuity, SmoothingLowersTheError) {
   const Followed found = follow(limb);
   double single = 0.0, smooth = 0.0;
   for (std::size_t f = 0; f < 200; ++f) {
-    single += std::pow(error_of(limb, found.pass.points[0][f].place, f), 2);
-    smooth += std::pow(error_of(limb, found.continuity.path[0].place[f], f), 2);
+    single += std::pow(error_of(limb, found.pass.points[0][f].position, f), 2);
+    smooth += std::pow(error_of(limb, found.continuity.path[0].position[f], f), 2);
   }
   EXPECT_LT(smooth, 0.5 * single);
 }
@@ -98,10 +98,10 @@ TEST(Continuity, AnyNumberOfThreadsGivesTheSameBits) {
 TEST(Continuity, NothingIsSmoothedWhereFramesDoNotFollowEachOther) {
   const Followed random = follow(make_random_chain({.frames = 120}));
   EXPECT_FALSE(random.continuity.prior[0].follows);
-  EXPECT_TRUE(random.continuity.path[0].place.empty());
+  EXPECT_TRUE(random.continuity.path[0].position.empty());
   const Followed few = follow(slow_limb(9));
   EXPECT_EQ(few.continuity.prior[0].white_jerk, 0.0) << "fewer than ten frames";
-  EXPECT_TRUE(few.continuity.path[0].place.empty());
+  EXPECT_TRUE(few.continuity.path[0].position.empty());
 }
 
 }  // namespace

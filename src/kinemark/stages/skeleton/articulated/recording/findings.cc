@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 
 namespace kinemark::skeleton::articulated {
@@ -22,11 +23,6 @@ constexpr std::size_t kSwapFrames = 12;  // frames that are examined for exchang
 constexpr double kSwapFar = 4.0;         // SDs from its predicted position that make a marker suspect
 
 double angle_of(const Matrix3d& R) { return Eigen::AngleAxisd(R).angle(); }
-
-Vector3d rotation_vector(const Matrix3d& R) {
-  const Eigen::AngleAxisd a(R);
-  return a.angle() * a.axis();
-}
 
 double angle_between_z(const Matrix3d& R) { return std::acos(std::clamp(R(2, 2), -1.0, 1.0)); }
 
@@ -154,7 +150,7 @@ ObservedMotion observe_motion(const FittedChain& fit, const RecordingPass& pass,
   const Matrix3d mean = nearest_rotation(sum);
   Matrix3d spread = Matrix3d::Zero();
   for (const Matrix3d& R : rotations) {
-    const Vector3d v = rotation_vector(R * mean.transpose());
+    const Vector3d v = math::log_so3(R * mean.transpose());
     spread += v * v.transpose() / static_cast<double>(rotations.size());
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread);

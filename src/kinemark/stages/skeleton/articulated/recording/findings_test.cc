@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/core/units.h"
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/testing/known_geometry.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
@@ -21,7 +22,7 @@ using testing_limbs::random_rotation;
 using testing_limbs::RandomChain;
 
 /// A joint that takes these turns in turn.
-RecordingPass turned(const std::vector<Matrix3d>& child_in_parent) {
+RecordingPass rotated(const std::vector<Matrix3d>& child_in_parent) {
   RecordingPass pass;
   Random random(4, 1);
   for (std::size_t i = 0; i < child_in_parent.size(); ++i) {
@@ -40,9 +41,9 @@ Matrix3d about_x(double deg) {
 
 TEST(ObservedMotion, AHingeShowsItsAxisAndItsRange) {
   const RandomChain limb = make_random_chain({.frames = 1});
-  std::vector<Matrix3d> turns;
-  for (int i = 0; i <= 60; ++i) turns.push_back(about_x(i));
-  const auto seen = observe_motion(known_geometry(limb, 0.0005), turned(turns), 0);
+  std::vector<Matrix3d> rotations;
+  for (int i = 0; i <= 60; ++i) rotations.push_back(about_x(i));
+  const auto seen = observe_motion(known_geometry(limb, 0.0005), rotated(rotations), 0);
   EXPECT_EQ(seen.frames, 61);
   EXPECT_NEAR(seen.range_rad * kDegPerRad, 60.0, 1e-6);
   EXPECT_TRUE(seen.one_axis);
@@ -60,13 +61,13 @@ TEST(ObservedMotion, ABallHasNoAxisAndAStillJointNeither) {
     free.push_back(random_rotation(random));
     Vector3d v;
     for (int c = 0; c < 3; ++c) v[c] = 0.002 * random.gaussian();
-    still.push_back(exponential(v));
+    still.push_back(math::exp_so3(v));
   }
-  const auto ball = observe_motion(known_geometry(limb, 0.0005), turned(free), 0);
+  const auto ball = observe_motion(known_geometry(limb, 0.0005), rotated(free), 0);
   EXPECT_FALSE(ball.one_axis);
   EXPECT_FALSE(ball.still);
   EXPECT_GT(ball.range_rad, 2.5);
-  const auto none = observe_motion(known_geometry(limb, 0.0005), turned(still), 0);
+  const auto none = observe_motion(known_geometry(limb, 0.0005), rotated(still), 0);
   EXPECT_TRUE(none.still);
   EXPECT_FALSE(none.one_axis);
   EXPECT_EQ(observe_motion(known_geometry(limb, 0.0005), RecordingPass{}, 0).frames, 0);

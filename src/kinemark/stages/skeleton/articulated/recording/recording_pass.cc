@@ -79,7 +79,7 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
         any = any || alone;
         pass.state[j][k] = frame.state[j];
         if (frame.state[j] == CentreState::undetermined) continue;
-        pass.points[j][k].place = frame.centre[j];
+        pass.points[j][k].position = frame.centre[j];
         if (alone) pass.points[j][k].information = frame.information[j];
         store_symmetric(pass.covariance[j].data() + 6 * k, frame.covariance[j]);
         store_symmetric(pass.common[j].data() + 6 * k, frame.covariance[j] - frame.own_covariance[j]);

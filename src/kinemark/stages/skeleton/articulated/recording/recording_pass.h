@@ -8,7 +8,7 @@
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
 #include "kinemark/stages/skeleton/articulated/chain/fitted_chain.h"
-#include "kinemark/stages/skeleton/articulated/recording/path_smoother.h"
+#include "kinemark/stages/skeleton/articulated/recording/joint_path.h"
 
 namespace kinemark::skeleton::articulated {
 

@@ -25,10 +25,10 @@ Matrix3d any_rotation(Random& random) {
 }
 
 /// Slow turns of one segment against the one before: three sines of unrelated pace.
-struct Turning {
+struct RotationPath {
   Vector3d pace_hz, phase;
 
-  Turning(Random& random, double hz) {
+  RotationPath(Random& random, double hz) {
     for (int i = 0; i < 3; ++i) {
       pace_hz[i] = hz * random.uniform(0.5, 1.5);
       phase[i] = random.uniform(0.0, 6.0);
@@ -56,7 +56,7 @@ Limb make_limb(const LimbOptions& o) {
     local.emplace_back(o.stagger_m * std::cos(angle), o.stagger_m * std::sin(angle),
                        kLength_m * (k + 1) / (o.markers_per_segment + 1));
   }
-  std::vector<Turning> turning;
+  std::vector<RotationPath> rotation_paths;
   for (int s = 0; s < o.segments; ++s) {
     data::SegmentLayout::Segment segment{.name = fmt::format("s{}", s)};
     for (int k = 0; k < o.markers_per_segment; ++k) {
@@ -65,7 +65,7 @@ Limb make_limb(const LimbOptions& o) {
     }
     limb.layout.segments.push_back(segment);
     if (s > 0) limb.layout.joints.push_back({.name = fmt::format("j{}", s - 1), .parent = s - 1, .child = s});
-    turning.emplace_back(poses, o.turn_hz);
+    rotation_paths.emplace_back(poses, o.rotation_hz);
   }
   limb.markers =
       data::Trajectories::all_missing(names, {.rate_hz = kRate_hz, .t0_s = 0.0, .frames = o.frames});
@@ -73,9 +73,9 @@ Limb make_limb(const LimbOptions& o) {
     Vector3d from = Vector3d::Zero();
     Matrix3d R = Matrix3d::Identity();
     for (int s = 0; s < o.segments; ++s) {
-      if (o.turn_hz > 0.0)
-        R = (R * turning[static_cast<std::size_t>(s)].at(static_cast<double>(f) / kRate_hz, o.turn_rad,
-                                                         o.one_axis && s > 0))
+      if (o.rotation_hz > 0.0)
+        R = (R * rotation_paths[static_cast<std::size_t>(s)].at(static_cast<double>(f) / kRate_hz,
+                                                                o.rotation_rad, o.one_axis && s > 0))
                 .eval();
       else
         R = any_rotation(poses);

@@ -24,9 +24,9 @@ struct LimbOptions {
   int segments = 2, markers_per_segment = 3;
   double stagger_m = 0.0;  ///< 0: all on the bone
   double noise_sd_m = 0.001, missing = 0.0;
-  double turn_hz = 0.0;   ///< 0: every frame a pose of its own; else smooth turns of about this pace
-  double turn_rad = 1.0;  ///< half range of the smooth turns
-  bool one_axis = false;  ///< smooth turns of each joint about one axis of its parent
+  double rotation_hz = 0.0;   ///< 0: every frame a pose of its own; else smooth rotations of about this pace
+  double rotation_rad = 1.0;  ///< half range of the smooth rotations
+  bool one_axis = false;      ///< smooth rotations of each joint about one axis of its parent
   std::uint64_t seed = 1;
 };
 

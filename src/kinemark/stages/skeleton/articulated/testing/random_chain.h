@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kinemark/core/random.h"
+#include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
 
 namespace kinemark::skeleton::testing_limbs {
@@ -106,7 +107,7 @@ inline void move_slowly(RandomChain& limb, double rate_hz, double noise_sd_m) {
     for (std::size_t s = 0; s < limb.pose[f].rotation.size(); ++s) {
       const double phase = 1.1 * static_cast<double>(s);
       const Vector3d v(std::sin(2.1 * t + phase), std::sin(1.6 * t + 2.0 * phase), std::cos(1.9 * t + phase));
-      R = (R * articulated::exponential(0.5 * v)).eval();
+      R = (R * math::exp_so3(0.5 * v)).eval();
       limb.pose[f].rotation[s] = R;
     }
   }
@@ -117,7 +118,7 @@ inline void move_slowly(RandomChain& limb, double rate_hz, double noise_sd_m) {
 inline void move_as_hinge(RandomChain& limb, double noise_sd_m) {
   for (std::size_t f = 0; f < limb.pose.size(); ++f) {
     const double angle = std::sin(0.1 * static_cast<double>(f));
-    limb.pose[f].rotation[1] = limb.pose[f].rotation[0] * articulated::exponential(angle * Vector3d::UnitX());
+    limb.pose[f].rotation[1] = limb.pose[f].rotation[0] * math::exp_so3(angle * Vector3d::UnitX());
   }
   redraw(limb, noise_sd_m, 6);
 }

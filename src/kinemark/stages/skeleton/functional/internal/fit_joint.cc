@@ -13,11 +13,11 @@ namespace kinemark::skeleton::internal {
 namespace {
 
 /// Rotation error of the poses by noise alone, rad per axis, in the middle frame.
-double noise_of_turns(const Samples& samples, const JointTask& task) {
+double rotation_noise(const Samples& samples, const JointTask& task) {
   if (task.motion.frames.empty()) return 0.0;
   const std::int64_t f = task.motion.frames[task.motion.frames.size() / 2];
-  const double variance =
-      pose_noise(samples, task.parent, f).turn.trace() + pose_noise(samples, task.child, f).turn.trace();
+  const double variance = pose_noise(samples, task.parent, f).rotation_covariance.trace() +
+                          pose_noise(samples, task.child, f).rotation_covariance.trace();
   return std::sqrt(variance / 3.0);
 }
 
@@ -26,7 +26,7 @@ data::JointKind choose_kind(const Samples& samples, const JointTask& task, const
     return data::JointKind::hinge;
   if (options.kind != data::JointChoice::automatic)
     return options.kind == data::JointChoice::hinge ? data::JointKind::hinge : data::JointKind::ball;
-  return task.motion.kind(noise_of_turns(samples, task));
+  return task.motion.kind(rotation_noise(samples, task));
 }
 
 /// Sphere or cylinder fits, from one side or from both.

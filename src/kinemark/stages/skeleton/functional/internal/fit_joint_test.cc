@@ -18,8 +18,8 @@ using data::JointKind;
 using ::testing::HasSubstr;
 using testing::JointSetup;
 using testing::make_chain;
+using testing::Rotations;
 using testing::TestChain;
-using testing::Turns;
 
 /// Largest distance of the fit's centre, carried into world by one segment's poses, from the truth, m.
 double worst_error(const JointSetup& s, const JointFit& fit, bool in_parent) {
@@ -49,7 +49,8 @@ TEST(FitJoint, EveryMethodIsExactOnExactData) {
 }
 
 TEST(FitJoint, AHingeIsFoundOrForced) {
-  const JointSetup hinge({.frames = 120, .per_segment = 4, .turns = Turns::hinge, .noise_sd_m = 0.0005});
+  const JointSetup hinge(
+      {.frames = 120, .per_segment = 4, .rotations = Rotations::hinge, .noise_sd_m = 0.0005});
   const JointSetup ball({.frames = 120, .per_segment = 4, .noise_sd_m = 0.0005});
   std::string why;
   EXPECT_EQ(fit_joint(hinge.samples, hinge.task, {}, why)->kind, JointKind::hinge);

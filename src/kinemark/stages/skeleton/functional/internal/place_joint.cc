@@ -5,8 +5,8 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/math/symmetric3.h"
+#include "kinemark/stages/skeleton/functional/description.h"
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
-#include "kinemark/stages/skeleton/functional/words.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
@@ -25,8 +25,8 @@ struct Side {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero(), rotation = Eigen::Matrix3d::Zero();
 };
 
-Side look(const Samples& samples, const SegmentPoses& poses, std::int64_t f, bool used,
-          const Eigen::Vector3d& p) {
+Side side_at(const Samples& samples, const SegmentPoses& poses, std::int64_t f, bool used,
+             const Eigen::Vector3d& p) {
   Side side;
   side.known = used && poses.known[static_cast<std::size_t>(f)] != 0;
   if (!side.known) return side;
@@ -41,8 +41,8 @@ double gap_ratio(const Samples& samples, const JointTask& task, const JointFit& 
   if (!fit.in_parent || !fit.in_child || fit.kind == data::JointKind::hinge) return 1.0;
   double gaps = 0.0, expected = 0.0;
   for (const std::int64_t f : task.motion.frames) {
-    const Side a = look(samples, task.parent, f, true, fit.centre.head<3>()),
-               b = look(samples, task.child, f, true, fit.centre.tail<3>());
+    const Side a = side_at(samples, task.parent, f, true, fit.centre.head<3>()),
+               b = side_at(samples, task.child, f, true, fit.centre.tail<3>());
     gaps += (a.centre - b.centre).squaredNorm();
     expected += (a.noise + b.noise).trace();
   }
@@ -55,15 +55,15 @@ void place_joint(const Samples& samples, const JointTask& task, const JointFit& 
                  data::Skeleton& skeleton) {
   const double ratio = gap_ratio(samples, task, fit);
   for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
-    const Side a = look(samples, task.parent, f, fit.in_parent, fit.centre.head<3>()),
-               b = look(samples, task.child, f, fit.in_child, fit.centre.tail<3>());
+    const Side a = side_at(samples, task.parent, f, fit.in_parent, fit.centre.head<3>()),
+               b = side_at(samples, task.child, f, fit.in_child, fit.centre.tail<3>());
     if (!a.known && !b.known) continue;
     const double share_a = !b.known ? 1.0 : !a.known ? 0.0 : 0.5, share_b = 1.0 - share_a;
-    Eigen::Matrix<double, 3, 6> turn;
-    turn.leftCols<3>() = share_a * a.rotation;
-    turn.rightCols<3>() = share_b * b.rotation;
+    Eigen::Matrix<double, 3, 6> rotation;
+    rotation.leftCols<3>() = share_a * a.rotation;
+    rotation.rightCols<3>() = share_b * b.rotation;
     const Eigen::Matrix3d covariance = ratio * (share_a * share_a * a.noise + share_b * share_b * b.noise) +
-                                       turn * fit.covariance * turn.transpose();
+                                       rotation * fit.covariance * rotation.transpose();
     set_centre(skeleton, skeleton.index(f, static_cast<std::int64_t>(j)),
                share_a * a.centre + share_b * b.centre, covariance, data::CentreState::determined);
   }
@@ -93,7 +93,7 @@ void describe(const JointFit& fit, const RelativeMotion& motion, data::SkeletonJ
     out.axis_sd_rad = fit.axis_sd_rad;
   }
   out.range_of_motion_rad = motion.frames.size() > 1 ? motion.range_rad : kNaN;
-  out.words = describe_joint(out);
+  out.description = describe_joint(out);
 }
 
 void add_lengths(data::Skeleton& skeleton) {
@@ -101,7 +101,7 @@ void add_lengths(data::Skeleton& skeleton) {
   for (std::size_t s = 0; s < skeleton.segments.size(); ++s)
     for (std::size_t a = 0; a < J; ++a)
       for (std::size_t b = a + 1; b < J; ++b) {
-        const auto place = [&](const data::SkeletonJoint& joint, Eigen::Matrix3d& covariance) {
+        const auto centre_of = [&](const data::SkeletonJoint& joint, Eigen::Matrix3d& covariance) {
           const bool parent = joint.parent_segment == static_cast<int>(s);
           covariance = parent ? joint.covariance_in_parent : joint.covariance_in_child;
           return parent ? joint.centre_in_parent : joint.centre_in_child;
@@ -111,7 +111,7 @@ void add_lengths(data::Skeleton& skeleton) {
         };
         if (!on(skeleton.joints[a]) || !on(skeleton.joints[b])) continue;
         Eigen::Matrix3d ca, cb;
-        const Eigen::Vector3d d = place(skeleton.joints[a], ca) - place(skeleton.joints[b], cb);
+        const Eigen::Vector3d d = centre_of(skeleton.joints[a], ca) - centre_of(skeleton.joints[b], cb);
         if (!ca.allFinite() || !cb.allFinite() || d.norm() == 0.0) continue;
         const Eigen::Vector3d along = d.normalized();
         skeleton.lengths.push_back({.name = skeleton.joints[a].name + "-" + skeleton.joints[b].name,

@@ -113,7 +113,7 @@ TEST(Describe, OneSideLeavesTheOtherUnknown) {
   motion.frames = {3, 8};
   describe(fit, motion, joint);
   EXPECT_EQ(joint.range_of_motion_rad, 0.5);
-  EXPECT_FALSE(joint.words.empty());
+  EXPECT_FALSE(joint.description.empty());
 }
 
 /// Joints 0 and 1 on segment 1, a length apart along z; joint 2 elsewhere.

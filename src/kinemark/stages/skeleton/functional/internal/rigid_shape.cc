@@ -36,11 +36,11 @@ Eigen::Matrix3d inertia(const Eigen::Matrix3d& scatter) {
 }
 
 RigidShape::RigidShape(const Samples& samples, const std::vector<int>& markers)
-    : samples_(samples), markers_(markers), places_(3, at(markers.size())) {
-  places_.setConstant(kNaN);
+    : samples_(samples), markers_(markers), positions_(3, at(markers.size())) {
+  positions_.setConstant(kNaN);
 }
 
-bool RigidShape::placed(std::size_t k) const { return !std::isnan(places_(0, at(k))); }
+bool RigidShape::placed(std::size_t k) const { return !std::isnan(positions_(0, at(k))); }
 
 int RigidShape::seen(std::int64_t frame) const {
   return static_cast<int>(std::ranges::count_if(markers_, [&](int m) { return samples_.seen(frame, m); }));
@@ -66,7 +66,7 @@ Eigen::Matrix3d RigidShape::scatter(std::int64_t frame) const {
 
 void RigidShape::start(std::int64_t frame) {
   for (std::size_t k = 0; k < markers_.size(); ++k)
-    if (samples_.seen(frame, markers_[k])) places_.col(at(k)) = samples_.x(frame, markers_[k]);
+    if (samples_.seen(frame, markers_[k])) positions_.col(at(k)) = samples_.x(frame, markers_[k]);
 }
 
 FramePose RigidShape::pose(std::int64_t frame) const {
@@ -75,7 +75,7 @@ FramePose RigidShape::pose(std::int64_t frame) const {
   for (std::size_t k = 0; k < markers_.size(); ++k) {
     if (!placed(k) || !samples_.seen(frame, markers_[k])) continue;
     world += samples_.x(frame, markers_[k]);
-    local += places_.col(at(k));
+    local += positions_.col(at(k));
     ++p.visible;
   }
   if (p.visible < 3) return p;
@@ -84,7 +84,7 @@ FramePose RigidShape::pose(std::int64_t frame) const {
   Eigen::Matrix3d product = Eigen::Matrix3d::Zero(), squares = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < markers_.size(); ++k) {
     if (!placed(k) || !samples_.seen(frame, markers_[k])) continue;
-    const Eigen::Vector3d d = places_.col(at(k)) - local;
+    const Eigen::Vector3d d = positions_.col(at(k)) - local;
     product += (samples_.x(frame, markers_[k]) - world) * d.transpose();
     squares += d * d.transpose();
   }
@@ -94,22 +94,26 @@ FramePose RigidShape::pose(std::int64_t frame) const {
   for (std::size_t k = 0; k < markers_.size(); ++k)
     if (placed(k) && samples_.seen(frame, markers_[k]))
       p.squares +=
-          (samples_.x(frame, markers_[k]) - p.rotation * places_.col(at(k)) - p.origin).squaredNorm();
+          (samples_.x(frame, markers_[k]) - p.rotation * positions_.col(at(k)) - p.origin).squaredNorm();
   return p;
 }
 
-double RigidShape::least_inertia() const {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int n = 0;
+RigidShape::Spread RigidShape::spread() const {
+  Spread out;
   for (std::size_t k = 0; k < markers_.size(); ++k)
     if (placed(k)) {
-      mean += places_.col(at(k));
-      ++n;
+      out.mean += positions_.col(at(k));
+      ++out.placed;
     }
-  mean /= std::max(n, 1);
+  out.mean /= std::max(out.placed, 1);
   for (std::size_t k = 0; k < markers_.size(); ++k)
-    if (placed(k)) squares += (places_.col(at(k)) - mean) * (places_.col(at(k)) - mean).transpose();
+    if (placed(k))
+      out.squares += (positions_.col(at(k)) - out.mean) * (positions_.col(at(k)) - out.mean).transpose();
+  return out;
+}
+
+double RigidShape::least_inertia() const {
+  const Eigen::Matrix3d squares = spread().squares;
   const double least = smallest_eigenvalue(inertia(squares));
   return least > kOnLine * squares.trace() ? least : 0.0;
 }
@@ -131,7 +135,7 @@ double RigidShape::improve(const std::vector<std::int64_t>& frames, bool trim) {
     const double usual = math::upper_median(mean_squares);
     if (usual > 0.0) limit = 25.0 * usual;
   }
-  Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, places_.cols());
+  Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, positions_.cols());
   std::vector<int> counts(markers_.size(), 0);
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (mean_squares[i] > limit) continue;
@@ -145,26 +149,17 @@ double RigidShape::improve(const std::vector<std::int64_t>& frames, bool trim) {
   for (std::size_t k = 0; k < markers_.size(); ++k) {
     if (counts[k] == 0) continue;
     const Eigen::Vector3d now = sums.col(at(k)) / counts[k];
-    change = std::max(change, placed(k) ? (now - places_.col(at(k))).norm() : 1.0);
-    places_.col(at(k)) = now;
+    change = std::max(change, placed(k) ? (now - positions_.col(at(k))).norm() : 1.0);
+    positions_.col(at(k)) = now;
   }
   return change;
 }
 
-void RigidShape::turn_into_axes() {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int n = 0;
-  for (std::size_t k = 0; k < markers_.size(); ++k)
-    if (placed(k)) {
-      mean += places_.col(at(k));
-      ++n;
-    }
-  if (n == 0) return;
-  places_.colwise() -= mean / n;
-  for (std::size_t k = 0; k < markers_.size(); ++k)
-    if (placed(k)) squares += places_.col(at(k)) * places_.col(at(k)).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
+void RigidShape::rotate_into_axes() {
+  const Spread of = spread();
+  if (of.placed == 0) return;
+  positions_.colwise() -= of.mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(of.squares);
   Eigen::Matrix3d axes;
   axes.col(2) = solver.eigenvectors().col(2);
   axes.col(0) = solver.eigenvectors().col(1);
@@ -172,12 +167,12 @@ void RigidShape::turn_into_axes() {
   for (const int axis : {2, 0}) {
     for (std::size_t k = 0; k < markers_.size(); ++k) {
       if (!placed(k)) continue;
-      if (axes.col(axis).dot(places_.col(at(k))) < 0.0) axes.col(axis) *= -1.0;
+      if (axes.col(axis).dot(positions_.col(at(k))) < 0.0) axes.col(axis) *= -1.0;
       break;
     }
   }
   axes.col(1) = axes.col(2).cross(axes.col(0));
-  places_ = (axes.transpose() * places_).eval();
+  positions_ = (axes.transpose() * positions_).eval();
 }
 
 std::vector<std::int64_t> RigidShape::draw_frames() const {
@@ -218,7 +213,7 @@ bool RigidShape::find() {
     if (change < kSettled_m || (round > 8 && change > 0.98 * before && change < 1e-6)) break;
     before = change;
   }
-  turn_into_axes();
+  rotate_into_axes();
   return true;
 }
 

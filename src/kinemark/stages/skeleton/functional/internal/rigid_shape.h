@@ -37,23 +37,30 @@ class RigidShape {
   /// Inertia about a line of all that is placed, m^2; 0 where the markers lie on one.
   [[nodiscard]] double least_inertia() const;
   /// One column a marker, m; NaN for one that could not be placed.
-  [[nodiscard]] const Eigen::Matrix3Xd& places() const { return places_; }
-  void set_places(const Eigen::Matrix3Xd& places) { places_ = places; }
+  [[nodiscard]] const Eigen::Matrix3Xd& positions() const { return positions_; }
+  void set_positions(const Eigen::Matrix3Xd& positions) { positions_ = positions; }
 
  private:
   [[nodiscard]] bool placed(std::size_t k) const;
   [[nodiscard]] int seen(std::int64_t frame) const;
   [[nodiscard]] Eigen::Matrix3d scatter(std::int64_t frame) const;
+  /// Of the placed markers in the shape: how many, their mean, and the sum of squares about it.
+  struct Spread {
+    int placed = 0;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  };
+  [[nodiscard]] Spread spread() const;
   [[nodiscard]] std::vector<std::int64_t> draw_frames() const;
   [[nodiscard]] std::int64_t best_start(const std::vector<std::int64_t>& frames) const;
   void start(std::int64_t frame);
   /// One round over the frames: poses, then every marker's mean position in them. Returns the largest change.
   double improve(const std::vector<std::int64_t>& frames, bool trim);
-  void turn_into_axes();
+  void rotate_into_axes();
 
   const Samples& samples_;
   const std::vector<int>& markers_;
-  Eigen::Matrix3Xd places_;
+  Eigen::Matrix3Xd positions_;
 };
 
 }  // namespace kinemark::skeleton::internal

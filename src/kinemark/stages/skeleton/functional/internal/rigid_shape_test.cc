@@ -30,7 +30,7 @@ Eigen::Matrix3Xd find_shape(const TestChain& chain) {
   const Samples samples{chain.markers, {}};
   RigidShape shape(samples, chain.layout.segments[0].markers);
   EXPECT_TRUE(shape.find());
-  return shape.places();
+  return shape.positions();
 }
 
 TEST(RigidShape, IsExactOnExactDataWithGaps) {
@@ -82,7 +82,7 @@ TEST(RigidShape, PosesPutTheShapeOntoTheMarkers) {
     EXPECT_LT(pose.squares, 1e-14);
     for (std::size_t k = 0; k < 4; ++k) {
       const Eigen::Vector3d x =
-          pose.rotation * shape.places().col(static_cast<Eigen::Index>(k)) + pose.origin;
+          pose.rotation * shape.positions().col(static_cast<Eigen::Index>(k)) + pose.origin;
       EXPECT_LT((x - chain.markers.x(f, markers[k])).norm(), 1e-7);
     }
   }
@@ -100,8 +100,8 @@ TEST(RigidShape, TwoMarkersAFrameAreNone) {
   const Samples samples{chain.markers, {}};
   RigidShape shape(samples, chain.layout.segments[0].markers);
   EXPECT_FALSE(shape.find());
-  EXPECT_TRUE(shape.places().hasNaN());
-  shape.set_places(chain.x_in_segment[0]);
+  EXPECT_TRUE(shape.positions().hasNaN());
+  shape.set_positions(chain.x_in_segment[0]);
   EXPECT_LT(shape.pose(0).visible, 3) << "and no pose of a known shape";
 }
 

@@ -24,14 +24,15 @@ Eigen::Matrix3d any_rotation(Random& random) {
   return q.normalized().toRotationMatrix();
 }
 
-Eigen::Matrix3d turn(Random& random, const ChainSetup& setup) {
-  if (setup.turns == Turns::anywhere) return any_rotation(random);
+Eigen::Matrix3d joint_rotation(Random& random, const ChainSetup& setup) {
+  if (setup.rotations == Rotations::anywhere) return any_rotation(random);
   const double angle = random.uniform(-0.5, 0.5) * setup.range_rad;
-  const Eigen::Vector3d axis = setup.turns == Turns::hinge ? Eigen::Vector3d::UnitX() : direction(random);
+  const Eigen::Vector3d axis =
+      setup.rotations == Rotations::hinge ? Eigen::Vector3d::UnitX() : direction(random);
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-Eigen::Matrix3Xd places(const ChainSetup& setup, double length_m) {
+Eigen::Matrix3Xd marker_positions(const ChainSetup& setup, double length_m) {
   Eigen::Matrix3Xd m(3, setup.per_segment);
   for (int k = 0; k < setup.per_segment; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / setup.per_segment;
@@ -55,7 +56,7 @@ TestChain make_chain(const ChainSetup& setup) {
       names.push_back(segment.name + "m" + std::to_string(k));
     }
     chain.layout.segments.push_back(segment);
-    chain.x_in_segment.push_back(places(setup, setup.lengths_m[s]));
+    chain.x_in_segment.push_back(marker_positions(setup, setup.lengths_m[s]));
     if (s > 0)
       chain.layout.joints.push_back(
           {"j" + std::to_string(s - 1), static_cast<int>(s) - 1, static_cast<int>(s)});
@@ -69,8 +70,9 @@ TestChain make_chain(const ChainSetup& setup) {
     Eigen::Vector3d end = 0.2 * direction(motion);
     for (std::size_t s = 0; s < segments; ++s) {
       if (s > 0)
-        rotation = setup.turns == Turns::anywhere ? any_rotation(motion)
-                                                  : Eigen::Matrix3d(rotation * turn(motion, setup));
+        rotation = setup.rotations == Rotations::anywhere
+                       ? any_rotation(motion)
+                       : Eigen::Matrix3d(rotation * joint_rotation(motion, setup));
       chain.world_from_segment[s].push_back(rotation);
       for (int k = 0; k < setup.per_segment; ++k) {
         Eigen::Vector3d x = end + rotation * chain.x_in_segment[s].col(k);

@@ -13,14 +13,14 @@
 namespace kinemark::skeleton::testing {
 
 /// Rotation of each segment against the one before.
-enum class Turns : std::uint8_t { anywhere, cone, hinge };
+enum class Rotations : std::uint8_t { anywhere, cone, hinge };
 
 struct ChainSetup {
   std::int64_t frames = 300;
   std::vector<double> lengths_m{0.150, 0.160};
   int per_segment = 3;
   double stagger_m = 0.02;
-  Turns turns = Turns::anywhere;
+  Rotations rotations = Rotations::anywhere;
   double range_rad = 1.0;  ///< whole range of cones (about any axis) and hinges (about x)
   double noise_sd_m = 0.0;
   double missing = 0.0;

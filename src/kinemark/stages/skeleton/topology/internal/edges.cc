@@ -51,7 +51,7 @@ std::vector<std::int64_t> common_frames(const SegmentPoses& a, const SegmentPose
 /// point itself: otherwise a distant point would seem to fit well because it is uncertain.
 double spread_at_arm(const Samples& samples, const SegmentPoses& poses, std::int64_t frame) {
   const PoseNoise noise = pose_noise(samples, poses, frame);
-  return 3.0 * noise.mean_variance + 2.0 / 3.0 * kArm_m * kArm_m * noise.turn.trace() + 1e-12;
+  return 3.0 * noise.mean_variance + 2.0 / 3.0 * kArm_m * kArm_m * noise.rotation_covariance.trace() + 1e-12;
 }
 
 /// Of a segment without poses that moves about a point held still by one with poses.

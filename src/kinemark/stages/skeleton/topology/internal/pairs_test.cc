@@ -50,8 +50,8 @@ TEST(Pairs, SlowWobbleIsSoftTissueNotMotion) {
     Eigen::Vector3d wobble = Eigen::Vector3d::Zero();
     for (std::int64_t f = 0; f < chain.markers.frames(); ++f) {
       for (double& w : wobble) w = 0.98 * w + 0.003 * std::sqrt(1.0 - 0.98 * 0.98) * random.gaussian();
-      const auto& turns = chain.world_from_segment[m < 5 ? 0 : 1];
-      chain.markers.x(f, m) += turns[static_cast<std::size_t>(f)] * wobble;
+      const auto& rotations = chain.world_from_segment[m < 5 ? 0 : 1];
+      chain.markers.x(f, m) += rotations[static_cast<std::size_t>(f)] * wobble;
     }
   }
   const auto pairs = spread_of(chain);

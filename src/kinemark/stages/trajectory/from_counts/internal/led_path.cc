@@ -13,7 +13,7 @@
 #include "kinemark/camera/noise.h"
 #include "kinemark/camera/response.h"
 #include "kinemark/math/scale_free.h"
-#include "kinemark/stages/trajectory/from_counts/internal/wiener_filter.h"
+#include "kinemark/math/wiener_smoother.h"
 
 namespace kinemark::trajectory::internal {
 
@@ -31,7 +31,7 @@ LedPath::LedPath(const data::Counts& counts, const data::Rig& rig, std::int64_t 
       cameras_(static_cast<std::size_t>(counts.camera_count())),
       views_(frames_ * cameras_),
       now_(frames_),
-      sights_(frames_),
+      observations_(frames_),
       flicker_(cameras_, Vector2d::Zero()) {
   const double delay = rig.electronics.time_constant_s;
   for (std::size_t c = 0; c < cameras_; ++c)
@@ -68,8 +68,8 @@ void LedPath::remove_flicker(int camera, const Vector2d& cos_sin) {
   fit_.flicker_counts[c] = flicker_[c].norm();
 }
 
-void LedPath::linearise(const data::Camera& camera, View& v, const Vector3d& x) const {
-  // The response curves over decimetres: within a millimetre its linearisation is accurate to a hundredth of
+void LedPath::linearize(const data::Camera& camera, View& v, const Vector3d& x) const {
+  // The response curves over decimetres: within a millimetre its linearization is accurate to a hundredth of
   // a count.
   constexpr double kStraight_m = 1e-3;
   if (v.linear && (x - v.at).squaredNorm() < kStraight_m * kStraight_m) return;
@@ -89,7 +89,7 @@ void LedPath::gather(bool weigh) {
     for (std::size_t c = 0; c < cameras_; ++c) {
       View& v = view(k, c);
       if (!v.usable) continue;
-      linearise(rig_.cameras[c], v, m.position);
+      linearize(rig_.cameras[c], v, m.position);
       if (!v.linear) {
         v.usable = false;
         continue;
@@ -105,7 +105,7 @@ void LedPath::gather(bool weigh) {
       h += w * j.transpose() * j;
       g += w * j.transpose() * left.residual;
     }
-    auto& s = sights_[k];
+    auto& s = observations_[k];
     s.time_s = time_s_[k] + epoch_s_;
     s.information = h;
     // The ridge, 1 / (10 m)^2, only bounds the step in directions that this frame does not determine.
@@ -115,7 +115,7 @@ void LedPath::gather(bool weigh) {
 
 void LedPath::regress_flicker() {
   const double omega = 2.0 * std::numbers::pi * options_.flicker_hz, delay = rig_.electronics.time_constant_s;
-  constexpr double kFewest = 40, kLargest = 6.0;  // sightings; counts: more is no flicker
+  constexpr double kFewest = 40, kLargest = 6.0;  // observations; counts: more is no flicker
   for (std::size_t c = 0; c < cameras_; ++c) {
     Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
     Vector2d right = Vector2d::Zero();
@@ -147,41 +147,37 @@ void LedPath::regress_flicker() {
 /// loses its precision.
 constexpr double kLongestGap = 10.0;
 
-template <int kOrder>
-void LedPath::smooth_with(bool last) {
-  std::vector<Sight<3>> sights(frames_);
-  for (std::size_t k = 0; k < frames_; ++k)
-    sights[k] = {sights_[k].time_s, sights_[k].information, sights_[k].position};
-  WienerFilter<kOrder, 3> filter(bandwidth_.spectral_density, bandwidth_.time_constant_s);
-  const auto at_frame = filter.taylor_shift(-epoch_s_);
-  if (last) {
-    constexpr double kNaN = std::numeric_limits<double>::infinity();
-    result_.assign(frames_, Sample{.motion = {}, .sd = {Vector3d::Constant(kNaN), {}, {}}, .covariance = {}});
-  }
-  for (const auto& [first, count] :
-       internal::runs_between_gaps(sights, kLongestGap * bandwidth_.time_constant_s))
-    filter.smooth(std::span(sights).subspan(first, count), last,
-                  [&, first](std::size_t index, const auto& x, const auto* p) {
-                    const std::size_t k = first + index;
-                    now_[k] = {filter.derivative(x, 0), filter.derivative(x, 1), filter.derivative(x, 2)};
-                    if (!last) return;
-                    // From the epoch of the states to the frame's own time.
-                    const auto there = filter.shifted(x, at_frame);
-                    const auto spread = filter.shifted(*p, at_frame);
-                    Sample& s = result_[k];
-                    s.motion = {filter.derivative(there, 0), filter.derivative(there, 1),
-                                filter.derivative(there, 2)};
-                    s.covariance = filter.derivative_covariance(spread, 0);
-                    s.sd = {s.covariance.diagonal().cwiseMax(0.0).cwiseSqrt(),
-                            filter.derivative_covariance(spread, 1).diagonal().cwiseMax(0.0).cwiseSqrt(),
-                            filter.derivative_covariance(spread, 2).diagonal().cwiseMax(0.0).cwiseSqrt()};
-                  });
-}
-
 void LedPath::smooth(bool last) {
-  if (bandwidth_.order == 3) return smooth_with<3>(last);
-  if (bandwidth_.order == 4) return smooth_with<4>(last);
-  smooth_with<5>(last);
+  const math::WienerProcess process{.order = bandwidth_.order,
+                                    .spectral_density = bandwidth_.spectral_density,
+                                    .time_scale_s = bandwidth_.time_constant_s};
+  math::WienerOptions<3> options;
+  options.covariance = math::WienerCovariance::none;
+  if (last) {
+    options.covariance = math::WienerCovariance::all;
+    options.shift_s = -epoch_s_;  // from the epoch of the states to the frame's own time
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    result_.assign(frames_,
+                   Sample{.motion = {}, .sd = {Vector3d::Constant(kUnknown), {}, {}}, .covariance = {}});
+  }
+  const std::span<const LedObservation> observations(observations_);
+  for (const auto& [first, count] :
+       math::runs_between_gaps(observations, kLongestGap * bandwidth_.time_constant_s))
+    math::smooth_wiener<3>(process, observations.subspan(first, count), options,
+                           [&, first](std::size_t index, const math::WienerEstimate<3>& at) {
+                             const Motion motion{at.derivative(0), at.derivative(1), at.derivative(2)};
+                             if (!last) {
+                               now_[first + index] = motion;
+                               return;
+                             }
+                             const auto sd = [&](int derivative) -> Vector3d {
+                               return at.covariance_of(derivative).diagonal().cwiseMax(0.0).cwiseSqrt();
+                             };
+                             Sample& s = result_[first + index];
+                             s.motion = motion;
+                             s.covariance = at.covariance_of(0);
+                             s.sd = {sd(0), sd(1), sd(2)};
+                           });
 }
 
 void LedPath::run() {
@@ -195,13 +191,13 @@ void LedPath::run() {
       gather(true);
     }
     if (pass == 0 || pass == 2) {
-      // The first choice evaluates a rough path from fewer sights; the second searches near the first.
+      // The first choice evaluates a rough path from fewer observations; the second searches near the first.
       BandwidthOptions how{.order = options_.order, .half_gain_hz = options_.half_gain_hz};
       if (pass == 0)
-        how.max_sights /= 2;
+        how.max_observations /= 2;
       else
         how.around_hz = 0.5 / (std::numbers::pi * bandwidth_.time_constant_s);
-      bandwidth_ = choose_bandwidth(sights_, how);
+      bandwidth_ = choose_bandwidth(observations_, how);
     }
     smooth(last);
   }
@@ -218,12 +214,12 @@ void LedPath::conclude() {
       fit_.held_down += v.weight < 0.5;
       if (v.weight == 0.0) continue;
       result_[k].seen = true;
-      ++fit_.sightings;
+      ++fit_.observations;
       sum += v.chi2;
     }
   // Estimating each frame's point separately uses two of six residuals; the path uses far fewer degrees of
   // freedom.
-  fit_.chi2_per_dof = fit_.sightings > 0 ? sum / (3.0 * static_cast<double>(fit_.sightings)) : 0.0;
+  fit_.chi2_per_dof = fit_.observations > 0 ? sum / (3.0 * static_cast<double>(fit_.observations)) : 0.0;
   fit_.bandwidth = bandwidth_;
 }
 

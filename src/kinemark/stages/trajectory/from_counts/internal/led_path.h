@@ -52,12 +52,10 @@ class LedPath {
   [[nodiscard]] View& view(std::size_t frame, std::size_t camera) {
     return views_[frame * cameras_ + camera];
   }
-  void linearise(const data::Camera& camera, View& v, const Eigen::Vector3d& x) const;
+  void linearize(const data::Camera& camera, View& v, const Eigen::Vector3d& x) const;
   void gather(bool weigh);
   void regress_flicker();
   void smooth(bool last);
-  template <int kOrder>
-  void smooth_with(bool last);
   void conclude();
 
   const data::Rig& rig_;
@@ -67,7 +65,7 @@ class LedPath {
   std::vector<double> time_s_;  // of each frame
   std::vector<View> views_;
   std::vector<Motion> now_;
-  std::vector<PositionSight> sights_;
+  std::vector<LedObservation> observations_;
   Bandwidth bandwidth_;
   std::vector<Eigen::Vector2d> flicker_;
   std::vector<Sample> result_;

@@ -20,7 +20,7 @@ constexpr Index kMinChosen = 32;           // windows, of those there are; more 
 constexpr Index kMaxChosen = 64;           // when they are short, so that there are
 constexpr Index kWantedRows = 768;         // so many rows to learn from
 constexpr Index kMinWindows = 8;
-constexpr Index kMaxPlaces = 20'000;
+constexpr Index kMaxPositions = 20'000;
 constexpr Index kMaxRows = 24;
 constexpr Index kSampledFrames = 300;
 
@@ -38,35 +38,36 @@ Eigen::VectorX<Index> spread_rows(Index last, Index n) {
 }
 
 /// Every start at which such a window fits; in long recordings every second, third, ...
-std::vector<Index> find_places(const Recording& recording, Index target, std::span<const Index> predictors,
-                               const GapShape& window) {
-  std::vector<Index> places;
-  const Index step = 1 + recording.frames() / kMaxPlaces;
+std::vector<Index> find_positions(const Recording& recording, Index target, std::span<const Index> predictors,
+                                  const GapShape& window) {
+  std::vector<Index> positions;
+  const Index step = 1 + recording.frames() / kMaxPositions;
   for (Index s = window.left; s + window.length + window.right <= recording.frames(); s += step) {
     const Index first = s - window.left;
     const Index end = s + window.length + window.right;
     if (recording.complete(target, first, end) &&
         std::ranges::all_of(predictors, [&](Index k) { return recording.complete(k, first, end); }))
-      places.push_back(s);
+      positions.push_back(s);
   }
-  return places;
+  return positions;
 }
 
 /// One random window out of each of n equal parts of the list.
-std::vector<Index> choose_windows(const std::vector<Index>& places, Index n, Random random) {
-  const auto count = static_cast<Index>(places.size());
-  if (count <= n) return places;
+std::vector<Index> choose_windows(const std::vector<Index>& positions, Index n, Random random) {
+  const auto count = static_cast<Index>(positions.size());
+  if (count <= n) return positions;
   std::vector<Index> chosen;
   for (Index i = 0; i < n; ++i) {
     const double u = random.uniform();
     const double at = (static_cast<double>(i) + u) * static_cast<double>(count) / static_cast<double>(n);
-    chosen.push_back(places[static_cast<std::size_t>(std::min(count - 1, static_cast<Index>(at)))]);
+    chosen.push_back(positions[static_cast<std::size_t>(std::min(count - 1, static_cast<Index>(at)))]);
   }
   return chosen;
 }
 
-bool enough(const std::vector<Index>& places, Index length) {
-  return static_cast<Index>(places.size()) >= kMinWindows && places.back() - places.front() >= length;
+bool enough(const std::vector<Index>& positions, Index length) {
+  return static_cast<Index>(positions.size()) >= kMinWindows &&
+         positions.back() - positions.front() >= length;
 }
 
 /// Leave out windows where the target is in doubt, if that leaves enough of them.
@@ -157,13 +158,14 @@ GapProblem pose_gap(const Recording& recording, const std::vector<Neighbour>& ne
       window.length = std::max<Index>(1, std::lround(part * static_cast<double>(p.shape.length)));
       for (const std::size_t most : {predictors, std::min(predictors, kFewPredictors)}) {
         const std::size_t n = std::min(most, p.predictors.size());
-        const auto places = find_places(recording, span.marker, std::span(p.predictors).first(n), window);
-        if (!enough(places, window.length)) continue;
+        const auto positions =
+            find_positions(recording, span.marker, std::span(p.predictors).first(n), window);
+        if (!enough(positions, window.length)) continue;
         p.window = window;
         p.predictors.resize(n);
         p.sd_m.resize(n);
         p.starts = choose_windows(
-            places, std::clamp(kWantedRows / std::min(window.length, kMaxRows), kMinChosen, kMaxChosen),
+            positions, std::clamp(kWantedRows / std::min(window.length, kMaxRows), kMinChosen, kMaxChosen),
             random);
         return true;
       }

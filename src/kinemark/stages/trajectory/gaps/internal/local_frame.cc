@@ -35,11 +35,11 @@ LocalFrame::LocalFrame(const Recording& recording, std::span<const Index> marker
   };
   shape_.resize(3, n);
   place_shape(shape_frames[shape_frames.size() / 2]);
-  turns_ = true;
+  has_rotation_ = true;
   for (int round = 0; round < 3; ++round) {
     Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, n);
     for (const Index frame : shape_frames) {
-      const Placement p = at(frame);
+      const LocalPose p = at(frame);
       for (Index k = 0; k < n; ++k)
         sum.col(k) += p.R.transpose() * (recording_->x(markers_[static_cast<std::size_t>(k)], frame) - p.c);
     }
@@ -47,8 +47,9 @@ LocalFrame::LocalFrame(const Recording& recording, std::span<const Index> marker
     shape_.colwise() -= Eigen::Vector3d(shape_ * weight_);
   }
   const Eigen::Matrix3d spread = shape_ * weight_.asDiagonal() * shape_.transpose();
-  turns_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread, Eigen::EigenvaluesOnly).eigenvalues()(1) >
-           kThinM * kThinM;
+  has_rotation_ =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread, Eigen::EigenvaluesOnly).eigenvalues()(1) >
+      kThinM * kThinM;
 }
 
 Eigen::Vector3d LocalFrame::centre(Index frame) const {
@@ -58,10 +59,10 @@ Eigen::Vector3d LocalFrame::centre(Index frame) const {
   return c;
 }
 
-Placement LocalFrame::at(Index frame) const {
-  Placement p;
+LocalPose LocalFrame::at(Index frame) const {
+  LocalPose p;
   p.c = centre(frame);
-  if (!turns_) return p;
+  if (!has_rotation_) return p;
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < markers_.size(); ++k) {
     const auto i = static_cast<Index>(k);

@@ -12,7 +12,7 @@ namespace kinemark::trajectory::internal {
 
 /// Rotation and translation that map the reference shape onto the markers of one frame: x_in_world = R
 /// x_in_local + c.
-struct Placement {
+struct LocalPose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
 };
@@ -29,8 +29,8 @@ class LocalFrame {
              std::span<const Index> shape_frames);
 
   /// All markers are usable in the frame.
-  [[nodiscard]] Placement at(Index frame) const;
-  [[nodiscard]] bool turns() const { return turns_; }
+  [[nodiscard]] LocalPose at(Index frame) const;
+  [[nodiscard]] bool has_rotation() const { return has_rotation_; }
 
  private:
   [[nodiscard]] Eigen::Vector3d centre(Index frame) const;
@@ -39,7 +39,7 @@ class LocalFrame {
   std::vector<Index> markers_;
   Eigen::VectorXd weight_;  // sums to 1
   Eigen::Matrix3Xd shape_;  // about its centre
-  bool turns_ = false;
+  bool has_rotation_ = false;
 };
 
 }  // namespace kinemark::trajectory::internal

@@ -19,9 +19,9 @@ TEST(LocalFrameTest, ARigidBodyStandsStillInIt) {
   const Recording r(testing::moving_bodies({.frames = 200}));
   const std::vector<Index> markers = {0, 1, 2, 3};
   const LocalFrame frame(r, markers, std::span(kSd).first(4), kFrames);
-  ASSERT_TRUE(frame.turns());
+  ASSERT_TRUE(frame.has_rotation());
   const auto local = [&](Index marker, Index f) -> Eigen::Vector3d {
-    const Placement p = frame.at(f);
+    const LocalPose p = frame.at(f);
     EXPECT_NEAR(p.R.determinant(), 1.0, 1e-12);
     return p.R.transpose() * (r.x(marker, f) - p.c);
   };
@@ -34,9 +34,9 @@ TEST(LocalFrameTest, TwoMarkersOrALineGiveAPlaceOnly) {
   const Recording r(t);
   const std::vector<Index> two = {0, 1};
   const std::vector<Index> line = {0, 1, 2};
-  EXPECT_FALSE(LocalFrame(r, two, std::span(kSd).first(2), kFrames).turns());
+  EXPECT_FALSE(LocalFrame(r, two, std::span(kSd).first(2), kFrames).has_rotation());
   const LocalFrame frame(r, line, std::span(kSd).first(3), kFrames);
-  EXPECT_FALSE(frame.turns());
+  EXPECT_FALSE(frame.has_rotation());
   EXPECT_TRUE(frame.at(50).R == Eigen::Matrix3d::Identity());
   EXPECT_LT((frame.at(50).c - 0.5 * (t.x(50, 0) + t.x(50, 1))).norm(), 1e-12);
 }

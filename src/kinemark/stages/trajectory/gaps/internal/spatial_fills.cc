@@ -61,7 +61,7 @@ class LocalFills {
     const auto predictors = static_cast<Index>(p.predictors.size());
     // One pass over the frames: R (row by row), c, target, predictors.
     const Signal all = gather(p, 15 + 3 * predictors, true, [&](Index f, auto out) {
-      const Placement at = frame.at(f);
+      const LocalPose at = frame.at(f);
       for (Index i = 0; i < 3; ++i) out.segment(3 * i, 3) = at.R.row(i);
       out.segment(9, 3) = at.c.transpose();
       out.segment(12, 3) = (at.R.transpose() * (recording.x(p.span.marker, f) - at.c)).transpose();
@@ -70,7 +70,7 @@ class LocalFills {
             (at.R.transpose() * (recording.x(p.predictors[static_cast<std::size_t>(k)], f) - at.c))
                 .transpose();
     });
-    turn_ = part(all, 0, 9);
+    rotation_ = part(all, 0, 9);
     centre_ = all.gap.middleCols(9, 3);
     y_ = part(all, 12, 3);
     y_.gap.resize(0, 3);  // unknown
@@ -132,19 +132,19 @@ class LocalFills {
  private:
   /// Into the world: both arguments are local.
   void add(FillKind kind, const Eigen::MatrixXd& gap, Eigen::MatrixXd errors, double near_rms_m = 0.0) {
-    const auto turn = [](const auto& row) {  // R' as it was stored, column by column
+    const auto rotation_of = [](const auto& row) {  // R' as it was stored, column by column
       return Eigen::Map<const Eigen::Matrix3d>(row.data());
     };
     Fill fill{.kind = kind, .gap = centre_, .errors = std::move(errors), .near_rms_m = near_rms_m};
     for (Index i = 0; i < p_.shape.length; ++i) {
-      const Eigen::Matrix<double, 1, 9> row = turn_.gap.row(i);
-      fill.gap.row(i) += gap.row(i) * turn(row);
+      const Eigen::Matrix<double, 1, 9> row = rotation_.gap.row(i);
+      fill.gap.row(i) += gap.row(i) * rotation_of(row);
     }
     for (Index w = 0; w < p_.windows(); ++w)
       for (Index r = 0; r < p_.rows.size(); ++r) {
-        const Eigen::Matrix<double, 1, 9> row = turn_.rows.block<1, 9>(r, 9 * w);
+        const Eigen::Matrix<double, 1, 9> row = rotation_.rows.block<1, 9>(r, 9 * w);
         const Eigen::RowVector3d local = fill.errors.block<1, 3>(r, 3 * w);
-        fill.errors.block<1, 3>(r, 3 * w) = local * turn(row);
+        fill.errors.block<1, 3>(r, 3 * w) = local * rotation_of(row);
       }
     fills_.push_back(std::move(fill));
   }
@@ -153,7 +153,7 @@ class LocalFills {
   std::vector<Fold> folds_;
   WalkChooser walks_;
   std::vector<Fill>& fills_;
-  Signal turn_, y_, z_;
+  Signal rotation_, y_, z_;
   Eigen::MatrixXd centre_;  // L x 3
 };
 

@@ -33,7 +33,7 @@ struct Wave {
   }
 };
 
-Eigen::Matrix3d turn(const Eigen::Vector3d& v) {
+Eigen::Matrix3d rotation(const Eigen::Vector3d& v) {
   return Eigen::AngleAxisd(v.norm(), v.norm() > 0.0 ? v.normalized().eval() : Eigen::Vector3d::UnitX().eval())
       .toRotationMatrix();
 }
@@ -43,17 +43,17 @@ Eigen::Matrix3d turn(const Eigen::Vector3d& v) {
 data::Trajectories moving_bodies(const BodiesOptions& o) {
   Random random(o.seed, 1);
   std::vector<std::string> names;
-  std::vector<Wave> turns;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Wave> rotations;
+  std::vector<Eigen::Vector3d> positions;
   const Wave way(random, 0.25);
   for (int b = 0; b < o.bodies; ++b) {
-    turns.emplace_back(random, 0.35);
+    rotations.emplace_back(random, 0.35);
     for (int k = 0; k < kMarkersPerBody; ++k) {
       names.push_back(fmt::format("b{}m{}", b, k));
       const double x = random.uniform(-0.1, 0.1);
       const double y = random.uniform(-0.1, 0.1);
       const double z = random.uniform(-0.1, 0.1);
-      places.emplace_back(x, y, z);
+      positions.emplace_back(x, y, z);
     }
   }
   auto t = data::Trajectories::all_missing(names, {.rate_hz = o.rate_hz, .frames = o.frames});
@@ -63,13 +63,13 @@ data::Trajectories moving_bodies(const BodiesOptions& o) {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     Eigen::Vector3d c = way.at(s);
     for (int b = 0; b < o.bodies; ++b) {
-      R = R * turn(turns[static_cast<std::size_t>(b)].at(s));
+      R = R * rotation(rotations[static_cast<std::size_t>(b)].at(s));
       for (int k = 0; k < kMarkersPerBody; ++k) {
         const int m = b * kMarkersPerBody + k;
         const double x = noise.gaussian();
         const double y = noise.gaussian();
         const double z = noise.gaussian();
-        t.x(f, m) = c + R * places[static_cast<std::size_t>(m)] + o.noise_m * Eigen::Vector3d(x, y, z);
+        t.x(f, m) = c + R * positions[static_cast<std::size_t>(m)] + o.noise_m * Eigen::Vector3d(x, y, z);
         t.state[t.index(f, m)] = data::SampleState::measured;
       }
       c += R * Eigen::Vector3d(0.35, 0.0, 0.0);

@@ -10,8 +10,6 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-using data::DefectKind;
-
 constexpr std::size_t kMostSingle = 10;
 
 /// One step of all markers that is as long as several.
@@ -23,7 +21,7 @@ struct Leap {
 
 /// A clock that loses frames all the time is reported as one defect; most often the recording was resampled
 /// by leaving frames out.
-data::Defect describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t) {
+Defect describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t) {
   std::vector<double> spacing;
   std::vector<double> times;
   for (std::size_t i = 0; i < leaps.size(); ++i) {
@@ -37,13 +35,12 @@ data::Defect describe_many(const std::vector<Leap>& leaps, const data::Trajector
     how =
         fmt::format("most often every {:.0f} frames: {:.6g} Hz from which every {:.0f}th frame was left out?",
                     usual, t.time.rate_hz * (usual + 1.0) / usual, usual + 1.0);
-  return {.kind = DefectKind::clock_jump,
+  return {.kind = FindingKind::clock_jump,
           .first_frame = leaps.front().frame,
           .last_frame = leaps.back().frame,
-          .evidence = median_of(times),
           .confidence = 0.95,
-          .sentence = fmt::format(
-              "At {} instants between frames {} and {} all markers go {:.2f} times as far as in the "
+          .description = fmt::format(
+              "at {} instants between frames {} and {} all markers go {:.2f} times as far as in the "
               "frames beside, {}",
               leaps.size(), leaps.front().frame, leaps.back().frame, median_of(times), how)};
 }
@@ -57,12 +54,11 @@ void find_clock_jumps(std::span<const double> time_s, Defects& out) {
   const double usual = median_of(ticks);
   if (!(usual > 0.0)) {
     if (time_s.size() > 1)
-      out.push_back({.kind = DefectKind::clock_jump,
+      out.push_back({.kind = FindingKind::clock_jump,
                      .first_frame = 0,
                      .last_frame = static_cast<std::int64_t>(time_s.size()) - 1,
-                     .evidence = HUGE_VAL,
                      .confidence = 0.999,
-                     .sentence = "The times of most frames do not increase: this is no clock."});
+                     .description = "the times of most frames do not increase: this is no clock"});
     return;
   }
   for (std::size_t f = 0; f < time_s.size(); ++f) {
@@ -73,12 +69,12 @@ void find_clock_jumps(std::span<const double> time_s, Defects& out) {
     std::string what = fmt::format("{:.6g} s after the one before, {:.3g} times the usual {:.6g} s", tick,
                                    tick / usual, usual);
     if (!std::isfinite(time_s[f])) what = "at a time that is not a number";
-    out.push_back({.kind = DefectKind::clock_jump,
+    out.push_back({.kind = FindingKind::clock_jump,
                    .first_frame = frame,
                    .last_frame = frame,
-                   .evidence = std::isfinite(off) ? off : HUGE_VAL,
+                   .size = tick / usual - 1.0,
                    .confidence = 0.999,
-                   .sentence = fmt::format("Frame {} is {}.", frame, what)});
+                   .description = fmt::format("frame {} is {}", frame, what)});
   }
 }
 
@@ -91,7 +87,7 @@ void find_leaps(const data::Trajectories& t, Defects& out) {
     double along = 0.0;
     double speed = 0.0;
     double leap = 0.0;
-    double bend = 0.0;
+    double curvature = 0.0;
     int seen = 0;
     for (std::int64_t m = 0; m < t.markers(); ++m) {
       if (!t.present(f - 2, m) || !t.present(f - 1, m) || !t.present(f, m) || !t.present(f + 1, m)) continue;
@@ -102,14 +98,14 @@ void find_leaps(const data::Trajectories& t, Defects& out) {
       along += step.dot(mean);
       speed += mean.squaredNorm();
       leap += step.squaredNorm();
-      bend += (after - before).squaredNorm();
+      curvature += (after - before).squaredNorm();
       ++seen;
     }
     if (seen < kLeastMarkers || !(speed > seen * 1e-8)) continue;  // 0.1 mm per frame
     const double times = along / speed;
     const double unexplained = std::max(0.0, leap - times * along) / leap;
     const bool multiple = times > 1.8 && std::abs(times - std::round(times)) < 0.15;
-    const bool even = unexplained < 0.02 && bend < 0.25 * speed;
+    const bool even = unexplained < 0.02 && curvature < 0.25 * speed;
     if (!multiple || !even || !std::isfinite(leap)) continue;
     leaps.push_back({f, times, seen});
   }
@@ -118,14 +114,14 @@ void find_leaps(const data::Trajectories& t, Defects& out) {
     return;
   }
   for (const Leap& l : leaps)
-    out.push_back({.kind = DefectKind::clock_jump,
+    out.push_back({.kind = FindingKind::clock_jump,
                    .first_frame = l.frame,
                    .last_frame = l.frame,
-                   .evidence = l.times,
+                   .size = std::round(l.times) - 1.0,
                    .confidence = l.seen < 6 ? 0.7 : 0.9,
-                   .sentence = fmt::format(
-                       "Between frames {} and {} all {} markers that are seen go {:.2f} times as far "
-                       "as in the frames beside: {:.0f} lost there.",
+                   .description = fmt::format(
+                       "between frames {} and {} all {} markers that are seen go {:.2f} times as far "
+                       "as in the frames beside: {:.0f} lost there",
                        l.frame - 1, l.frame, l.seen, l.times, std::round(l.times) - 1.0)});
 }
 

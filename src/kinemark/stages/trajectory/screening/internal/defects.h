@@ -11,7 +11,19 @@
 
 namespace kinemark::trajectory::internal {
 
-using Defects = std::vector<data::Defect>;
+using data::FindingKind;
+
+/// What a detector found, by index; as_finding() names the markers. The rest is as in data::Finding.
+struct Defect {
+  FindingKind kind = FindingKind::zero;
+  std::int64_t marker = -1;        ///< -1: all markers
+  std::int64_t other_marker = -1;  ///< -1: no partner
+  std::int64_t first_frame = 0, last_frame = 0;
+  double size = kNaN;
+  double confidence = kNaN;
+  std::string description;
+};
+using Defects = std::vector<Defect>;
 
 void find_zeros(const data::Trajectories& t, Defects& out);
 void find_unit_slips(const data::Trajectories& t, Defects& out);
@@ -25,8 +37,12 @@ void find_swaps(const data::Trajectories& t, const ScreenOptions& options, Defec
 /// `out` holds the swaps: a short one is not a spike.
 void find_spikes(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
 
+[[nodiscard]] data::Finding as_finding(Defect defect, const data::Trajectories& t);
+/// The samples of a defect become `rejected`: those of both markers of a label swap, none of a clock jump.
+void reject(const Defect& defect, data::Trajectories& t);
+
 /// "frame 7" or "frames 7 to 9".
-[[nodiscard]] std::string frames_in_words(std::int64_t first, std::int64_t last);
+[[nodiscard]] std::string describe_frames(std::int64_t first, std::int64_t last);
 /// Confidence that grows with a ratio: one half at `half`, 0.8 at four times that.
 [[nodiscard]] double confidence_of(double ratio, double half);
 /// Median, the upper one of two; 0 of nothing.

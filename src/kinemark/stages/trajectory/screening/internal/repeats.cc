@@ -12,8 +12,6 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-using data::DefectKind;
-
 using data::Trajectories;
 
 constexpr double kHarmless = 2e-5;   // m per frame: a body at rest, or an encoder
@@ -73,15 +71,14 @@ void find_zeros(const Trajectories& t, Defects& out) {
       const std::string beside = std::isfinite(nearest)
                                      ? fmt::format("the samples beside are {:.0f} mm away", 1e3 * nearest)
                                      : std::string("it is never seen anywhere else");
-      out.push_back(
-          {.kind = DefectKind::zero,
-           .marker = m,
-           .first_frame = first,
-           .last_frame = f,
-           .evidence = nearest / kAtOrigin,
-           .confidence = confidence_of(nearest / kAtOrigin, 0.5),
-           .sentence = fmt::format("Marker '{}' is exactly at the origin in {}; {}: zero means not seen.",
-                                   t.names[static_cast<std::size_t>(m)], frames_in_words(first, f), beside)});
+      out.push_back({.kind = FindingKind::zero,
+                     .marker = m,
+                     .first_frame = first,
+                     .last_frame = f,
+                     .confidence = confidence_of(nearest / kAtOrigin, 0.5),
+                     .description = fmt::format(
+                         "marker '{}' is exactly at the origin in {}; {}: zero means not seen",
+                         t.names[static_cast<std::size_t>(m)], describe_frames(first, f), beside)});
     }
   }
 }
@@ -136,21 +133,20 @@ void find_duplicated_frames(const Trajectories& t, Defects& out) {
       moving += before > least && (after > least || f + 1 == t.frames()) ? 1 : 0;
     }
     if (log_all > std::log(1e-4) || 2 * moving < seen) continue;
-    out.push_back(
-        {.kind = DefectKind::duplicated_frame,
-         .first_frame = first,
-         .last_frame = f,
-         .evidence = -log_all,
-         .confidence = confidence_of(-log_all, 2.0),
-         .sentence = fmt::format("All {} markers that are seen repeat frame {} in {}, digit by digit, while "
-                                 "{} of them move right before and after.",
-                                 seen, first - 1, frames_in_words(first, f), moving)});
+    out.push_back({.kind = FindingKind::duplicated_frame,
+                   .first_frame = first,
+                   .last_frame = f,
+                   .confidence = confidence_of(-log_all, 2.0),
+                   .description = fmt::format(
+                       "all {} markers that are seen repeat frame {} in {}, digit by digit, while "
+                       "{} of them move right before and after",
+                       seen, first - 1, describe_frames(first, f), moving)});
   }
 }
 
 void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& out) {
   std::vector<char> duplicated(static_cast<std::size_t>(t.frames()), 0);
-  for (const data::Defect& d : out)
+  for (const Defect& d : out)
     for (std::int64_t f = d.first_frame; f <= d.last_frame; ++f) duplicated[static_cast<std::size_t>(f)] = 1;
   const double held =
       std::min(std::ceil(options.min_stuck_s * t.time.rate_hz), static_cast<double>(t.frames()) + 1.0);
@@ -188,17 +184,16 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& ou
           (in.empty() || in[0] > least) && (away.empty() || away[0] > least) && !(in.empty() && away.empty());
       if (!rare || !abrupt || length < 5.0 * usual || beside.size() < 5 || step < kHarmless) continue;
       const double ratio = length * step / rounding;
-      out.push_back(
-          {.kind = DefectKind::stuck,
-           .marker = m,
-           .first_frame = first,
-           .last_frame = last,
-           .evidence = ratio,
-           .confidence = confidence_of(ratio, 8.0),
-           .sentence = fmt::format("Marker '{}' holds one value, digit by digit, in {}; beside them it moves "
-                                   "{:.3f} mm per frame in steps of {:.4f} mm.",
-                                   t.names[static_cast<std::size_t>(m)], frames_in_words(first, last),
-                                   1e3 * step, 1e3 * rounding)});
+      out.push_back({.kind = FindingKind::stuck,
+                     .marker = m,
+                     .first_frame = first,
+                     .last_frame = last,
+                     .confidence = confidence_of(ratio, 8.0),
+                     .description = fmt::format(
+                         "marker '{}' holds one value, digit by digit, in {}; beside them it moves "
+                         "{:.3f} mm per frame in steps of {:.4f} mm",
+                         t.names[static_cast<std::size_t>(m)], describe_frames(first, last), 1e3 * step,
+                         1e3 * rounding)});
     }
   }
 }

@@ -12,8 +12,6 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-using data::DefectKind;
-
 using data::Trajectories;
 using Eigen::Vector3d;
 
@@ -63,7 +61,7 @@ Spike measure(const Trajectories& t, std::int64_t m, std::int64_t first, int wid
 
 /// Cheap first look: the cubic through two samples on each side misses by a third of a spike's height at
 /// least.
-bool worth_a_look(const Trajectories& t, std::int64_t m, std::int64_t f, double least) {
+bool may_be_spike(const Trajectories& t, std::int64_t m, std::int64_t f, double least) {
   for (std::int64_t k = f - 2; k <= f + 2; ++k)
     if (!t.present(k, m)) return false;
   const Vector3d missed =
@@ -77,15 +75,15 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Defects& o
   const std::array<Cubic, kMostSamples> cubics{Cubic(1), Cubic(2), Cubic(3)};
   const Defects swaps = out;
   const auto swapped = [&](std::int64_t m, std::int64_t first, std::int64_t last) {
-    return std::ranges::any_of(swaps, [&](const data::Defect& s) {
-      const bool mine = s.marker == m || (s.kind == DefectKind::label_swap && s.other_marker == m);
+    return std::ranges::any_of(swaps, [&](const Defect& s) {
+      const bool mine = s.marker == m || (s.kind == FindingKind::label_swap && s.other_marker == m);
       return mine && s.first_frame <= last + 1 && s.last_frame + 1 >= first;
     });
   };
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     const double rounding = rounding_of(t, m);
     for (std::int64_t f = kBeside; f + kBeside < t.frames(); ++f) {
-      if (!worth_a_look(t, m, f, options.min_spike_m)) continue;
+      if (!may_be_spike(t, m, f, options.min_spike_m)) continue;
       // The narrowest that explains it, beginning at this frame.
       for (int width = 1; width <= kMostSamples; ++width) {
         const Spike s = measure(t, m, f, width, cubics[static_cast<std::size_t>(width - 1)], rounding);
@@ -93,16 +91,16 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Defects& o
         const std::int64_t last = f + width - 1;
         if (!swapped(m, f, last))
           out.push_back(
-              {.kind = DefectKind::spike,
+              {.kind = FindingKind::spike,
                .marker = m,
                .first_frame = f,
                .last_frame = last,
-               .evidence = s.ratio,
+               .size = s.height,
                .confidence = confidence_of(s.ratio, 0.25 * kLeastRatio),
-               .sentence = fmt::format(
-                   "Marker '{}' leaves its path by {:.1f} mm in {}, {:.0f} times what the "
-                   "samples beside leave it by.",
-                   t.names[static_cast<std::size_t>(m)], 1e3 * s.height, frames_in_words(f, last), s.ratio)});
+               .description = fmt::format(
+                   "marker '{}' leaves its path by {:.1f} mm in {}, {:.0f} times what the "
+                   "samples beside leave it by",
+                   t.names[static_cast<std::size_t>(m)], 1e3 * s.height, describe_frames(f, last), s.ratio)});
         f = last;
         break;
       }

@@ -13,8 +13,6 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-using data::DefectKind;
-
 using data::Trajectories;
 using Eigen::Vector3d;
 
@@ -160,18 +158,17 @@ void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Defect
       first = 0;
       last = start.frame - 1;
     }
-    out.push_back({.kind = DefectKind::label_swap,
+    out.push_back({.kind = FindingKind::label_swap,
                    .marker = start.one,
                    .other_marker = start.other,
                    .first_frame = first,
                    .last_frame = last,
-                   .evidence = ratio,
                    .confidence = confidence_of(ratio, ends ? 0.4 : 1.0),
-                   .sentence = fmt::format(
-                       "Markers '{}' and '{}' carry each other's label in {}: exchanged they continue "
-                       "their paths {:.0f} times better{}.",
+                   .description = fmt::format(
+                       "markers '{}' and '{}' carry each other's label in {}: exchanged they continue "
+                       "their paths {:.0f} times better{}",
                        t.names[static_cast<std::size_t>(start.one)],
-                       t.names[static_cast<std::size_t>(start.other)], frames_in_words(first, last), ratio,
+                       t.names[static_cast<std::size_t>(start.other)], describe_frames(first, last), ratio,
                        ends ? "" : "; which side is right cannot be decided, the shorter one is named")});
   }
 }
@@ -231,18 +228,18 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
       if (host < 0 || distance > 0.5 * least) break;
       const double ratio = jump / std::max(std::max(distance, off), 1e-6);
       out.push_back(
-          {.kind = DefectKind::swap_within,
+          {.kind = FindingKind::swap_within,
            .marker = m,
            .other_marker = host,
            .first_frame = there.frame,
            .last_frame = back.frame - 1,
-           .evidence = ratio,
+           .size = jump,
            .confidence = confidence_of(ratio, 0.8),
-           .sentence = fmt::format(
-               "Marker '{}' jumps {:.0f} mm to the path of '{}' in {} ({:.1f} mm from it) and "
-               "back to its own.",
+           .description = fmt::format(
+               "marker '{}' jumps {:.0f} mm to the path of '{}' in {} ({:.1f} mm from it) and "
+               "back to its own",
                t.names[static_cast<std::size_t>(m)], 1e3 * jump, t.names[static_cast<std::size_t>(host)],
-               frames_in_words(there.frame, back.frame - 1), 1e3 * distance)});
+               describe_frames(there.frame, back.frame - 1), 1e3 * distance)});
       break;
     }
   }

@@ -10,8 +10,6 @@
 namespace kinemark::trajectory::internal {
 namespace {
 
-using data::DefectKind;
-
 constexpr double kThousand = 1000.0;
 constexpr double kNeighbour = 1.0;  // m, on the same body
 
@@ -75,17 +73,17 @@ void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Defects& ou
     if (levels[i].second == usual) continue;
     const std::int64_t end = i + 1 < levels.size() ? levels[i + 1].first : t.frames();
     const bool large = levels[i].second > usual;
-    out.push_back(
-        {.kind = DefectKind::unit_slip,
-         .marker = m,
-         .first_frame = levels[i].first,
-         .last_frame = end - 1,
-         .evidence = kThousand,
-         .confidence = 0.99,
-         .sentence = fmt::format("Marker '{}' is a thousand times too {} in {}: times or divided by 1000 it "
-                                 "joins the frames beside.",
-                                 t.names[static_cast<std::size_t>(m)], large ? "large" : "small",
-                                 frames_in_words(levels[i].first, end - 1))});
+    out.push_back({.kind = FindingKind::unit_slip,
+                   .marker = m,
+                   .first_frame = levels[i].first,
+                   .last_frame = end - 1,
+                   .size = large ? kThousand : 1.0 / kThousand,
+                   .confidence = 0.99,
+                   .description = fmt::format(
+                       "marker '{}' is a thousand times too {} in {}: times or divided by 1000 it "
+                       "joins the frames beside",
+                       t.names[static_cast<std::size_t>(m)], large ? "large" : "small",
+                       describe_frames(levels[i].first, end - 1))});
   }
 }
 
@@ -112,18 +110,18 @@ void merge_common(const data::Trajectories& t, Defects& slips) {
     if (slips[i].marker < 0) continue;
     std::int64_t with = 0;
     std::int64_t seen = 0;
-    const auto same = [&](const data::Defect& f) {
+    const auto same = [&](const Defect& f) {
       return f.first_frame == slips[i].first_frame && f.last_frame == slips[i].last_frame && f.marker >= 0;
     };
     for (std::int64_t m = 0; m < t.markers(); ++m) seen += t.present(slips[i].first_frame, m) ? 1 : 0;
     with = std::ranges::count_if(slips, same);
     if (with < 2 || with < seen) continue;
-    data::Defect all = slips[i];
+    Defect all = slips[i];
     all.marker = -1;
-    all.sentence = fmt::format("All {} markers that are seen change by a factor of a thousand in {}.", seen,
-                               frames_in_words(all.first_frame, all.last_frame));
-    const data::Defect key = slips[i];
-    std::erase_if(slips, [&](const data::Defect& f) {
+    all.description = fmt::format("all {} markers that are seen change by a factor of a thousand in {}", seen,
+                                  describe_frames(all.first_frame, all.last_frame));
+    const Defect key = slips[i];
+    std::erase_if(slips, [&](const Defect& f) {
       return f.first_frame == key.first_frame && f.last_frame == key.last_frame && f.marker >= 0;
     });
     slips.insert(slips.begin() + static_cast<std::ptrdiff_t>(std::min(i, slips.size())), all);
@@ -156,29 +154,28 @@ void find_unit_slips(const data::Trajectories& t, Defects& out) {
     for (const double factor : {kThousand, 1.0 / kThousand}) {
       if (!near(e.distance / distance, factor, 3.0) || !near(e.spread / spread, factor, 10.0)) continue;
       if (!goes_along(t, m, 1.0 / factor, spread)) continue;
-      slips.push_back({.kind = DefectKind::unit_slip,
+      slips.push_back({.kind = FindingKind::unit_slip,
                        .marker = m,
                        .first_frame = 0,
                        .last_frame = t.frames() - 1,
-                       .evidence = kThousand,
+                       .size = factor,
                        .confidence = 0.85,
-                       .sentence = fmt::format(
-                           "Marker '{}' is {:.3g} m from the origin and moves by {:.3g} m; the others "
-                           "{:.3g} m and {:.3g} m: another unit.",
+                       .description = fmt::format(
+                           "marker '{}' is {:.3g} m from the origin and moves by {:.3g} m; the others "
+                           "{:.3g} m and {:.3g} m: another unit",
                            t.names[static_cast<std::size_t>(m)], e.distance, e.spread, distance, spread)});
     }
   }
   // Markers are neither 200 m away nor all within 2 mm of the origin.
   if (!distances.empty() && (distance > 200.0 || (distance < 0.002 && distance > 0.0)))
     slips.push_back(
-        {.kind = DefectKind::unit_slip,
+        {.kind = FindingKind::unit_slip,
          .first_frame = 0,
          .last_frame = t.frames() - 1,
-         .evidence = distance > 1.0 ? distance : 1.0 / distance,
          .confidence = 0.7,
-         .sentence = fmt::format("Markers are {:.3g} m from the origin (median): the unit of the whole "
-                                 "recording is wrong by a thousand or so.",
-                                 distance)});
+         .description = fmt::format("markers are {:.3g} m from the origin (median): the unit of the whole "
+                                    "recording is wrong by a thousand or so",
+                                    distance)});
   out.insert(out.end(), slips.begin(), slips.end());
 }
 

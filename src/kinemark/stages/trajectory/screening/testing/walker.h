@@ -23,7 +23,7 @@ struct WalkerOptions {
 };
 
 /// Noise-free position of one marker, m. Markers are 0.15 m apart and more.
-inline Eigen::Vector3d place(int marker, double time_s) {
+inline Eigen::Vector3d position(int marker, double time_s) {
   const double w = 2.0 * std::numbers::pi * 0.9;
   const double own = 0.7 * marker;
   return {0.4 * time_s + 0.15 * std::sin(w * time_s + own),
@@ -38,7 +38,7 @@ inline data::Trajectories walker(const WalkerOptions& o = {}) {
   Random random(o.seed, 0);
   for (std::int64_t f = 0; f < o.frames; ++f)
     for (int m = 0; m < o.markers; ++m) {
-      Eigen::Vector3d x = place(m, t.time.time_s(f));
+      Eigen::Vector3d x = position(m, t.time.time_s(f));
       for (int a = 0; a < 3; ++a) x(a) += o.noise_m * random.gaussian();
       t.x(f, m) = x.cast<float>().cast<double>();
       t.state[t.index(f, m)] = data::SampleState::measured;

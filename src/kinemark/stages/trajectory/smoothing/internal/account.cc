@@ -7,28 +7,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+#include "kinemark/stages/trajectory/smoothing/internal/whiteness.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {
 
 constexpr std::size_t kAccountLags = 10;
 constexpr std::int64_t kFewestPairs = 30;
-constexpr double kMuch = 0.15;  ///< autocorrelation that is relevant for any length of recording
 constexpr std::int64_t kShortestSegment = 32, kLongestSegment = 512;
 constexpr int kMostFrequencies = 24;
 
-/// Chance that a chi-square variable of an even number of degrees of freedom exceeds x.
-double chi_square_above(double x, int freedom) {
-  double term = std::exp(-0.5 * x), sum = term;
-  for (int i = 1; i < freedom / 2; ++i) sum += term *= 0.5 * x / i;
-  return std::min(1.0, sum);
-}
-
-void autocorrelate(const MarkerSamples& samples, const std::vector<double>& residual,
-                   data::MarkerAccount& account) {
+void autocorrelate(const std::vector<double>& residual, data::MarkerAccount& account) {
   double power = 0.0, count = 0.0;
   for (const double r : residual) {
     if (std::isnan(r)) continue;
@@ -38,7 +33,6 @@ void autocorrelate(const MarkerSamples& samples, const std::vector<double>& resi
   account.residual_rms_m = count > 0.0 ? std::sqrt(power / count) : kNaN;
   if (!(power > 0.0)) return;
   std::vector<double> found;
-  double q = 0.0, worst = 0.0;
   for (std::size_t lag = 1; lag <= kAccountLags; ++lag) {
     double product = 0.0, pairs = 0.0;
     for (std::size_t i = 3 * lag; i < residual.size(); ++i) {
@@ -48,17 +42,22 @@ void autocorrelate(const MarkerSamples& samples, const std::vector<double>& resi
       pairs += 1.0;
     }
     if (pairs < kFewestPairs) return;
-    const double rho = product / pairs * count / power;
-    found.push_back(rho);
-    q += rho * rho * pairs;
-    worst = std::max(worst, std::abs(rho) - 2.0 / std::sqrt(pairs));
+    found.push_back(product / pairs * count / power);
   }
   account.autocorrelation = std::move(found);
-  account.ljung_box_p = chi_square_above(q, kAccountLags);
-  // The filter itself takes the slow part of white noise out of the residual: about the band's share.
-  const double own =
-      std::isnan(account.used.cutoff_hz) ? 0.0 : 2.0 * account.used.cutoff_hz * samples.interval_s;
-  account.white = worst <= std::max(kMuch, 1.5 * own);
+}
+
+/// Autocorrelation that 1 - H, whose response to an impulse is given, makes of white noise.
+std::vector<double> autocorrelation_if_white(std::span<const double> impulse_response, std::size_t lags) {
+  std::vector<double> kernel(impulse_response.size()), found;
+  std::ranges::transform(impulse_response, kernel.begin(), std::negate<>());
+  kernel[kernel.size() / 2] += 1.0;
+  const double power = std::inner_product(kernel.begin(), kernel.end(), kernel.begin(), 0.0);
+  for (std::size_t lag = 1; lag <= lags && power > 0.0; ++lag)
+    found.push_back(std::inner_product(kernel.begin(), kernel.end() - static_cast<std::ptrdiff_t>(lag),
+                                       kernel.begin() + static_cast<std::ptrdiff_t>(lag), 0.0) /
+                    power);
+  return found;
 }
 
 /// Hann-windowed periodograms of stretches, at log-spaced frequencies; `width` numbers per frame, summed over
@@ -134,26 +133,44 @@ data::Spectrum spectrum(const MarkerSamples& samples, const std::vector<double>&
   return out;
 }
 
+/// "p = 0.23" or "p < 0.001".
+std::string probability(double p) { return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.2g}", p); }
+
+std::string describe_residual(const data::MarkerAccount& account) {
+  const std::string size = fmt::format(" The residual ({:.2g} mm rms)", 1e3 * account.residual_rms_m);
+  if (!account.judged())
+    return size +
+           " is too short, or too little of its band is left by the filter, to tell whether it is white.";
+  const std::string test = fmt::format("cumulative periodogram, {}", probability(account.white_p));
+  if (!account.coloured()) return fmt::format("{} is consistent with white noise ({}).", size, test);
+  return fmt::format(
+      "{} is not white ({}): {:.0f} % of the noise power lies too {}, because the noise is coloured, the "
+      "recording was "
+      "filtered before, or movement was lost; the error bars, which assume white noise, are then too {}.",
+      size, test, 100.0 * std::abs(account.white_departure),
+      account.white_departure > 0.0 ? "low in frequency" : "high in frequency",
+      account.white_departure > 0.0 ? "small" : "large");
+}
+
 }  // namespace
 
-void judge_residuals(const MarkerSamples& samples, double rate_hz, MarkerResult& result) {
+void judge_residuals(const MarkerSamples& samples, std::span<const double> impulse_response, double rate_hz,
+                     MarkerResult& result) {
   data::MarkerAccount& account = result.account;
   std::vector<double> residual(static_cast<std::size_t>(3 * samples.frames), kNaN);
   for (std::int64_t f = 0; f < samples.frames; ++f)
     if (samples.judged[static_cast<std::size_t>(f)] != 0)
       for (auto i = static_cast<std::size_t>(3 * f); i < static_cast<std::size_t>(3 * f + 3); ++i)
         residual[i] = samples.x[i] - result.x[i];
-  autocorrelate(samples, residual, account);
+  autocorrelate(residual, account);
   account.spectrum = spectrum(samples, residual, rate_hz);
-  if (account.used.method == "none" || account.autocorrelation.empty()) return;
-  account.words +=
-      account.white ? fmt::format(" The residual ({:.2g} mm rms) is consistent with white noise.",
-                                  1e3 * account.residual_rms_m)
-                    : fmt::format(
-                          " The residual ({:.2g} mm rms) is not white (autocorrelation {:.2f} at one "
-                          "frame): the noise is coloured, the recording was filtered before, or movement was "
-                          "lost; the error bars are then too small.",
-                          1e3 * account.residual_rms_m, account.autocorrelation.front());
+  if (impulse_response.empty() || !(account.residual_rms_m > 0.0)) return;
+  account.white_autocorrelation = autocorrelation_if_white(impulse_response, account.autocorrelation.size());
+  const Whiteness whiteness =
+      test_whiteness(residual, stretches(samples.judged), impulse_response, account.used.cutoff_hz, rate_hz);
+  account.white_p = whiteness.p;
+  account.white_departure = whiteness.departure;
+  account.description += describe_residual(account);
 }
 
 }  // namespace kinemark::trajectory::smoothing

@@ -59,13 +59,13 @@ NoiseShares noise_shares(const Plan& plan, double rate_hz) {
 Plan make_plan(const MarkerSamples& samples, const SmoothOptions& options, double rate_hz,
                const std::vector<Stretch>& all, data::MarkerAccount& account) {
   if (options.method == FilterMethod::none) {
-    account.words = "Not filtered; two-point differences.";
+    account.description = "Not filtered; two-point differences.";
     return {.filters = false};
   }
   if (options.method == FilterMethod::classic) {
     const double asked = options.cutoff_hz > 0.0 ? options.cutoff_hz : kClassicCutoffHz;
     const double cutoff = std::min(asked, 0.5 * kMostOfHalfRate * rate_hz);
-    account.words = fmt::format(
+    account.description = fmt::format(
         "The chain of 1986: order {} both ways, {:.3g} Hz each way and {:.3g} Hz together, two-point "
         "differences.",
         kClassicOrder, cutoff, rate_hz * math::two_pass_half_power(kClassicOrder, cutoff / rate_hz));
@@ -73,7 +73,7 @@ Plan make_plan(const MarkerSamples& samples, const SmoothOptions& options, doubl
   }
   Plan plan{options.order > 0 ? options.order : 2, options.cutoff_hz, options.correct_cutoff, true};
   if (plan.cutoff_hz > 0.0) {
-    account.words = fmt::format("Order {} both ways, {:.3g} Hz as asked.", plan.order, plan.cutoff_hz);
+    account.description = fmt::format("Order {} both ways, {:.3g} Hz as asked.", plan.order, plan.cutoff_hz);
     return plan;
   }
   CutoffProblem problem{{}, plan.order, rate_hz};
@@ -83,12 +83,12 @@ Plan make_plan(const MarkerSamples& samples, const SmoothOptions& options, doubl
   const bool winter = options.cutoff_rule == CutoffRule::winter;
   if (problem.columns.empty()) {
     plan.cutoff_hz = std::min(6.0, 0.25 * rate_hz);
-    account.words =
+    account.description =
         fmt::format("{:.3g} Hz: no stretch of {} samples to choose a cut-off by.", plan.cutoff_hz, kShortest);
   } else {
     plan.cutoff_hz = winter ? winter_cutoff_hz(problem) : challis_cutoff_hz(problem);
-    account.words = fmt::format("Order {} both ways, {:.3g} Hz by {}.", plan.order, plan.cutoff_hz,
-                                winter ? "Winter's residual analysis" : "Challis' whitest residual");
+    account.description = fmt::format("Order {} both ways, {:.3g} Hz by {}.", plan.order, plan.cutoff_hz,
+                                      winter ? "Winter's residual analysis" : "Challis' whitest residual");
   }
   return plan;
 }

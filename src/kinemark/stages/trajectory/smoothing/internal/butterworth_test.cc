@@ -64,7 +64,7 @@ TEST(Butterworth, ClassicIsTwelveHertzEachWayAndLessTogether) {
   const auto out = smooth(in, of(FilterMethod::classic)).value();
   EXPECT_NEAR(out.derivatives.filters[0].cutoff_hz, 100.0 * math::two_pass_half_power(2, 0.12), 1e-9);
   EXPECT_LT(out.derivatives.filters[0].cutoff_hz, 10.0);
-  EXPECT_THAT(out.markers[0].words, HasSubstr("1986"));
+  EXPECT_THAT(out.markers[0].description, HasSubstr("1986"));
   std::vector<double> x;
   for (int f = 0; f < 500; ++f) x.push_back(in.x(f, 0).x());
   math::filter_both_ways(math::butterworth_lowpass(2, 0.12), math::usual_padding(2), x);
@@ -90,10 +90,10 @@ TEST(Butterworth, StretchesAreFilteredApart) {
 
 TEST(Butterworth, RulesAreNamed) {
   SmoothOptions options = of(FilterMethod::butterworth);
-  EXPECT_THAT(smooth(noise_only(300), options)->markers[0].words, HasSubstr("Winter"));
+  EXPECT_THAT(smooth(noise_only(300), options)->markers[0].description, HasSubstr("Winter"));
   options.cutoff_rule = CutoffRule::challis;
-  EXPECT_THAT(smooth(noise_only(300), options)->markers[0].words, HasSubstr("Challis"));
-  EXPECT_THAT(smooth(noise_only(8), options)->markers[0].words, HasSubstr("no stretch of 12 samples"));
+  EXPECT_THAT(smooth(noise_only(300), options)->markers[0].description, HasSubstr("Challis"));
+  EXPECT_THAT(smooth(noise_only(8), options)->markers[0].description, HasSubstr("no stretch of 12 samples"));
 }
 
 }  // namespace

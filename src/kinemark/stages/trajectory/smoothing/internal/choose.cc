@@ -50,15 +50,15 @@ struct Best {
 /// Coarse grid, then golden section between the neighbours of its best point.
 Best minimise(Family& family, Criterion criterion, double sigma, double low, double high) {
   Best best;
-  const auto look = [&](double x) {
+  const auto evaluate = [&](double x) {
     const double value = criterion_value(criterion, family.at(x), sigma);
     if (value < best.value) best = {x, value};
     return value;
   };
   const int steps = std::max(1, static_cast<int>(std::ceil((high - low) / kGrid)));
   const double step = (high - low) / steps;
-  for (int i = 0; i <= steps; ++i) look(low + i * step);
-  (void)math::golden_section(look, std::max(low, best.log_cutoff - step),
+  for (int i = 0; i <= steps; ++i) evaluate(low + i * step);
+  (void)math::golden_section(evaluate, std::max(low, best.log_cutoff - step),
                              std::min(high, best.log_cutoff + step), {.width = kRefined});
   return best;
 }

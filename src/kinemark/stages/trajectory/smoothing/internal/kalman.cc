@@ -125,26 +125,50 @@ class Writer {
   double noise_variance_;
 };
 
-void describe(const Choice& choice, const SmoothOptions& options, data::MarkerAccount& account) {
+/// Error that a criterion expects, without the part of the noise that no filter changes.
+double expected_error(const data::FilterCandidate& candidate, double noise_sd_m) {
+  return candidate.criterion - noise_sd_m * noise_sd_m;
+}
+
+/// What the choice weighed: "the least expected error (SURE) of ...", or which order had less and why it was
+/// not taken.
+std::string describe_choice(const Choice& choice, const SmoothOptions& options, bool gcv) {
+  const std::string criterion = gcv ? "cross-validated error" : "expected error (SURE)";
+  const std::string tried = options.order > 0         ? "all cut-offs tried at this order"
+                            : options.cutoff_hz > 0.0 ? "all orders tried at this cut-off"
+                                                      : "all orders and cut-offs tried";
+  const auto& all = choice.candidates;
+  const auto least = std::ranges::min_element(all, {}, &data::FilterCandidate::criterion);
+  const auto taken = std::ranges::find(all, choice.order, &data::FilterCandidate::order);
+  if (least == all.end() || taken == all.end() || !(least->criterion < taken->criterion))
+    return fmt::format("the least {} of {}", criterion, tried);
+  const double mine = expected_error(*taken, choice.noise_sd_m),
+               its = expected_error(*least, choice.noise_sd_m);
+  return fmt::format("order {} has {:.2g} % less {}, which is too little to give up jerk for", least->order,
+                     mine > 0.0 ? 100.0 * (mine - its) / mine : 0.0, criterion);
+}
+
+void describe(const Choice& choice, double cutoff_hz, const SmoothOptions& options,
+              data::MarkerAccount& account) {
   const bool gcv = options.method == FilterMethod::gcv;
   account.criterion_name = options.order > 0 && options.cutoff_hz > 0.0 ? "" : gcv ? "GCV, m^2" : "SURE, m^2";
   account.candidates = choice.candidates;
-  const std::string filter = fmt::format("order {}, cut-off {:.3g} Hz", choice.order, choice.cutoff_hz);
+  const std::string filter = fmt::format("order {}, cut-off {:.3g} Hz", choice.order, cutoff_hz);
   if (!choice.enough) {
     account.criterion_name.clear();
-    account.words =
+    account.description =
         fmt::format("{}: taken as they are, {} samples are too few to choose by.", filter, account.measured);
     return;
   }
   if (account.criterion_name.empty()) {
-    account.words = fmt::format("{}: as asked.", filter);
+    account.description = fmt::format("{}: as asked.", filter);
     return;
   }
-  account.words = fmt::format("{}: the {} of {}.", filter,
-                              gcv ? "least cross-validated error" : "least expected error (SURE)",
-                              options.order > 0         ? "all cut-offs tried at this order"
-                              : options.cutoff_hz > 0.0 ? "all orders tried at this cut-off"
-                                                        : "all orders and cut-offs tried");
+  account.description = fmt::format("{}: {}", filter, describe_choice(choice, options, gcv));
+  if (cutoff_hz != choice.cutoff_hz)
+    account.description += fmt::format(
+        "; for positions alone {:.3g} Hz, moved towards the best for velocities", choice.cutoff_hz);
+  account.description += ".";
 }
 
 }  // namespace
@@ -161,6 +185,7 @@ void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, c
   choosing.rate_hz = in.time.rate_hz;
   const std::vector<Series> judged = parts_of(samples.series(samples.judged, judged_columns));
   Choice choice = choose(judged, choosing);
+  double cutoff_hz = choice.cutoff_hz;
   account.noise_from = options.noise_sd_m > 0.0 ? "given" : "data";
   if (std::isnan(choice.noise_sd_m)) {
     account.noise_from = samples.has_covariance ? "covariance" : "";
@@ -168,17 +193,17 @@ void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, c
   }
   const double noise = choice.noise_sd_m;
   if (choosing.criterion == Criterion::sure && choice.enough && noise > 0.0 && options.cutoff_hz == 0.0)
-    choice.cutoff_hz = refine_cutoff(judged, choice.order, choice.cutoff_hz, noise);
+    cutoff_hz = refine_cutoff(judged, choice.order, choice.cutoff_hz, noise);
   BarScale scale;
   scale.interior.fill(std::numeric_limits<double>::infinity());
-  if (choice.enough && noise > 0.0) scale = scale_bars(judged, choice.order, choice.cutoff_hz, noise);
+  if (choice.enough && noise > 0.0) scale = scale_bars(judged, choice.order, cutoff_hz, noise);
 
   Writer writer(samples, result, noise);
   int axis = 0;
   for (const Series& series : samples.series(samples.present, columns)) {
     std::vector<double> state(static_cast<std::size_t>(series.frames * series.axes * 4));
     std::vector<double> variance(static_cast<std::size_t>(series.frames * 4));
-    smooth_series(series, choice.order, choice.cutoff_hz, {state.data(), variance.data()});
+    smooth_series(series, choice.order, cutoff_hz, {state.data(), variance.data()});
     writer.take(series, axis, state, variance, scale);
     axis += series.axes;
   }
@@ -186,15 +211,15 @@ void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, c
   writer.bridge(options);
 
   account.used.order = choice.order;
-  account.used.cutoff_hz = choice.cutoff_hz;
+  account.used.cutoff_hz = cutoff_hz;
   account.used.noise_sd_m = noise;
-  account.process_noise = noise * noise * samples.interval_s *
-                          std::pow(corner_rad_s(choice.order, choice.cutoff_hz), 2 * choice.order);
+  account.process_noise =
+      noise * noise * samples.interval_s * std::pow(corner_rad_s(choice.order, cutoff_hz), 2 * choice.order);
   for (std::size_t d = 0; d < 4; ++d) {
     account.bar_scale[d] = std::sqrt(scale.seen[d]);
     account.gap_bar_scale[d] = std::sqrt(scale.added[d]);
   }
-  describe(choice, options, account);
+  describe(choice, cutoff_hz, options, account);
 }
 
 }  // namespace kinemark::trajectory::smoothing

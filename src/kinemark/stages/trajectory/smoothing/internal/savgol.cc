@@ -140,7 +140,8 @@ int choose_half(const MarkerSamples& samples, const std::vector<Stretch>& all, i
       else
         low = half + 1;
     }
-    account.words = fmt::format("Degree {}, window of {} frames for the cut-off asked.", degree, 2 * low + 1);
+    account.description =
+        fmt::format("Degree {}, window of {} frames for the cut-off asked.", degree, 2 * low + 1);
     return low;
   }
   int best = narrowest;
@@ -153,7 +154,7 @@ int choose_half(const MarkerSamples& samples, const std::vector<Stretch>& all, i
   }
   account.criterion_name = "GCV, m^2";
   account.candidates = {{degree, half_power_hz(windows.of(2 * best + 1), rate_hz), least}};
-  account.words =
+  account.description =
       fmt::format("Degree {}, window of {} frames: the least cross-validated error.", degree, 2 * best + 1);
   return best;
 }
@@ -178,7 +179,7 @@ Status smooth_savgol(const MarkerSamples& samples, const SmoothOptions& options,
   const int degree = options.order > 0 ? options.order : kDefaultDegree;
   account.used.order = degree;
   if (all.empty()) {
-    account.words = "Never seen.";
+    account.description = "Never seen.";
     return {};
   }
   Windows windows(degree);

@@ -16,7 +16,7 @@ namespace kinemark::motion {
 
 /// One frame's observations, linearized about given marker positions. M markers.
 struct MarkerInformation {
-  Eigen::Matrix3Xd pull;              ///< 3 x M, minus the gradient of `cost` by each marker's position, 1/m
+  Eigen::Matrix3Xd descent;           ///< 3 x M, minus the gradient of `cost` by each marker's position, 1/m
   Eigen::VectorXd weight;             ///< M, information common to the three axes, 1/m^2; 0 where not seen
   std::vector<Eigen::Matrix3d> full;  ///< M, information besides `weight`, 1/m^2; or empty
   double cost = 0.0;                  ///< half the sum of squares, each over its variance (or a robust loss)
@@ -26,22 +26,22 @@ struct MarkerInformation {
 };
 
 /// What cameras or markers saw of the body, frame by frame, as the smoother asks for it.
-class Sightings {
+class Observations {
  public:
-  Sightings() = default;
-  Sightings(const Sightings&) = delete;
-  Sightings& operator=(const Sightings&) = delete;
-  virtual ~Sightings() = default;
+  Observations() = default;
+  Observations(const Observations&) = delete;
+  Observations& operator=(const Observations&) = delete;
+  virtual ~Observations() = default;
 
   /// Linearize the observations of frame f about marker positions p (3 x M, m). Sizes `out`; allocates only
   /// then.
-  virtual void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const = 0;
+  virtual void linearize(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const = 0;
 };
 
 /// Noise and robust threshold of one marker.
 struct MarkerTrust {
   double information = 1e6;  ///< 1/m^2 per axis: the inverse variance of its noise
-  double bend_m = 1e300;     ///< Huber threshold: residuals beyond it count linearly
+  double huber_m = 1e300;    ///< Huber threshold: residuals beyond it count linearly
 };
 
 /// Adds an observed point with Huber's loss, isotropic; returns its cost.
@@ -50,14 +50,14 @@ struct MarkerTrust {
 
 /// Markers measured in space. `column` gives each model marker its index in the recording, frame 0 is
 /// `first_frame` of it. Both must outlive this.
-class MarkerSightings final : public Sightings {
+class MarkerObservations final : public Observations {
  public:
   /// @param column  for each model marker its index in `markers`
   /// @param first_frame  of `markers`, where the motion begins
   /// @param trust  one a used marker
-  MarkerSightings(const data::Trajectories& markers, std::vector<int> column, std::int64_t first_frame,
-                  std::vector<MarkerTrust> trust);
-  void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;
+  MarkerObservations(const data::Trajectories& markers, std::vector<int> column, std::int64_t first_frame,
+                     std::vector<MarkerTrust> trust);
+  void linearize(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;
 
  private:
   const data::Trajectories& markers_;

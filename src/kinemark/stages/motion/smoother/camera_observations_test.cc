@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/smoother/camera_sightings.h"
+#include "kinemark/stages/motion/smoother/camera_observations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,15 +21,15 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
 /// A pinhole camera at a position, looking at the origin, with 1000 px per unit slope.
-data::Camera camera_at(const Vector3d& place) {
+data::Camera camera_at(const Vector3d& position) {
   data::Camera camera;
   camera.kind = data::CameraKind::pinhole;
   camera.focal = 1000.0;
-  const Vector3d z = -place.normalized(), x = Vector3d::UnitY().cross(z).normalized(), y = z.cross(x);
+  const Vector3d z = -position.normalized(), x = Vector3d::UnitY().cross(z).normalized(), y = z.cross(x);
   camera.cam_from_world.rotation.row(0) = x.transpose();
   camera.cam_from_world.rotation.row(1) = y.transpose();
   camera.cam_from_world.rotation.row(2) = z.transpose();
-  camera.cam_from_world.translation = -camera.cam_from_world.rotation * place;
+  camera.cam_from_world.translation = -camera.cam_from_world.rotation * position;
   return camera;
 }
 
@@ -64,53 +64,53 @@ struct Stereo {
   }
 };
 
-TEST(CameraSightings, PullIsTheSlopeOfTheCost) {
+TEST(CameraObservations, DescentIsTheSlopeOfTheCost) {
   const Stereo stereo(1);
   std::vector<int> column;
   for (int m = 0; m < 14; ++m) column.push_back(m);
-  const CameraSightings sightings(stereo.tracks, column, 0, 3.0);
+  const CameraObservations observations(stereo.tracks, column, 0, 3.0);
   Eigen::Matrix3Xd p(3, 14);
   for (int m = 0; m < 14; ++m) p.col(m) = stereo.markers.x(0, m);  // some beyond 3 SD of the image
   MarkerInformation out, moved;
-  sightings.look(0, p, out);
+  observations.linearize(0, p, out);
   EXPECT_GT(out.cost, 1.0);
   for (int m = 0; m < 14; ++m)
     for (int axis = 0; axis < 3; ++axis) {
       const double h = 1e-6;
       Eigen::Matrix3Xd q = p;
       q(axis, m) += h;
-      sightings.look(0, q, moved);
+      observations.linearize(0, q, moved);
       const double up = moved.cost;
       q(axis, m) -= 2 * h;
-      sightings.look(0, q, moved);
-      EXPECT_NEAR(out.pull(axis, m), -(up - moved.cost) / (2 * h),
-                  1e-3 * (1.0 + std::abs(out.pull(axis, m))));
+      observations.linearize(0, q, moved);
+      EXPECT_NEAR(out.descent(axis, m), -(up - moved.cost) / (2 * h),
+                  1e-3 * (1.0 + std::abs(out.descent(axis, m))));
     }
 }
 
-TEST(CameraSightings, OneCameraKnowsNothingOfDepth) {
+TEST(CameraObservations, OneCameraKnowsNothingOfDepth) {
   Stereo stereo(1);
   stereo.lose_camera(0, 1);
-  const CameraSightings sightings(stereo.tracks, {3}, 0, 0.0);
+  const CameraObservations observations(stereo.tracks, {3}, 0, 0.0);
   Eigen::Matrix3Xd p(3, 1);
   p.col(0) = Vector3d(0.1, 0.2, 0.0);
   MarkerInformation out;
-  sightings.look(0, p, out);
+  observations.linearize(0, p, out);
   const Vector3d ray = (p.col(0) - Vector3d(3.0, 0.5, 2.0)).normalized();
   EXPECT_LT((out.full[0] * ray).norm(), 1e-9 * out.full[0].norm());
   EXPECT_EQ(out.weight[0], 0.0);
 }
 
-TEST(CameraSightings, WithoutAColumnAMarkerIsUnseen) {
+TEST(CameraObservations, WithoutAColumnAMarkerIsUnseen) {
   const Stereo stereo(1);
-  const CameraSightings sightings(stereo.tracks, {-1}, 0, 0.0);
+  const CameraObservations observations(stereo.tracks, {-1}, 0, 0.0);
   MarkerInformation out;
-  sightings.look(0, Eigen::Matrix3Xd::Zero(3, 1), out);
+  observations.linearize(0, Eigen::Matrix3Xd::Zero(3, 1), out);
   EXPECT_EQ(out.cost, 0.0);
   EXPECT_TRUE(out.full[0].isZero(0.0));
 }
 
-TEST(CameraSightings, OneCameraCarriesTheBodyThroughAGap) {
+TEST(CameraObservations, OneCameraCarriesTheBodyThroughAGap) {
   Stereo stereo(240);
   stereo.lose_camera(80, 160);
   const auto with = smooth_images(stereo.model, stereo.tracks, stereo.markers).value();
@@ -135,7 +135,7 @@ TEST(CameraSightings, OneCameraCarriesTheBodyThroughAGap) {
   EXPECT_GT(with.motion.q_sd[with.motion.index(120, 9)], with.motion.q_sd[with.motion.index(30, 9)]);
 }
 
-TEST(CameraSightings, BadInputIsToldInASentence) {
+TEST(CameraObservations, BadInputIsToldInASentence) {
   Stereo stereo(20);
   auto wrong = stereo.tracks;
   wrong.noise_sd[0] = -1.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/smoother/camera_sightings.h"
+#include "kinemark/stages/motion/smoother/camera_observations.h"
 
 #include <fmt/core.h>
 
@@ -13,11 +13,11 @@
 
 namespace kinemark::motion {
 
-CameraSightings::CameraSightings(const data::ImageTracks& tracks, std::vector<int> column,
-                                 std::int64_t first_frame, double bend_sd)
-    : tracks_(tracks), column_(std::move(column)), first_frame_(first_frame), bend_sd_(bend_sd) {}
+CameraObservations::CameraObservations(const data::ImageTracks& tracks, std::vector<int> column,
+                                       std::int64_t first_frame, double huber_sd)
+    : tracks_(tracks), column_(std::move(column)), first_frame_(first_frame), huber_sd_(huber_sd) {}
 
-void CameraSightings::look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const {
+void CameraObservations::linearize(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const {
   check(static_cast<std::size_t>(p.cols()) == column_.size(),
         "need one column of the tracks for every marker");
   out.clear(p.cols(), true);
@@ -30,11 +30,11 @@ void CameraSightings::look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInfo
       const Eigen::Vector2d residual = (seen - there.image) / tracks_.noise_sd[c];
       const Eigen::Matrix<double, 2, 3> slope = there.d_point / tracks_.noise_sd[c];
       const double r = residual.norm();
-      const bool bent = bend_sd_ > 0.0 && r > bend_sd_;
-      const double share = bent ? bend_sd_ / r : 1.0;
-      out.pull.col(static_cast<Eigen::Index>(m)) += share * (slope.transpose() * residual);
+      const bool beyond = huber_sd_ > 0.0 && r > huber_sd_;
+      const double share = beyond ? huber_sd_ / r : 1.0;
+      out.descent.col(static_cast<Eigen::Index>(m)) += share * (slope.transpose() * residual);
       out.full[m] += share * (slope.transpose() * slope);
-      out.cost += bent ? bend_sd_ * (r - 0.5 * bend_sd_) : 0.5 * r * r;
+      out.cost += beyond ? huber_sd_ * (r - 0.5 * huber_sd_) : 0.5 * r * r;
     }
 }
 
@@ -56,10 +56,11 @@ Result<SmootherResult> smooth_images(const model::Model& model, const data::Imag
   }
   if (std::ranges::all_of(column, [](int c) { return c < 0; }))
     return fail(Code::bad_input, "the image tracks have no marker in common with model and recording");
-  auto noise = internal::split_noise(problem, prepared->start, options.ik.marker_noise_sd_m, options.bend_sd);
+  auto noise =
+      internal::split_noise(problem, prepared->start, options.ik.marker_noise_sd_m, options.huber_sd);
   noise.any_slow = false;
-  const CameraSightings sightings(tracks, std::move(column), problem.first_frame, options.bend_sd);
-  return internal::run(*prepared, markers, sightings, noise, options, progress);
+  const CameraObservations observations(tracks, std::move(column), problem.first_frame, options.huber_sd);
+  return internal::run(*prepared, prepared->believed(markers), observations, noise, options, progress);
 }
 
 }  // namespace kinemark::motion

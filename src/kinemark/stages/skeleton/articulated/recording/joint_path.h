@@ -13,27 +13,25 @@ namespace kinemark::skeleton::articulated {
 
 /// What one frame says of a point: its place, and with how much information (1/m^2, rank 0 to 3).
 struct PathPoint {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
 /// True where the information holds all three coordinates.
-[[nodiscard]] bool holds_a_place(const PathPoint& point);
+[[nodiscard]] bool holds_a_position(const PathPoint& point);
 
 /// A point's path through time.
 struct SmoothedPath {
-  std::vector<Eigen::Vector3d> place;  ///< F, m; NaN where the path is not known
-  Array<double> covariance;            ///< F x 6 (xx xy xz yy yz zz), m^2; NaN likewise
+  std::vector<Eigen::Vector3d> position;  ///< F, m; NaN where the path is not known
+  Array<double> covariance;               ///< F x 6 (xx xy xz yy yz zz), m^2; NaN likewise
 
-  [[nodiscard]] bool known(std::size_t frame) const { return place[frame].allFinite(); }
+  [[nodiscard]] bool known(std::size_t frame) const { return position[frame].allFinite(); }
   [[nodiscard]] Eigen::Matrix3d covariance_at(std::size_t frame) const;
 };
 
-/// Place of a point under jerk that is white noise of density `white_jerk` (m^2/s^5), given all frames:
-/// place, velocity and acceleration as state, frames of any rank. Stretches of more than a second in which no
-/// frame holds a place are left unknown but for their first and last half second. O(F) time; memory beside
-/// the result does not grow with F. Source: the two-pass smoother of Bierman (1973), which inverts 3 x 3
-/// only.
+/// Place of a point under jerk that is white noise of density `white_jerk` (m^2/s^5), given all frames, which
+/// may be of any rank. Stretches of more than a second in which no frame holds a place are left unknown but
+/// for their first and last half second. O(F) time. The smoother is math::smooth_wiener() of order 3.
 [[nodiscard]] SmoothedPath smooth_path(std::span<const PathPoint> points, double rate_hz, double white_jerk);
 
 /// Log likelihood of the places given such a path, up to a constant that the points alone fix.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/functional/words.h"
+#include "kinemark/stages/skeleton/functional/description.h"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/functional/words.h"
+#include "kinemark/stages/skeleton/functional/description.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ data::SkeletonJoint ball(double range_rad, const Eigen::Vector3d& sd_m) {
   return joint;
 }
 
-TEST(Words, ABallIsKnownAsFarAsItIs) {
+TEST(DescribeJoint, ABallIsKnownAsFarAsItIs) {
   EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.0005, 0.002})), "57 deg of motion: centre known to 2.0 mm");
   EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.05, 0.002})),
             "57 deg of motion: centre known to 2.0 mm across one direction, to 50.0 mm along it");
@@ -25,7 +25,7 @@ TEST(Words, ABallIsKnownAsFarAsItIs) {
   EXPECT_EQ(describe_joint(ball(0.5, {0.1, 0.1, 0.1})), "29 deg of motion: centre not known (100.0 mm)");
 }
 
-TEST(Words, AHingeTellsAxisAndPlace) {
+TEST(DescribeJoint, AHingeTellsAxisAndPlace) {
   data::SkeletonJoint joint = ball(0.21, {0.3, 0.03, 0.03});
   joint.kind = data::JointKind::hinge;
   joint.axis_in_parent = Eigen::Vector3d::UnitX();
@@ -40,7 +40,7 @@ TEST(Words, AHingeTellsAxisAndPlace) {
   EXPECT_NE(describe_joint(joint).find("axis direction not known"), std::string::npos);
 }
 
-TEST(Words, AStillJointAndAnUnknownOneSaySo) {
+TEST(DescribeJoint, AStillJointAndAnUnknownOneSaySo) {
   EXPECT_EQ(describe_joint(ball(0.01, {0.3, 0.3, 0.3})),
             "1 deg of motion: the joint hardly moves, neither centre nor axis can be known");
   data::SkeletonJoint joint = ball(0.5, {1, 1, 1});

@@ -12,20 +12,20 @@ namespace kinemark::motion {
 /// Images as information about marker positions: sum over the cameras of D'D / noise^2, D the derivative of
 /// the image by the position. `column` gives each model marker its index in the tracks (-1: none); frame 0 is
 /// `first_frame` of them, which must outlive this. Points behind a camera give no information. Residuals
-/// beyond bend_sd count linearly (0: never).
-class CameraSightings final : public Sightings {
+/// beyond huber_sd count linearly (0: never).
+class CameraObservations final : public Observations {
  public:
   /// @param column  for each model marker its index in `tracks`
   /// @param first_frame  of `tracks`, where the motion begins
-  CameraSightings(const data::ImageTracks& tracks, std::vector<int> column, std::int64_t first_frame,
-                  double bend_sd);
-  void look(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;
+  CameraObservations(const data::ImageTracks& tracks, std::vector<int> column, std::int64_t first_frame,
+                     double huber_sd);
+  void linearize(std::int64_t f, const Eigen::Matrix3Xd& p, MarkerInformation& out) const override;
 
  private:
   const data::ImageTracks& tracks_;
   std::vector<int> column_;
   std::int64_t first_frame_;
-  double bend_sd_;
+  double huber_sd_;
 };
 
 /// smooth_motion() on images. `markers` holds the triangulated points (markers seen by two cameras or more;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/articulated/recording/path_smoother.h"
+#include "kinemark/stages/skeleton/articulated/recording/joint_path.h"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ Drawn draw(std::uint64_t seed, int frames, double jerk, double sd_m, double lost
     const Vector3d x = state.col(0);
     Vector3d error;
     for (int i = 0; i < 3; ++i) error[i] = sd_m * random.gaussian();
-    PathPoint p{.place = x + error};
+    PathPoint p{.position = x + error};
     if (random.uniform() >= lost) p.information = Matrix3d::Identity() / (sd_m * sd_m);
     out.points.push_back(p);
     out.truth.push_back(x);
@@ -83,7 +83,7 @@ Dense solve_dense(const std::vector<PathPoint>& points, double jerk) {
   for (Eigen::Index f = 0; f < F; ++f) {
     const PathPoint& p = points[static_cast<std::size_t>(f)];
     H.block<3, 3>(9 * f, 9 * f) += p.information;
-    b.segment<3>(9 * f) += p.information * p.place;
+    b.segment<3>(9 * f) += p.information * p.position;
     if (f + 1 == F) break;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -102,7 +102,7 @@ Dense solve_dense(const std::vector<PathPoint>& points, double jerk) {
     H(3 + axis, 3 + axis) += 1e-2;
     H(6 + axis, 6 + axis) += 1e-6;
   }
-  b.head<3>() += points[3].place;
+  b.head<3>() += points[3].position;
   const MatrixXd C = H.inverse();
   return {.x = C * b, .C = C};
 }
@@ -118,7 +118,7 @@ TEST(PathSmoother, EqualsTheDenseSolution) {
     const auto k = static_cast<std::size_t>(f);
     const Matrix3d C = dense.C.block<3, 3>(9 * f, 9 * f);
     const double sd = std::sqrt(C.trace());
-    EXPECT_LT((path.place[k] - dense.x.segment<3>(9 * f)).norm(), 1e-5 * sd) << f;
+    EXPECT_LT((path.position[k] - dense.x.segment<3>(9 * f)).norm(), 1e-5 * sd) << f;
     EXPECT_LT((path.covariance_at(k) - C).norm(), 1e-5 * C.norm()) << f;
   }
 }
@@ -130,7 +130,7 @@ TEST(PathSmoother, BlocksLeaveNoSeam) {
   const std::span<const PathPoint> part(drawn.points.data() + 200, 900);
   const auto shorter = smooth_path(part, kRate_hz, 1e3);
   for (std::size_t f = 400; f < 900; ++f) {
-    ASSERT_LT((whole.place[f] - shorter.place[f - 200]).norm(), 1e-9) << f;
+    ASSERT_LT((whole.position[f] - shorter.position[f - 200]).norm(), 1e-9) << f;
     ASSERT_LT((whole.covariance_at(f) - shorter.covariance_at(f - 200)).norm(), 1e-12) << f;
   }
 }
@@ -141,11 +141,11 @@ TEST(PathSmoother, ErrorsAreAsLargeAsItSays) {
     const auto drawn = draw(seed, 400, 1e3, 0.004, 0.4);
     const auto path = smooth_path(drawn.points, kRate_hz, 1e3);
     for (std::size_t f = 0; f < 400; ++f) {
-      const Vector3d e = path.place[f] - drawn.truth[f];
+      const Vector3d e = path.position[f] - drawn.truth[f];
       z2 += e.dot(path.covariance_at(f).inverse() * e) / 3.0;
       n += 1.0;
       after += e.squaredNorm();
-      before += (drawn.points[f].place - drawn.truth[f]).squaredNorm();
+      before += (drawn.points[f].position - drawn.truth[f]).squaredNorm();
     }
   }
   EXPECT_NEAR(z2 / n, 1.0, 0.15);
@@ -163,8 +163,8 @@ TEST(PathSmoother, LongGapsStayOpen) {
   EXPECT_TRUE(path.known(270));
   EXPECT_TRUE(path.known(420)) << "a short gap is crossed";
   EXPECT_GT(path.covariance_at(420).trace(), 4.0 * path.covariance_at(380).trace());
-  EXPECT_TRUE(smooth_path(std::vector<PathPoint>(50), kRate_hz, 1.0).place[7].hasNaN()) << "nothing known";
-  EXPECT_TRUE(smooth_path({}, kRate_hz, 1.0).place.empty());
+  EXPECT_TRUE(smooth_path(std::vector<PathPoint>(50), kRate_hz, 1.0).position[7].hasNaN()) << "nothing known";
+  EXPECT_TRUE(smooth_path({}, kRate_hz, 1.0).position.empty());
 }
 
 TEST(PathSmoother, FindsTheJerkThatWasDrawn) {
@@ -189,7 +189,7 @@ TEST(PathSmoother, SeesThatFramesAreUnrelated) {
   std::vector<PathPoint> points(500);
   for (auto& p : points) {
     const double x = random.gaussian(), y = random.gaussian(), z = random.gaussian();
-    p.place = 0.1 * Vector3d{x, y, z};
+    p.position = 0.1 * Vector3d{x, y, z};
     p.information = 1e6 * Matrix3d::Identity();
   }
   EXPECT_FALSE(find_path_prior(points, kRate_hz).follows);
@@ -197,11 +197,11 @@ TEST(PathSmoother, SeesThatFramesAreUnrelated) {
 
 TEST(PathSmoother, ATrihedralHoldsAPlaceAndAPlaneDoesNot) {
   PathPoint p;
-  EXPECT_FALSE(holds_a_place(p));
+  EXPECT_FALSE(holds_a_position(p));
   p.information.diagonal() << 1e6, 1e6, 0.0;
-  EXPECT_FALSE(holds_a_place(p));
+  EXPECT_FALSE(holds_a_position(p));
   p.information(2, 2) = 1e3;
-  EXPECT_TRUE(holds_a_place(p));
+  EXPECT_TRUE(holds_a_position(p));
 }
 
 }  // namespace

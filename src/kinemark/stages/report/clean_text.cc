@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "kinemark/stages/report/internal/clean_words.h"
+#include "kinemark/stages/report/internal/clean_text.h"
 
 namespace kinemark::report::internal {
 

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/judged_frames.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/stages/motion/internal/carried_places.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+constexpr int kRounds = 3;  // what was hidden behind a bad sample shows in the next one
+
+/// Take the samples of the strays away; true for each frame in which there were some.
+std::vector<std::uint8_t> leave_out(const Problem& problem, const std::vector<Stray>& strays,
+                                    data::Trajectories& markers, bool& any) {
+  std::vector<std::uint8_t> concerned(at(problem.frames), 0);
+  any = false;
+  for (const Stray& stray : strays)
+    for (std::int64_t f = stray.first_frame; f <= stray.last_frame; ++f) {
+      const int d = problem.data_marker[at(stray.marker)];
+      if (!markers.present(problem.first_frame + f, d)) continue;
+      markers.set_missing(problem.first_frame + f, d, data::SampleState::rejected);
+      concerned[at(f)] = 1;
+      any = true;
+    }
+  return concerned;
+}
+
+/// Join stretches of a marker that touch.
+std::vector<Stray> joined(std::vector<Stray> strays) {
+  std::ranges::stable_sort(strays, {}, [](const Stray& s) { return std::tuple(s.marker, s.first_frame); });
+  std::vector<Stray> out;
+  for (const Stray& s : strays) {
+    if (!out.empty() && out.back().marker == s.marker && s.first_frame <= out.back().last_frame + 1 &&
+        out.back().why == s.why && out.back().partner == s.partner) {
+      Stray& last = out.back();
+      last.last_frame = std::max(last.last_frame, s.last_frame);
+      last.distance = std::max(last.distance, s.distance);
+      last.length_m = std::max(last.length_m, s.length_m);
+    } else if (!out.empty() && out.back().marker == s.marker && s.first_frame <= out.back().last_frame) {
+      if (s.last_frame <= out.back().last_frame) continue;
+      out.push_back(s);
+      out.back().first_frame = std::prev(out.end(), 2)->last_frame + 1;
+    } else {
+      out.push_back(s);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOptions& options,
+                                            const data::Trajectories& markers, const Progress& progress) {
+  JudgedFrames judged;
+  FrameWalk walk(problem, options, progress);
+  if (!walk.run(markers, options.judge_samples, judged.solved)) return std::nullopt;
+  if (!options.judge_samples) return judged;
+  const auto reject = [&](const std::vector<Stray>& strays) {
+    if (strays.empty()) return false;
+    if (!judged.kept) judged.kept = markers;
+    bool any = false;
+    const auto concerned = leave_out(problem, strays, *judged.kept, any);
+    if (!any) return false;
+    judged.rejected.insert(judged.rejected.end(), strays.begin(), strays.end());
+    walk.solve_again(*judged.kept, concerned, judged.solved);
+    walk.mend(*judged.kept, judged.solved);
+    return true;
+  };
+  reject(find_plain_defects(problem, markers, judged.solved));
+  for (int round = 0; round < kRounds; ++round) {
+    auto judgement = judge_recording(problem, options, judged.kept ? *judged.kept : markers, judged.solved);
+    judged.doubtful = std::move(judgement.doubtful);
+    if (!reject(judgement.bad)) break;
+  }
+  if (judged.kept) {
+    bool any = false;
+    data::Trajectories counted = markers;
+    const auto concerned = leave_out(problem, judged.rejected, counted, any);
+    const StepScale scale(problem, judged.solved);
+    const auto filled = carry_places(problem, *judged.kept, concerned, scale, judged.solved);
+    walk.solve_filled(*judged.kept, filled, concerned, judged.solved);
+    judged.solved.iterations = walk.iterations();
+  }
+  judged.rejected = joined(std::move(judged.rejected));
+  judged.solved.positions = {};
+  return judged;
+}
+
+}  // namespace kinemark::motion::internal

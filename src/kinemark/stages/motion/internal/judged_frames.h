@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// All frames solved, with the samples left out that do not belong to them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kinemark/stages/motion/internal/judgement.h"
+
+namespace kinemark::motion::internal {
+
+/// Poses, and what was left out on the way.
+struct JudgedFrames {
+  SolvedFrames solved;
+  std::optional<data::Trajectories>
+      kept;                     ///< the recording without what was left out; none where all was kept
+  std::vector<Stray> rejected;  ///< by marker and frame, none overlaps another of the same marker
+  std::vector<Stray> doubtful;  ///< as of Judgement
+};
+
+/// Solve, judge, solve the frames concerned again, until nothing more is found. No value when the caller
+/// stopped it.
+[[nodiscard]] std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOptions& options,
+                                                          const data::Trajectories& markers,
+                                                          const Progress& progress);
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/sample_findings.h"
+
+#include "kinemark/core/index.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+data::Finding finding_of(const Problem& problem, const Stray& stray) {
+  const auto name = [&](int marker) { return problem.fit.markers[at(marker)].name; };
+  data::Finding finding{.kind = data::FindingKind::outlier,
+                        .subject = name(stray.marker),
+                        .first_frame = stray.first_frame,
+                        .last_frame = stray.last_frame,
+                        .size = stray.length_m};
+  if (stray.why == Stray::Why::held) finding.detail = "it holds one value digit by digit";
+  if (stray.why == Stray::Why::zero) finding.detail = "a coordinate is exactly 0";
+  if (stray.partner >= 0) finding.detail = "it lies where '" + name(stray.partner) + "' should";
+  return finding;
+}
+
+}  // namespace
+
+void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
+                         const data::Trajectories& markers, IkResult& result) {
+  const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
+  auto& motion = result.motion;
+  const auto M = problem.data_marker.size();
+  motion.marker_state.resize(at(problem.frames) * M);
+  for (std::int64_t f = 0; f < problem.frames; ++f)
+    for (std::size_t m = 0; m < M; ++m)
+      motion.marker_state[at(f) * M + m] =
+          kept.state[kept.index(problem.first_frame + f, problem.data_marker[m])];
+  for (const Stray& stray : judged.rejected) result.fit.findings.push_back(finding_of(problem, stray));
+  for (const Stray& stray : judged.doubtful) {
+    auto finding = finding_of(problem, stray);
+    finding.kind = data::FindingKind::marker_slip;
+    finding.partner = problem.fit.markers[at(stray.marker)].body;
+    finding.confidence = 0.5;
+    finding.detail = "the samples before or those from there on are wrong; both were kept";
+    result.fit.findings.push_back(std::move(finding));
+  }
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/screening/internal/phase_table.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+using data::InterpolationKernel;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// A marker on a smooth path, missing in the frames for which `gap` holds.
+template <class Gap>
+data::Trajectories path(std::int64_t frames, const Gap& gap) {
+  auto t = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = frames});
+  for (std::int64_t f = 0; f < frames; ++f) {
+    if (gap(f)) continue;
+    const double s = 0.01 * static_cast<double>(f);
+    t.x(f, 0) = Eigen::Vector3d(std::sin(s), std::cos(2.0 * s), s);
+    t.state[static_cast<std::size_t>(f)] = data::SampleState::measured;
+  }
+  return t;
+}
+
+std::vector<double> noise(int n, double sd, double step = 0.0) {
+  Random random(4, 9);
+  std::vector<double> y;
+  for (int i = 0; i < n; ++i) {
+    const double value = 0.3 + std::sin(0.05 * i) + sd * random.gaussian();
+    y.push_back(step > 0.0 ? step * std::round(value / step) : value);
+  }
+  return y;
+}
+
+/// Rows in which these phases win by a factor of e^2, one block each 100 frames.
+PhaseTable table_of(int factor, const std::vector<int>& winners) {
+  PhaseTable table{.factor = factor};
+  for (std::size_t r = 0; r < winners.size(); ++r) {
+    for (int p = 0; p < factor; ++p) table.log_residual.push_back(p == winners[r] ? -9.0F : -7.0F);
+    table.log_rounding.push_back(-12.0F);
+    table.frame.push_back(50 + 100 * static_cast<std::int64_t>(r));
+  }
+  return table;
+}
+
+std::vector<int> phases(const std::vector<data::PhaseRun>& runs) {
+  std::vector<int> out;
+  for (const auto& run : runs) out.push_back(run.phase);
+  return out;
+}
+
+TEST(RoundingStep, IsThatOfTheNumbers) {
+  for (const double step : {1e-4, 2e-4, 5e-4})
+    EXPECT_NEAR(rounding_step_m(noise(2000, 0.001, step)), step, 1e-3 * step) << step;
+}
+
+TEST(RoundingStep, OfUnroundedNumbersIsFarBelowTheirNoise) {
+  EXPECT_LT(rounding_step_m(noise(2000, 0.001)), 3e-4);
+}
+
+TEST(RoundingStep, StaysWithinItsBounds) {
+  EXPECT_LE(rounding_step_m(noise(500, 0.5, 0.25)), 1e-3) << "a millimetre at most";
+  const std::vector<double> constant(100, 1.5);
+  EXPECT_NEAR(rounding_step_m(constant), 6e-8 * 1.5, 1e-15) << "single precision, where nothing differs";
+  EXPECT_GT(rounding_step_m(std::vector<double>(100, 0.0)), 0.0);
+  EXPECT_GT(rounding_step_m({}), 0.0);
+}
+
+TEST(Pieces, AreTheAxesOfEveryCompleteStretch) {
+  const auto t = path(200, [](std::int64_t f) { return f == 60 || (f >= 100 && f < 110); });
+  const auto pieces = pieces_of(t, 0, 0);
+  ASSERT_THAT(pieces, SizeIs(9)) << "three stretches of three axes";
+  for (std::size_t k = 0; k < 9; ++k) {
+    const std::int64_t first[] = {0, 61, 110};
+    const std::size_t length[] = {60, 39, 90};
+    EXPECT_EQ(pieces[k].first_frame, first[k / 3]);
+    ASSERT_EQ(pieces[k].y.size(), length[k / 3]);
+    for (std::size_t i = 0; i < pieces[k].y.size(); ++i)
+      EXPECT_EQ(pieces[k].y[i], t.x(first[k / 3] + static_cast<std::int64_t>(i), 0)[static_cast<int>(k % 3)]);
+    EXPECT_GT(pieces[k].step_m, 0.0);
+  }
+}
+
+TEST(Pieces, LeaveOutStretchesThatAreTooShortToTest) {
+  const std::int64_t least = min_stretch(2, InterpolationKernel::linear);
+  EXPECT_THAT(pieces_of(path(least - 1, [](std::int64_t) { return false; }), 0, 0), IsEmpty());
+  EXPECT_THAT(pieces_of(path(least, [](std::int64_t) { return false; }), 0, 0), SizeIs(3));
+  EXPECT_THAT(pieces_of(path(500, [](std::int64_t f) { return f % 10 == 0; }), 0, 0), IsEmpty());
+  EXPECT_THAT(pieces_of(path(500, [](std::int64_t) { return true; }), 0, 0), IsEmpty());
+}
+
+TEST(Pieces, OfALongRecordingAreDrawnEvenly) {
+  const auto t = path(20 * 2048, [](std::int64_t) { return false; });
+  const auto all = pieces_of(t, 0, 0), some = pieces_of(t, 0, 4 * 2048);
+  EXPECT_THAT(all, SizeIs(3 * 20));
+  ASSERT_THAT(some, SizeIs(3 * 4));
+  std::vector<std::int64_t> firsts;
+  for (std::size_t k = 0; k < some.size(); k += 3) firsts.push_back(some[k].first_frame);
+  EXPECT_THAT(firsts, ElementsAre(2 * 2048, 7 * 2048, 12 * 2048, 17 * 2048));
+}
+
+TEST(PhaseTable, RowsOfAnInterpolatedStreamPointToItsPhase) {
+  for (const int factor : {2, 3, 4})
+    for (const std::int64_t first : {0, 1, 7}) {
+      const auto source = noise(2000, 0.002);
+      Piece piece{.first_frame = first, .y = {}, .step_m = 1e-9};
+      for (std::size_t i = 0; i + 1 < source.size(); ++i)
+        for (int k = 0; k < factor; ++k)
+          piece.y.push_back(source[i] + k * (source[i + 1] - source[i]) / factor);
+      PhaseTable table{.factor = factor};
+      Knots knots;
+      add_rows(piece, InterpolationKernel::linear, knots, table);
+      ASSERT_GT(table.rows(), 20U);
+      EXPECT_EQ(table.log_residual.size(), table.rows() * static_cast<std::size_t>(factor));
+      const auto verdict = judge(table, InterpolationKernel::linear);
+      EXPECT_TRUE(verdict.fires) << factor;
+      EXPECT_EQ(verdict.factor, factor);
+      EXPECT_EQ(verdict.phase, first % factor) << "counted from frame 0";
+      EXPECT_EQ(verdict.agreement, 1.0);
+    }
+}
+
+TEST(PhaseTable, NoiseOfItsOwnInEverySamplePointsNowhere) {
+  PhaseTable table{.factor = 2};
+  Knots knots;
+  add_rows({.first_frame = 0, .y = noise(4000, 0.002), .step_m = 1e-9}, InterpolationKernel::linear, knots,
+           table);
+  EXPECT_GT(table.rows(), 50U);
+  EXPECT_FALSE(judge(table, InterpolationKernel::linear).fires);
+}
+
+TEST(PhaseTable, WhatIsLostInTheRoundingIsNoEvidence) {
+  PhaseTable table{.factor = 2};
+  Knots knots;
+  add_rows({.first_frame = 0, .y = noise(4000, 1e-7), .step_m = 0.01}, InterpolationKernel::linear, knots,
+           table);
+  EXPECT_EQ(table.rows(), 0U);
+  EXPECT_FALSE(judge(table, InterpolationKernel::linear).fires);
+}
+
+TEST(PhaseTable, TablesAddUp) {
+  auto one = table_of(3, {0, 1});
+  one.append(table_of(3, {2}));
+  EXPECT_EQ(one.rows(), 3U);
+  EXPECT_THAT(one.frame, ElementsAre(50, 150, 50));
+  EXPECT_EQ(one.log_residual[8], -9.0F);
+}
+
+TEST(Judge, NeedsSixBlocksAndMoreForSmallFactors) {
+  EXPECT_FALSE(judge(table_of(4, std::vector<int>(5, 2)), InterpolationKernel::hold).fires);
+  EXPECT_TRUE(judge(table_of(4, std::vector<int>(8, 2)), InterpolationKernel::hold).fires);
+  EXPECT_FALSE(judge(table_of(2, std::vector<int>(8, 1)), InterpolationKernel::hold).fires)
+      << "one in 2^8 by accident";
+  EXPECT_TRUE(judge(table_of(2, std::vector<int>(20, 1)), InterpolationKernel::hold).fires);
+}
+
+TEST(Judge, OneContradictionInTenIsForgiven) {
+  std::vector<int> winners(40, 1);
+  for (const std::size_t wrong : {3, 17, 30}) winners[wrong] = 0;
+  EXPECT_TRUE(judge(table_of(2, winners), InterpolationKernel::hold).fires);
+  for (const std::size_t wrong : {5, 9, 13, 21}) winners[wrong] = 0;
+  EXPECT_FALSE(judge(table_of(2, winners), InterpolationKernel::hold).fires);
+}
+
+TEST(Judge, APhaseThatChangesOnceIsASlip) {
+  std::vector<int> winners(60, 0);
+  std::fill(winners.begin() + 30, winners.end(), 2);
+  const auto verdict = judge(table_of(3, winners), InterpolationKernel::hold);
+  EXPECT_TRUE(verdict.fires);
+  EXPECT_TRUE(verdict.slips);
+}
+
+TEST(FollowPhase, ChangesHalfwayBetweenTheBlocks) {
+  std::vector<int> winners(30, 0);
+  std::fill(winners.begin() + 12, winners.end(), 1);
+  const auto runs = follow_phase(table_of(2, winners));
+  ASSERT_THAT(phases(runs), ElementsAre(0, 1));
+  EXPECT_EQ(runs[0].first_frame, 0);
+  EXPECT_EQ(runs[1].first_frame, 1200) << "the last block of the old phase lies at 1150, the next at 1250";
+}
+
+TEST(FollowPhase, AFewContradictingBlocksAreNoChange) {
+  std::vector<int> winners(40, 1);
+  for (const std::size_t wrong : {10, 11, 12}) winners[wrong] = 0;
+  EXPECT_THAT(phases(follow_phase(table_of(2, winners))), ElementsAre(1));
+  for (std::size_t wrong = 10; wrong < 22; ++wrong) winners[wrong] = 0;
+  EXPECT_THAT(phases(follow_phase(table_of(2, winners))), ElementsAre(1, 0, 1));
+}
+
+TEST(FollowPhase, RowsMayComeInAnyOrderAndNoneIsOneRun) {
+  std::vector<int> winners(30, 0);
+  std::fill(winners.begin() + 12, winners.end(), 1);
+  const auto table = table_of(2, winners);
+  PhaseTable rotated{.factor = 2};
+  for (std::size_t r = table.rows(); r-- > 0;) {
+    for (std::size_t p = 0; p < 2; ++p) rotated.log_residual.push_back(table.log_residual[2 * r + p]);
+    rotated.log_rounding.push_back(table.log_rounding[r]);
+    rotated.frame.push_back(table.frame[r]);
+  }
+  const auto runs = follow_phase(rotated);
+  ASSERT_THAT(phases(runs), ElementsAre(0, 1));
+  EXPECT_EQ(runs[1].first_frame, 1200);
+  const auto none = follow_phase(PhaseTable{.factor = 2});
+  ASSERT_THAT(none, SizeIs(1));
+  EXPECT_EQ(none[0].first_frame, 0);
+}
+
+}  // namespace
+}  // namespace kinemark::trajectory::internal

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+import re
+import unittest
+
+from support import PROJECT
+
+
+def text_of(top, pattern):
+    return "\n".join(path.read_text(encoding="utf-8") for path in sorted((PROJECT / top).rglob(pattern)))
+
+
+CODE = re.sub(r"//.*", "", text_of("src", "*.h") + text_of("studies", "*.h"))
+KEYS, COMMANDS = text_of("src", "*_json.cc"), text_of("cli", "*.cc")
+
+
+def exists(name, before):
+    """Whether the code has what the column "in the code" names; `before` stands before the name in its cell."""
+    if name.startswith("make "):
+        return f"\n{name[5:]}:" in (PROJECT / "Makefile").read_text(encoding="utf-8")
+    if name.startswith("kinemark "):
+        return re.search(rf'add_subcommand\(\s*"{name[9:]}"', COMMANDS) is not None
+    if name.startswith("--"):
+        return re.search(rf'add_(option|flag)\(\s*"[^"]*{name.split()[0]}\b', COMMANDS) is not None
+    if before.endswith("JSON key is "):
+        return f'"{name}"' in KEYS
+    scope, _, last = name.removesuffix("()").rpartition("::")
+    bodies = re.findall(rf"\b(?:struct|class) {scope}\b[^;{{]*{{(.*?)\n}};", CODE, re.S)
+    pattern = r"(?<!\w)" + re.escape(last).replace(r"\.\.\.", r"\w*")  # predicted_...: whatever begins so
+    pattern += r" *\(" if name.endswith("()") else r"(?!\w)"
+    return re.search(pattern, "".join(bodies) if scope[:1].isupper() else CODE) is not None
+
+
+class Glossary(unittest.TestCase):
+    def test_the_code_has_every_name_in_the_column_of_the_code(self):
+        lines = (PROJECT / "docs/concepts/glossary.md").read_text(encoding="utf-8").splitlines()
+        cells = [line.split("|")[4] for line in lines if line.count("|") == 6 and "---" not in line]
+        names = [(m[1], cell[: m.start()]) for cell in cells for m in re.finditer(r"`([^`]+)`", cell)]
+        self.assertGreater(len(names), 80)
+        self.assertEqual([name for name, before in names if not exists(name, before)], [])
