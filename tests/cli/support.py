@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Helpers of these tests: the program, a simulated recording, scratch folders, the real recordings."""
 
+import csv
 import dataclasses
 import os
 import re
@@ -123,3 +124,27 @@ def table(path):
     head, _, body = path.read_text().partition("endheader\n")
     lines = body.splitlines()
     return lines[0].split("\t"), [[float(cell) for cell in line.split("\t")] for line in lines[1:]]
+
+
+POSITION = ("x_m", "y_m", "z_m")  # columns of CSV files
+
+
+def converted(recording, path):
+    """The rows of a recording as `convert` writes them to a CSV file at `path`."""
+    made = run("convert", recording, path, cwd=path.parent)
+    assert made.status == 0, made.err
+    return read_csv(path)
+
+
+def read_csv(path):
+    """The rows of a CSV file as dictionaries; comment lines are left out."""
+    with path.open(newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def write_csv(path, rows, header=None):
+    """Writes dictionaries as rows of a CSV file; `header` where there may be no row."""
+    with path.open("w", newline="") as file:
+        out = csv.DictWriter(file, header or rows[0].keys(), lineterminator="\n")
+        out.writeheader()
+        out.writerows(rows)

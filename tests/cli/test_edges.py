@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings at the edge of what a command can use: no frame, one, few, one marker, nothing seen, blank frames."""
 
-import csv
 import json
 import math
 import unittest
 
-from support import CommandTest, run, table
+from support import POSITION, CommandTest, converted, table, write_csv
 
 
 class Edges(CommandTest):
@@ -16,23 +15,16 @@ class Edges(CommandTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        made = run("convert", cls.c3d, cls.recorded / "all.csv", cwd=cls.recorded)
-        assert made.status == 0, made.err
-        with (cls.recorded / "all.csv").open(newline="") as file:
-            cls.head, *cls.rows = csv.reader(file)
+        cls.rows = converted(cls.c3d, cls.recorded / "all.csv")
 
     def cut(self, name, keep=lambda frame, marker: True, hide=lambda frame, marker: False):
-        position = [self.head.index(axis) for axis in ("x_m", "y_m", "z_m")]
-        with (self.folder / name).open("w", newline="") as file:
-            out = csv.writer(file, lineterminator="\n")
-            out.writerow(self.head)
-            for row in self.rows:
-                frame, marker = int(row[0]), row[2]
-                if not keep(frame, marker):
-                    continue
-                if hide(frame, marker):
-                    row = ["missing" if i == self.head.index("state") else "" if i in position else cell for i, cell in enumerate(row)]
-                out.writerow(row)
+        hidden = {"state": "missing", **dict.fromkeys(POSITION, "")}
+        rows = [
+            row | hidden if hide(int(row["frame"]), row["marker"]) else row
+            for row in self.rows
+            if keep(int(row["frame"]), row["marker"])
+        ]
+        write_csv(self.folder / name, rows, self.rows[0].keys())
         return name
 
     def first(self, frames):
@@ -177,9 +169,8 @@ class TheLaboratory(Edges):
 
     def test_a_step_to_the_side_moves_the_root_and_nothing_else(self):
         shift = 1.25
-        position = self.head.index("z_m")
-        rows = [[f"{float(c) + shift!r}" if i == position and c else c for i, c in enumerate(row)] for row in self.rows]
-        self.write("aside.csv", "\n".join(",".join(row) for row in [self.head, *rows]) + "\n")
+        rows = [row | {"z_m": repr(float(row["z_m"]) + shift)} if row["z_m"] else row for row in self.rows]
+        write_csv(self.folder / "aside.csv", rows)
         names, moved, _ = self.solved("aside.csv")
         _, whole, _ = self.solved(self.c3d)
         for a, b in zip(moved, whole, strict=True):

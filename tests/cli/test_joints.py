@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """`kinemark joints` from outside: methods, segments, files, bad input."""
 
-import csv
 import json
 import math
 import random
 import unittest
 
-from support import CommandTest, real_file
+from support import CommandTest, read_csv, real_file
 
 SEGMENTS = """
 [[segment]]
@@ -68,8 +67,7 @@ class Joints(CommandTest):
         self.write("segments.toml", SEGMENTS)
 
     def rms_mm(self, name):
-        with open(self.folder / name, encoding="utf-8", newline="") as file:
-            rows = [row for row in csv.DictReader(line for line in file if not line.startswith("#")) if row["x_m"]]
+        rows = [row for row in read_csv(self.folder / name) if row["x_m"]]
         squares = [
             sum((float(row[key]) - truth) ** 2 for key, truth in zip(("x_m", "y_m", "z_m"), self.elbows[int(row["frame"])]))
             for row in rows

@@ -3,34 +3,19 @@
 """What must hold of results whatever the numbers: units, orders, weights, outliers, joints that move with the room, and
 samples that a recorder made."""
 
-import csv
 import json
 import math
 import random
 import unittest
 
-from support import CommandTest, run, table
-
-
-def read_csv(path):
-    with path.open(newline="") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
-def write_csv(path, rows):
-    with path.open("w", newline="") as file:
-        out = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
-        out.writeheader()
-        out.writerows(rows)
+from support import CommandTest, converted, read_csv, run, table, write_csv
 
 
 class LeastSquares(CommandTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        made = run("convert", cls.c3d, cls.recorded / "all.csv", cwd=cls.recorded)
-        assert made.status == 0, made.err
-        cls.rows = read_csv(cls.recorded / "all.csv")
+        cls.rows = converted(cls.c3d, cls.recorded / "all.csv")
         cls.names, cls.truth = table(cls.recorded / "truth.mot")
         cls.well_seen = [c for c, name in enumerate(cls.names) if c > 0 and not name.startswith(("mtp", "wrist", "pro_sup"))]
 
@@ -129,9 +114,7 @@ class JointCentres(CommandTest):
         cls.arm = cls.recorded.parent / "arm"
         made = run("simulate", "arm", "-o", cls.arm, "--frames", 200, "--stagger", 25, "--markers", 4, "--noise", 0.5, cwd=cls.recorded)
         assert made.status == 0, made.err
-        made = run("convert", cls.arm / "markers.c3d", cls.arm / "markers.csv", cwd=cls.recorded)
-        assert made.status == 0, made.err
-        cls.rows = read_csv(cls.arm / "markers.csv")
+        cls.rows = converted(cls.arm / "markers.c3d", cls.arm / "markers.csv")
         cls.joints = [row for row in read_csv(cls.arm / "truth.csv") if row["marker"].startswith("j")]
 
     def centres(self, markers, *options):

@@ -4,7 +4,7 @@
 
 import json
 
-from support import CommandTest, real_file, run
+from support import POSITION, CommandTest, converted, real_file, run, write_csv
 
 
 class Scale(CommandTest):
@@ -88,15 +88,9 @@ class KnownSubject(CommandTest):
     def scaled(cls, factor):
         """The report of the model that is adapted to the recording enlarged by a factor."""
         folder = cls.recorded.parent
-        made = run("convert", cls.subject / "markers.c3d", folder / f"{factor}.csv", cwd=folder)
-        assert made.status == 0, made.err
-        head, *lines = (folder / f"{factor}.csv").read_text().splitlines()
-        position = [head.split(",").index(axis) for axis in ("x_m", "y_m", "z_m")]
-        rows = [
-            ",".join(repr(factor * float(cell)) if i in position and cell else cell for i, cell in enumerate(line.split(",")))
-            for line in lines
-        ]
-        (folder / f"{factor}.csv").write_text("\n".join([head, *rows]) + "\n")
+        rows = converted(cls.subject / "markers.c3d", folder / f"{factor}.csv")
+        larger = [row | {axis: repr(factor * float(row[axis])) for axis in POSITION if row[axis]} for row in rows]
+        write_csv(folder / f"{factor}.csv", larger)
         ran = run("scale", "-m", cls.model, "-t", folder / f"{factor}.csv", "-o", folder / f"{factor}.osim", "--json", "--quiet", cwd=folder)
         assert ran.status == 0, ran.err
         return json.loads(ran.out)

@@ -3,12 +3,11 @@
 """Numbers of the files that commands write, held against the truth that `simulate` wrote beside the recording: errors are
 as large as the standard deviations say, in the units of the files."""
 
-import csv
 import json
 import math
 import unittest
 
-from support import CommandTest, run, table
+from support import CommandTest, read_csv, run, table
 
 
 def finite(rows):
@@ -99,8 +98,7 @@ class WithTruth(CommandTest):
 
 class CleanedTruth(CommandTest):
     def rows(self, path):
-        with path.open(newline="") as file:
-            return {(row["frame"], row["marker"]): row for row in csv.DictReader(file)}
+        return {(row["frame"], row["marker"]): row for row in read_csv(path)}
 
     def cleaned(self, *options):
         """Pairs of cleaned and true rows, by frame and marker."""
