@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "kinemark/pipeline/motion/external_forces.h"
@@ -52,6 +53,30 @@ void tell_forces(const data::Wrenches& wrenches, const motion::DynamicsSummary& 
     account.facts.emplace_back("force of " + wrench.name,
                                contacts_of(wrench.name, dynamics.contacts, wrenches.time));
   account.facts.emplace_back("forces not known for", length(unknown, wrenches.time));
+}
+
+/// Feet that bear load beside the plates: the torques of their limbs are not determined there.
+void tell_unmeasured(const motion::DynamicsSummary& dynamics, const TimeBase& time, TorqueAccount& account) {
+  std::vector<std::string> bodies;
+  for (const auto& contact : dynamics.unmeasured)
+    if (std::ranges::find(bodies, contact.body) == bodies.end()) bodies.push_back(contact.body);
+  for (const auto& body : bodies) {
+    std::int64_t frames = 0;
+    double most_n = 0.0;
+    std::string when;
+    for (const auto& contact : dynamics.unmeasured) {
+      if (contact.body != body) continue;
+      frames += contact.last_frame - contact.first_frame + 1;
+      most_n = std::max(most_n, contact.force_max_n);
+      when += fmt::format("{}{:.3f} to {:.3f} s", when.empty() ? "" : ", ", time.time_s(contact.first_frame),
+                          time.time_s(contact.last_frame));
+    }
+    account.facts.emplace_back("load on '" + body + "' that no plate measures", when);
+    account.warnings.push_back(fmt::format(
+        "'{}' bears up to {:.0f} N that no plate measures for {}: the torques of its limb are not "
+        "determined there and stand as nan",
+        body, most_n, length(frames, time)));
+  }
 }
 
 /// Plates push the body upwards; otherwise recording and model have different axes.
@@ -112,7 +137,10 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
   if (!dynamics)
     return with_forces ? fail_at(forces.string(), dynamics.error()) : std::unexpected(dynamics.error());
   account.warnings.insert(account.warnings.end(), dynamics->warnings.begin(), dynamics->warnings.end());
-  if (with_forces) tell_forces(external.wrenches, *dynamics, account);
+  if (with_forces) {
+    tell_forces(external.wrenches, *dynamics, account);
+    tell_unmeasured(*dynamics, motion.time, account);
+  }
   tell_roots(*dynamics, with_forces, account);
   return account;
 }

@@ -28,7 +28,7 @@ Result<int> find_body(const model::Model& model, const std::string& name, const 
   return model.body_of(static_cast<int>(it - bodies.begin()));
 }
 
-/// Tree indices of the bodies that a plate may touch.
+/// Tree indices of the bodies that are named as feet, by the caller or by themselves.
 Result<std::vector<int>> find_feet(const model::Model& model, const std::vector<std::string>& named) {
   std::vector<int> feet;
   for (const auto& name : named) {
@@ -45,8 +45,6 @@ Result<std::vector<int>> find_feet(const model::Model& model, const std::vector<
     if (name.find("calcn") != std::string::npos || name.find("foot") != std::string::npos)
       feet.push_back(model.body_of(static_cast<int>(b)));
   }
-  if (feet.empty())
-    for (int b = 0; b < static_cast<int>(model.bodies().size()); ++b) feet.push_back(b);
   return feet;
 }
 
@@ -86,8 +84,10 @@ Result<ContactPlan> plan_contacts(const model::Model& model, const data::JointMo
                                   const data::Wrenches& wrenches, const DynamicsOptions& options) {
   auto feet = find_feet(model, options.feet);
   if (!feet) return std::unexpected(feet.error());
+  ContactPlan plan{.feet = *feet};
+  if (feet->empty())  // any body may touch a plate
+    for (int b = 0; b < static_cast<int>(model.bodies().size()); ++b) feet->push_back(b);
   Feet paths(model, motion, std::move(*feet));
-  ContactPlan plan;
   const std::int64_t F = wrenches.frames();
   for (const auto& wrench : wrenches.items) {
     int given = data::kGround;

@@ -15,6 +15,7 @@ namespace kinemark::motion {
 struct ContactPlan {
   std::vector<std::vector<int>> body;  ///< W x F
   std::vector<Contact> contacts;       ///< by wrench and time
+  std::vector<int> feet;               ///< tree indices of the bodies that options or their names call feet
 };
 
 /// A wrench that names its body acts there. Any other acts, over each stretch of frames with more than

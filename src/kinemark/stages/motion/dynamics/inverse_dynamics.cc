@@ -14,6 +14,7 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/motion/dynamics/contacts.h"
 #include "kinemark/stages/motion/dynamics/internal/frame_dynamics.h"
+#include "kinemark/stages/motion/dynamics/internal/unmeasured_load.h"
 
 namespace kinemark::motion {
 namespace {
@@ -22,6 +23,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using internal::AppliedForce;
 using internal::FrameDynamics;
+using internal::RootFrame;
 
 constexpr double kGuessedSd = 0.5;  // rad or m, of a coordinate that is never determined
 
@@ -85,6 +87,16 @@ class Worker {
     return true;
   }
 
+  /// The residual of a root, and its feet, of the frame visited last.
+  [[nodiscard]] RootFrame root_frame(std::int64_t f, const model::Model::FreeJoint& root,
+                                     const std::vector<int>& feet) const {
+    RootFrame out = frame_.root_frame(root, feet);
+    for (const int foot : feet)
+      out.on_plate.push_back(
+          std::ranges::any_of(plan_.body, [&](const auto& of) { return of[at(f)] == foot; }));
+    return out;
+  }
+
   /// Variance of every coordinate's tau from the covariances (n x 6) of this frame.
   void propagate(const double* covariance, const double* q_sd, VectorXd& variance) {
     variance.setZero(q_.size());
@@ -117,21 +129,73 @@ class Worker {
   VectorXd q_, qd_, qdd_, by_q_, by_v_, by_a_, tau_by_q_, tau_by_v_, tau_by_a_;
 };
 
-/// Sums over frames of the residual force of a root.
-struct RootSums {
-  double force = 0.0, moment = 0.0;
+std::string name_of(const model::Model& model, int body) {
+  return model.description().bodies[at(model.bodies()[at(body)].description_idx)].name;
+}
+
+/// One free root: its body, the feet that hang from it, and its residual in every frame.
+struct Root {
+  const model::Model::FreeJoint* joint = nullptr;
+  std::vector<int> feet;  ///< tree indices
+  std::vector<RootFrame> frames;
 };
 
-void describe_roots(const model::Model& model, const std::vector<RootSums>& sums, std::int64_t frames,
-                    DynamicsSummary& summary) {
-  for (std::size_t r = 0; r < sums.size(); ++r) {
-    const auto count = static_cast<double>(std::max<std::int64_t>(1, frames));
-    summary.roots[r].force_rms_n = std::sqrt(sums[r].force / count);
-    summary.roots[r].moment_rms_nm = std::sqrt(sums[r].moment / count);
+std::vector<Root> make_roots(const model::Model& model, const std::vector<int>& feet, std::int64_t frames) {
+  std::vector<Root> out;
+  for (const auto& joint : model.free_joints()) {
+    Root root{.joint = &joint};
+    for (const int foot : feet) {
+      int b = foot;
+      while (b >= 0 && b != joint.body) b = model.bodies()[at(b)].parent;
+      if (b >= 0) root.feet.push_back(foot);
+    }
+    const Vector3d unknown = Vector3d::Constant(kNaN);
+    root.frames.assign(at(frames), {.force = unknown,
+                                    .moment = unknown,
+                                    .origin = unknown,
+                                    .feet = std::vector<Vector3d>(root.feet.size(), unknown),
+                                    .on_plate = std::vector<std::uint8_t>(root.feet.size(), 0)});
+    out.push_back(std::move(root));
   }
+  return out;
+}
+
+double total_mass_kg(const model::Model& model) {
   double mass = 0.0;
   for (const auto& body : model.bodies()) mass += body.mass;
-  summary.body_weight_n = mass * model.gravity().norm();
+  return mass;
+}
+
+RootResidual residual_of(const model::Model& model, const Root& root) {
+  RootResidual out{.body = name_of(model, root.joint->body)};
+  std::int64_t known = 0;
+  for (const auto& frame : root.frames) {
+    if (!frame.force.allFinite()) continue;
+    ++known;
+    out.force_rms_n += frame.force.squaredNorm();
+    out.moment_rms_nm += frame.moment.squaredNorm();
+    out.force_max_n = std::max(out.force_max_n, frame.force.norm());
+    out.moment_max_nm = std::max(out.moment_max_nm, frame.moment.norm());
+  }
+  const auto count = static_cast<double>(std::max<std::int64_t>(1, known));
+  out.force_rms_n = std::sqrt(out.force_rms_n / count);
+  out.moment_rms_nm = std::sqrt(out.moment_rms_nm / count);
+  return out;
+}
+
+/// Finds feet that bear load without a measured force and takes the torques of their limbs back.
+void withdraw_unmeasured(const model::Model& model, const Root& root, double contact_force_n,
+                         data::JointMotion& motion, DynamicsSummary& summary) {
+  for (const auto& load : internal::find_unmeasured_load(root.frames, model.gravity(), total_mass_kg(model),
+                                                         contact_force_n, motion.time.rate_hz)) {
+    const int foot = root.feet[at(load.foot)];
+    summary.unmeasured.push_back({name_of(model, foot), load.first_frame, load.last_frame, load.force_max_n});
+    for (const int c : internal::limb_coordinates(model, foot))
+      for (std::int64_t f = load.first_frame; f <= load.last_frame; ++f) {
+        motion.tau[motion.index(f, c)] = kNaN;
+        if (!motion.tau_sd.empty()) motion.tau_sd[motion.index(f, c)] = kNaN;
+      }
+  }
 }
 
 }  // namespace
@@ -171,8 +235,7 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
 
   const std::int64_t F = motion.frames(), n = motion.size();
   Array<double> tau(at(F * n), kNaN), tau_sd(bars ? at(F * n) : 0, kNaN);
-  const auto roots = model.free_joints();
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(F, static_cast<Eigen::Index>(2 * roots.size()));
+  auto roots = make_roots(model, plan.feet, F);
   std::vector<std::uint8_t> known(at(F), 0);
   parallel_for(F, 16, options.threads, [&](std::int64_t begin, std::int64_t end) {
     Worker worker(model, motion, wrenches, plan);
@@ -182,10 +245,7 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
       known[at(f)] = 1;
       worker.frame().to_coordinates(worker.frame().tau(), out);
       std::copy(out.data(), out.data() + n, tau.data() + motion.index(f, 0));
-      for (std::size_t r = 0; r < roots.size(); ++r) {
-        forces(f, static_cast<Eigen::Index>(2 * r)) = worker.frame().root_force(roots[r]).norm();
-        forces(f, static_cast<Eigen::Index>(2 * r + 1)) = worker.frame().root_moment(roots[r]).norm();
-      }
+      for (auto& root : roots) root.frames[at(f)] = worker.root_frame(f, *root.joint, root.feet);
       if (!bars) continue;
       worker.propagate(errors->covariance.data() + 6 * motion.index(f, 0),
                        motion.q_sd.empty() ? nullptr : motion.q_sd.data() + motion.index(f, 0), variance);
@@ -197,21 +257,12 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
   motion.tau = std::move(tau);
   motion.tau_sd = std::move(tau_sd);
 
-  std::vector<RootSums> sums(roots.size());
-  for (const auto& root : roots)
-    summary.roots.push_back(
-        {.body = model.description().bodies[at(model.bodies()[at(root.body)].description_idx)].name});
-  for (std::int64_t f = 0; f < F; ++f)
-    for (std::size_t r = 0; r < roots.size(); ++r) {
-      const double force = forces(f, static_cast<Eigen::Index>(2 * r)),
-                   moment = forces(f, static_cast<Eigen::Index>(2 * r + 1));
-      sums[r].force += force * force;
-      sums[r].moment += moment * moment;
-      summary.roots[r].force_max_n = std::max(summary.roots[r].force_max_n, force);
-      summary.roots[r].moment_max_nm = std::max(summary.roots[r].moment_max_nm, moment);
-    }
+  for (const auto& root : roots) {
+    summary.roots.push_back(residual_of(model, root));
+    if (wrenches) withdraw_unmeasured(model, root, options.contact_force_n, motion, summary);
+  }
+  summary.body_weight_n = total_mass_kg(model) * model.gravity().norm();
   const auto counted = std::ranges::count(known, std::uint8_t{1});
-  describe_roots(model, sums, counted, summary);
   if (counted < F)
     summary.warnings.push_back(
         fmt::format("{} of {} frames have no torques: a force was not measured there", F - counted, F));

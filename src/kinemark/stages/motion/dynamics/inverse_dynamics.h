@@ -40,20 +40,31 @@ struct Contact {
   std::int64_t first_frame = 0, last_frame = 0;  ///< both ends included
 };
 
+/// A stretch of frames in which a foot bears load that no wrench explains: one that stands beside the plates
+/// or on their edge. The torques of its limb are not determined there.
+struct UnmeasuredContact {
+  std::string body;
+  std::int64_t first_frame = 0, last_frame = 0;  ///< both ends included
+  double force_max_n = 0.0;                      ///< largest unexplained force upwards
+};
+
 /// What inverse dynamics says besides the torques.
 struct DynamicsSummary {
-  std::vector<RootResidual> roots;    ///< one a free root
-  std::vector<Contact> contacts;      ///< by wrench and time
-  double body_weight_n = 0.0;         ///< mass of the model times gravity
-  bool rates_estimated = false;       ///< qd and qdd were absent and were filled by estimate_rates()
-  std::vector<std::string> warnings;  ///< one sentence each
+  std::vector<RootResidual> roots;            ///< one a free root
+  std::vector<Contact> contacts;              ///< by wrench and time
+  std::vector<UnmeasuredContact> unmeasured;  ///< by foot and time; empty without wrenches
+  double body_weight_n = 0.0;                 ///< mass of the model times gravity
+  bool rates_estimated = false;               ///< qd and qdd were absent and were filled by estimate_rates()
+  std::vector<std::string> warnings;          ///< one sentence each
 };
 
 /// Fill tau (and tau_sd) of a motion: tau = M q'' + b + g - sum J'f in the speeds of the tree, converted to
 /// the file's coordinates so that tau . dq/dt is power (coordinates of a free root: the residual force along
 /// the
 /// axis of each). Locked coordinates get the force that holds them; coupled coordinates and those that drive
-/// nothing NaN; frames in which a wrench is unknown NaN.
+/// nothing NaN; frames in which a wrench is unknown NaN. With wrenches, a foot that bears load without one is
+/// found from the residual of its root, and the torques between it and the root are NaN in those frames; the
+/// residual itself stays.
 ///
 /// qd and qdd come from the motion; where they are empty estimate_rates() fills them. tau_sd is first order:
 /// the covariance of q, qd and qdd (`errors`, or estimate_rates() again) through the derivatives of tau;

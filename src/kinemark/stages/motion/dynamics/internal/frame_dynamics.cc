@@ -115,12 +115,14 @@ bool FrameDynamics::derivatives(int c, VectorXd& by_q, VectorXd& by_v, VectorXd&
   return true;
 }
 
-Vector3d FrameDynamics::root_force(const model::Model::FreeJoint& root) const {
-  return w_.joint_rotation[at(root.body)] * tau_.segment<3>(root.speed_idx);
-}
-
-Vector3d FrameDynamics::root_moment(const model::Model::FreeJoint& root) const {
-  return w_.joint_out_rotation[at(root.body)] * tau_.segment<3>(root.speed_idx + 3);
+RootFrame FrameDynamics::root_frame(const model::Model::FreeJoint& root, const std::vector<int>& feet) const {
+  RootFrame out{.force = w_.joint_rotation[at(root.body)] * tau_.segment<3>(root.speed_idx),
+                .moment = w_.joint_out_rotation[at(root.body)] * tau_.segment<3>(root.speed_idx + 3),
+                .origin = model::point_in_world(w_, root.body,
+                                                model_.bodies()[at(root.body)].body_from_joint.translation)};
+  for (const int foot : feet)
+    out.feet.push_back(model::point_in_world(w_, foot, model_.bodies()[at(foot)].com_in_body));
+  return out;
 }
 
 }  // namespace kinemark::motion::internal

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinemark/model/workspace.h"
+#include "kinemark/stages/motion/dynamics/internal/unmeasured_load.h"
 
 namespace kinemark::motion::internal {
 
@@ -33,9 +34,10 @@ class FrameDynamics {
   /// Derivatives of tau (speeds) by coordinate c, its rate and its acceleration. False when c moves nothing.
   /// By differences for the first two, good to about 1e-6.
   bool derivatives(int c, Eigen::VectorXd& by_q, Eigen::VectorXd& by_v, Eigen::VectorXd& by_a);
-  /// Force and moment of each free joint along the axes of the laboratory.
-  [[nodiscard]] Eigen::Vector3d root_force(const model::Model::FreeJoint& root) const;
-  [[nodiscard]] Eigen::Vector3d root_moment(const model::Model::FreeJoint& root) const;
+  /// Force and moment of a free joint along the axes of the laboratory, its origin, and the mass centres of
+  /// bodies (tree indices).
+  /// Only right after set(). `on_plate` is left empty.
+  [[nodiscard]] RootFrame root_frame(const model::Model::FreeJoint& root, const std::vector<int>& feet) const;
 
  private:
   void evaluate(const Eigen::VectorXd& x, const Eigen::VectorXd& v, const Eigen::VectorXd& vdot,
