@@ -28,10 +28,13 @@ void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
   auto& motion = result.motion;
   const auto M = problem.data_marker.size();
   motion.marker_state.resize(at(problem.frames) * M);
+  for (auto& marker : result.fit.markers) marker.rejected_frames = 0;
   for (std::int64_t f = 0; f < problem.frames; ++f)
-    for (std::size_t m = 0; m < M; ++m)
-      motion.marker_state[at(f) * M + m] =
-          kept.state[kept.index(problem.first_frame + f, problem.data_marker[m])];
+    for (std::size_t m = 0; m < M; ++m) {
+      const auto state = kept.state[kept.index(problem.first_frame + f, problem.data_marker[m])];
+      motion.marker_state[at(f) * M + m] = state;
+      *result.fit.markers[m].rejected_frames += state == data::SampleState::rejected;
+    }
   for (const Stray& stray : judged.rejected) result.fit.findings.push_back(finding_of(problem, stray));
   for (const Stray& stray : judged.doubtful) {
     auto finding = finding_of(problem, stray);
