@@ -81,7 +81,8 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
     bool any = false;
     data::Trajectories counted = markers;
     const auto concerned = leave_out(problem, judged.rejected, counted, any);
-    const StepScale scale(problem, judged.solved);
+    StepScale scale(problem, judged.solved);
+    scale.learn_growth();
     const auto filled = carry_places(problem, *judged.kept, concerned, scale, judged.solved);
     walk.solve_filled(*judged.kept, filled, concerned, judged.solved);
     judged.solved.iterations = walk.iterations();

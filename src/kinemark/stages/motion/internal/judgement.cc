@@ -140,7 +140,7 @@ std::vector<Stray> find_plain_defects(const Problem& problem, const data::Trajec
 Judgement judge_recording(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
                           const SolvedFrames& solved) {
   Judgement judgement;
-  const StepScale scale(problem, solved);
+  StepScale scale(problem, solved);
   const std::int64_t sound = find_sound_frame(problem, markers, solved), last = problem.frames - 1;
   for (const std::int64_t end : {last, std::int64_t{0}})
     for (const Stray& stray : judge_samples(problem, options, markers, solved, scale, sound, end)) {

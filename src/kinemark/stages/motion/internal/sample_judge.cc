@@ -31,7 +31,7 @@ constexpr double kLongestHold_s = 1.0;    // a marker away for longer may live e
 class Judge {
  public:
   Judge(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
-        const SolvedFrames& solved, const StepScale& scale)
+        const SolvedFrames& solved, StepScale& scale)
       : problem_(problem),
         markers_(markers),
         states_(solved.states),
@@ -127,6 +127,7 @@ class Judge {
       return;
     }
     if (!fit_) {
+      scale_.learn_growth();
       fit_.emplace(problem_);
       solver_.emplace(problem_, options_);
     }
@@ -343,7 +344,7 @@ class Judge {
   const data::Trajectories& markers_;
   const Eigen::MatrixXd& states_;
   const Places& positions_;
-  const StepScale& scale_;
+  StepScale& scale_;
   const IkOptions& options_;
   std::optional<PlaceFit> fit_;  // most recordings never need them
   std::optional<FrameSolver> solver_;
@@ -372,7 +373,7 @@ bool Stray::clearly_wrong() const {
 
 std::vector<Stray> judge_samples(const Problem& problem, const IkOptions& options,
                                  const data::Trajectories& markers, const SolvedFrames& solved,
-                                 const StepScale& scale, std::int64_t sound, std::int64_t last) {
+                                 StepScale& scale, std::int64_t sound, std::int64_t last) {
   Judge judge(problem, options, markers, solved, scale);
   return judge.run(sound, last);
 }

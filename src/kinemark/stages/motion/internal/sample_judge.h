@@ -37,6 +37,6 @@ struct Stray {
 /// @return        in the order in which they end
 [[nodiscard]] std::vector<Stray> judge_samples(const Problem& problem, const IkOptions& options,
                                                const data::Trajectories& markers, const SolvedFrames& solved,
-                                               const StepScale& scale, std::int64_t sound, std::int64_t last);
+                                               StepScale& scale, std::int64_t sound, std::int64_t last);
 
 }  // namespace kinemark::motion::internal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
@@ -87,8 +88,8 @@ void StepScale::find_usual() {
 }
 
 double StepScale::place_after(Eigen::Index marker, std::int64_t frames) const {
+  check(!growth_.empty(), "learn_growth() comes first");
   if (frames <= 1) return position[marker];
-  if (growth_.empty()) learn_growth();
   std::size_t i = 0;
   while (i + 1 < growth_.size() && (std::int64_t{1} << i) < frames) ++i;
   return std::min(position[marker] * growth_[i], std::max(spread[marker], 2.0 * position[marker]));
@@ -121,7 +122,8 @@ void StepScale::learn_places() {
   }
 }
 
-void StepScale::learn_growth() const {
+void StepScale::learn_growth() {
+  if (!growth_.empty()) return;
   const Eigen::Index M = problem_.model.marker_count();
   std::vector<double> values, ratios;
   growth_.assign(1, 1.0);

@@ -12,7 +12,7 @@
 namespace kinemark::motion::internal {
 
 /// Scales of a recording, one standard deviation each, from quantiles: a stretch of bad samples hardly
-/// matters. What takes time and is seldom asked for is found when it is asked for.
+/// matters.
 class StepScale {
  public:
   StepScale(const Problem& problem, const SolvedFrames& solved);
@@ -24,19 +24,21 @@ class StepScale {
   Eigen::VectorXd rare;      ///< nv, rad or m: what it differs by in one frame of sixteen
   Eigen::VectorXd stride;    ///< nv, rad or m: of a step itself
 
-  /// Standard deviation per axis of the step of a place over so many frames, m.
+  /// Learn how steps grow with the number of frames. Takes as long as all the rest, and only recordings with
+  /// something unusual need it: to be called before place_after(). A second call does nothing.
+  void learn_growth();
+  /// Standard deviation per axis of the step of a place over so many frames, m. After learn_growth().
   [[nodiscard]] double place_after(Eigen::Index marker, std::int64_t frames) const;
 
  private:
   void find_usual();
   void learn_places();
   void learn_speeds();
-  void learn_growth() const;
 
   const Problem& problem_;
   const SolvedFrames& solved_;
-  std::vector<std::uint8_t> usual_;     ///< F; 0: the frame costs far more than others
-  mutable std::vector<double> growth_;  ///< over 1, 2, 4, ... frames against one
+  std::vector<std::uint8_t> usual_;  ///< F; 0: the frame costs far more than others
+  std::vector<double> growth_;       ///< over 1, 2, 4, ... frames against one; empty: not learnt
 };
 
 }  // namespace kinemark::motion::internal
