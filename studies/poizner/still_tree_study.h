@@ -14,9 +14,9 @@ namespace kinemark::studies {
 
 /// Results of one method for the tree held still in ten poses.
 struct StillMeasures {
-  Eigen::Vector3d sd_m = Eigen::Vector3d::Zero();  ///< median over places and LEDs, per axis
-  double over_cramer_rao = 0.0;                    ///< scatter over the bound, mean over places
-  std::vector<double> distance_error_m;            ///< 10 places x 3 sides, of mean positions
+  Eigen::Vector3d sd_m = Eigen::Vector3d::Zero();  ///< median over poses and LEDs, per axis
+  double over_cramer_rao = 0.0;                    ///< scatter over the bound, mean over poses
+  std::vector<double> distance_error_m;            ///< 10 poses x 3 sides, of mean positions
 
   [[nodiscard]] double mean_error_m() const;
   [[nodiscard]] double max_error_m() const;
