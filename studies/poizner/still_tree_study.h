@@ -24,9 +24,10 @@ struct StillMeasures {
 
 struct StillOutcome {
   StillMeasures classic, ours;
-  Eigen::Vector3d cramer_rao_sd_m = Eigen::Vector3d::Zero();  ///< median, per axis
-  std::vector<double> predicted_sd_m;                         ///< of each distance: calibration and noise
-  double error_over_predicted = 0.0;                          ///< root mean square
+  Eigen::Vector3d cramer_rao_sd_m =
+      Eigen::Vector3d::Zero();         ///< median over poses and LEDs, per axis of our world
+  std::vector<double> predicted_sd_m;  ///< of each distance: calibration and noise
+  double error_over_predicted = 0.0;   ///< root mean square
   Coverage points, distances;
 };
 
