@@ -61,8 +61,8 @@ std::string study_html(const StudyPage& page) {
     out +=
         fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", html_text(figure.caption), figure.body);
   return out + "</div>" + study_table_html(page.table, page.classic) +
-         fmt::format("<p class=\"words\">{}; a row that fails is red.</p></body></html>\n",
-                     html_text(column_text(page.table)));
+         fmt::format("<p class=\"words\">{}; a row that fails is red. {}</p></body></html>\n",
+                     html_text(column_text(page.table)), html_text(missed_text(page.table)));
 }
 
 }  // namespace kinemark::studies

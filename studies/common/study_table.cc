@@ -118,6 +118,19 @@ std::string column_text(const StudyTable& table) {
   return out + "; bound: what is asked of ours";
 }
 
+std::string missed_text(const StudyTable& table) {
+  std::string missed;
+  std::size_t asked = 0, count = 0;
+  for (const auto& row : table.rows) {
+    asked += row.has_bound() ? 1 : 0;
+    if (row.pass()) continue;
+    missed += fmt::format("{}{}", count++ > 0 ? "; " : "", row.quantity);
+  }
+  if (asked == 0) return "";
+  if (count == 0) return fmt::format("None of {} bounds is missed.", asked);
+  return fmt::format("{} of {} bounds {} missed: {}.", count, asked, count == 1 ? "is" : "are", missed);
+}
+
 std::string study_text(const StudyTable& table) {
   constexpr std::size_t kColumns = 7;
   std::vector<std::array<std::string, kColumns>> lines{
@@ -135,7 +148,9 @@ std::string study_text(const StudyTable& table) {
     for (std::size_t i = 1; i < kColumns; ++i) out += fmt::format("  {:>{}}", lines[row][i], width[i]);
     out += row > 0 && !table.rows[row - 1].pass() ? "  FAILS\n" : "\n";
   }
-  return out + column_text(table) + "\n";
+  out += column_text(table) + "\n";
+  const std::string missed = missed_text(table);
+  return missed.empty() ? out : out + missed + "\n";
 }
 
 }  // namespace kinemark::studies

@@ -61,7 +61,9 @@ struct StudyTable {
 [[nodiscard]] std::string column_text(const StudyTable& table);
 /// The expected value as displayed: "0.41 CR", "2 SD", "68.3"; empty without one.
 [[nodiscard]] std::string expected_text(const StudyRow& row);
-/// The table as text with aligned columns, and a line that explains them.
+/// "2 of 59 bounds are missed: A; B." or "None of 59 bounds is missed."; empty without a bound.
+[[nodiscard]] std::string missed_text(const StudyTable& table);
+/// The table as text with aligned columns, a line that explains them, and one that counts.
 [[nodiscard]] std::string study_text(const StudyTable& table);
 
 }  // namespace kinemark::studies

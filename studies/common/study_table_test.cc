@@ -107,6 +107,17 @@ TEST(StudyTable, WithoutABoundNothingPasses) {
   EXPECT_THAT(study_text(table), HasSubstr("no bound"));
 }
 
+TEST(StudyTable, CountsTheBoundsThatAreMissedByName) {
+  const StudyRow kept{.quantity = "a", .ours = 1.0, .at_most = 2.0}, free{.quantity = "b", .ours = 9.0},
+      missed{.quantity = "c", .ours = 3.0, .at_most = 2.0},
+      none{.quantity = "d", .ours = std::nan(""), .at_least = 0.0};
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {free}}), "");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free}}), "None of 1 bounds is missed.");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free, missed}}), "1 of 2 bounds is missed: c.");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, missed, none}}), "2 of 3 bounds are missed: c; d.");
+  EXPECT_THAT(study_text({.seeds = {1}, .rows = {kept, missed}}), testing::EndsWith("missed: c.\n"));
+}
+
 TEST(StudyTable, SaysWhatIsExpectedAndNothingOfWhatItDoesNotHold) {
   const StudyRow bound{
       .quantity = "a", .ours = 1.2, .expected = 1.0, .expected_is = Expectation::cramer_rao, .at_most = 2.0};

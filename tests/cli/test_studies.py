@@ -58,6 +58,16 @@ class Poizner(CommandTest):
         self.assertNotRegex(page, r"\bnan\b")
         self.refused(4, ["p.html", "--force"], "study", "poizner", "--figures", "p.html")
 
+    def test_a_rig_that_misses_bounds_is_shown_whole_and_says_which(self):
+        ran = run("study", "poizner", "--seeds", "0", "--json", cwd=self.folder)
+        table = json.loads(ran.out)
+        self.assertEqual([row["quantity"] for row in table["rows"]], [row["quantity"] for row in self.one["rows"]])
+        missed = [row["quantity"] for row in table["rows"] if row["pass"] is False]
+        self.assertEqual(ran.status, 1 if missed else 0)
+        self.assertEqual(table["pass"], not missed)
+        words = f"{len(missed)} of {len(table['rows'])} bounds are missed: " if missed else "bounds is missed."
+        self.assertIn(words + "; ".join(missed), ran.err)
+
     def test_what_is_no_list_of_seeds_is_refused(self):
         for seeds in ("a", "1-", "3-1", "-1", "1,,2", "1-1001", "1.5"):
             self.refused(2, [f"'{seeds}'", "1-10 or 1,4,7-9"], "study", "poizner", f"--seeds={seeds}")
