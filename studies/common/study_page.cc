@@ -29,27 +29,26 @@ constexpr const char* kStyle =
     "background:#fff;border-bottom:1px solid #444;font-weight:600}th:first-child{text-align:left}"
     ".fails{background:#f6d5d5}</style>";
 
-constexpr const char* kColumns =
-    "paper: as published. limit: the best that any method can reach on these data. at least, at most: what "
-    "is "
-    "asked of ours; a row that fails is red.";
-
 std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("<td>{:.4g}</td>", *value) : std::string("<td></td>");
+}
+
+std::string bound_cells(const StudyRow& row) {
+  return row.has_bound() ? cell(row.at_least) + cell(row.at_most) : "<td colspan=\"2\">no bound</td>";
 }
 
 }  // namespace
 
 std::string study_table_html(const StudyTable& table, std::string_view classic) {
   std::string out = fmt::format(
-      "<table><tr><th></th><th>unit</th><th>paper</th><th>{}</th><th>ours</th><th>limit</th><th>at "
+      "<table><tr><th></th><th>unit</th><th>paper</th><th>{}</th><th>ours</th><th>expected</th><th>at "
       "least</th><th>at most</th></tr>",
       html_text(classic));
   for (const auto& row : table.rows)
     out += fmt::format("<tr{}><th>{}</th><td>{}</td>", row.pass() ? "" : " class=\"fails\"",
                        html_text(row.quantity), html_text(unit_text(row))) +
-           cell(row.paper) + cell(row.classic) + cell(row.ours) + cell(row.limit) + cell(row.at_least) +
-           cell(row.at_most) + "</tr>";
+           cell(row.paper) + cell(row.classic) + cell(row.ours) +
+           fmt::format("<td>{}</td>", expected_text(row)) + bound_cells(row) + "</tr>";
   return out + "</table>";
 }
 
@@ -62,7 +61,8 @@ std::string study_html(const StudyPage& page) {
     out +=
         fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", html_text(figure.caption), figure.body);
   return out + "</div>" + study_table_html(page.table, page.classic) +
-         fmt::format("<p class=\"words\">{}</p></body></html>\n", kColumns);
+         fmt::format("<p class=\"words\">{}; a row that fails is red. {}</p></body></html>\n",
+                     html_text(column_text(page.table)), html_text(missed_text(page.table)));
 }
 
 }  // namespace kinemark::studies

@@ -63,6 +63,19 @@ TEST(StudyPage, NumbersOfNoUnitHaveNone) {
   EXPECT_THAT(study_html(page), HasSubstr("<th>ratio</th><td></td><td></td><td></td><td>1.05</td>"));
 }
 
+TEST(StudyPage, RowsWithoutABoundSaySo) {
+  auto page = example();
+  page.table.rows = {{.quantity = "count",
+                      .unit = "1",
+                      .ours = 4.0,
+                      .expected = 3.0,
+                      .expected_is = Expectation::predicted_sd}};
+  const auto html = study_html(page);
+  EXPECT_THAT(html, HasSubstr("<td>4</td><td>3 SD</td><td colspan=\"2\">no bound</td></tr>"));
+  EXPECT_THAT(html, HasSubstr("SD: the standard deviation that ours states"));
+  EXPECT_THAT(html, Not(HasSubstr("Cramer-Rao")));
+}
+
 TEST(HtmlText, ShowsWhatHtmlWouldTakeForItsOwn) {
   EXPECT_EQ(html_text("a < b & \"c\" > d"), "a &lt; b &amp; &quot;c&quot; &gt; d");
   EXPECT_EQ(html_text("&amp;"), "&amp;amp;");

@@ -26,10 +26,26 @@ std::string table_cell(const std::optional<double>& value) {
 std::string bound(const StudyRow& row) {
   if (row.at_least && row.at_most) return fmt::format("{:.4g} to {:.4g}", *row.at_least, *row.at_most);
   if (row.at_least) return fmt::format(">= {:.4g}", *row.at_least);
-  return row.at_most ? fmt::format("<= {:.4g}", *row.at_most) : "-";
+  return row.at_most ? fmt::format("<= {:.4g}", *row.at_most) : "no bound";
 }
 
+constexpr std::array<std::string_view, 4> kExpectations{"right value", "Cramer-Rao bound",
+                                                        "Cramer-Rao bound of a frame alone", "predicted SD"};
+constexpr std::array<std::string_view, 4> kMarks{"", " CR", " CR1", " SD"};
+constexpr std::array<std::string_view, 4> kMeanings{
+    "a number alone: of error bars that are right, or of an estimate at its bound",
+    "CR: Cramer-Rao bound, the least standard deviation of an unbiased estimate from the same samples; what "
+    "is measured scatters about the estimate's own",
+    "CR1: the same for one frame at a time, below which an estimate from several frames may lie",
+    "SD: the standard deviation that ours states for the same samples; errors scatter about it"};
+
+std::size_t index_of(Expectation expectation) { return static_cast<std::size_t>(expectation); }
+
 }  // namespace
+
+std::string_view to_string(Expectation expectation) { return kExpectations.at(index_of(expectation)); }
+
+bool StudyTable::has_bound() const { return std::ranges::any_of(rows, &StudyRow::has_bound); }
 
 bool StudyTable::pass() const {
   return std::ranges::all_of(rows, [](const StudyRow& row) { return row.pass(); });
@@ -65,29 +81,64 @@ nlohmann::ordered_json study_json(const StudyTable& table) {
   const auto value = [](const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); };
   Json rows = Json::array();
   for (const auto& row : table.rows) {
-    const Json limits =
+    const Json bounds =
         row.at_least ? Json::array({value(row.at_least), value(row.at_most)}) : value(row.at_most);
     rows.push_back({{"quantity", row.quantity},
                     {"unit", row.unit},
                     {"paper", value(row.paper)},
                     {"classic", value(row.classic)},
                     {"ours", row.ours},
-                    {"limit", value(row.limit)},
-                    {"bound", limits},
-                    {"pass", row.pass()}});
+                    {"expected", value(row.expected)},
+                    {"expected_is", row.expected ? Json(to_string(row.expected_is)) : Json(nullptr)},
+                    {"bound", bounds},
+                    {"pass", row.has_bound() ? Json(row.pass()) : Json(nullptr)}});
   }
-  return {{"seeds", table.seeds}, {"rows", rows}, {"pass", table.pass()}};
+  return {{"seeds", table.seeds},
+          {"rows", rows},
+          {"pass", table.has_bound() ? Json(table.pass()) : Json(nullptr)}};
 }
 
 std::string_view unit_text(const StudyRow& row) { return row.unit == "1" ? std::string_view() : row.unit; }
 
+std::string expected_text(const StudyRow& row) {
+  if (!row.expected) return "";
+  return fmt::format("{:.4g}{}", *row.expected, kMarks.at(index_of(row.expected_is)));
+}
+
+std::string column_text(const StudyTable& table) {
+  std::string out = "paper: as published";
+  std::string_view before = "; expected: ";
+  for (std::size_t i = 0; i < kMeanings.size(); ++i)
+    if (std::ranges::any_of(table.rows, [&](const StudyRow& row) {
+          return row.expected && index_of(row.expected_is) == i;
+        })) {
+      out += fmt::format("{}{}", before, kMeanings[i]);
+      before = "; ";
+    }
+  return out + "; bound: what is asked of ours";
+}
+
+std::string missed_text(const StudyTable& table) {
+  std::string missed;
+  std::size_t asked = 0, count = 0;
+  for (const auto& row : table.rows) {
+    asked += row.has_bound() ? 1 : 0;
+    if (row.pass()) continue;
+    missed += fmt::format("{}{}", count++ > 0 ? "; " : "", row.quantity);
+  }
+  if (asked == 0) return "";
+  if (count == 0) return fmt::format("None of {} bounds is missed.", asked);
+  return fmt::format("{} of {} bounds {} missed: {}.", count, asked, count == 1 ? "is" : "are", missed);
+}
+
 std::string study_text(const StudyTable& table) {
   constexpr std::size_t kColumns = 7;
   std::vector<std::array<std::string, kColumns>> lines{
-      {"", "unit", "paper", "classic", "ours", "limit", "bound"}};
+      {"", "unit", "paper", "classic", "ours", "expected", "bound"}};
   for (const auto& row : table.rows)
     lines.push_back({row.quantity, std::string(unit_text(row)), table_cell(row.paper),
-                     table_cell(row.classic), table_cell(row.ours), table_cell(row.limit), bound(row)});
+                     table_cell(row.classic), table_cell(row.ours), row.expected ? expected_text(row) : "-",
+                     bound(row)});
   std::array<std::size_t, kColumns> width{};
   for (const auto& line : lines)
     for (std::size_t i = 0; i < kColumns; ++i) width[i] = std::max(width[i], line[i].size());
@@ -97,7 +148,9 @@ std::string study_text(const StudyTable& table) {
     for (std::size_t i = 1; i < kColumns; ++i) out += fmt::format("  {:>{}}", lines[row][i], width[i]);
     out += row > 0 && !table.rows[row - 1].pass() ? "  FAILS\n" : "\n";
   }
-  return out + "limit: the best that any method can reach on these data; bound: what is asked of ours\n";
+  out += column_text(table) + "\n";
+  const std::string missed = missed_text(table);
+  return missed.empty() ? out : out + missed + "\n";
 }
 
 }  // namespace kinemark::studies

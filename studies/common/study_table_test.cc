@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 namespace kinemark::studies {
 namespace {
@@ -52,7 +53,7 @@ TEST(StudyTable, SaysTheSameInJsonAndInWords) {
   EXPECT_EQ(json["seeds"].dump(), "[1,5]");
   EXPECT_EQ(
       json["rows"][0].dump(),
-      R"({"quantity":"error","unit":"mm","paper":30.0,"classic":null,"ours":2.5,"limit":null,"bound":3.0,"pass":true})");
+      R"({"quantity":"error","unit":"mm","paper":30.0,"classic":null,"ours":2.5,"expected":null,"expected_is":null,"bound":3.0,"pass":true})");
   EXPECT_EQ(json["rows"][1]["bound"].dump(), "[90.0,null]");
   EXPECT_FALSE(json["pass"].get<bool>());
   const auto text = study_text(table);
@@ -80,12 +81,13 @@ TEST(StudyTable, ColumnsAreAsWideAsTheirWidestCell) {
   };
   EXPECT_EQ(end_of(head, "ours"), end_of(second, "1.235e+05"));
   EXPECT_EQ(end_of(head, "bound"), end_of(second, "0.5 to 2"));
+  EXPECT_EQ(end_of(head, "bound"), end_of(first, "no bound"));
   EXPECT_EQ(first.find(" 1 ", long_name.size()), first.find_last_of('1') - 1);  // the value, not the unit
   EXPECT_THAT(legend, HasSubstr("asked of ours"));
 }
 
 TEST(StudyTable, BoundsAreAskedOfOursAlone) {
-  StudyRow row{.quantity = "x", .paper = 9.0, .classic = 9.0, .ours = 2.0, .limit = 9.0, .at_most = 2.0};
+  StudyRow row{.quantity = "x", .paper = 9.0, .classic = 9.0, .ours = 2.0, .expected = 9.0, .at_most = 2.0};
   EXPECT_TRUE(row.pass());  // a bound that is met exactly is met
   row.at_most.reset();
   row.at_least = 2.0;
@@ -93,6 +95,52 @@ TEST(StudyTable, BoundsAreAskedOfOursAlone) {
   row.ours = std::nan("");
   row.at_least.reset();
   EXPECT_TRUE(row.pass());  // no bound
+}
+
+TEST(StudyTable, WithoutABoundNothingPasses) {
+  const StudyTable table{.seeds = {1}, .rows = {{.quantity = "a", .ours = 1.0}}};
+  const auto json = study_json(table);
+  EXPECT_TRUE(json["rows"][0]["pass"].is_null());
+  EXPECT_TRUE(json["rows"][0]["bound"].is_null());
+  EXPECT_TRUE(json["pass"].is_null());
+  EXPECT_TRUE(table.pass()) << "no bound is missed either: exit status 0";
+  EXPECT_THAT(study_text(table), HasSubstr("no bound"));
+}
+
+TEST(StudyTable, CountsTheBoundsThatAreMissedByName) {
+  const StudyRow kept{.quantity = "a", .ours = 1.0, .at_most = 2.0}, free{.quantity = "b", .ours = 9.0},
+      missed{.quantity = "c", .ours = 3.0, .at_most = 2.0},
+      none{.quantity = "d", .ours = std::nan(""), .at_least = 0.0};
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {free}}), "");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free}}), "None of 1 bounds is missed.");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free, missed}}), "1 of 2 bounds is missed: c.");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, missed, none}}), "2 of 3 bounds are missed: c; d.");
+  EXPECT_THAT(study_text({.seeds = {1}, .rows = {kept, missed}}), testing::EndsWith("missed: c.\n"));
+}
+
+TEST(StudyTable, SaysWhatIsExpectedAndNothingOfWhatItDoesNotHold) {
+  const StudyRow bound{
+      .quantity = "a", .ours = 1.2, .expected = 1.0, .expected_is = Expectation::cramer_rao, .at_most = 2.0};
+  const StudyRow predicted{
+      .quantity = "b", .ours = 1.2, .expected = 1.5, .expected_is = Expectation::predicted_sd};
+  const StudyRow alone{
+      .quantity = "c", .ours = 0.5, .expected = 1.0, .expected_is = Expectation::frame_alone};
+  const StudyRow share{.quantity = "d", .ours = 68.0, .expected = 68.3};
+  constexpr const char* kBound = "least standard deviation of an unbiased estimate";
+  constexpr const char* kPredicted = "standard deviation that ours states";
+  for (const auto& [row, word, other] :
+       {std::tuple{bound, kBound, kPredicted}, std::tuple{predicted, kPredicted, kBound},
+        std::tuple{alone, "may lie", kPredicted}, std::tuple{share, "that are right", kBound}}) {
+    const StudyTable table{.seeds = {1}, .rows = {row}};
+    EXPECT_THAT(study_text(table), HasSubstr(word)) << row.quantity;
+    EXPECT_THAT(study_text(table), Not(HasSubstr(other))) << row.quantity;
+    EXPECT_EQ(study_json(table)["rows"][0]["expected_is"], to_string(row.expected_is));
+  }
+  EXPECT_THAT(study_text({.seeds = {1}, .rows = {{.quantity = "e", .ours = 1.0}}}),
+              Not(HasSubstr("expected:")));
+  EXPECT_EQ(expected_text(bound), "1 CR");
+  EXPECT_EQ(expected_text(predicted), "1.5 SD");
+  EXPECT_EQ(expected_text(share), "68.3");
 }
 
 TEST(StudyTable, SeedsAreBoundedAndKeepTheirOrder) {

@@ -52,7 +52,12 @@ TEST(CentreErrors, AddUpWhatIsAsked) {
   EXPECT_EQ(errors.determined, 3);
   EXPECT_NEAR(errors.rms_answered_m(), std::sqrt((1e-6 + 9e-6 + 3600e-6) / 4.0), 1e-12);
   EXPECT_NEAR(errors.rms_determined_m(), std::sqrt(10e-6 / 3.0), 1e-12);
-  EXPECT_NEAR(errors.rms_flagged_m(), 0.060, 1e-12);
+  EXPECT_EQ(errors.ambiguous, 1);
+  EXPECT_EQ(errors.share_decided(), 0.75);
+  EXPECT_EQ(errors.bridged, 0);
+  EXPECT_TRUE(std::isnan(errors.rms_bridged_m()));
+  EXPECT_EQ(errors.determined_without_bound, 1) << "left out of the ratio, and counted";
+  EXPECT_EQ(errors.folded, 0);
   EXPECT_EQ(errors.bounded, 2);
   EXPECT_NEAR(errors.bound_m(), std::sqrt(3e-6), 1e-12);
   EXPECT_NEAR(errors.over_bound(), std::sqrt(1e-6 / 6e-6), 1e-9);
@@ -71,16 +76,34 @@ TEST(CentreErrors, FarOffAndCalledDetermined) {
   EXPECT_TRUE(std::isnan(errors.over_bound()));
 }
 
-TEST(CentreErrors, WhatIsNotAnsweredOrHasNoCovarianceIsNotCounted) {
+TEST(CentreErrors, NearAFoldTheCentresOwnDeviationStandsForTheBound) {
+  Example e;
+  for (const std::size_t c : math::kSymmetric3Diagonal) e.bound.covariance[6 + c] = 100e-6;
+  const auto errors = judge_centres(e.skeleton, e.limb, &e.bound);
+  EXPECT_EQ(errors.bounded, 4);
+  EXPECT_EQ(errors.folded, 1);
+  EXPECT_NEAR(errors.bound_squares, 3.0 * 3e-6 + 12e-6, 1e-15);
+}
+
+TEST(CentreErrors, BridgedFramesHaveAnErrorOfTheirOwn) {
+  Example e;
+  e.skeleton.state[2] = CentreState::bridged;
+  const auto errors = judge_centres(e.skeleton, e.limb, nullptr);
+  EXPECT_EQ(errors.bridged, 1);
+  EXPECT_NEAR(errors.rms_bridged_m(), 0.003, 1e-12);
+}
+
+TEST(CentreErrors, WhatIsNotAnsweredIsNotCountedAndWhatHasNoCovarianceIsBeyondAll) {
   Example e;
   e.skeleton.state[0] = CentreState::undetermined;
   for (std::size_t c = 0; c < 24; ++c) e.skeleton.covariance[c] = std::nan("");
   const auto errors = judge_centres(e.skeleton, e.limb, nullptr);
   EXPECT_EQ(errors.answered, 3);
   EXPECT_EQ(errors.share_answered(), 0.75);
-  EXPECT_EQ(errors.beyond_5sd, 0);
-  EXPECT_EQ(errors.coordinates, 0);
-  EXPECT_TRUE(std::isnan(errors.share_within_1sd()));
+  EXPECT_EQ(errors.beyond_5sd, 3);
+  EXPECT_EQ(errors.beyond_5sd_determined, 3);
+  EXPECT_EQ(errors.coordinates, 9);
+  EXPECT_EQ(errors.share_within_1sd(), 0.0);
 }
 
 TEST(CentreErrors, SumsOfTwoAreThoseOfBoth) {

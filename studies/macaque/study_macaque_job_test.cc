@@ -40,7 +40,8 @@ TEST(StudyMacaque, CellsBecomeATableAndAPage) {
     EXPECT_TRUE(std::isfinite(row.ours)) << row.quantity;
     // The share of known frames of a single seed is not conclusive: it is reported without a bound.
     const bool share = row.quantity.find("frames known (") != std::string::npos;
-    EXPECT_NE(row.at_least || row.at_most, share) << row.quantity;
+    const bool count = row.unit == "1" && row.quantity.find("frames") != std::string::npos;
+    EXPECT_TRUE(count || row.has_bound() != share) << row.quantity;
     EXPECT_TRUE(names.insert(row.quantity).second) << row.quantity;
   }
   EXPECT_GT(names.size(), 8U);
@@ -147,9 +148,35 @@ TEST(MacaqueRows, ErrorsBeyondFiveSdMustBeFlagged) {
   auto study = made_up(1.0, 1.0);
   study.elbow[0].errors.ours.beyond_5sd = 100;
   study.elbow[0].errors.ours.beyond_5sd_determined = 1;
-  EXPECT_TRUE(row(macaque_rows(study, 10), "beyond 5 SD")->pass());
+  const auto good = macaque_rows(study, 10);
+  EXPECT_EQ(row(good, "with an error beyond 5 SD")->ours, 100.0);
+  EXPECT_FALSE(row(good, "with an error beyond 5 SD")->has_bound());
+  EXPECT_TRUE(row(good, "5 SD and called determined")->has_bound());
+  EXPECT_TRUE(row(good, "5 SD and called determined")->pass());
   study.elbow[0].errors.ours.beyond_5sd_determined = 2;
-  EXPECT_FALSE(row(macaque_rows(study, 10), "beyond 5 SD")->pass());
+  EXPECT_FALSE(row(macaque_rows(study, 10), "5 SD and called determined")->pass());
+}
+
+TEST(MacaqueRows, WithoutAnErrorBeyondFiveSdNothingIsSaidOfTheirFlags) {
+  const auto rows = macaque_rows(made_up(1.0, 1.0), 10);
+  EXPECT_EQ(row(rows, "with an error beyond 5 SD")->ours, 0.0);
+  EXPECT_FALSE(row(rows, "5 SD and called determined")->has_bound()) << "0 of 0 is no success";
+}
+
+TEST(MacaqueRows, SayHowManyFramesTheyLeaveOut) {
+  auto study = made_up(1.0, 0.9);
+  EXPECT_EQ(row(macaque_rows(study, 10), "all cells: frames")->ours, 600.0);
+  EXPECT_EQ(row(macaque_rows(study, 10), "not called determined")->ours, 60.0);
+  EXPECT_TRUE(row(macaque_rows(study, 10), "against the bound")->pass());
+  study.elbow[1].errors.ours.determined_without_bound = 1;
+  EXPECT_FALSE(row(macaque_rows(study, 10), "against the bound")->pass());
+}
+
+TEST(MacaqueRows, ASeedWithoutAResultIsNotMadeUpForByOthers) {
+  auto study = made_up(1.0, 1.0);
+  study.elbow[1].worst_over_bound = std::nan("");
+  for (const std::size_t seeds : {2U, 10U})
+    EXPECT_FALSE(row(macaque_rows(study, seeds), "worst cell")->pass()) << seeds;
 }
 
 TEST(MacaqueRows, SleeveIsAnsweredInEveryFrame) {
@@ -161,14 +188,21 @@ TEST(MacaqueRows, SleeveIsAnsweredInEveryFrame) {
   auto& smoothed = sleeve.errors.smoothed;
   smoothed.frames = smoothed.answered = 100;
   smoothed.determined = 60;
+  smoothed.bridged = 40;
   smoothed.squares_answered = 1e-4;
   smoothed.squares_determined = 0.6e-4;
+  smoothed.squares_bridged = 0.4e-4;
   study.sleeve = {sleeve};
   for (const auto& r : macaque_rows(study, 10)) EXPECT_TRUE(r.pass()) << r.quantity;
+  study.sleeve[0].errors.smoothed.ambiguous = 1;
+  EXPECT_FALSE(row(macaque_rows(study, 10), "frames answered")->pass()) << "ambiguous is no answer";
+  study.sleeve[0].errors.smoothed.ambiguous = 0;
   study.sleeve[0].errors.smoothed.answered = 99;
   EXPECT_FALSE(row(macaque_rows(study, 10), "frames answered")->pass());
-  study.sleeve[0].errors.smoothed.squares_answered = 2e-4;
-  EXPECT_FALSE(row(macaque_rows(study, 10), "flagged / other")->pass());
+  study.sleeve[0].errors.smoothed.squares_bridged = 1.4e-4;
+  EXPECT_FALSE(row(macaque_rows(study, 10), "bridged / determined")->pass());
+  study.sleeve[0].errors.alone.beyond_5sd_determined = 1;
+  EXPECT_FALSE(row(macaque_rows(study, 10), "alone: errors beyond")->pass());
   study.sleeve[0].errors.smoothed.beyond_5sd = 1;
   EXPECT_FALSE(row(macaque_rows(study, 10), "continuity: errors beyond")->pass());
 }

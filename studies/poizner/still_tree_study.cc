@@ -134,7 +134,10 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
       }
       frame_noise.push_back(noise);
       const Vector3d truth = recorded->truth.x(0, l);
-      const Matrix3d least = reconstruction::cramer_rao(rig.physical.rig, truth, strength);
+      // The bound along the axes of our world, in which our scatter is measured.
+      const Matrix3d& turn = rig.truth_from_ours.rotation;
+      const Matrix3d least =
+          turn.transpose() * reconstruction::cramer_rao(rig.physical.rig, truth, strength) * turn;
       for (std::size_t a = 0; a < 3; ++a) {
         const auto axis = static_cast<Eigen::Index>(a);
         classic_sd[a].push_back(std::sqrt(classic_cloud.variance[led][axis]));

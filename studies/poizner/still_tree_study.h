@@ -14,9 +14,9 @@ namespace kinemark::studies {
 
 /// Results of one method for the tree held still in ten poses.
 struct StillMeasures {
-  Eigen::Vector3d sd_m = Eigen::Vector3d::Zero();  ///< median over places and LEDs, per axis
-  double over_cramer_rao = 0.0;                    ///< scatter over the bound, mean over places
-  std::vector<double> distance_error_m;            ///< 10 places x 3 sides, of mean positions
+  Eigen::Vector3d sd_m = Eigen::Vector3d::Zero();  ///< median over poses and LEDs, per axis
+  double over_cramer_rao = 0.0;                    ///< scatter over the bound, mean over poses
+  std::vector<double> distance_error_m;            ///< 10 poses x 3 sides, of mean positions
 
   [[nodiscard]] double mean_error_m() const;
   [[nodiscard]] double max_error_m() const;
@@ -24,9 +24,10 @@ struct StillMeasures {
 
 struct StillOutcome {
   StillMeasures classic, ours;
-  Eigen::Vector3d cramer_rao_sd_m = Eigen::Vector3d::Zero();  ///< median, per axis
-  std::vector<double> predicted_sd_m;                         ///< of each distance: calibration and noise
-  double error_over_predicted = 0.0;                          ///< root mean square
+  Eigen::Vector3d cramer_rao_sd_m =
+      Eigen::Vector3d::Zero();         ///< median over poses and LEDs, per axis of our world
+  std::vector<double> predicted_sd_m;  ///< of each distance: calibration and noise
+  double error_over_predicted = 0.0;   ///< root mean square
   Coverage points, distances;
 };
 

@@ -39,7 +39,7 @@ struct PoiznerSeed {
 struct PoiznerStudy {
   std::vector<PoiznerSeed> seeds;
   /// `classic` is the method of 1986: median over seeds. `ours`: worst over seeds; pooled where the quantity
-  /// says so. `limit`: median over seeds.
+  /// says so. `expected`: of the rigs whose result `ours` is.
   StudyTable table;
 };
 

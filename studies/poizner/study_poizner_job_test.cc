@@ -5,10 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "studies/poizner/study_figures.h"
 #include "studies/poizner/study_rows.h"
@@ -18,10 +21,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
+const Result<PoiznerStudy>& rig_two() {
+  static const auto study = study_poizner({.seeds = {2}});
+  return study;
+}
+
+const StudyRow& row_named(const std::vector<StudyRow>& rows, const std::string& quantity) {
+  return *std::ranges::find(rows, quantity, &StudyRow::quantity);
+}
+
 TEST(StudyPoizner, OneRigMakesTheWholeTable) {
-  PoiznerJob job;
-  job.seeds = {2};
-  const auto study = study_poizner(job);
+  const auto& study = rig_two();
   ASSERT_TRUE(study) << study.error().message;
   EXPECT_EQ(study->table.rows.size(), 59U);
   EXPECT_TRUE(study->table.pass()) << study_text(study->table);
@@ -58,6 +68,50 @@ TEST(StudyPoizner, OneRigMakesTheWholeTable) {
   EXPECT_THAT(page, HasSubstr("Acceleration of the hand"));
   EXPECT_EQ(page.find("nan"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);  // nothing is fetched
+}
+
+TEST(StudyPoizner, WhatIsExpectedIsOfTheRigWhoseResultIsShown) {
+  ASSERT_TRUE(rig_two());
+  const PoiznerSeed& good = rig_two()->seeds.front();
+  PoiznerSeed bad = good;
+  bad.tree.ours.sd_m *= 2.0;
+  bad.tree.cramer_rao_sd_m *= 3.0;
+  bad.arm.leds[1].ours.velocity *= 5.0;
+  bad.arm.leds[1].predicted.velocity *= 7.0;
+  const auto& name = good.arm.leds[1].name;
+  for (const auto& seeds : {std::vector{good, bad, good}, std::vector{bad, good, good}}) {
+    const auto rows = study_rows(seeds);
+    const auto& scatter = row_named(rows, "still tree: scatter of a frame, y");
+    EXPECT_EQ(scatter.expected_is, Expectation::cramer_rao);
+    EXPECT_DOUBLE_EQ(scatter.ours, 2e3 * good.tree.ours.sd_m.y());
+    EXPECT_DOUBLE_EQ(*scatter.expected, 3e3 * good.tree.cramer_rao_sd_m.y());
+    const auto& velocity = row_named(rows, "arm: " + name + ", error of velocity");
+    EXPECT_EQ(velocity.expected_is, Expectation::predicted_sd);
+    EXPECT_DOUBLE_EQ(*velocity.expected, 7e3 * good.arm.leds[1].predicted.velocity);
+  }
+}
+
+TEST(StudyPoizner, ScatterReachesTheBoundAndDoesNotBeatIt) {
+  ASSERT_TRUE(rig_two());
+  for (const auto& row : rig_two()->table.rows) {
+    if (row.expected_is != Expectation::cramer_rao) continue;
+    // 30 scatters of 100 frames each: their median is known to 1.3 %.
+    EXPECT_GT(row.ours, 0.95 * *row.expected) << row.quantity;
+    EXPECT_LT(row.ours, 1.2 * *row.expected) << row.quantity;
+  }
+}
+
+TEST(StudyPoizner, TheOrderOfTheRigsChangesNoBit) {
+  ASSERT_TRUE(rig_two());
+  std::vector<PoiznerSeed> seeds(7, rig_two()->seeds.front());
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    for (auto* values : {&seeds[i].tree.predicted_sd_m, &seeds[i].tree.ours.distance_error_m})
+      for (double& value : *values) value *= std::pow(1.7, static_cast<double>(i));
+  const auto forwards = study_json({.seeds = {}, .rows = study_rows(seeds)});
+  std::ranges::reverse(seeds);
+  EXPECT_EQ(forwards, study_json({.seeds = {}, .rows = study_rows(seeds)}));
+  std::swap(seeds[1], seeds[5]);
+  EXPECT_EQ(forwards, study_json({.seeds = {}, .rows = study_rows(seeds)}));
 }
 
 TEST(StudyPoizner, StopsWhenAskedAndNeedsASeed) {

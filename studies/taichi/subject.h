@@ -29,8 +29,8 @@ struct TaiChiModelOptions {
 
 /// with_landmarks(), sized by medians of landmark distances, each side on its own: thighs, shanks, upper arms
 /// and forearms keep their direction and take the median length; hips come from the triangle of pelvis and
-/// hips, the trunk from pelvis, thorax and neck, shoulders from their mean place along the trunk, head, hands
-/// and feet from their landmarks. Mass centres and moments of inertia grow with the segments.
+/// hips, the trunk from pelvis, thorax and neck, shoulders from their mean position along the trunk, head,
+/// hands and feet from their landmarks. Mass centres and moments of inertia grow with the segments.
 ///
 /// @param landmarks  of prepare_landmarks(), y up
 [[nodiscard]] Result<data::ModelDescription> scale_by_medians(const data::ModelDescription& human,

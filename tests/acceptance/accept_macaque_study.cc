@@ -31,7 +31,7 @@ int run_check(int argc, char** argv) {
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
     if (row.at_most) asked += fmt::format("<= {:.4g} ", *row.at_most);
     std::string measured = fmt::format("{:.4g}", row.ours);
-    if (row.limit) measured += fmt::format(", bound {:.4g}", *row.limit);
+    if (row.expected) measured += fmt::format(", {} {:.4g}", to_string(row.expected_is), *row.expected);
     if (row.classic) measured += fmt::format(", classic {:.4g}", *row.classic);
     if (row.paper) measured += fmt::format(", paper {:.4g}", *row.paper);
     if (asked.empty())  // shares of a single seed have no bound, so none passes

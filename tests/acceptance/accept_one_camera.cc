@@ -41,7 +41,7 @@ data::Camera camera_at(const Vector3d& position, const Vector3d& target) {
   return camera;
 }
 
-/// Place of a marker that fits the images of all cameras best.
+/// Position of a marker that fits the images of all cameras best.
 Vector3d triangulate(const data::ImageTracks& tracks, std::int64_t f, std::size_t m, Vector3d x) {
   for (int i = 0; i < 6; ++i) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();

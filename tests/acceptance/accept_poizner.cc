@@ -83,8 +83,9 @@ void study(int last) {
     std::string asked;
     if (row.at_least) asked += fmt::format(">= {:.4g} ", *row.at_least);
     if (row.at_most) asked += fmt::format("<= {:.4g} ", *row.at_most);
-    const std::string measured =
-        fmt::format("{:.4g}{}", row.ours, row.limit ? fmt::format(" (limit {:.4g})", *row.limit) : "");
+    const std::string measured = fmt::format(
+        "{:.4g}{}", row.ours,
+        row.expected ? fmt::format(" ({} {:.4g})", to_string(row.expected_is), *row.expected) : "");
     if (asked.empty())
       print_note(row.quantity, measured + " " + row.unit);
     else
@@ -203,7 +204,7 @@ void stress() {
     }
     print_row(worst <= 1.3,
               fmt::format("{} LEDs at {} Hz, dark slot {}", wheel.leds, how.rate_hz, dark ? "on" : "off"),
-              "error of position / told <= 1.3, every LED",
+              "error of position / predicted <= 1.3, every LED",
               fmt::format("{:.2f}; within 1 and 2 SD: {:.0f} %, {:.0f} %", worst, 100.0 * positions.share_1(),
                           100.0 * positions.share_2()));
   }

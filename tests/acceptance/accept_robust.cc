@@ -56,7 +56,7 @@ const std::vector<Recording> kRecordings = {
 enum class Kind { spike, zero, swap, held, exchange };
 constexpr const char* kKinds[] = {"spike", "zero", "swap", "held", "exchange"};
 
-/// What was done to a recording: markers by their place among the used ones.
+/// What was done to a recording: markers by their index among the used ones.
 struct Corruption {
   std::vector<int> markers;
   std::int64_t first = 0, last = 0;  // frames of the motion
@@ -178,10 +178,10 @@ void compare(const Case& c, const Corruption& done, const motion::IkResult& r, s
              Tally& tally) {
   const auto& a = c.clean.motion;
   const auto& b = r.motion;
-  std::vector<std::uint8_t> told(static_cast<std::size_t>(a.frames()), 0);
+  std::vector<std::uint8_t> found(static_cast<std::size_t>(a.frames()), 0);
   for (const auto& finding : r.fit.findings)
     if (finding.first_frame >= 0)
-      for (auto f = finding.first_frame; f <= finding.last_frame; ++f) told[static_cast<std::size_t>(f)] = 1;
+      for (auto f = finding.first_frame; f <= finding.last_frame; ++f) found[static_cast<std::size_t>(f)] = 1;
   const auto away = joints_away(c, done);
   bool missed = false;
   double worst = 0.0;
@@ -194,7 +194,7 @@ void compare(const Case& c, const Corruption& done, const motion::IkResult& r, s
       if (d > 0)
         tally.worst_far_deg[static_cast<std::size_t>(d)] =
             std::max(tally.worst_far_deg[static_cast<std::size_t>(d)], off);
-      if (told[static_cast<std::size_t>(f)]) continue;
+      if (found[static_cast<std::size_t>(f)]) continue;
       const double sd = kDegPerRad * b.q_sd[i];
       if (off > 2.0 && !(off <= 3.5 * sd)) {
         missed = true;

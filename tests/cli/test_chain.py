@@ -59,9 +59,9 @@ class Chain(InTheLab):
         self.good("report", "q.mot", "-o", "later.html", "--quiet")
         summary = json.loads((self.folder / "q_report.json").read_text())
         for page in ("direct.html", "later.html"):
-            told = json.loads(report_data((self.folder / page).read_text()))["summary"]
-            self.assertEqual(told["rms_error_mm"], summary["rms_error_mm"])
-            self.assertEqual([each["name"] for each in told["coordinates"]], self.names[1:])
+            written = json.loads(report_data((self.folder / page).read_text()))["summary"]
+            self.assertEqual(written["rms_error_mm"], summary["rms_error_mm"])
+            self.assertEqual([each["name"] for each in written["coordinates"]], self.names[1:])
 
     def test_every_file_of_a_run_has_the_same_rows(self):
         self.solve("q", None, None, "--torques")

@@ -229,7 +229,7 @@ class RealRecordings(CommandTest):
         self.good("ik", "--setup", real_file("opensim-arm26/arm26_Setup_InverseKinematics.xml"), "-o", "s.mot")
         self.assertEqual(table(self.folder / "s.mot"), table(self.folder / "q.mot"))
 
-    def test_blank_and_foreign_markers_are_told_in_two_lines(self):
+    def test_blank_and_foreign_markers_are_reported_in_two_lines(self):
         model = real_file("bmc-rajagopal-run/Scale/Rajagopal2015_scaled.osim")
         trc = real_file("bmc-rajagopal-run/ExpData/motion_capture_run.trc")
         ran = self.good("ik", "-m", model, "-t", trc, "-o", "q.mot")

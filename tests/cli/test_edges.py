@@ -146,7 +146,7 @@ class LittleSeen(Edges):
         self.assertIn("pelvis_tilt is never determined", ran.err)
         self.refused(3, [name, "a joint needs 4 at least"], "joints", name, "-o", "out")
 
-    def test_shares_are_told_without_exponents(self):
+    def test_shares_are_written_without_exponents(self):
         name = self.cut("one.csv", keep=lambda _, marker: marker == "LFHD")
         ran = self.run_in(*self.ik(markers=name, estimator="smoother"))
         self.assertIn(ran.status, (0, 1))

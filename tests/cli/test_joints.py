@@ -111,7 +111,7 @@ class Joints(CommandTest):
         self.write("slip.csv", arm(frames=300, slip=0.015)[0])
         ran = self.good("joints", "slip.csv", "--segments", "segments.toml", "--method", "score")
         self.assertIn("'f0' moved", ran.err)
-        # The articulated fit has a sentence of its own: a marker is told once.
+        # The articulated fit has a sentence of its own: a marker is named once.
         ran = self.good("joints", "slip.csv", "--segments", "segments.toml")
         self.assertIn("marker 'f0' sits", ran.err)
         self.assertNotIn("'f0' moved", ran.err)

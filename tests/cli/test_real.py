@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
 """Recordings, tables and models of other programs: all of them are read or refused in a sentence, and what one format cannot
-hold of another is told."""
+hold of another is reported."""
 
 import json
 import unittest
@@ -24,13 +24,13 @@ class RealFiles(CommandTest):
         files = self.all_files(".c3d", ".trc", ".mot", ".sto", ".osim")
         self.assertGreater(len(files), 60)
         ran = self.good("validate", *files, "--json", status=3)
-        told = {each["file"]: each for each in json.loads(ran.out)}
-        self.assertEqual(set(told), {str(path) for path in files})
-        for name, each in told.items():
+        answers = {each["file"]: each for each in json.loads(ran.out)}
+        self.assertEqual(set(answers), {str(path) for path in files})
+        for name, each in answers.items():
             self.assertIn(each["exit_status"], (0, 1, 3), name)
             self.assertEqual("error" in each, each["exit_status"] == 3, name)
             self.assertEqual(each["exit_status"] == 1, bool(each.get("warnings")), name)
-        refused = {name.rsplit("/", 1)[-1] for name, each in told.items() if each["exit_status"] == 3}
+        refused = {name.rsplit("/", 1)[-1] for name, each in answers.items() if each["exit_status"] == 3}
         self.assertEqual(refused, set(BROKEN))
 
     def test_what_is_read_is_what_info_tells_after_another_format(self):

@@ -41,8 +41,8 @@ class Recordings(unittest.TestCase):
         for key, value in facts.items():
             if key == "warnings" or value in ("", []):
                 continue
-            told = " ".join(value) if isinstance(value, list) else value if isinstance(value, str) else json.dumps(value)
-            self.assertEqual(lines[key], told, key)
+            written = " ".join(value) if isinstance(value, list) else value if isinstance(value, str) else json.dumps(value)
+            self.assertEqual(lines[key], written, key)
 
     def test_validate_is_1_for_a_recording_that_is_odd(self):
         self.assertEqual(self.kinemark("validate", "closed.mcap").status, 0)
@@ -91,7 +91,7 @@ class Recordings(unittest.TestCase):
             self.assertEqual(json.loads(again.out)["bytes_left_out"], 0, name)
             self.assertEqual((self.folder / "twice.mcap").read_bytes(), (self.folder / "once.mcap").read_bytes(), name)
 
-    def test_a_flipped_byte_is_told_or_does_no_harm(self):
+    def test_a_flipped_byte_is_reported_or_does_no_harm(self):
         whole = (self.folder / "closed.mcap").read_bytes()
         odd = 0
         for at in range(8, len(whole), max(1, len(whole) // 60)):

@@ -109,7 +109,7 @@ class Setups(CommandTest):
 
 
 class MarkerFiles(CommandTest):
-    def test_each_oddity_is_told_and_the_file_is_read(self):
+    def test_each_oddity_is_reported_and_the_file_is_read(self):
         for line, column, value, words in TRC_ODDITIES:
             with self.subTest(words):
                 self.write("x.trc", changed_cell(self.trc.read_text(), line, column, value))

@@ -73,7 +73,7 @@ class RunAcceptance(unittest.TestCase):
         )
         return self.run_with(checks, {"x.py": script})
 
-    def test_a_known_shortfall_is_told_apart_and_fails_nothing(self):
+    def test_a_known_shortfall_is_listed_apart_and_fails_nothing(self):
         for measured, better in [(3.0, "higher"), (3.3, "higher"), (0.1, "higher"), (2.8, "lower"), (99, "lower")]:
             status, said = self.known(measured, better=better)
             self.assertEqual(status, 0, said)

@@ -54,7 +54,7 @@ class CheckLayers(unittest.TestCase):
             found, "src/kinemark/core/new.h:3: core may not include data (kinemark/data/trial.h)"
         )
 
-    def test_an_edge_upwards_that_closes_a_circle_is_told_as_both(self):
+    def test_an_edge_upwards_that_closes_a_circle_is_reported_as_both(self):
         found = self.problems(**{"src/kinemark/core/result.h": '#include "kinemark/data/trial.h"\n'})
         self.assertEqual(len(found), 2, found)
         self.assertIn("core may not include data", found[0])

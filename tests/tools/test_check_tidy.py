@@ -88,10 +88,10 @@ class CheckTidy(unittest.TestCase):
         self.said = out.getvalue()
         return status, looked_at if "--since" in arguments else sorted(looked_at)
 
-    def test_looks_at_our_sources_and_tests_but_not_at_made_ones(self):
+    def test_checks_our_sources_and_tests_but_no_made_ones(self):
         self.assertEqual(self.run_tool("--all"), (0, ALL))
 
-    def test_looks_again_only_at_what_changed_or_failed(self):
+    def test_checks_again_only_what_changed_or_failed(self):
         self.run_tool("--all")
         self.assertEqual(self.run_tool("--all"), (0, []))
         (self.root / "src/kinemark/core/a.h").write_text("int changed;\n")
@@ -102,14 +102,14 @@ class CheckTidy(unittest.TestCase):
         (self.root / "tests/support/scratch.h").write_text("int changed;\n")
         self.assertEqual(self.run_tool("--all"), (0, ["b_test.cc"]))
 
-    def test_new_rules_and_new_flags_ask_for_another_look(self):
+    def test_new_rules_and_new_flags_ask_for_another_check(self):
         self.run_tool("--all")
         (self.root / ".clang-tidy").write_text("Checks: y\n")
         self.assertEqual(self.run_tool("--all"), (0, ALL))
         self.compile_with("-O3")
         self.assertEqual(self.run_tool("--all"), (0, ALL))
 
-    def test_looks_at_what_differs_from_a_commit_the_newest_first(self):
+    def test_checks_what_differs_from_a_commit_the_newest_first(self):
         self.git("init")
         self.commit()
         self.assertEqual(self.run_tool("--since", "HEAD"), (0, []))
@@ -157,7 +157,7 @@ class CheckTidy(unittest.TestCase):
         (self.root / "tests/support/scratch.h").write_text("int changed;\n")
         self.assertEqual(self.run_tool("--since", "HEAD"), (0, ["scratch.cc"]))
 
-    def test_looks_at_everything_where_git_does_not_know_the_commit(self):
+    def test_checks_everything_where_git_does_not_know_the_commit(self):
         self.git("init")
         self.commit()
         self.assertEqual(sorted(self.run_tool("--since", "HEAD~20")[1]), ALL)

@@ -38,7 +38,7 @@ class RunStages(unittest.TestCase):
         self.assertNotIn("later", said)
         self.assertTrue(said.endswith("\n1 passed, 1 failed\n"), said)
 
-    def test_goes_on_when_told_to(self):
+    def test_goes_on_when_asked_to(self):
         def bad(_):
             raise tests.Failed("no", Counts(5, 2))
 
@@ -51,7 +51,7 @@ class RunStages(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertTrue(said.endswith("\n0 passed, 1 failed\n"), said)
 
-    def test_a_stage_over_its_budget_is_told_and_the_sum_fails_where_asked(self):
+    def test_a_stage_over_its_budget_is_reported_and_the_sum_fails_where_asked(self):
         def busy(log):
             log.must(sys.executable, "-c", "import time\nwhile time.process_time() < 0.2: pass")
             return Counts(1)

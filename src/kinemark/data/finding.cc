@@ -189,9 +189,9 @@ std::string sentence_of(const Finding& finding, const TimeBase& time) {
 
 std::vector<std::string> describe_all(std::span<const Finding> findings, const TimeBase& time) {
   std::vector<std::string> sentences;
-  std::vector<bool> told(findings.size(), false);
+  std::vector<bool> done(findings.size(), false);
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (told[i]) continue;
+    if (done[i]) continue;
     std::vector<const Finding*> alike{&findings[i]};
     const auto belongs = [&](const Finding& f) {
       return f.kind == FindingKind::outlier && f.first_frame >= 0 && f.subject == findings[i].subject &&
@@ -200,7 +200,7 @@ std::vector<std::string> describe_all(std::span<const Finding> findings, const T
     for (std::size_t k = i + 1; k < findings.size() && belongs(findings[i]); ++k)
       if (belongs(findings[k])) {
         alike.push_back(&findings[k]);
-        told[k] = true;
+        done[k] = true;
       }
     sentences.push_back(alike.size() == 1 ? describe(findings[i], time) : outliers_in_words(alike));
   }

@@ -23,7 +23,7 @@ struct ImageTracks {
   Array<double> image;  ///< F x C x M x 2, image units; NaN where the camera did not see the marker
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }  ///< F
-  /// Place of x in `image`; y follows it.
+  /// Index of x in `image`; y follows it.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::size_t camera, std::size_t marker) const {
     return 2 * ((static_cast<std::size_t>(frame) * cameras.size() + camera) * names.size() + marker);
   }

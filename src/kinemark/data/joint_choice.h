@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What every method for joint centres is told of the joints before it sees any motion.
+// What every method for joint centres knows of the joints before it sees any motion.
 #pragma once
 
 #include <cstdint>

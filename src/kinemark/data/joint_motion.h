@@ -41,7 +41,7 @@ struct JointMotion {
   Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN
                           ///< where not determined
   Array<double> marker_error;  ///< F x M x 3, measured minus model, m; NaN where the marker was not seen
-  /// F x M, of the samples as the estimate took them, `rejected` where it left one out; empty: not told.
+  /// F x M, of the samples as the estimate took them, `rejected` where it left one out; empty: not judged.
   Array<SampleState> marker_state;
   Array<FrameStatus> status;  ///< F
 

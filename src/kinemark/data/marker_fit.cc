@@ -37,11 +37,17 @@ Status MarkerFit::validate() const {
     if (marker.noise_sd_m < 0.0 || marker.common_sd_m < 0.0)
       return fail(Code::bad_input,
                   fmt::format("the marker fit: marker '{}' has a negative standard deviation", marker.name));
+    if (marker.rejected_frames.value_or(0) < 0)
+      return fail(Code::bad_input,
+                  fmt::format("the marker fit: marker '{}' was left out in {} frames; need 0 or more",
+                              marker.name, *marker.rejected_frames));
   }
   for (const auto& marker : excluded)
     if (marker.name.empty() || marker.why.empty())
       return fail(Code::bad_input,
                   fmt::format("the marker fit: excluded marker '{}' needs a name and a reason", marker.name));
+  for (const auto& finding : findings)
+    if (auto status = finding.validate(); !status) return fail_at("the marker fit", status.error());
   return {};
 }
 

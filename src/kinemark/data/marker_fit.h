@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,7 @@ struct FittedMarker {
   double max_m = 0.0;         ///< largest distance; 0 when never seen
   double noise_sd_m = kNaN;   ///< per axis: part of its own, as used for the error bars; NaN: not estimated
   double common_sd_m = kNaN;  ///< per axis: part shared by the markers of its segment; NaN: not estimated
+  std::optional<std::int64_t> rejected_frames;  ///< in which its sample was left out; none: not judged
 
   /// Both parts of the noise together, per axis; NaN where one is not known.
   [[nodiscard]] double total_sd_m() const;
@@ -64,7 +66,8 @@ struct MarkerFit {
   /// Names of the markers that were left out for this reason, in order.
   [[nodiscard]] std::vector<std::string> excluded_as(std::string_view why) const;
   /// Every marker has a name, is listed once as used, has weights and standard deviations that are not
-  /// negative and a share between 0 and 1; every excluded one says why.
+  /// negative, a share between 0 and 1 and no fewer than 0 frames left out; every excluded one says why;
+  /// every finding is valid.
   [[nodiscard]] Status validate() const;
 };
 

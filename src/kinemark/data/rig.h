@@ -168,7 +168,7 @@ struct Rig {
   [[nodiscard]] int camera_count() const { return static_cast<int>(cameras.size()); }  ///< C
   /// Parameters of all cameras, and those before camera c.
   [[nodiscard]] int parameter_count() const { return first_parameter(camera_count()); }
-  /// Place of a camera's first parameter in the rows of `covariance`.
+  /// Index of a camera's first parameter in the rows of `covariance`.
   [[nodiscard]] int first_parameter(int camera) const;
 
   /// Names are unique, rotations are rotations, numbers are finite and in range, shapes agree, covariance is

@@ -89,7 +89,7 @@ struct SkeletonLength {
 /// Segments, joints and, frame by frame, the joint centres: F frames, J joints, metres.
 struct Skeleton {
   std::vector<std::string> markers;       ///< M, as in the recording
-  std::vector<SkeletonSegment> segments;  ///< as in the layout, with the places of their markers
+  std::vector<SkeletonSegment> segments;  ///< as in the layout, with the positions of their markers
   std::vector<SkeletonJoint> joints;      ///< J
   std::vector<SkeletonLength> lengths;    ///< between the joints that share a segment
   TimeBase time;                          ///< F = time.frames
@@ -100,7 +100,7 @@ struct Skeleton {
   std::vector<std::string> warnings;  ///< one sentence each
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }  ///< F
-  /// Place of a joint in a frame, in every F x J array.
+  /// Index of a joint in a frame, in every F x J array.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t joint) const {
     return static_cast<std::size_t>(frame) * joints.size() + static_cast<std::size_t>(joint);
   }

@@ -90,28 +90,28 @@ TEST(SegmentLayout, TakesATreeAndNothingElse) {
 
 TEST(SegmentLayout, EveryBrokenRuleIsNamed) {
   const SegmentLayout arm{{{"upper", {0, 1}}, {"lower", {2}}}, {{"elbow", 0, 1}}};
-  const auto told = [&](auto&& spoil) {
+  const auto verdict = [&](auto&& spoil) {
     SegmentLayout layout = arm;
     spoil(layout);
     const auto status = layout.validate(3);
     return status ? std::string("valid") : status.error().message;
   };
-  EXPECT_EQ(told([](SegmentLayout&) {}), "valid");
-  EXPECT_THAT(told([](SegmentLayout& l) { l.segments[1].name = "upper"; }),
+  EXPECT_EQ(verdict([](SegmentLayout&) {}), "valid");
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.segments[1].name = "upper"; }),
               HasSubstr("'upper' is empty or used twice"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.segments[0].name.clear(); }), HasSubstr("'' is empty"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.segments[0].markers.clear(); }),
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.segments[0].name.clear(); }), HasSubstr("'' is empty"));
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.segments[0].markers.clear(); }),
               HasSubstr("'upper' has no markers"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.segments[0].markers = {-1}; }),
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.segments[0].markers = {-1}; }),
               HasSubstr("names marker -1 of 3"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.segments[0].markers = {0, 0}; }),
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.segments[0].markers = {0, 0}; }),
               HasSubstr("marker 0 is on 'upper' and on another"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.joints[0].name.clear(); }), HasSubstr("joint name ''"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.joints[0].child = 2; }),
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.joints[0].name.clear(); }), HasSubstr("joint name ''"));
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.joints[0].child = 2; }),
               HasSubstr("joins segments 0 and 2 of 2"));
-  EXPECT_THAT(told([](SegmentLayout& l) { l.joints[0].child = 0; }), HasSubstr("circle"))
+  EXPECT_THAT(verdict([](SegmentLayout& l) { l.joints[0].child = 0; }), HasSubstr("circle"))
       << "a segment joined to itself";
-  EXPECT_EQ(told([](SegmentLayout& l) { l.joints.clear(); }), "valid") << "segments may lie apart";
+  EXPECT_EQ(verdict([](SegmentLayout& l) { l.joints.clear(); }), "valid") << "segments may lie apart";
 }
 
 TEST(Skeleton, NamesItsWords) {

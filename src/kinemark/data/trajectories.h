@@ -42,7 +42,7 @@ struct Trajectories {
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }                               ///< F
   [[nodiscard]] std::int64_t markers() const { return static_cast<std::int64_t>(names.size()); }  ///< M
-  /// Place of a marker in a frame, in every F x M array.
+  /// Index of a marker in a frame, in every F x M array.
   [[nodiscard]] std::size_t index(std::int64_t frame, std::int64_t marker) const {
     return static_cast<std::size_t>(frame * markers() + marker);
   }

@@ -143,7 +143,7 @@ TEST_P(RandomTree, GroundMarkersStay) {
 
 // A joint written out by hand, with OpenSim's order: offset frame, translations in the parent's joint frame,
 // rotations in the order listed, offset frame of the child backwards.
-TEST(Kinematics, PlacesTheChildAsTheDescriptionSays) {
+TEST(Kinematics, PutsTheChildWhereTheDescriptionSays) {
   data::ModelDescription d;
   d.bodies.push_back({.name = "b", .mass = 1.0});
   d.coordinates.push_back({.name = "angle", .default_value = 0.0});

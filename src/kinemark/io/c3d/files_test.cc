@@ -217,7 +217,7 @@ TEST(C3dFiles, OneRecordingAsFloatAndAsIntegerAgrees) {
   EXPECT_LE(worst_difference(a.markers.x_in_world, b.markers.x_in_world), 5e-5);
 }
 
-TEST(C3dFiles, WhatMakersGotWrongIsToldInAWarning) {
+TEST(C3dFiles, WhatMakersGotWrongIsReportedInAWarning) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   const auto warnings = [&](const char* file) { return read_c3d(data / file).value().warnings; };
   EXPECT_THAT(warnings("ezc3d-testFiles/Optotrak.c3d"),

@@ -20,7 +20,7 @@ constexpr std::uint16_t kKey = 12345;
 
 }  // namespace
 
-bool looks_like_c3d(std::span<const std::byte, kC3dBlock> block) { return block[1] == std::byte{0x50}; }
+bool is_c3d_header(std::span<const std::byte, kC3dBlock> block) { return block[1] == std::byte{0x50}; }
 
 C3dHeader parse_header(std::span<const std::byte, kC3dBlock> block, Processor processor) {
   const auto u16 = [&](std::size_t at) { return static_cast<int>(load_u16(block.data() + at, processor)); };

@@ -43,7 +43,7 @@ struct C3dHeader {
 };
 
 /// True when the first two bytes can be those of a C3D file.
-[[nodiscard]] bool looks_like_c3d(std::span<const std::byte, kC3dBlock> block);
+[[nodiscard]] bool is_c3d_header(std::span<const std::byte, kC3dBlock> block);
 /// Read the first block; takes every number as it is.
 [[nodiscard]] C3dHeader parse_header(std::span<const std::byte, kC3dBlock> block, Processor processor);
 /// Events past the eighteenth are left out, labels cut to four letters.

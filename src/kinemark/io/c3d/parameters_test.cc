@@ -80,7 +80,7 @@ TEST(C3dParameters, OneCutShortKeepsWhatIsThere) {
   EXPECT_EQ(p.numbers("OTHER", "FLAGS").size(), 3U) << "the next entries are found by their pointers";
 }
 
-TEST(C3dParameters, ASectionThatEndsEarlyIsTold) {
+TEST(C3dParameters, ASectionThatEndsEarlyIsReported) {
   const std::vector<std::byte> bytes = encode_parameters(sample(), Processor::intel).value();
   for (std::size_t n = 4; n < 150; ++n) {
     std::vector<std::string> warnings;

@@ -145,7 +145,7 @@ void expect_truth(const Setting& setting, const data::Wrench& wrench, std::int64
   EXPECT_LT((of_frame(wrench.moment, f) - R * Vector3d(0.0, 0.0, setting.twist)).norm(), 20.0 * tolerance);
 }
 
-TEST(PlateForces, AForceAtAPlaceIsFoundForEveryType) {
+TEST(PlateForces, AForceAtAPointIsFoundForEveryType) {
   Random random(5, 0);
   for (const int type : {1, 2, 3, 4}) {
     SCOPED_TRACE(type);
@@ -252,7 +252,7 @@ TEST(PlateForces, AnEmptyPlateDoesNothing) {
   EXPECT_NEAR(of_frame(fine.wrenches.items.at(0).force, 15).z(), 17.5, 1e-3);
 }
 
-TEST(PlateForces, WithoutAThresholdAPullCountsToo) {
+TEST(PlateForces, WithoutAThresholdANegativeForceCountsToo) {
   Setting setting;
   const auto course = [](double i) { return i < 40.0 ? 1.0 : -0.1; };
   const auto trial = setting.trial(20, course);
@@ -275,7 +275,7 @@ TEST(PlateForces, WhatTheBodyDoesToThePlateIsTurnedRound) {
   EXPECT_THAT(forces.warnings, ElementsAre(HasSubstr("plate 1 stores the force of the body")));
 }
 
-TEST(PlateForces, CornersTheWrongWayRoundAreTold) {
+TEST(PlateForces, CornersTheWrongWayRoundAreReported) {
   Setting setting;
   setting.markers_below = true;  // all that is certain: the body is where the markers are
   const auto forces = through_a_file(setting.trial(5, [](double) { return 1.0; })).value();
@@ -325,7 +325,7 @@ TEST(PlateForces, AWrongUnitShowsAtTheCentreOfPressure) {
               ElementsAre(HasSubstr("the centre of pressure leaves plate 1 in 6 of 6 frames")));
 }
 
-TEST(PlateForces, WhatCannotBeReadIsToldInASentence) {
+TEST(PlateForces, WhatCannotBeReadIsReportedInASentence) {
   const auto message = [](const data::Trial& trial) {
     const auto forces = through_a_file(trial);
     EXPECT_FALSE(forces);

@@ -84,7 +84,7 @@ Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
                     name, size, kC3dBlock));
   std::array<std::byte, kC3dBlock> block{};
   if (auto status = read_exactly(*source, 0, block); !status) return std::unexpected(status.error());
-  if (!looks_like_c3d(block))
+  if (!is_c3d_header(block))
     return fail(Code::bad_input,
                 fmt::format("{}: is not a C3D file: its second byte is {}, need 80. Nothing was read.", name,
                             std::to_integer<int>(block[1])));

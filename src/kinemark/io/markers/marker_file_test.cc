@@ -75,7 +75,7 @@ TEST(MarkerFile, BrokenFilesGetTheirFormatsSentence) {
   EXPECT_THAT(c3d.error().message, HasSubstr("C3D"));
 }
 
-TEST(MarkerFile, OtherFilesAreToldWhatIsSupported) {
+TEST(MarkerFile, OtherFilesAreAnsweredWithWhatIsSupported) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(write_text(scratch / "q.mot", "Coordinates\nendheader\n", false));
   ASSERT_TRUE(write_text(scratch / "README", "aPlain text with a P in second place", false));

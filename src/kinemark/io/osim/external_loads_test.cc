@@ -102,7 +102,7 @@ TEST(ExternalLoads, NothingIsKnownOutsideTheTableOrBesideBlankCells) {
       sample_external_loads(loads, t, {.rate_hz = 10.0, .frames = 1}).value().items.at(0).force[0]));
 }
 
-TEST(ExternalLoads, APointOfNothingDoesNotPullTheNextOneAway) {
+TEST(ExternalLoads, APointOfNothingDoesNotMoveTheNextOne) {
   // OpenSim's files hold a point of 0 0 0 while a foot is in the air.
   const auto loads = parse_external_loads(loads_xml(kRight), "loads.xml").value();
   auto t = table();
@@ -161,7 +161,7 @@ TEST(ExternalLoads, ForcesThatAreSwitchedOffAreLeftOut) {
   }
 }
 
-TEST(ExternalLoads, WhatIsWrongIsToldInASentence) {
+TEST(ExternalLoads, WhatIsWrongIsReportedInASentence) {
   const auto message = [](const std::string& xml, Code code = Code::bad_input) {
     const auto loads = parse_external_loads(xml, "l.xml");
     EXPECT_FALSE(loads);

@@ -106,7 +106,7 @@ TEST_F(Counts, RecordedLiveAreTheSameBytesAsWrittenAtOnce) {
   EXPECT_EQ(read_text(scratch_ / "live.mcap").value(), read_text(path_).value());
 }
 
-TEST_F(Counts, FramesThatWereLostAreFlaggedAndTold) {
+TEST_F(Counts, FramesThatWereLostAreFlaggedAndReported) {
   const data::Counts counts = make_counts(10, true);
   {
     auto writer = CountsWriter::create(path_, counts);
@@ -127,7 +127,7 @@ TEST_F(Counts, FramesThatWereLostAreFlaggedAndTold) {
                                           "2 frames repeat or go back in number and were left out"));
 }
 
-TEST_F(Counts, ClockJumpsAreTold) {
+TEST_F(Counts, ClockJumpsAreReported) {
   const data::Counts counts = make_counts(6, false);
   auto writer = CountsWriter::create(path_, counts);
   ASSERT_TRUE(writer);

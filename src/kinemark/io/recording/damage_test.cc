@@ -103,7 +103,7 @@ TEST(FlippedRecording, SkippingLosesTheGroupAndAtMostTheOneAfterIt) {
   }
 }
 
-TEST(FlippedRecording, DamageInTheMiddleIsToldWithItsPlace) {
+TEST(FlippedRecording, DamageInTheMiddleIsReportedWithItsPlace) {
   Bytes bytes = small().bytes;
   const std::size_t begin = small().group_ends[1];
   bytes[begin + 20] ^= std::byte{1};
@@ -116,7 +116,7 @@ TEST(FlippedRecording, DamageInTheMiddleIsToldWithItsPlace) {
   EXPECT_EQ(found.messages.size(), 10U);
 }
 
-TEST(SplicedRecording, GroupsThatVanishRepeatOrChangePlacesAreNoticed) {
+TEST(SplicedRecording, GroupsThatVanishRepeatOrChangeOrderAreNoticed) {
   const auto part = [](std::size_t from, std::size_t to) {
     return std::span<const std::byte>(small().bytes).subspan(from, to - from);
   };

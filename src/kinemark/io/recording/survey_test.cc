@@ -67,7 +67,7 @@ TEST(Survey, TellsThatTheRecorderWasStopped) {
           "was not closed: the recorder was stopped, or is still recording; all that is there was kept"));
 }
 
-TEST(Survey, TellsLossAndDamageWithTheirPlaces) {
+TEST(Survey, TellsLossAndDamageWithTheirPositions) {
   SmallRecording small = make_small_recording(9);
   small.bytes[small.group_ends[1] + 30] ^= std::byte{4};
   const RecordingSurvey survey = survey_of(small.bytes);
@@ -104,7 +104,7 @@ TEST(Survey, NumbersThatRepeatOrGoBackAreNoLoss) {
   EXPECT_EQ(survey.per_channel[0].lost, 3);
 }
 
-TEST(Survey, ManyDamagedPlacesAreSummedUp) {
+TEST(Survey, ManyDamagedStretchesAreSummedUp) {
   SmallRecording small = make_small_recording(40);
   for (std::size_t i = 0; i + 2 < small.group_ends.size(); i += 2)
     small.bytes[small.group_ends[i] + 15] ^= std::byte{1};

@@ -145,7 +145,7 @@ class FullDisk {
   void (*handler_)(int) = nullptr;
 };
 
-TEST(RecordingWriter, AFullDiskIsToldOnceAndCostsNothingThatWasAcknowledged) {
+TEST(RecordingWriter, AFullDiskIsReportedOnceAndCostsNothingThatWasAcknowledged) {
   const testing_support::ScratchFolder scratch;
   const auto path = scratch / "a.mcap";
   std::int64_t acknowledged = 0;

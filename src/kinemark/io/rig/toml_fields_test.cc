@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using Need = TomlFields::Need;
 
 /// What reading a text ends with: "good", or the sentence.
-std::string told(std::string_view text, const std::function<void(TomlFields&)>& read) {
+std::string answer(std::string_view text, const std::function<void(TomlFields&)>& read) {
   const auto table = toml::parse(text);
   TomlFields fields(table, "a.toml: lens");
   read(fields);
@@ -30,7 +30,7 @@ TEST(TomlFields, ReadsEveryKindAndLeavesDefaultsWhereThereIsNothing) {
   std::vector<double> numbers{9.0};
   Eigen::Vector2d vector(0.0, 0.0);
   Eigen::Matrix<double, 2, 3> matrix = Eigen::Matrix<double, 2, 3>::Zero();
-  EXPECT_EQ(told(R"(number = -2.5e-3
+  EXPECT_EQ(answer(R"(number = -2.5e-3
 whole = 3
 integer = -7
 flag = true
@@ -39,15 +39,15 @@ numbers = [1, 2.5]
 vector = [1, -1]
 matrix = [[1, 2, 3], [4, 5, 6.5]]
 )",
-                 [&](TomlFields& f) {
-                   Eigen::MatrixXd m = matrix;
-                   Eigen::VectorXd v = vector;
-                   f.number("number", number).number("whole", whole).number("absent", absent);
-                   f.integer("integer", integer).flag("flag", flag).text("text", text);
-                   f.numbers("numbers", numbers).vector("vector", v).matrix("matrix", m);
-                   vector = v;
-                   matrix = m;
-                 }),
+                   [&](TomlFields& f) {
+                     Eigen::MatrixXd m = matrix;
+                     Eigen::VectorXd v = vector;
+                     f.number("number", number).number("whole", whole).number("absent", absent);
+                     f.integer("integer", integer).flag("flag", flag).text("text", text);
+                     f.numbers("numbers", numbers).vector("vector", v).matrix("matrix", m);
+                     vector = v;
+                     matrix = m;
+                   }),
             "good");
   EXPECT_EQ(number, -2.5e-3);
   EXPECT_EQ(whole, 3.0) << "a whole number is a number";
@@ -64,20 +64,20 @@ TEST(TomlFields, NumbersAreFinite) {
   for (const char* value : {"nan", "inf", "-inf", "+nan", "true", "\"1\"", "[1]", "1979-05-27"}) {
     const std::string x = std::string("x = ") + value, list = std::string("x = [0, ") + value + "]";
     double number = 5.0;
-    EXPECT_EQ(told(x, [&](TomlFields& f) { f.number("x", number); }),
+    EXPECT_EQ(answer(x, [&](TomlFields& f) { f.number("x", number); }),
               "a.toml: lens: x must be a finite number")
         << value;
     EXPECT_EQ(number, 5.0) << "what is refused is not taken";
     std::vector<double> numbers;
-    EXPECT_EQ(told(list, [&](TomlFields& f) { f.numbers("x", numbers); }),
+    EXPECT_EQ(answer(list, [&](TomlFields& f) { f.numbers("x", numbers); }),
               "a.toml: lens: x must be a list of numbers")
         << value;
     Eigen::VectorXd vector(2);
-    EXPECT_EQ(told(list, [&](TomlFields& f) { f.vector("x", vector); }),
+    EXPECT_EQ(answer(list, [&](TomlFields& f) { f.vector("x", vector); }),
               "a.toml: lens: x must be a list of 2 numbers")
         << value;
     Eigen::MatrixXd matrix(1, 2);
-    EXPECT_EQ(told("x = [[0, " + std::string(value) + "]]", [&](TomlFields& f) { f.matrix("x", matrix); }),
+    EXPECT_EQ(answer("x = [[0, " + std::string(value) + "]]", [&](TomlFields& f) { f.matrix("x", matrix); }),
               "a.toml: lens: x must be 1 lists of 2 numbers")
         << value;
   }
@@ -86,11 +86,12 @@ TEST(TomlFields, NumbersAreFinite) {
 TEST(TomlFields, IntegersHaveNoFractionAndAnEnd) {
   for (const char* good : {"1000000", "-1000000", "0", "0x10"}) {
     int out = 3;
-    EXPECT_EQ(told(std::string("n = ") + good, [&](TomlFields& f) { f.integer("n", out); }), "good") << good;
+    EXPECT_EQ(answer(std::string("n = ") + good, [&](TomlFields& f) { f.integer("n", out); }), "good")
+        << good;
   }
   for (const char* wrong : {"1000001", "-1000001", "9223372036854775807", "1.0", "1e2", "true", "\"1\""}) {
     int out = 3;
-    EXPECT_EQ(told(std::string("n = ") + wrong, [&](TomlFields& f) { f.integer("n", out); }),
+    EXPECT_EQ(answer(std::string("n = ") + wrong, [&](TomlFields& f) { f.integer("n", out); }),
               "a.toml: lens: n must be an integer of at most a million")
         << wrong;
     EXPECT_EQ(out, 3);
@@ -100,13 +101,13 @@ TEST(TomlFields, IntegersHaveNoFractionAndAnEnd) {
 TEST(TomlFields, ShapesAreExact) {
   for (const char* wrong : {"x = [1, 2]", "x = [1, 2, 3, 4]", "x = []", "x = 3", "x = [[1, 2, 3]]"}) {
     Eigen::VectorXd out(3);
-    EXPECT_THAT(told(wrong, [&](TomlFields& f) { f.vector("x", out); }), HasSubstr("a list of 3 numbers"))
+    EXPECT_THAT(answer(wrong, [&](TomlFields& f) { f.vector("x", out); }), HasSubstr("a list of 3 numbers"))
         << wrong;
   }
   for (const char* wrong : {"x = [[1, 2]]", "x = [[1, 2], [3]]", "x = [[1, 2], [3, 4], [5, 6]]", "x = [1, 2]",
                             "x = 1", "x = []"}) {
     Eigen::MatrixXd out(2, 2);
-    EXPECT_THAT(told(wrong, [&](TomlFields& f) { f.matrix("x", out); }), HasSubstr("2 lists of 2 numbers"))
+    EXPECT_THAT(answer(wrong, [&](TomlFields& f) { f.matrix("x", out); }), HasSubstr("2 lists of 2 numbers"))
         << wrong;
   }
 }
@@ -117,7 +118,7 @@ TEST(TomlFields, WhatIsRequiredAndAbsentIsNamedWithWhatItShouldBe) {
   std::string text;
   Eigen::VectorXd vector(4);
   Eigen::MatrixXd matrix(3, 3);
-  const auto missing = [](const std::function<void(TomlFields&)>& read) { return told("", read); };
+  const auto missing = [](const std::function<void(TomlFields&)>& read) { return answer("", read); };
   EXPECT_EQ(missing([&](TomlFields& f) { f.number("x", number, Need::required); }),
             "a.toml: lens: x is missing; need a finite number");
   EXPECT_EQ(missing([&](TomlFields& f) { f.integer("x", integer, Need::required); }),
@@ -130,23 +131,23 @@ TEST(TomlFields, WhatIsRequiredAndAbsentIsNamedWithWhatItShouldBe) {
             "a.toml: lens: x is missing; need 3 lists of 3 numbers");
 }
 
-TEST(TomlFields, TheFirstFailureIsTheOneThatIsTold) {
+TEST(TomlFields, TheFirstFailureIsTheOneReported) {
   double a = 0.0, b = 0.0;
   int c = 0;
-  EXPECT_EQ(told("a = \"x\"\nb = \"y\"\nstray = 1",
-                 [&](TomlFields& f) {
-                   f.number("a", a).number("b", b).integer("c", c, Need::required);
-                   EXPECT_TRUE(f.failed());
-                 }),
+  EXPECT_EQ(answer("a = \"x\"\nb = \"y\"\nstray = 1",
+                   [&](TomlFields& f) {
+                     f.number("a", a).number("b", b).integer("c", c, Need::required);
+                     EXPECT_TRUE(f.failed());
+                   }),
             "a.toml: lens: a must be a finite number");
 }
 
 TEST(TomlFields, AKeyThatNobodyAskedForIsAFailure) {
   double a = 0.0;
   const auto read = [&](TomlFields& f) { f.number("a", a); };
-  EXPECT_EQ(told("a = 1\nA = 2", read), "a.toml: lens: unknown key 'A'");
-  EXPECT_EQ(told("a = 1\n[b]\nc = 2", read), "a.toml: lens: unknown key 'b'");
-  EXPECT_EQ(told("\"" + std::string(1000, 'k') + "\" = 1", read),
+  EXPECT_EQ(answer("a = 1\nA = 2", read), "a.toml: lens: unknown key 'A'");
+  EXPECT_EQ(answer("a = 1\n[b]\nc = 2", read), "a.toml: lens: unknown key 'b'");
+  EXPECT_EQ(answer("\"" + std::string(1000, 'k') + "\" = 1", read),
             "a.toml: lens: unknown key '" + std::string(60, 'k') + "'")
       << "long keys are cut";
 }
@@ -160,10 +161,10 @@ TEST(TomlFields, TablesAndListsOfTables) {
   EXPECT_EQ(fields.table("none"), nullptr);
   EXPECT_EQ(fields.tables("none"), nullptr);
   EXPECT_TRUE(fields.finish());
-  EXPECT_EQ(told("x = 1", [](TomlFields& f) { EXPECT_EQ(f.table("x"), nullptr); }),
+  EXPECT_EQ(answer("x = 1", [](TomlFields& f) { EXPECT_EQ(f.table("x"), nullptr); }),
             "a.toml: lens: x must be a table");
   for (const char* wrong : {"x = 1", "x = [1, 2]", "[x]\ny = 1", "x = [{}, 1]"})
-    EXPECT_EQ(told(wrong, [](TomlFields& f) { EXPECT_EQ(f.tables("x"), nullptr); }),
+    EXPECT_EQ(answer(wrong, [](TomlFields& f) { EXPECT_EQ(f.tables("x"), nullptr); }),
               "a.toml: lens: x must be a list of tables, [[x]]")
         << wrong;
 }

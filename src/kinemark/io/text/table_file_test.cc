@@ -110,7 +110,7 @@ TEST(ParseTable, BlankAndNaNCellsAreNaN) {
   EXPECT_EQ(table.values[5], 5.0);
 }
 
-TEST(ParseTable, CountsThatLieAreTold) {
+TEST(ParseTable, CountsThatLieAreReported) {
   const auto table = good("x\nnRows=7\nnColumns=9\nendheader\n" + kBody);
   EXPECT_EQ(table.rows(), 2);
   EXPECT_THAT(table.warnings, ElementsAre(HasSubstr("header says 9 columns, 3 are labelled"),
@@ -136,13 +136,13 @@ TEST(ParseTable, VectorCellsBecomeColumns) {
   bad("DataType=SpatialVec\nendheader\n" + kBody, Code::not_supported);
 }
 
-TEST(ParseTable, ATableWithoutHeaderIsReadAndTold) {
+TEST(ParseTable, ATableWithoutHeaderIsReadAndReported) {
   const auto table = good(kBody);
   EXPECT_EQ(table.rows(), 2);
   EXPECT_THAT(table.warnings, ElementsAre(HasSubstr("there is no header")));
 }
 
-TEST(ParseTable, RepeatedTimesAreLeftOutAndTold) {
+TEST(ParseTable, RepeatedTimesAreLeftOutAndReported) {
   const auto table = good(kVersion3 + "time\ta\n0\t1\n0\t2\n0.5\t3\n0.5\t4\n1\t5\n");
   EXPECT_THAT(table.time_s, ElementsAre(0.0, 0.5, 1.0));
   EXPECT_THAT(table.values, ElementsAre(1.0, 3.0, 5.0));

@@ -92,7 +92,7 @@ TEST(ParseTrc, FindsNamesWhereverTheyStand) {
   EXPECT_THAT(odd.markers.names, ElementsAre("left knee.1", "R:x y"));
 }
 
-TEST(ParseTrc, ColumnsWithoutANameAreNotReadAndTold) {
+TEST(ParseTrc, ColumnsWithoutANameAreNotReadAndReported) {
   const auto trial = good(text_with(kRows, "\t\t\tB"));
   EXPECT_THAT(trial.markers.names, ElementsAre("B"));
   EXPECT_EQ(trial.markers.x(0, 0), Eigen::Vector3d(0.004, 0.005, 0.006));
@@ -167,7 +167,7 @@ TEST(ParseTrc, ZerosAreNotSeenUnlessTheMarkerPassesTheOrigin) {
   EXPECT_EQ(missing_of({"0\t0\t1"}), 0) << "one coordinate suffices";
 }
 
-TEST(ParseTrc, ZerosAreToldApart) {
+TEST(ParseTrc, ZerosAreDistinguished) {
   const auto warnings = [](const std::vector<std::string>& samples) {
     return good(text_with(rows_of(samples), "A\t\t\tB", "100\t100\t\t\tmm\t100\t1\t2")).warnings;
   };

@@ -127,7 +127,7 @@ TEST_F(RunClean, OtherFormatsGetATableOfDerivatives) {
   EXPECT_GT(table(60, table.find("WRB_vz_sd")), 0.0);
 }
 
-TEST_F(RunClean, DefectsAreToldAndRejectedOnlyWhenAsked) {
+TEST_F(RunClean, DefectsAreReportedAndRejectedOnlyWhenAsked) {
   auto trial = recording();
   trial.markers.x(50, 3).x() += 0.2;
   ASSERT_TRUE(io::write_markers(at("in.c3d"), trial, true));

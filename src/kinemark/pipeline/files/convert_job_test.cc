@@ -36,7 +36,7 @@ class ConvertFile : public testing::SharedFolder<ConvertFile> {
   }
 };
 
-TEST_F(ConvertFile, MarkersKeepPlacesAndGapsFromC3dToTrc) {
+TEST_F(ConvertFile, MarkersKeepPositionsAndGapsFromC3dToTrc) {
   const auto notes = convert(at("in/markers.c3d"), at("out.trc"), false);
   ASSERT_TRUE(notes) << notes.error().message;
   EXPECT_THAT(notes->warnings, IsEmpty());

@@ -97,7 +97,7 @@ TEST_F(ReadMarkerInput, WhatCannotBeReadIsTheReadersSentence) {
   EXPECT_EQ(read_marker_input({.path = scratch_ / "notes.docx"}).error().code, Code::not_supported);
 }
 
-TEST_F(ReadMarkerInput, SelectedMarkersKeepPlacesAndStatesUnderTheirNewNames) {
+TEST_F(ReadMarkerInput, SelectedMarkersKeepPositionsAndStatesUnderTheirNewNames) {
   const auto recorded = read_marker_input({.path = trc_}).value().trial.markers;
   const std::vector<std::int64_t> from{2, 1};
   const TimeBase time{.rate_hz = 50.0, .t0_s = 0.02, .frames = 3};

@@ -62,7 +62,7 @@ TEST(ScreenMarkers, ACleanRecordingStaysAsItIs) {
   EXPECT_EQ(trial.markers.x_in_world, before);
 }
 
-TEST(ScreenMarkers, ASpikeIsToldAndRejectedOnlyWhenAsked) {
+TEST(ScreenMarkers, ASpikeIsReportedAndRejectedOnlyWhenAsked) {
   auto trial = recording();
   trial.markers.x(50, 1).x() += 0.2;
   auto reported = trial;
@@ -126,7 +126,7 @@ TEST(ScreenMarkers, AnotherRateLeavesOutWhatBelongsToTheOldFrames) {
               ElementsAre("1 analog channels were left out: they cannot be told by frames of 50 Hz"));
 }
 
-TEST(ScreenMarkers, MadeFirstLooksForDefectsInWhatIsLeft) {
+TEST(ScreenMarkers, MadeFirstFindsDefectsInWhatIsLeft) {
   // A made sample that stands out is no defect of the real ones.
   auto trial = doubled();
   trial.markers.x(101, 1).x() += 0.2;

@@ -57,7 +57,7 @@ TEST_F(WriteResults, EveryKindReadsBack) {
   EXPECT_EQ(io::read_osim(at("t.osim")).value().markers.size(), model.markers.size());
 }
 
-TEST_F(WriteResults, OnlyWhatWasWrittenIsToldInTheOrderOfTheStaging) {
+TEST_F(WriteResults, OnlyWhatWasWrittenIsReportedInTheOrderOfTheStaging) {
   auto staging = Staging::create({at("a"), at("b"), at("c")}, false).value();
   const auto written = write_results(staging, {text(at("c"), "C"), text(at("a"), "A")}, {}, "work");
   ASSERT_TRUE(written);

@@ -134,7 +134,7 @@ TEST(StagingErrors, AFolderOrAFileInTheWayIsNamed) {
   EXPECT_EQ(scratch.count_files(), 1);
 }
 
-TEST(StagingErrors, AFailureIsToldOfTheTarget) {
+TEST(StagingErrors, AFailureNamesTheTarget) {
   const testing_support::ScratchFolder scratch;
   const auto staging = Staging::create({scratch / "a", scratch / "b"}, false).value();
   const Error error{Code::io, staging.path(1).string() + ": no space left"};

@@ -117,7 +117,7 @@ TEST_F(JointsJobTest, EveryMethodRuns) {
   EXPECT_EQ(run_joints(job).error().code, Code::usage);
 }
 
-TEST_F(JointsJobTest, ASlipIsToldInNotesAndJson) {
+TEST_F(JointsJobTest, ASlipIsReportedInNotesAndJson) {
   make({.frames = 400, .markers_per_segment = 5, .stagger_m = 0.03, .noise_sd_m = 0.0005},
        [](data::Trajectories& markers) {
          for (std::int64_t f = 200; f < 400; ++f) {

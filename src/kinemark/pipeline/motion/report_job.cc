@@ -50,26 +50,16 @@ std::optional<data::Trajectories> recorded_states(const report::IkRun& run, cons
     std::vector<std::int64_t> from;
     for (const auto& name : motion.markers) from.push_back(recorded.find(name));
     if (std::ranges::find(from, -1) != from.end()) return std::nullopt;
-    return select_markers(recorded, from, motion.markers, first, motion.time);
+    auto states = select_markers(recorded, from, motion.markers, first, motion.time);
+    for (const auto& left_out : run.fit.findings) {
+      const auto marker = states.find(left_out.subject);
+      const auto last = std::min(left_out.last_frame, states.frames() - 1);
+      for (auto f = left_out.first_frame; marker >= 0 && f >= 0 && f <= last; ++f)
+        states.set_missing(f, marker, data::SampleState::rejected);
+    }
+    return states;
   }
   return std::nullopt;
-}
-
-/// How many samples were left out: the tables hold NaN for them, as for those that were never there.
-void restore_rejected(const Json& json, report::IkSummary& summary) {
-  const auto count_of = [](const Json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : std::int64_t{0};
-  };
-  summary.rejected_samples = count_of(json, "rejected_samples");
-  if (const auto share = json.find("rejected_fraction"); share != json.end() && share->is_number())
-    summary.rejected_fraction = share->get<double>();
-  const auto markers = json.find("markers");
-  if (markers == json.end() || !markers->is_array()) return;
-  for (const Json& written : *markers)
-    for (auto& marker : summary.markers)
-      if (written.is_object() && written.value("name", Json()) == marker.name)
-        marker.rejected_frames = count_of(written, "rejected_frames");
 }
 
 }  // namespace
@@ -94,7 +84,6 @@ Result<ReportOutcome> run_report(const ReportJob& job) {
   const auto states = recorded_states(*run, *motion);
   auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
   if (!summary) return fail_at(base.string(), summary.error());
-  restore_rejected(*json, *summary);
   const std::string html =
       report::report_html({.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
   if (auto s = io::write_text(job.page, html, job.force); !s) return std::unexpected(s.error());

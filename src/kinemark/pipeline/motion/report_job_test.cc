@@ -8,6 +8,8 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/io/text/trc.h"
+#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
@@ -49,6 +51,26 @@ TEST_F(RunReport, AReportMadeLaterIsTheReportMadeAtOnce) {
               0.05 * static_cast<double>(once.size()));
   EXPECT_EQ(once.find("http://"), later.find("http://"));
   EXPECT_EQ(page(at("R.mot"), at("later.html")).error().code, Code::io) << "exists already";
+}
+
+TEST_F(RunReport, AReportMadeLaterListsTheSameSamplesLeftOut) {
+  auto trial = read_marker_input({.path = at("in/markers.c3d")}).value().trial;
+  for (const std::int64_t frame : {8, 14, 15}) {
+    std::int64_t marker = 0;
+    while (!trial.markers.present(frame, marker)) ++marker;
+    trial.markers.x(frame, marker) += Eigen::Vector3d(0.2, -0.1, 0.15);
+  }
+  ASSERT_TRUE(io::write_trc(at("spoilt.trc"), trial, {}));
+  auto with_page = job("S.mot", "spoilt.trc");
+  with_page.report = at("S_once.html");
+  ASSERT_TRUE(run_ik(with_page));
+  ASSERT_TRUE(page(at("S.mot"), at("S_later.html")));
+  const auto once = data_of(at("S_once.html")), later = data_of(at("S_later.html"));
+  EXPECT_EQ(once["summary"]["rejected_samples"], 3);
+  EXPECT_GE(once["summary"]["rejected"].size(), 1U);
+  for (const char* key : {"rejected", "rejected_samples", "rejected_fraction", "markers", "findings"})
+    EXPECT_EQ(once["summary"][key], later["summary"][key]) << key;
+  EXPECT_EQ(once["series"]["gaps"], later["series"]["gaps"]) << "the map shows what was left out";
 }
 
 TEST_F(RunReport, AReportOfMissingOrForeignFilesIsOneSentence) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/data/name_index.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -205,35 +204,11 @@ class ScaleRun {
 
   /// One factor for the whole model, from distances between markers of one body.
   Status take_overall_size(const data::Trajectories& trial) {
-    double measured = 0.0, modelled = 0.0;
-    const auto& markers = out_.model.markers;
-    const data::NameIndex index(trial.names);
-    for (std::size_t i = 0; i < markers.size(); ++i)
-      for (std::size_t j = i + 1; j < markers.size(); ++j) {
-        if (markers[i].body_idx != markers[j].body_idx) continue;
-        const auto a = index.find(markers[i].name), b = index.find(markers[j].name);
-        if (a < 0 || b < 0) continue;
-        double sum = 0.0, count = 0.0;
-        for (std::int64_t f = 0; f < trial.frames(); f += 1 + trial.frames() / 500) {
-          if (!trial.present(f, a) || !trial.present(f, b)) continue;
-          sum += (trial.x(f, a) - trial.x(f, b)).norm();
-          count += 1.0;
-        }
-        if (count == 0.0) continue;
-        measured += sum / count;
-        modelled += (markers[i].x_in_body - markers[j].x_in_body).norm();
-      }
-    if (measured == 0.0 || modelled == 0.0)
-      return {};  // nothing to compare: the model's size is the best guess
-    const double size = measured / modelled;
-    if (!(size > 0.2 && size < 5.0))
-      return fail(Code::bad_input,
-                  fmt::format("markers lie {:.3g} times as far apart as in the model; that looks like "
-                              "a wrong unit or a wrong model",
-                              size));
-    std::vector<Vector3d> factors(out_.model.bodies.size(), Vector3d::Constant(size));
+    const auto size = motion::find_overall_size(out_.model, trial);
+    if (!size) return std::unexpected(size.error());
+    std::vector<Vector3d> factors(out_.model.bodies.size(), Vector3d::Constant(*size));
     motion::apply_factors(out_.model, factors, true);
-    for (auto& factor : out_.factors) factor.factors *= size;
+    for (auto& factor : out_.factors) factor.factors *= *size;
     return {};
   }
 

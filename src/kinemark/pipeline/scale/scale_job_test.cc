@@ -179,7 +179,7 @@ TEST_F(RunScale, says_what_is_missing_or_wrong) {
   EXPECT_FALSE(fs::exists(at("no.osim")));
 }
 
-TEST_F(RunScale, replaces_nothing_unless_told) {
+TEST_F(RunScale, replaces_nothing_unless_asked) {
   io::write_text(at("there.osim"), "mine", false).value();
   EXPECT_THAT(message(job("there.osim")), HasSubstr("there.osim"));
   EXPECT_EQ(io::read_text(at("there.osim")).value(), "mine");

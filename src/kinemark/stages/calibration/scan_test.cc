@@ -46,7 +46,7 @@ BundleOptions small() {
   return options;
 }
 
-TEST(Scan, CalibratesFromOneLedInKnownPlaces) {
+TEST(Scan, CalibratesFromOneLedInKnownPositions) {
   const auto truth = ts::real_rig(12);
   const Scan scan(truth);
   const auto result = calibrate_scan(ts::ideal_rig(), scan.counts, scan.positions, small());

@@ -45,7 +45,7 @@ struct GridObservations {
   double distance_m = 3.0;                     ///< from the lens, along the axis
   std::vector<StillObservation> observations;  ///< node (i, j), i to the right, j down, at i * nodes + j
 
-  /// Place of a node on the grid, m from its middle.
+  /// Position of a node on the grid, m from its middle.
   [[nodiscard]] Eigen::Vector2d position_m(int i, int j) const {
     const double middle = 0.5 * (nodes - 1);
     return spacing_m * Eigen::Vector2d(i - middle, j - middle);

@@ -38,7 +38,8 @@ struct IkResult {
                                         const IkOptions& options = {}, const Progress& progress = {});
 
 /// The shift (m) that must be added to all measured markers so that the model fits them best, found on up to
-/// 10 frames; and the RMS marker error that would remain. Tells a recording in another place from a bad fit.
+/// 10 frames; and the RMS marker error that would remain. Tells a recording in another position from a bad
+/// fit.
 struct CommonOffset {
   Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  ///< in the world
   double rms_before_m = 0.0, rms_after_m = 0.0;       ///< RMS marker error as it is, and with the shift

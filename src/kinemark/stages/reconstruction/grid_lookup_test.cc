@@ -45,7 +45,7 @@ TEST(GridLookup, ExtrapolatesALittleBeyondTheGrid) {
   EXPECT_LT((look_up(table, distorted(p)) - p).norm(), 1e-10);
 }
 
-TEST(GridLookup, DarkCountsGiveNoPlace) {
+TEST(GridLookup, DarkCountsGiveNoPosition) {
   EXPECT_TRUE(detector_ratios({0, 0, 10, 20}).hasNaN());
   EXPECT_TRUE(
       look_up(table_of(distorted), Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())).hasNaN());

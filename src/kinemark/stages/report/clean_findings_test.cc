@@ -125,7 +125,7 @@ TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 marker (B)"));
 }
 
-TEST(CleanFindings, UncertainFillsAreToldMarkerByMarkerWithTheWorst) {
+TEST(CleanFindings, UncertainFillsAreReportedMarkerByMarkerWithTheWorst) {
   CleanReport r = faultless();
   for (const double sd_m : {0.011, 0.019, 0.004}) {
     data::GapAccount g = gap(kB, 100, 149);

@@ -131,7 +131,7 @@ TEST(CleanSummaryJson, AMarkerTellsWhatTheRecorderDidToIt) {
   EXPECT_EQ(nobody_looked["markers"][6]["band"], "");
 }
 
-TEST(CleanSummaryJson, ADefectIsToldByNames) {
+TEST(CleanSummaryJson, ADefectIsReportedByNames) {
   const Json defects = clean_summary_json(example_clean(1200).finished())["defects"];
   EXPECT_EQ(defects[0]["kind"], "spike");
   EXPECT_EQ(defects[0]["marker"], "R.Finger");

@@ -82,6 +82,7 @@ MarkerRow row_of(std::string name, const data::MarkerFit& fit) {
       marker != fit.markers.end()) {
     row.weight = marker->weight;
     row.noise_sd_m = marker->total_sd_m();
+    row.rejected_frames = marker->rejected_frames.value_or(0);
     row.used = row.weight > 0.0;
   } else if (const auto left = std::ranges::find(fit.excluded, row.name, &data::ExcludedMarker::name);
              left != fit.excluded.end()) {
@@ -94,20 +95,21 @@ MarkerRow row_of(std::string name, const data::MarkerFit& fit) {
 
 void summarize_markers(IkSummary& s, const JointMotion& motion, const Trajectories* markers,
                        const Errors& errors) {
+  std::int64_t there = 0;
   for (std::size_t m = 0; m < motion.markers.size(); ++m) {
     MarkerRow marker = row_of(motion.markers[m], s.run.fit);
     const ErrorSum& sum = errors.of_marker[m];
     marker.seen_frames = sum.count;
-    for (std::size_t i = m; i < motion.marker_state.size(); i += motion.markers.size())
-      marker.rejected_frames += motion.marker_state[i] == data::SampleState::rejected;
     s.rejected_samples += marker.rejected_frames;
+    there += marker.seen_frames + marker.rejected_frames;
     marker.rms_error_m = sum.rms();
     marker.max_error_m = sum.max();
     marker.max_error_frame = sum.at;
     s.markers.push_back(std::move(marker));
   }
-  const auto missing = std::ranges::count(motion.marker_state, data::SampleState::missing);
-  if (const auto there = std::ssize(motion.marker_state) - missing; there > 0)
+  const bool judged = std::ranges::any_of(
+      s.run.fit.markers, [](const data::FittedMarker& m) { return m.rejected_frames.has_value(); });
+  if (judged && there > 0)
     s.rejected_fraction = static_cast<double>(s.rejected_samples) / static_cast<double>(there);
   s.rms_error_m = errors.all.rms();
   s.max_error_m = errors.all.max();
@@ -171,6 +173,10 @@ Result<IkSummary> summarize(IkRun run, const JointMotion& motion, const Trajecto
   if (const auto ok = options.check(); !ok) return std::unexpected(ok.error());
   if (const auto ok = motion.validate(); !ok) return std::unexpected(ok.error());
   if (const auto ok = run.fit.validate(); !ok) return std::unexpected(ok.error());
+  for (const auto& finding : run.fit.findings)
+    if (finding.last_frame >= motion.frames())
+      return fail(Code::bad_input, fmt::format("a finding of '{}' names frame {}; the joint motion has {}",
+                                               finding.subject, finding.last_frame, motion.frames()));
   if (markers != nullptr) {
     if (markers->state.size() != markers->names.size() * static_cast<std::size_t>(markers->frames()))
       return fail(Code::bad_input, "the report's markers have no state for each frame and marker");

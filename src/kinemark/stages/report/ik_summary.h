@@ -33,8 +33,8 @@ struct IkRun {
   std::vector<std::pair<std::string, std::string>> options;  ///< name and value, as they were used
   std::vector<InputFile> inputs;                             ///< files that were read
   std::vector<Gate> gates;                                   ///< bounds that decide the exit status
-  /// Of names, weights, noise and what was left out; errors are computed from the motion, and its warnings
-  /// stand in `warnings`. Markers that are not listed have the weight 1.
+  /// Of names, weights, noise, what was left out and findings; errors are computed from the motion, and its
+  /// warnings stand in `warnings`. Markers that are not listed have the weight 1.
   data::MarkerFit fit;
   std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
   std::vector<std::string> warnings;            ///< one sentence each
@@ -84,7 +84,7 @@ struct IkSummary {
   std::array<std::int64_t, 4> status_frames{};  ///< by FrameStatus
   double determined_fraction = kNaN;            ///< over frames and coordinates that are not locked
   std::int64_t rejected_samples = 0;            ///< left out, of all markers
-  double rejected_fraction = kNaN;              ///< of the samples that there were; NaN: not told
+  double rejected_fraction = kNaN;              ///< of the samples that there were; NaN: not judged
   double rms_error_m = kNaN;                    ///< over all frames and seen markers
   double max_error_m = kNaN;                    ///< over the same
   std::vector<CoordinateSummary> coordinates;   ///< n
@@ -115,9 +115,9 @@ struct SummaryOptions {
 /// What Q_report.json holds. Angles in deg, errors in mm, times in s, unknown numbers null.
 [[nodiscard]] nlohmann::ordered_json summary_json(const IkSummary& summary);
 
-/// The run's facts (trial, model, options, inputs, gates, warnings, weights, ...) read back from
-/// Q_report.json, so that a page can be made from result files. Counts and errors are not read: summarize()
-/// finds them again.
+/// The run's facts (trial, model, options, inputs, gates, warnings, weights, samples left out, ...) read back
+/// from Q_report.json, so that a page can be made from result files. Other counts and errors are not read:
+/// summarize() finds them again.
 [[nodiscard]] Result<IkRun> run_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace kinemark::report

@@ -96,6 +96,19 @@ double metres(const Json& object, const char* key) {
   return value.is_null() ? kNaN : 1e-3 * value.get<double>();
 }
 
+/// What rejected_json() wrote.
+std::vector<data::Finding> read_rejected(const Json& json) {
+  std::vector<data::Finding> findings;
+  for (const Json& r : json.value("rejected", Json::array()))
+    findings.push_back({.kind = data::FindingKind::outlier,
+                        .subject = r.at("marker"),
+                        .first_frame = r.at("first_frame"),
+                        .last_frame = r.at("last_frame"),
+                        .size = metres(r, "distance_mm"),
+                        .detail = r.at("why")});
+  return findings;
+}
+
 IkRun read_run(const Json& json) {
   IkRun run;
   json.at("trial").get_to(run.trial);
@@ -116,16 +129,20 @@ IkRun read_run(const Json& json) {
     run.gates.push_back(
         {g.at("name"), g.at("passed"), value("value"), value("bound"), g.at("unit"), g.at("sentence")});
   }
+  const bool judged = json.contains("rejected_fraction") && !json["rejected_fraction"].is_null();
   for (const Json& m : json.at("markers")) {
     const auto why = m.at("why_excluded").get<std::string>();
-    if (why.empty())
+    if (why.empty()) {
       run.fit.markers.push_back({.name = m.at("name"),
                                  .weight = m.at("weight").is_null() ? 1.0 : m.at("weight").get<double>(),
                                  .noise_sd_m = metres(m, "noise_sd_mm"),
                                  .common_sd_m = 0.0});  // the file holds both together
-    else
+      if (judged) run.fit.markers.back().rejected_frames = m.at("rejected_frames");
+    } else {
       run.fit.excluded.push_back({m.at("name"), why});
+    }
   }
+  run.fit.findings = read_rejected(json);
   for (const Json& c : json.at("coordinates"))
     if (c.at("locked").get<bool>()) run.locked_coordinates.push_back(c.at("name"));
   json.at("warnings").get_to(run.warnings);

@@ -88,6 +88,50 @@ TEST(RunFromJson, ASummaryMadeFromWhatWasReadWritesTheSameJson) {
   EXPECT_EQ(first, second);
 }
 
+TEST(RunFromJson, KeepsWhatWasLeftOut) {
+  auto t = internal::example_trial(400);  // left out: marker 12 in frame 358
+  for (auto& marker : t.run.fit.markers) marker.rejected_frames = 0;
+  t.run.fit.markers[12].rejected_frames = 1;
+  t.run.fit.findings.push_back({.kind = data::FindingKind::outlier,
+                                .subject = t.run.fit.markers[12].name,
+                                .first_frame = 358,
+                                .last_frame = 358,
+                                .size = 0.0431,
+                                .detail = "it lies where 'R.Heel' should"});
+  const Json first = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  EXPECT_EQ(first["rejected_samples"], 1);
+  EXPECT_GT(first["rejected_fraction"], 0.0);
+  EXPECT_EQ(first["rejected"].size(), 1U);
+  EXPECT_EQ(first["markers"][12]["rejected_frames"], 1);
+  const auto run = run_from_json(first);
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(summary_json(summarize(*run, t.motion, &t.markers).value()), first);
+}
+
+TEST(RunFromJson, NothingLeftOutIsNotTheSameAsNotJudged) {
+  auto t = internal::example_trial(200);
+  EXPECT_TRUE(summary_json(summarize(t.run, t.motion, &t.markers).value())["rejected_fraction"].is_null());
+  for (auto& marker : t.run.fit.markers) marker.rejected_frames = 0;
+  const Json judged = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  EXPECT_EQ(judged["rejected_fraction"], 0.0);
+  EXPECT_EQ(run_from_json(judged)->fit.markers[0].rejected_frames, 0);
+}
+
+TEST(RunFromJson, SamplesLeftOutThatCannotBeAreBadInput) {
+  const auto t = internal::example_trial(200);
+  Json json = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  json["rejected"].push_back({{"marker", t.run.fit.markers[0].name},
+                              {"first_frame", 190},
+                              {"last_frame", 200},
+                              {"distance_mm", 3.0},
+                              {"why", ""}});
+  const auto late = summarize(run_from_json(json).value(), t.motion, &t.markers);
+  ASSERT_FALSE(late);
+  EXPECT_THAT(late.error().message, HasSubstr("names frame 200; the joint motion has 200"));
+  json["rejected"][0]["last_frame"] = 180;
+  EXPECT_EQ(summarize(run_from_json(json).value(), t.motion, &t.markers).error().code, Code::bad_input);
+}
+
 TEST(RunFromJson, SaysWhatIsWrong) {
   const Json good = summary_json(example_summary());
   EXPECT_THAT(run_from_json(Json::array()).error().message, HasSubstr("not a kinemark IK report"));

@@ -52,7 +52,7 @@ TEST(SimulateChain, KeepsLengthsInEveryFrame) {
   }
 }
 
-TEST(SimulateChain, PlacesMarkersAtEvenSteps) {
+TEST(SimulateChain, HasMarkersAtEvenSteps) {
   ChainOptions options;
   options.frames = 1;
   const auto line = simulate_chain(options).value();

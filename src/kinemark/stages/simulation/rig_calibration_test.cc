@@ -108,7 +108,7 @@ TEST(TreePoses, RefuseWhatCannotBe) {
   EXPECT_THAT(record_tree_poses(blind, {.poses = 1}).error().message, HasSubstr("seen by all cameras"));
 }
 
-TEST(Scan, VisitsItsPlacesInTurn) {
+TEST(Scan, VisitsItsPositionsInTurn) {
   const ScanOptions options{.positions = {2, 3, 4}, .size_m = {0.4, 0.4, 0.3}, .frames_per_position = 3};
   const auto out = record_scan(rig(), options).value();
   EXPECT_TRUE(out.counts.validate());

@@ -155,7 +155,7 @@ TEST(ExpectedCounts, EveryKindOfDetectorSeesTheSameLight) {
               camera::project(rig.rig.cameras[1], led.x_in_world).image.x(), 2e-3);
 }
 
-TEST(ReflectedCounts, AreAShareOfTheLedFromAnotherPlace) {
+TEST(ReflectedCounts, AreAShareOfTheLedFromAnotherPosition) {
   const auto rig = ideal();
   const LedState led{.x_in_world = {0.1, 0.0, 0.0}};
   const Vector3d mirror(0.1, 0.26, 0.03);

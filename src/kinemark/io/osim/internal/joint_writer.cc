@@ -119,15 +119,15 @@ Status write_spatial_transform(pugi::xml_node node, const ModelDescription& desc
 }
 
 /// OpenSim's default motion type of a coordinate.
-bool looks_like_rotation(const JointDescription& joint, int idx) {
+bool acts_as_rotation(const JointDescription& joint, int idx) {
   return std::ranges::any_of(
       joint.axes, [&](const auto& axis) { return axis.coordinate_idx == idx && axis.is_rotation; });
 }
 
 void write_coordinate(pugi::xml_node coordinates, const data::CoordinateDescription& c,
-                      bool looks_like_rotation) {
+                      bool acts_as_rotation) {
   pugi::xml_node node = append_named(coordinates, "Coordinate", c.name);
-  if (c.is_rotation != looks_like_rotation)
+  if (c.is_rotation != acts_as_rotation)
     append_text(node, "motion_type", c.is_rotation ? "rotational" : "translational");
   append_number(node, "default_value", c.default_value);
   const data::CoordinateDescription unlimited;
@@ -181,7 +181,7 @@ Status write_whole_joint(pugi::xml_node objects, const ModelDescription& descrip
   std::ranges::sort(indices);
   for (const int idx : indices)
     write_coordinate(coordinates, description.coordinates[static_cast<std::size_t>(idx)],
-                     looks_like_rotation(joint, idx));
+                     acts_as_rotation(joint, idx));
   pugi::xml_node frames = node.append_child("frames");
   parent.text().set(
       attach(frames, description, joint.parent_body_idx, joint.parent_from_joint, "parent_offset").c_str());

@@ -32,7 +32,7 @@ ReturningMarkers led() {
 
 double far(const Eigen::Matrix3Xd& a, const Vector3d& b) { return (a.col(0) - b).norm(); }
 
-TEST(ReturningMarkers, LeadFromPlaceAndSpeedOfTheBodyToTheGoal) {
+TEST(ReturningMarkers, LeadFromPositionAndSpeedOfTheBodyToTheGoal) {
   auto returning = led();
   const auto begin = seen(returning, kBegun_s), end = seen(returning, kBegun_s + kEase_s * (1.0 - 1e-9));
   EXPECT_LT(far(begin.x, kMiss), 1e-12);
@@ -43,7 +43,7 @@ TEST(ReturningMarkers, LeadFromPlaceAndSpeedOfTheBodyToTheGoal) {
   EXPECT_TRUE(after.x.isZero(0.0) && after.v.isZero(0.0) && after.a.isZero(0.0));
 }
 
-TEST(ReturningMarkers, PlaceSpeedAndAccelerationBelongTogether) {
+TEST(ReturningMarkers, PositionSpeedAndAccelerationBelongTogether) {
   auto returning = led();
   const double h = 1e-5;
   for (const double t : {0.01, 0.05, 0.09}) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Direct marker control: a simulated body whose torques pull its markers along the measured ones, at any
+// Direct marker control: a simulated body whose torques make its markers follow the measured ones, at any
 // number of priority levels, so that joint angles and torques come out together and without inverse
 // kinematics (Demircan, Sentis, De Sapio, Khatib 2008). Theory: docs/theory/direct-marker-control.md
 #pragma once

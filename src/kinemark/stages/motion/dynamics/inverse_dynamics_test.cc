@@ -317,7 +317,7 @@ TEST(InverseDynamics, UnknownForcesMakeUnknownTorques) {
   EXPECT_THAT(summary.warnings[0], HasSubstr("1 of 2 frames"));
 }
 
-TEST(InverseDynamics, BadInputIsToldInASentence) {
+TEST(InverseDynamics, BadInputIsReportedInASentence) {
   Standing standing(true);
   auto wrong = standing.wrenches;
   wrong.items[0].body = "tail";

@@ -14,8 +14,7 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kLever_m = 0.1;      // converts radians to metres where both must be compared
-constexpr double kLongestStep = 0.6;  // rad, or m / 0.6: beyond it the linearization is not valid
+constexpr double kLever_m = 0.1;  // converts radians to metres where both must be compared
 constexpr double kFloor =
     1e-10;  // relative damping that is always added: keeps undetermined directions at rest
 constexpr double kNewtonDone = 1e-6;  // an exact Newton step below this leaves an error of its square

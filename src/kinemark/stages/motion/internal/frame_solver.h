@@ -10,6 +10,9 @@
 
 namespace kinemark::motion::internal {
 
+/// Longest change of a state in one iteration, rad or m: beyond it the linearization is not valid.
+inline constexpr double kLongestStep = 0.6;
+
 /// Least squares over one frame. Allocates in its constructor only.
 class FrameSolver {
  public:

@@ -35,14 +35,14 @@ FrameWalk::FrameWalk(const Problem& problem, const IkOptions& options, const Pro
   move_.setZero(problem.model.speed_count());
 }
 
-bool FrameWalk::run(const data::Trajectories& markers, bool keep_places, SolvedFrames& solved) {
+bool FrameWalk::run(const data::Trajectories& markers, bool keep_positions, SolvedFrames& solved) {
   const std::size_t numbers = at(3 * problem_.frames) * at(problem_.model.marker_count());
   solved.states.resize(problem_.model.state_count(), problem_.frames);
   solved.marker_error.assign(numbers, kNaN);
   solved.status.assign(at(problem_.frames), FrameStatus::no_markers);
   solved.cost.assign(at(problem_.frames), 0.0);
   solved.loop_gap_m.assign(at(problem_.frames), 0.0);
-  if (keep_places) solved.positions.assign(numbers, std::numeric_limits<float>::quiet_NaN());
+  if (keep_positions) solved.positions.assign(numbers, std::numeric_limits<float>::quiet_NaN());
   solved.first = find_first(markers);
   problem_.observe(markers, solved.first, y_, weight_);
   // The recording may begin anywhere relative to the default pose: several starts, the cheapest wins.

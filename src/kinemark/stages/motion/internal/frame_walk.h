@@ -17,12 +17,12 @@ namespace kinemark::motion::internal {
 /// Where each marker lay on its body, seen from the pose of its frame: F x M x 3, m in the body's axes (in
 /// the world's for markers of the ground); NaN where it was not seen. Half the precision of the rest: only
 /// steps of more than a tenth of a millimetre matter.
-using Places = Array<float>;
+using PositionsOnBody = Array<float>;
 
 /// Poses of all frames and how each came about.
 struct SolvedFrames {
   Eigen::MatrixXd states;                ///< one column per frame
-  Places positions;                      ///< F x M x 3; empty where they were not asked for
+  PositionsOnBody positions;             ///< F x M x 3; empty where they were not asked for
   Array<double> marker_error;            ///< F x M x 3, measured minus model, m; NaN where not seen
   Array<data::FrameStatus> status;       ///< F
   std::vector<double> cost, loop_gap_m;  ///< F: weighted mean of squares, m^2; widest gap of a closed loop, m
@@ -37,7 +37,7 @@ class FrameWalk {
 
   /// Solve all frames from the first one that sees nearly all markers, forwards and then backwards. False
   /// when the caller stopped it.
-  [[nodiscard]] bool run(const data::Trajectories& markers, bool keep_places, SolvedFrames& solved);
+  [[nodiscard]] bool run(const data::Trajectories& markers, bool keep_positions, SolvedFrames& solved);
 
   /// Solve the frames of which `concerned` (F) is not 0 again, each stretch from the poses at its ends, and
   /// those beside it that had followed a wrong pose. All others stay as they are, to the bit.

@@ -7,21 +7,21 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/stages/motion/internal/carried_places.h"
+#include "kinemark/stages/motion/internal/rejected_samples.h"
 
 namespace kinemark::motion::internal {
 namespace {
 
 constexpr int kRounds = 3;  // what was hidden behind a bad sample shows in the next one
 
-/// Take the samples of the strays away; true for each frame in which there were some.
-std::vector<std::uint8_t> leave_out(const Problem& problem, const std::vector<Stray>& strays,
+/// Take the samples of the outliers away; true for each frame in which there were some.
+std::vector<std::uint8_t> leave_out(const Problem& problem, const std::vector<Outlier>& outliers,
                                     data::Trajectories& markers, bool& any) {
   std::vector<std::uint8_t> concerned(at(problem.frames), 0);
   any = false;
-  for (const Stray& stray : strays)
-    for (std::int64_t f = stray.first_frame; f <= stray.last_frame; ++f) {
-      const int d = problem.data_marker[at(stray.marker)];
+  for (const Outlier& outlier : outliers)
+    for (std::int64_t f = outlier.first_frame; f <= outlier.last_frame; ++f) {
+      const int d = problem.data_marker[at(outlier.marker)];
       if (!markers.present(problem.first_frame + f, d)) continue;
       markers.set_missing(problem.first_frame + f, d, data::SampleState::rejected);
       concerned[at(f)] = 1;
@@ -31,13 +31,14 @@ std::vector<std::uint8_t> leave_out(const Problem& problem, const std::vector<St
 }
 
 /// Join stretches of a marker that touch.
-std::vector<Stray> joined(std::vector<Stray> strays) {
-  std::ranges::stable_sort(strays, {}, [](const Stray& s) { return std::tuple(s.marker, s.first_frame); });
-  std::vector<Stray> out;
-  for (const Stray& s : strays) {
+std::vector<Outlier> joined(std::vector<Outlier> outliers) {
+  std::ranges::stable_sort(outliers, {},
+                           [](const Outlier& s) { return std::tuple(s.marker, s.first_frame); });
+  std::vector<Outlier> out;
+  for (const Outlier& s : outliers) {
     if (!out.empty() && out.back().marker == s.marker && s.first_frame <= out.back().last_frame + 1 &&
         out.back().why == s.why && out.back().partner == s.partner) {
-      Stray& last = out.back();
+      Outlier& last = out.back();
       last.last_frame = std::max(last.last_frame, s.last_frame);
       last.distance = std::max(last.distance, s.distance);
       last.length_m = std::max(last.length_m, s.length_m);
@@ -60,13 +61,13 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
   FrameWalk walk(problem, options, progress);
   if (!walk.run(markers, options.judge_samples, judged.solved)) return std::nullopt;
   if (!options.judge_samples) return judged;
-  const auto reject = [&](const std::vector<Stray>& strays) {
-    if (strays.empty()) return false;
+  const auto reject = [&](const std::vector<Outlier>& outliers) {
+    if (outliers.empty()) return false;
     if (!judged.kept) judged.kept = markers;
     bool any = false;
-    const auto concerned = leave_out(problem, strays, *judged.kept, any);
+    const auto concerned = leave_out(problem, outliers, *judged.kept, any);
     if (!any) return false;
-    judged.rejected.insert(judged.rejected.end(), strays.begin(), strays.end());
+    judged.rejected.insert(judged.rejected.end(), outliers.begin(), outliers.end());
     walk.solve_again(*judged.kept, concerned, judged.solved);
     walk.mend(*judged.kept, judged.solved);
     return true;
@@ -81,8 +82,9 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
     bool any = false;
     data::Trajectories counted = markers;
     const auto concerned = leave_out(problem, judged.rejected, counted, any);
-    const StepScale scale(problem, judged.solved);
-    const auto filled = carry_places(problem, *judged.kept, concerned, scale, judged.solved);
+    StepScale scale(problem, judged.solved);
+    scale.learn_growth();
+    const auto filled = fill_rejected(problem, *judged.kept, concerned, scale, judged.solved);
     walk.solve_filled(*judged.kept, filled, concerned, judged.solved);
     judged.solved.iterations = walk.iterations();
   }

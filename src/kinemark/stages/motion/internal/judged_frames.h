@@ -14,9 +14,9 @@ namespace kinemark::motion::internal {
 struct JudgedFrames {
   SolvedFrames solved;
   std::optional<data::Trajectories>
-      kept;                     ///< the recording without what was left out; none where all was kept
-  std::vector<Stray> rejected;  ///< by marker and frame, none overlaps another of the same marker
-  std::vector<Stray> doubtful;  ///< as of Judgement
+      kept;                       ///< the recording without what was left out; none where all was kept
+  std::vector<Outlier> rejected;  ///< by marker and frame, none overlaps another of the same marker
+  std::vector<Outlier> doubtful;  ///< as of Judgement
 };
 
 /// Solve, judge, solve the frames concerned again, until nothing more is found. No value when the caller

@@ -18,7 +18,7 @@ constexpr std::int64_t kHeldFrames = 3;   // equal values in a row: noise never 
 constexpr double kHeldTravel_m = 2e-3;    // what the body must have moved meanwhile
 constexpr double kZeroStep_m = 5e-3;      // what a coordinate of 0 must lie away from its neighbours
 constexpr std::int64_t kSoundBeside = 2;  // frames on each side of a sound one
-constexpr std::int64_t kFewFrames = 3;    // at an end of the recording: too short to be a new place
+constexpr std::int64_t kFewFrames = 3;    // at an end of the recording: too short to be a new position
 
 /// Where the model has the marker, by the pose with all samples.
 Eigen::Vector3d modelled(const Problem& problem, const data::Trajectories& markers,
@@ -29,7 +29,7 @@ Eigen::Vector3d modelled(const Problem& problem, const data::Trajectories& marke
 }
 
 void find_held(const Problem& problem, const data::Trajectories& markers, const SolvedFrames& solved,
-               std::vector<Stray>& out) {
+               std::vector<Outlier>& out) {
   const Eigen::Index M = problem.model.marker_count();
   const auto same = [&](std::int64_t f, Eigen::Index m) {
     const int d = problem.data_marker[at(m)];
@@ -71,7 +71,7 @@ void find_held(const Problem& problem, const data::Trajectories& markers, const 
                          .first_frame = first,
                          .last_frame = f - 1,
                          .length_m = travel,
-                         .why = Stray::Why::held});
+                         .why = Outlier::Why::held});
       }
       run[at(m)] = 0;
     }
@@ -79,7 +79,7 @@ void find_held(const Problem& problem, const data::Trajectories& markers, const 
 }
 
 void find_zero_coordinates(const Problem& problem, const data::Trajectories& markers,
-                           std::vector<Stray>& out) {
+                           std::vector<Outlier>& out) {
   for (Eigen::Index m = 0; m < problem.model.marker_count(); ++m) {
     const int d = problem.data_marker[at(m)];
     for (std::int64_t f = 1; f + 1 < problem.frames; ++f) {
@@ -96,7 +96,7 @@ void find_zero_coordinates(const Problem& problem, const data::Trajectories& mar
                        .first_frame = f,
                        .last_frame = f,
                        .length_m = step,
-                       .why = Stray::Why::zero});
+                       .why = Outlier::Why::zero});
         break;
       }
     }
@@ -129,9 +129,9 @@ std::int64_t find_sound_frame(const Problem& problem, const data::Trajectories& 
 
 }  // namespace
 
-std::vector<Stray> find_plain_defects(const Problem& problem, const data::Trajectories& markers,
-                                      const SolvedFrames& solved) {
-  std::vector<Stray> found;
+std::vector<Outlier> find_plain_defects(const Problem& problem, const data::Trajectories& markers,
+                                        const SolvedFrames& solved) {
+  std::vector<Outlier> found;
   find_held(problem, markers, solved, found);
   find_zero_coordinates(problem, markers, found);
   return found;
@@ -140,15 +140,15 @@ std::vector<Stray> find_plain_defects(const Problem& problem, const data::Trajec
 Judgement judge_recording(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
                           const SolvedFrames& solved) {
   Judgement judgement;
-  const StepScale scale(problem, solved);
+  StepScale scale(problem, solved);
   const std::int64_t sound = find_sound_frame(problem, markers, solved), last = problem.frames - 1;
   for (const std::int64_t end : {last, std::int64_t{0}})
-    for (const Stray& stray : judge_samples(problem, options, markers, solved, scale, sound, end)) {
-      const std::int64_t frames = stray.last_frame - stray.first_frame + 1;
-      const bool to_the_end = stray.last_frame == last || stray.first_frame == 0;
-      // What came back is bad; what did not may live elsewhere now, unless the model says no.
-      const bool bad = stray.returned || stray.clearly_wrong() || (to_the_end && frames <= kFewFrames);
-      (bad ? judgement.bad : judgement.doubtful).push_back(stray);
+    for (const Outlier& outlier : judge_samples(problem, options, markers, solved, scale, sound, end)) {
+      const std::int64_t frames = outlier.last_frame - outlier.first_frame + 1;
+      const bool to_the_end = outlier.last_frame == last || outlier.first_frame == 0;
+      // What came back is bad; what did not may have a new position now, unless the model says no.
+      const bool bad = outlier.returned || outlier.clearly_wrong() || (to_the_end && frames <= kFewFrames);
+      (bad ? judgement.bad : judgement.doubtful).push_back(outlier);
     }
   return judgement;
 }

@@ -13,16 +13,17 @@ namespace kinemark::motion::internal {
 
 /// What became of the samples of a recording.
 struct Judgement {
-  std::vector<Stray> bad;       ///< to be left out
-  std::vector<Stray> doubtful;  ///< this or the other side of its beginning is wrong; kept
+  std::vector<Outlier> bad;       ///< to be left out
+  std::vector<Outlier> doubtful;  ///< this or the other side of its beginning is wrong; kept
 };
 
 /// Samples that give themselves away without any model: a value held digit by digit while the body moves, a
 /// coordinate that is exactly 0 between others that are not.
-[[nodiscard]] std::vector<Stray> find_plain_defects(const Problem& problem, const data::Trajectories& markers,
-                                                    const SolvedFrames& solved);
+[[nodiscard]] std::vector<Outlier> find_plain_defects(const Problem& problem,
+                                                      const data::Trajectories& markers,
+                                                      const SolvedFrames& solved);
 
-/// Judge all samples that are present, by the poses and places of `solved`.
+/// Judge all samples that are present, by the poses and positions of `solved`.
 [[nodiscard]] Judgement judge_recording(const Problem& problem, const IkOptions& options,
                                         const data::Trajectories& markers, const SolvedFrames& solved);
 

@@ -7,16 +7,16 @@
 namespace kinemark::motion::internal {
 namespace {
 
-data::Finding finding_of(const Problem& problem, const Stray& stray) {
+data::Finding finding_of(const Problem& problem, const Outlier& outlier) {
   const auto name = [&](int marker) { return problem.fit.markers[at(marker)].name; };
   data::Finding finding{.kind = data::FindingKind::outlier,
-                        .subject = name(stray.marker),
-                        .first_frame = stray.first_frame,
-                        .last_frame = stray.last_frame,
-                        .size = stray.length_m};
-  if (stray.why == Stray::Why::held) finding.detail = "it holds one value digit by digit";
-  if (stray.why == Stray::Why::zero) finding.detail = "a coordinate is exactly 0";
-  if (stray.partner >= 0) finding.detail = "it lies where '" + name(stray.partner) + "' should";
+                        .subject = name(outlier.marker),
+                        .first_frame = outlier.first_frame,
+                        .last_frame = outlier.last_frame,
+                        .size = outlier.length_m};
+  if (outlier.why == Outlier::Why::held) finding.detail = "it holds one value digit by digit";
+  if (outlier.why == Outlier::Why::zero) finding.detail = "a coordinate is exactly 0";
+  if (outlier.partner >= 0) finding.detail = "it lies where '" + name(outlier.partner) + "' should";
   return finding;
 }
 
@@ -28,15 +28,18 @@ void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
   auto& motion = result.motion;
   const auto M = problem.data_marker.size();
   motion.marker_state.resize(at(problem.frames) * M);
+  for (auto& marker : result.fit.markers) marker.rejected_frames = 0;
   for (std::int64_t f = 0; f < problem.frames; ++f)
-    for (std::size_t m = 0; m < M; ++m)
-      motion.marker_state[at(f) * M + m] =
-          kept.state[kept.index(problem.first_frame + f, problem.data_marker[m])];
-  for (const Stray& stray : judged.rejected) result.fit.findings.push_back(finding_of(problem, stray));
-  for (const Stray& stray : judged.doubtful) {
-    auto finding = finding_of(problem, stray);
+    for (std::size_t m = 0; m < M; ++m) {
+      const auto state = kept.state[kept.index(problem.first_frame + f, problem.data_marker[m])];
+      motion.marker_state[at(f) * M + m] = state;
+      *result.fit.markers[m].rejected_frames += state == data::SampleState::rejected;
+    }
+  for (const Outlier& outlier : judged.rejected) result.fit.findings.push_back(finding_of(problem, outlier));
+  for (const Outlier& outlier : judged.doubtful) {
+    auto finding = finding_of(problem, outlier);
     finding.kind = data::FindingKind::marker_slip;
-    finding.partner = problem.fit.markers[at(stray.marker)].body;
+    finding.partner = problem.fit.markers[at(outlier.marker)].body;
     finding.confidence = 0.5;
     finding.detail = "the samples before or those from there on are wrong; both were kept";
     result.fit.findings.push_back(std::move(finding));

@@ -7,8 +7,8 @@
 
 namespace kinemark::motion::internal {
 
-/// Say what was left out, and what is doubtful: findings of the fit and the state of every sample of the
-/// motion.
+/// Say what was left out, and what is doubtful: findings of the fit, its count of frames left out for each
+/// marker, and the state of every sample of the motion.
 void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
                          const data::Trajectories& markers, IkResult& result);
 

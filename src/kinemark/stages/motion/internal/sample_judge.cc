@@ -17,21 +17,21 @@ namespace {
 // Distances in standard deviations of a sample from what all others expect of it.
 constexpr double kBound = 14.0;         // beyond it a sample is not taken: clean recordings stay below 13.1
 constexpr double kBack = 6.0;           // a sample that was not taken comes back when it is nearer than that
-constexpr double kQuick = 7.0;          // a frame in which nothing moves by more needs no closer look
+constexpr double kQuick = 7.0;          // a frame in which nothing moves by more needs no fit
 constexpr double kRare = 1.6;           // and by so many times what the body does in one frame of sixteen
 constexpr double kMostOpen = 0.25;      // rad^2 or m^2: nothing is vaguer
 constexpr double kLostPose = 0.3;       // rad or m: a pose so far from the expected one followed a bad sample
-constexpr double kExchanged = 0.3;      // of their distance: so near to its partner's place is in it
+constexpr double kExchanged = 0.3;      // of their distance: so near to its partner's position is in it
 constexpr double kClearlyNearer = 0.8;  // of the squared distances from the model's markers
 constexpr double kClearlyFarther =
     1.5;  // times as far from the model's marker as expected: it is wrong there
 constexpr double kLeastFarther_m = 0.01;  // and by so much
-constexpr double kLongestHold_s = 1.0;    // a marker away for longer may live elsewhere now
+constexpr double kLongestHold_s = 1.0;    // a marker away for longer may have a new position now
 
 class Judge {
  public:
   Judge(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
-        const SolvedFrames& solved, const StepScale& scale)
+        const SolvedFrames& solved, StepScale& scale)
       : problem_(problem),
         markers_(markers),
         states_(solved.states),
@@ -42,7 +42,7 @@ class Judge {
     const int n = problem.model.speed_count();
     y_.setZero(3, M_);
     for (auto* v : {&seen_, &used_}) v->setZero(M_);
-    for (auto* v : {&move_, &bend_}) v->setZero(n);
+    for (auto* v : {&move_, &difference_}) v->setZero(n);
     expected_.position.setZero(3, M_);
     expected_.position_sd.setZero(M_);
     expected_.bound.setZero(M_);
@@ -58,14 +58,14 @@ class Judge {
     hold_ = std::max<std::int64_t>(8, std::llround(kLongestHold_s * markers.time.rate_hz));
   }
 
-  std::vector<Stray> run(std::int64_t sound, std::int64_t last) {
+  std::vector<Outlier> run(std::int64_t sound, std::int64_t last) {
     direction_ = last >= sound ? 1 : -1;
     since_.assign(at(M_), sound);
     begin(sound, sound - direction_);
     for (std::int64_t f = sound; f != last;) judge(f += direction_);
     for (Eigen::Index m = 0; m < M_; ++m)
       if (open_[at(m)] >= 0) close(m, false);
-    return std::move(strays_);
+    return std::move(outliers_);
   }
 
  private:
@@ -85,7 +85,7 @@ class Judge {
     steady_ = 2;
   }
 
-  /// The same markers as in the frame before are seen, none is held back, and neither places nor pose do
+  /// The same markers as in the frame before are seen, none is held back, and neither positions nor pose do
   /// anything unusual.
   bool is_quiet(std::int64_t f) {
     if (held_ > 0 || steady_ < 1) return false;
@@ -95,11 +95,11 @@ class Judge {
       const double bound = kQuick * scale_.position[m];
       if ((position(f, m) - expected_.position.col(m)).squaredNorm() > bound * bound) return false;
     }
-    model::difference(problem_.model, x_, states_.col(f), bend_);
-    for (Eigen::Index i = 0; i < bend_.size(); ++i) {
+    model::difference(problem_.model, x_, states_.col(f), difference_);
+    for (Eigen::Index i = 0; i < difference_.size(); ++i) {
       const double bound = steady_ < 2 ? kQuick * scale_.stride[i]
                                        : std::max(kQuick * scale_.speed[i], kRare * scale_.rare[i]);
-      if (std::abs(bend_[i] - (steady_ < 2 ? 0.0 : move_[i])) > bound) return false;
+      if (std::abs(difference_[i] - (steady_ < 2 ? 0.0 : move_[i])) > bound) return false;
     }
     return true;
   }
@@ -117,7 +117,7 @@ class Judge {
       ++steady_;
       open_now_.setZero();
       open_before_.setZero();
-      move_ = bend_;
+      move_ = difference_;
       x_ = states_.col(f);
       for (Eigen::Index m = 0; m < M_; ++m)
         if (seen_[m] > 0.0)
@@ -127,6 +127,7 @@ class Judge {
       return;
     }
     if (!fit_) {
+      scale_.learn_growth();
       fit_.emplace(problem_);
       solver_.emplace(problem_, options_);
     }
@@ -144,26 +145,27 @@ class Judge {
   /// Keep what was known before the first frame of a disturbance.
   void remember() {
     if (held_ == 0 && blind_ == 0) {
-      sound_place_ = expected_.position;
+      sound_position_ = expected_.position;
       sound_x_ = x_;
       disturbed_ = 0;
     }
     ++disturbed_;
   }
 
-  /// All samples lie in their places of before the disturbance by the pose that believes them all, and the
+  /// All samples lie in their positions of before the disturbance by the pose that believes them all, and the
   /// body can have come to that pose meanwhile: whatever was held back is itself again.
   bool returns(std::int64_t f) {
     if (held_ == 0 && blind_ == 0) return false;
     for (Eigen::Index m = 0; m < M_; ++m) {
       if (seen_[m] == 0.0) continue;
       if (!known_[at(m)] || elsewhere_[at(m)]) return false;
-      const double bound = kBound * scale_.place_after(m, disturbed_);
-      if ((position(f, m) - sound_place_.col(m)).squaredNorm() > bound * bound) return false;
+      const double bound = kBound * scale_.position_sd_after(m, disturbed_);
+      if ((position(f, m) - sound_position_.col(m)).squaredNorm() > bound * bound) return false;
     }
-    model::difference(problem_.model, sound_x_, states_.col(f), bend_);
-    for (Eigen::Index i = 0; i < bend_.size(); ++i)
-      if (std::abs(bend_[i]) > kQuick * scale_.stride[i] * static_cast<double>(disturbed_)) return false;
+    model::difference(problem_.model, sound_x_, states_.col(f), difference_);
+    for (Eigen::Index i = 0; i < difference_.size(); ++i)
+      if (std::abs(difference_[i]) > kQuick * scale_.stride[i] * static_cast<double>(disturbed_))
+        return false;
     return true;
   }
 
@@ -193,8 +195,8 @@ class Judge {
     expected_.x = x_;
     const double steps = 1.0 + static_cast<double>(blind_);
     if (steady_ >= 2) {
-      bend_ = steps * move_;
-      model::integrate(problem_.model, expected_.x, bend_);
+      difference_ = steps * move_;
+      model::integrate(problem_.model, expected_.x, difference_);
       expected_.speed_sd = (scale_.speed.array().square() * std::pow(steps, 4) + 4.0 * open_now_.array() +
                             open_before_.array())
                                .sqrt();
@@ -204,7 +206,7 @@ class Judge {
     }
     for (Eigen::Index m = 0; m < M_; ++m)
       expected_.position_sd[m] = elsewhere_[at(m)] ? std::numeric_limits<double>::infinity()
-                                 : known_[at(m)]   ? scale_.place_after(m, age_[at(m)])
+                                 : known_[at(m)]   ? scale_.position_sd_after(m, age_[at(m)])
                                                    : scale_.spread[m];
   }
 
@@ -229,8 +231,8 @@ class Judge {
     if (blind_ > 0) move_ /= 1.0 + static_cast<double>(blind_);
     ++steady_;
     blind_ = 0;
-    model::difference(model, fit_->x(), states_.col(f), bend_);
-    const bool near = bend_.cwiseAbs().maxCoeff() < kLostPose;
+    model::difference(model, fit_->x(), states_.col(f), difference_);
+    const bool near = difference_.cwiseAbs().maxCoeff() < kLostPose;
     if (rejected == 0 && near) {
       x_ = states_.col(f);
       model::kinematics(model, solver_->workspace(), x_);
@@ -251,8 +253,8 @@ class Judge {
     for (Eigen::Index m = 0; m < M_; ++m) account(f, m, out_[at(m)] != 0);
   }
 
-  /// Two markers that changed places may have been exchanged before: nearer to the model's markers they are
-  /// right now. Then what was taken since they last did so was wrong.
+  /// Two markers that changed positions may have been exchanged before: nearer to the model's markers they
+  /// are right now. Then what was taken since they last did so was wrong.
   void turn_round_exchanges(std::int64_t f) {
     const auto& model = problem_.model;
     for (Eigen::Index m = 0; m < M_; ++m) {
@@ -271,12 +273,12 @@ class Judge {
       for (const Eigen::Index i : {m, static_cast<Eigen::Index>(k)}) {
         const int partner = static_cast<int>(i == m ? k : m);
         if (open_[at(i)] >= 0) close(i, false);
-        strays_.push_back({.marker = static_cast<int>(i),
-                           .first_frame = std::min(since_[at(i)], f - direction_),
-                           .last_frame = std::max(since_[at(i)], f - direction_),
-                           .distance = fit_->distance()[i],
-                           .length_m = fit_->length()[i],
-                           .partner = partner});
+        outliers_.push_back({.marker = static_cast<int>(i),
+                             .first_frame = std::min(since_[at(i)], f - direction_),
+                             .last_frame = std::max(since_[at(i)], f - direction_),
+                             .distance = fit_->distance()[i],
+                             .length_m = fit_->length()[i],
+                             .partner = partner});
         since_[at(i)] = f;
         out_[at(i)] = 0;
       }
@@ -301,26 +303,27 @@ class Judge {
       pending_.push_back({.marker = static_cast<int>(m), .first_frame = f, .last_frame = f});
       open = std::ssize(pending_) - 1;
     }
-    Stray& stray = pending_[at(open)];
-    stray.first_frame = std::min(stray.first_frame, f);
-    stray.last_frame = std::max(stray.last_frame, f);
-    stray.distance = std::max(stray.distance, fit_->distance()[m]);
-    stray.length_m = std::max(stray.length_m, fit_->length()[m]);
-    if (const int partner = exchanged_with(m); partner >= 0) stray.partner = partner;
+    Outlier& outlier = pending_[at(open)];
+    outlier.first_frame = std::min(outlier.first_frame, f);
+    outlier.last_frame = std::max(outlier.last_frame, f);
+    outlier.distance = std::max(outlier.distance, fit_->distance()[m]);
+    outlier.length_m = std::max(outlier.length_m, fit_->length()[m]);
+    if (const int partner = exchanged_with(m); partner >= 0) outlier.partner = partner;
     // The pose was found without this marker: how far is it from the model's, and where it was expected?
     const auto& w = solver_->workspace();
     const Eigen::Vector3d modelled = w.marker.col(m);
-    stray.from_model_m = std::max(stray.from_model_m, (y_.col(m) - modelled).norm());
-    stray.expected_from_model_m = std::max(stray.expected_from_model_m, (world_.col(m) - modelled).norm());
-    // Away for so long, and not where the model would not have it: it may well live elsewhere now.
-    if (stray.last_frame - stray.first_frame + 1 >= hold_ && !stray.clearly_wrong()) {
+    outlier.from_model_m = std::max(outlier.from_model_m, (y_.col(m) - modelled).norm());
+    outlier.expected_from_model_m =
+        std::max(outlier.expected_from_model_m, (world_.col(m) - modelled).norm());
+    // Away for so long, and not where the model would not have it: it may well have a new position now.
+    if (outlier.last_frame - outlier.first_frame + 1 >= hold_ && !outlier.clearly_wrong()) {
       close(m, false);
       elsewhere_[at(m)] = 1;
       --held_;
     }
   }
 
-  /// The marker that lies where this one should be, while this one lies in its place; or -1.
+  /// The marker that lies where this one should be, while this one lies in its position; or -1.
   [[nodiscard]] int exchanged_with(Eigen::Index m) const {
     for (Eigen::Index k = 0; k < M_; ++k) {
       if (k == m || !out_[at(k)]) continue;
@@ -333,31 +336,31 @@ class Judge {
   }
 
   void close(Eigen::Index m, bool returned) {
-    Stray stray = pending_[at(open_[at(m)])];
-    stray.returned = returned;
-    strays_.push_back(stray);
+    Outlier outlier = pending_[at(open_[at(m)])];
+    outlier.returned = returned;
+    outliers_.push_back(outlier);
     open_[at(m)] = -1;
   }
 
   const Problem& problem_;
   const data::Trajectories& markers_;
   const Eigen::MatrixXd& states_;
-  const Places& positions_;
-  const StepScale& scale_;
+  const PositionsOnBody& positions_;
+  StepScale& scale_;
   const IkOptions& options_;
-  std::optional<PlaceFit> fit_;  // most recordings never need them
+  std::optional<ExpectedPoseFit> fit_;  // most recordings never need them
   std::optional<FrameSolver> solver_;
   Eigen::Index M_;
-  Eigen::Matrix3Xd y_, world_, sound_place_;
-  Eigen::VectorXd seen_, used_, x_, move_, bend_, sound_x_;
+  Eigen::Matrix3Xd y_, world_, sound_position_;
+  Eigen::VectorXd seen_, used_, x_, move_, difference_, sound_x_;
   Eigen::VectorXd open_now_, open_before_;  ///< nv: variance that the last two frames left open
   Expectation expected_;
   std::vector<std::int64_t> open_;       ///< per marker: index into pending_, or -1
   std::vector<std::int64_t> age_;        ///< per marker: frames since it was taken
   std::vector<std::uint8_t> known_;      ///< per marker: 1: taken before
-  std::vector<std::uint8_t> elsewhere_;  ///< per marker: 1: its place is not known any more
-  std::vector<Stray> pending_, strays_;
-  std::vector<std::int64_t> since_;  ///< per marker: its place is its own since that frame
+  std::vector<std::uint8_t> elsewhere_;  ///< per marker: 1: its position is not known any more
+  std::vector<Outlier> pending_, outliers_;
+  std::vector<std::int64_t> since_;  ///< per marker: its position is its own since that frame
   std::vector<std::uint8_t> out_;    ///< per marker: 1: not taken in this frame
   std::int64_t direction_ = 1, hold_ = 0, blind_ = 0, disturbed_ = 0;
   int steady_ = 0, held_ = 0;
@@ -365,14 +368,14 @@ class Judge {
 
 }  // namespace
 
-bool Stray::clearly_wrong() const {
+bool Outlier::clearly_wrong() const {
   return from_model_m > kClearlyFarther * expected_from_model_m &&
          from_model_m > expected_from_model_m + kLeastFarther_m;
 }
 
-std::vector<Stray> judge_samples(const Problem& problem, const IkOptions& options,
-                                 const data::Trajectories& markers, const SolvedFrames& solved,
-                                 const StepScale& scale, std::int64_t sound, std::int64_t last) {
+std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
+                                   const data::Trajectories& markers, const SolvedFrames& solved,
+                                   StepScale& scale, std::int64_t sound, std::int64_t last) {
   Judge judge(problem, options, markers, solved, scale);
   return judge.run(sound, last);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
@@ -12,15 +13,16 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr std::int64_t kSteps = 250;   // of one marker or speed that are looked at, at most
-constexpr std::int64_t kLooks = 60;    // frames that tell the usual place of a marker, at most
+constexpr std::int64_t kSteps = 250;  // of one marker or speed that are used, at most
+constexpr std::int64_t kPositionFrames =
+    60;                                // frames from which the usual position of a marker is found, at most
 constexpr double kShare = 0.8;         // quantile of absolute values that stands for the scale ...
 constexpr double kShareInSd = 1.2816;  // ... which in a normal distribution lies here
 constexpr double kRareShare = 0.94;    // and one for long tails: what a spike in a short trial does not reach
 constexpr double kRareInSd = 1.8808;
-constexpr double kMostOfUsual = 4.0;      // times the middle one of all markers: labels that always change
-constexpr double kLeastPlace_m = 0.3e-3;  // no camera system steps by less
-constexpr double kLeastSpeed = 1e-3;      // rad or m
+constexpr double kMostOfUsual = 4.0;         // times the middle one of all markers: labels that always change
+constexpr double kLeastPosition_m = 0.3e-3;  // no camera system steps by less
+constexpr double kLeastSpeed = 1e-3;         // rad or m
 constexpr double kMostCost =
     6.0;  // times that of a quarter of the frames: a frame that costs more is unusual
 constexpr double kLeastCost_m2 = 1e-6;  // and by so much
@@ -48,18 +50,18 @@ std::int64_t stride_for(std::int64_t frames, std::int64_t most) {
   return std::max<std::int64_t>(1, frames / most);
 }
 
-Eigen::Vector3d place_at(const SolvedFrames& solved, Eigen::Index M, std::int64_t f, Eigen::Index m) {
+Eigen::Vector3d position_at(const SolvedFrames& solved, Eigen::Index M, std::int64_t f, Eigen::Index m) {
   return Eigen::Map<const Eigen::Vector3f>(solved.positions.data() + 3 * (f * M + m)).cast<double>();
 }
 
-/// Scale of the steps of a marker's place over `lag` frames.
+/// Scale of the steps of a marker's position over `lag` frames.
 double step_over(const SolvedFrames& solved, const std::vector<std::uint8_t>& usual, Eigen::Index M,
                  Eigen::Index m, std::int64_t lag, std::vector<double>& values) {
   const std::int64_t F = solved.states.cols();
   values.clear();
   for (std::int64_t f = lag; f < F; f += stride_for(F - lag, kSteps)) {
     if (!usual[at(f)] || !usual[at(f - lag)]) continue;
-    const Eigen::Vector3d step = place_at(solved, M, f, m) - place_at(solved, M, f - lag, m);
+    const Eigen::Vector3d step = position_at(solved, M, f, m) - position_at(solved, M, f - lag, m);
     if (std::isnan(step.x())) continue;
     for (int axis = 0; axis < 3; ++axis) values.push_back(std::abs(step[axis]));
   }
@@ -71,7 +73,7 @@ double step_over(const SolvedFrames& solved, const std::vector<std::uint8_t>& us
 StepScale::StepScale(const Problem& problem, const SolvedFrames& solved)
     : problem_(problem), solved_(solved) {
   find_usual();
-  learn_places();
+  learn_positions();
   learn_speeds();
 }
 
@@ -86,34 +88,34 @@ void StepScale::find_usual() {
   for (std::int64_t f = 0; f < problem_.frames; ++f) usual_[at(f)] = solved_.cost[at(f)] <= most;
 }
 
-double StepScale::place_after(Eigen::Index marker, std::int64_t frames) const {
+double StepScale::position_sd_after(Eigen::Index marker, std::int64_t frames) const {
+  check(!growth_.empty(), "learn_growth() comes first");
   if (frames <= 1) return position[marker];
-  if (growth_.empty()) learn_growth();
   std::size_t i = 0;
   while (i + 1 < growth_.size() && (std::int64_t{1} << i) < frames) ++i;
   return std::min(position[marker] * growth_[i], std::max(spread[marker], 2.0 * position[marker]));
 }
 
-void StepScale::learn_places() {
+void StepScale::learn_positions() {
   const Eigen::Index M = problem_.model.marker_count();
   const std::int64_t F = problem_.frames;
   position.setZero(M);
   spread.setZero(M);
   centre.setZero(3, M);
-  std::vector<double> values, strayed;
+  std::vector<double> values, distances;
   for (Eigen::Index m = 0; m < M; ++m) {
-    position[m] = std::max(kLeastPlace_m, step_over(solved_, usual_, M, m, 1, values));
-    strayed.clear();
+    position[m] = std::max(kLeastPosition_m, step_over(solved_, usual_, M, m, 1, values));
+    distances.clear();
     for (int axis = 0; axis < 3; ++axis) {
       values.clear();
-      for (std::int64_t f = 0; f < F; f += stride_for(F, kLooks))
-        if (const double u = place_at(solved_, M, f, m)[axis]; usual_[at(f)] && !std::isnan(u))
+      for (std::int64_t f = 0; f < F; f += stride_for(F, kPositionFrames))
+        if (const double u = position_at(solved_, M, f, m)[axis]; usual_[at(f)] && !std::isnan(u))
           values.push_back(u);
       if (values.empty()) continue;
       centre(axis, m) = math::upper_median(values);
-      for (const double u : values) strayed.push_back(std::abs(u - centre(axis, m)));
+      for (const double u : values) distances.push_back(std::abs(u - centre(axis, m)));
     }
-    spread[m] = std::max(position[m], tails_of(strayed).sd());
+    spread[m] = std::max(position[m], tails_of(distances).sd());
   }
   for (auto* v : {&position, &spread}) {
     const double middle = math::upper_median({v->data(), at(M)});
@@ -121,7 +123,8 @@ void StepScale::learn_places() {
   }
 }
 
-void StepScale::learn_growth() const {
+void StepScale::learn_growth() {
+  if (!growth_.empty()) return;
   const Eigen::Index M = problem_.model.marker_count();
   std::vector<double> values, ratios;
   growth_.assign(1, 1.0);
@@ -139,21 +142,21 @@ void StepScale::learn_speeds() {
   const std::int64_t F = problem_.frames;
   for (auto* v : {&speed, &rare, &stride}) v->setConstant(n, kLeastSpeed);
   if (F < 3) return;
-  std::vector<std::vector<double>> bends(at(n)), steps(at(n));
+  std::vector<std::vector<double>> changes(at(n)), steps(at(n));
   Eigen::VectorXd before(n), after(n);
   for (std::int64_t f = 1; f + 1 < F; f += stride_for(F, kSteps)) {
     if (!usual_[at(f - 1)] || !usual_[at(f)] || !usual_[at(f + 1)]) continue;
     model::difference(problem_.model, solved_.states.col(f - 1), solved_.states.col(f), before);
     model::difference(problem_.model, solved_.states.col(f), solved_.states.col(f + 1), after);
     for (Eigen::Index i = 0; i < n; ++i) {
-      bends[at(i)].push_back(std::abs(after[i] - before[i]));
+      changes[at(i)].push_back(std::abs(after[i] - before[i]));
       steps[at(i)].push_back(std::abs(after[i]));
     }
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Tails bend = tails_of(bends[at(i)]);
-    speed[i] = std::max(kLeastSpeed, bend.sd());
-    rare[i] = std::max(kLeastSpeed, bend.rare);
+    const Tails change = tails_of(changes[at(i)]);
+    speed[i] = std::max(kLeastSpeed, change.sd());
+    rare[i] = std::max(kLeastSpeed, change.rare);
     stride[i] = std::max(kLeastSpeed, tails_of(steps[at(i)]).sd());
   }
   // What rests at a limit most of the time may leave it.

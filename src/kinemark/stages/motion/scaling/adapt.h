@@ -35,7 +35,7 @@ struct AdaptOptions {
   [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
 
-/// One number that the motion has told.
+/// One number found from the motion.
 struct AdaptedParameter {
   std::string name;                                ///< as given
   ParameterKind kind = ParameterKind::body_scale;  ///< what it scales or moves

@@ -53,7 +53,7 @@ int index_of(const AdaptResult& result, const std::string& name) {
 // Sizes and positions are drawn from the priors, so that the covariance must be exact.
 // Errors of one subject hang together; each subject's chi-square and share count as one number, and chance is
 // judged from how these numbers scatter.
-TEST(AdaptModel, finds_sizes_and_places_of_a_noisy_recording_within_their_deviations) {
+TEST(AdaptModel, finds_sizes_and_positions_of_a_noisy_recording_within_their_deviations) {
   auto list = parameters(leg());
   for (auto& parameter : list)
     if (parameter.kind == ParameterKind::body_scale) parameter.prior_sd = 0.04;
@@ -126,7 +126,7 @@ TEST(AdaptModel, a_limb_that_keeps_still_is_not_determined_and_its_interval_cove
   EXPECT_LT(std::sqrt(squares / (2.0 * kSubjects)), 1.6);
 }
 
-/// The same recording with every sample's place changed.
+/// The same recording with every sample's position changed.
 template <class Change>
 data::Trajectories changed(data::Trajectories recording, const Change& change) {
   for (std::int64_t f = 0; f < recording.frames(); ++f)
@@ -243,7 +243,7 @@ TEST(AdaptModel, markers_that_follow_the_posture_widen_the_intervals) {
   EXPECT_GT(honest.parameters[k].sd, 2.0 * naive.parameters[k].sd);
 }
 
-TEST(AdaptModel, joint_places_alone_are_found_exactly_without_noise) {
+TEST(AdaptModel, joint_positions_alone_are_found_exactly_without_noise) {
   const std::vector<std::string> joints{"knee_r"};
   const auto list = joint_parameters(leg(), joints, 0.05).value();
   auto truth = leg();

@@ -89,7 +89,7 @@ TEST(DistributeMass, a_limb_without_a_side_keeps_its_mass) {
   EXPECT_NEAR(total(model), 90.0, 1e-12);
 }
 
-TEST(DistributeMass, mass_centres_of_long_bones_move_to_their_place) {
+TEST(DistributeMass, mass_centres_of_long_bones_move_to_their_position) {
   auto model = testing_leg::leg();
   ASSERT_TRUE(distribute_mass(model, 70.0));
   // From the hip, 10 mm above the femur's origin, towards the knee.

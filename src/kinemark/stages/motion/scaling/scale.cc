@@ -197,6 +197,36 @@ void apply_factors(data::ModelDescription& model, std::span<const Vector3d> fact
   }
 }
 
+Result<double> find_overall_size(const data::ModelDescription& model, const data::Trajectories& recording) {
+  constexpr std::int64_t kFrames = 500;
+  double measured = 0.0, modelled = 0.0;
+  const auto& markers = model.markers;
+  const data::NameIndex index(recording.names);
+  for (std::size_t i = 0; i < markers.size(); ++i)
+    for (std::size_t j = i + 1; j < markers.size(); ++j) {
+      if (markers[i].body_idx != markers[j].body_idx) continue;
+      const auto a = index.find(markers[i].name), b = index.find(markers[j].name);
+      if (a < 0 || b < 0) continue;
+      double sum = 0.0, count = 0.0;
+      for (std::int64_t f = 0; f < recording.frames(); f += 1 + recording.frames() / kFrames) {
+        if (!recording.present(f, a) || !recording.present(f, b)) continue;
+        sum += (recording.x(f, a) - recording.x(f, b)).norm();
+        count += 1.0;
+      }
+      if (count == 0.0) continue;
+      measured += sum / count;
+      modelled += (markers[i].x_in_body - markers[j].x_in_body).norm();
+    }
+  if (measured == 0.0 || modelled == 0.0) return 1.0;
+  const double size = measured / modelled;
+  if (!(size > kSmallest && size < kLargest))
+    return fail(Code::bad_input,
+                fmt::format("markers lie {:.3g} times as far apart as in the model; that looks like "
+                            "a wrong unit or a wrong model",
+                            size));
+  return size;
+}
+
 Status set_total_mass(data::ModelDescription& model, double mass_kg) {
   double total = 0.0;
   for (const auto& body : model.bodies) total += body.mass;

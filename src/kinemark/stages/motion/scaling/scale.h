@@ -48,6 +48,12 @@ struct ScaleResult {
                                               const data::Trajectories* recording,
                                               const data::ScaleRecipe& recipe);
 
+/// The subject's size over the model's: distances between markers of one body, mean over at most 500 frames
+/// that show both, summed, over the same in the model; 1 where no body has two markers in the recording.
+/// Fails outside 0.2 to 5. O(F M^2 / bodies).
+[[nodiscard]] Result<double> find_overall_size(const data::ModelDescription& model,
+                                               const data::Trajectories& recording);
+
 /// Scale every body by its factors (one per body, along its axes): joint frames, joints' translation
 /// functions (by the parent), radii, mass centres, markers, points of loops. A coordinate that is itself a
 /// translation is left alone. Inertia follows as for a body whose every point is stretched; `scale_mass`: the

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "kinemark/stages/motion/scaling/testing/small_leg.h"
 
@@ -30,6 +31,27 @@ data::Trajectories static_trial(const data::ModelDescription& model) {
 
 data::ScaleMeasurement thigh_measurement() {
   return {.name = "thigh", .pairs = {{"THI", "KNM"}, {"THA", "KNE"}}, .bodies = {{.body = "femur_r"}}};
+}
+
+TEST(FindOverallSize, comes_from_distances_within_a_body) {
+  auto subject = leg();
+  apply_factors(subject, same_factors(subject, Vector3d::Constant(1.2)), true);
+  auto recording = static_trial(subject);
+  EXPECT_NEAR(find_overall_size(leg(), recording).value(), 1.2, 0.01);
+  recording.set_missing(3, 2);
+  EXPECT_NEAR(find_overall_size(leg(), recording).value(), 1.2, 0.01);
+}
+
+TEST(FindOverallSize, is_that_of_the_model_without_a_distance_and_refuses_a_wrong_unit) {
+  auto recording = static_trial(leg());
+  auto none = recording;
+  for (std::size_t m = 0; m < none.names.size(); ++m) none.names[m] = "X" + std::to_string(m);
+  EXPECT_EQ(find_overall_size(leg(), none).value(), 1.0);
+  for (double& x : recording.x_in_world) x *= 1000.0;
+  const auto refused = find_overall_size(leg(), recording);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::bad_input);
+  EXPECT_THAT(refused.error().message, HasSubstr("wrong unit"));
 }
 
 TEST(ApplyFactors, a_uniform_factor_scales_every_length) {

@@ -135,7 +135,7 @@ TEST(CameraObservations, OneCameraCarriesTheBodyThroughAGap) {
   EXPECT_GT(with.motion.q_sd[with.motion.index(120, 9)], with.motion.q_sd[with.motion.index(30, 9)]);
 }
 
-TEST(CameraObservations, BadInputIsToldInASentence) {
+TEST(CameraObservations, BadInputIsReportedInASentence) {
   Stereo stereo(20);
   auto wrong = stereo.tracks;
   wrong.noise_sd[0] = -1.0;

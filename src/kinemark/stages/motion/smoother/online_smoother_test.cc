@@ -158,7 +158,7 @@ TEST(OnlineMotionSmoother, StartsAnewAfterAFrameThatIsNotFinite) {
   EXPECT_TRUE(live.finish().empty());
 }
 
-TEST(OnlineMotionSmoother, BadInputIsToldInASentence) {
+TEST(OnlineMotionSmoother, BadInputIsReportedInASentence) {
   const auto model = body();
   const auto offline = smooth_motion(model, testing_body::record(model, 30, 0.002, 5)).value();
   const auto& names = offline.motion.markers;

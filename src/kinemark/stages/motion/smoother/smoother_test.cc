@@ -195,7 +195,7 @@ TEST(Smoother, SoftTissueWidensTheBars) {
   EXPECT_GT(coverage(model, after.motion).one, 0.5);
 }
 
-TEST(Smoother, BadInputIsToldInASentence) {
+TEST(Smoother, BadInputIsReportedInASentence) {
   const auto model = body();
   const auto markers = testing_body::record(model, 20);
   SmootherOptions options;

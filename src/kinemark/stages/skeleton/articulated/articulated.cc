@@ -92,7 +92,7 @@ data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
                             .kind = w.fit.chain.kind[at(chain_segment)]};
   std::vector<int> placed;
   for (const int m : w.fit.chain.layout.markers_of(chain_segment))
-    if (w.fit.marker_weight[at(m)] > 0.0) placed.push_back(m);  // the others' places are not known
+    if (w.fit.marker_weight[at(m)] > 0.0) placed.push_back(m);  // the others' positions are not known
   out.x_in_segment.resize(3, static_cast<Eigen::Index>(placed.size()));
   for (std::size_t i = 0; i < placed.size(); ++i) {
     out.markers.push_back(w.input.marker[at(placed[i])]);
@@ -240,7 +240,7 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
   summary.white_jerk = path.position.empty() ? 0.0 : w.continuity.prior[at(j)].white_jerk;
 }
 
-/// Along a hinge's axis its place is not known, nor is that part of a length from it.
+/// Along a hinge's axis its position is not known, nor is that part of a length from it.
 double open_variance(const Work& w, const data::Skeleton& skeleton, const FittedChain::Length& length,
                      int chain_joint) {
   const auto& joint = skeleton.joints[at(w.tree.joint_order[at(chain_joint)])];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Joint centres of a whole chain of segments by maximum likelihood: the markers' places in their segments are
-// unknown and common to all frames, every frame has its pose, neighbouring segments share a point. Theory:
-// docs/theory/joint-centres.md and docs/theory/joint-centres-continuity.md
+// Joint centres of a whole chain of segments by maximum likelihood: the markers' positions in their segments
+// are unknown and common to all frames, every frame has its pose, neighbouring segments share a point.
+// Theory: docs/theory/joint-centres.md and docs/theory/joint-centres-continuity.md
 #pragma once
 
 #include <cstdint>
@@ -54,8 +54,8 @@ struct ArticulatedFit {
 /// Centres of all joints of `layout` in every frame, their covariances, and what can be known of them.
 ///
 /// Layouts are trees of two segments or more; markers not in the layout are left out. A frame is `determined`
-/// when its own markers leave one place; otherwise, with continuity, `bridged` when the path between
-/// neighbours decides or fills in, else `ambiguous` (best of several places, with that place's own
+/// when its own markers leave one position; otherwise, with continuity, `bridged` when the path between
+/// neighbours decides or fills in, else `ambiguous` (best of several positions, with that position's own
 /// covariance) or `undetermined` (NaN). With continuity the centres of determined frames are smoothed as
 /// well; the result is then better than each frame's own, by as much as the movement is slow. Where frames do
 /// not follow each other (their innovations say so) nothing is smoothed and a warning says it.

@@ -78,7 +78,7 @@ TEST(FitArticulated, StaysAtTheBoundForSolidSegments) {
   EXPECT_NEAR(fit.skeleton.noise_sd_m, 0.001, 1e-4);
   EXPECT_EQ(fit.joints[0].determined, static_cast<std::int64_t>(n));
   EXPECT_EQ(fit.joints[0].determined + fit.joints[0].ambiguous + fit.joints[0].undetermined, 200);
-  EXPECT_GT(fit.joints[0].modes, fit.joints[0].ambiguous) << "an ambiguous frame shows two places or more";
+  EXPECT_GT(fit.joints[0].modes, fit.joints[0].ambiguous) << "an ambiguous frame shows two positions or more";
   EXPECT_THAT(fit.skeleton.joints[0].description, HasSubstr("deg of motion: centre known to"));
   EXPECT_GT(fit.skeleton.joints[0].range_of_motion_rad, 2.5);
 }
@@ -163,7 +163,7 @@ TEST(FitArticulated, ChainsInAnyOrderGiveTheSameJoints) {
   EXPECT_EQ(reversed.skeleton.joints[0].parent_segment, 2);
 }
 
-TEST(FitArticulated, AHingeIsKnownButForItsPlaceAlongTheAxis) {
+TEST(FitArticulated, AHingeIsKnownButForItsPositionAlongTheAxis) {
   const Limb limb = make_limb({.frames = 400,
                                .markers_per_segment = 4,
                                .stagger_m = 0.03,
@@ -186,7 +186,7 @@ TEST(FitArticulated, AHingeIsKnownButForItsPlaceAlongTheAxis) {
   EXPECT_GT(C.determinant(), 0.0);
   const Eigen::Vector3d e = error_of(limb, fit.skeleton, 100, 0);
   EXPECT_LT(e.squaredNorm(), 25.0 * C.trace());
-  // Across the axis the place is right, and along it where the markers are.
+  // Across the axis the position is right, and along it where the markers are.
   const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvectors().col(2);
   EXPECT_LT((e - axis.dot(e) * axis).norm(), 0.003);
   const auto along = [](const data::SkeletonSegment& segment, const Eigen::Vector3d& centre,
@@ -225,7 +225,7 @@ TEST(FitArticulated, LinesHaveNoHingeEvenWhenAsked) {
   EXPECT_THAT(fit.skeleton.warnings, Contains(AllOf(HasSubstr("'j0'"), HasSubstr("no axis can be seen"))));
 }
 
-// The joint turns about every axis: who calls it a hinge is told nothing of its place along the main one.
+// The joint turns about every axis: who calls it a hinge is told nothing of its position along the main one.
 TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   const Limb limb = make_limb({.frames = 200, .markers_per_segment = 4, .stagger_m = 0.03, .seed = 7});
   auto options = alone(SegmentKind::solid);
@@ -240,9 +240,9 @@ TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   EXPECT_THAT(joint.description, HasSubstr("position along it not"));
 }
 
-TEST(FitArticulated, AMarkerWithoutAPlaceIsLeftOutByName) {
+TEST(FitArticulated, AMarkerWithoutAPositionIsLeftOutByName) {
   Limb limb = make_limb({.frames = 200, .markers_per_segment = 5, .stagger_m = 0.03, .seed = 13});
-  // In two frames alone, far away: too few to know its place, enough to draw a pose to it.
+  // In two frames alone, far away: too few to know its position, enough to draw a pose to it.
   for (std::int64_t f = 0; f < 200; ++f) {
     if (f == 50 || f == 51)
       limb.markers.x(f, 7) += Eigen::Vector3d(0.1, 0.0, 0.0);

@@ -19,7 +19,7 @@ namespace kinemark::skeleton {
 /// Cramer-Rao bounds of J joint centres in F frames.
 struct CentreBound {
   Array<double> covariance;        ///< F x J x 6 (xx xy xz yy yz zz), m^2; NaN where not determined
-  Array<double> known_geometry;    ///< the same if the markers' places in their segments were known
+  Array<double> known_geometry;    ///< the same if the markers' positions in their segments were known
   Array<std::uint8_t> determined;  ///< F x J, 1 where the frame's information holds the joint
   std::vector<int> length_joint_a, length_joint_b;  ///< pairs of joints that meet on a segment
   std::vector<double> length_sd_m;                  ///< smallest standard deviation of their distance, m
@@ -37,7 +37,7 @@ struct LimbTruth {
 };
 
 /// Bound of every centre when the markers seen are those present in `markers`, noise is isotropic and normal,
-/// the markers' places in their segments are unknown, and all frames inform them. Segments of kind line or
+/// the markers' positions in their segments are unknown, and all frames inform them. Segments of kind line or
 /// plane are known to be such, their markers and joints lying on that line or in that plane. No estimate
 /// without other knowledge (time, joint limits) errs less on average. Fails when shapes disagree, a segment
 /// is not rigid in the truth, or its points do not span what its kind needs. O(F) time and memory.

@@ -23,7 +23,7 @@ testing::ChainSetup trial(std::uint64_t seed, double noise_sd_m) {
           .seed = seed};
 }
 
-TEST(Carry, AFunctionalTrialPlacesTheJointInAnother) {
+TEST(Carry, AFunctionalTrialGivesTheJointOfAnother) {
   const auto functional = testing::make_chain(trial(1, 0.0));
   auto walk = testing::make_chain(trial(2, 0.0));
   const auto found = find_joints(functional.markers, functional.layout);

@@ -25,7 +25,7 @@ TEST(DescribeJoint, ABallIsKnownAsFarAsItIs) {
   EXPECT_EQ(describe_joint(ball(0.5, {0.1, 0.1, 0.1})), "29 deg of motion: centre not known (100.0 mm)");
 }
 
-TEST(DescribeJoint, AHingeTellsAxisAndPlace) {
+TEST(DescribeJoint, AHingeTellsAxisAndPosition) {
   data::SkeletonJoint joint = ball(0.21, {0.3, 0.03, 0.03});
   joint.kind = data::JointKind::hinge;
   joint.axis_in_parent = Eigen::Vector3d::UnitX();

@@ -30,7 +30,7 @@ TEST(Functional, NamesReadBack) {
   EXPECT_FALSE(parse_sides("left"));
 }
 
-TEST(Functional, EveryMethodPlacesTheJointsOfAChain) {
+TEST(Functional, EveryMethodFindsTheJointsOfAChain) {
   const auto chain = make_chain(
       {.lengths_m = {0.12, 0.15, 0.16, 0.08}, .per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005});
   for (const auto method :
@@ -165,7 +165,7 @@ TEST(Functional, AJointThatNeverMovesIsReturnedWide) {
       << skeleton->joints[0].description;
 }
 
-TEST(Functional, SwappedLabelsAreToldAndLeftOut) {
+TEST(Functional, SwappedLabelsAreReportedAndLeftOut) {
   auto chain = make_chain({.per_segment = 4, .noise_sd_m = 0.0005});
   for (std::int64_t f = 60; f < 70; ++f) {
     const Eigen::Vector3d x = chain.markers.x(f, 0);

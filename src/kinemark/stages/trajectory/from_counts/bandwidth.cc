@@ -121,7 +121,7 @@ Bandwidth search(const Risk& risk_at, double highest, int octaves) {
   const double octave = std::log(2.0);
   Bandwidth found;
   found.sure = std::numeric_limits<double>::infinity();
-  const auto look = [&](double log_hz) {
+  const auto risk = [&](double log_hz) {
     const Bandwidth at = risk_at(log_hz);
     if (at.sure < found.sure) found = at;
     return at.sure;
@@ -129,8 +129,8 @@ Bandwidth search(const Risk& risk_at, double highest, int octaves) {
   int best = 0;
   double least = found.sure;
   for (int i = 0; i < octaves; ++i)
-    if (const double sure = look(highest - i * octave); sure < least) least = sure, best = i;
-  std::ignore = math::golden_section(look, highest - (best + 1) * octave,
+    if (const double sure = risk(highest - i * octave); sure < least) least = sure, best = i;
+  std::ignore = math::golden_section(risk, highest - (best + 1) * octave,
                                      highest - std::max(best - 1, 0) * octave, {.sections = 4});
   return found;
 }

@@ -328,7 +328,7 @@ TEST(FillGaps, EveryMethodCopesWithEveryRaggedRecording) {
   }
 }
 
-TEST(FillGaps, DoesNothingUnlessAskedAndStopsWhenTold) {
+TEST(FillGaps, DoesNothingUnlessAskedAndStopsWhenAsked) {
   Trajectories t = moving_bodies({.frames = 300});
   hide(t, 1, 100, 110);
   const GapResult r = fill(t, {.method = GapMethod::none});

@@ -128,7 +128,7 @@ TEST(Screen, FramesHeldIrregularlyAreDuplicated) {
   EXPECT_GT(called, repeats * 8 / 10);
 }
 
-TEST(Screen, AClockThatJumpsIsToldFromItsTimes) {
+TEST(Screen, AClockThatJumpsIsFoundFromItsTimes) {
   const Trajectories t = testing::walker({.markers = 2, .frames = 50});
   std::vector<double> times;
   for (int f = 0; f < 50; ++f) times.push_back(0.01 * f + (f >= 20 ? 0.03 : 0.0));
@@ -278,7 +278,7 @@ Trajectories spoilt() {
 }
 
 /// "kind subject partner first-last" of each, in alphabetical order.
-std::vector<std::string> told(const Trajectories& t) {
+std::vector<std::string> summaries_of(const Trajectories& t) {
   std::vector<std::string> out;
   for (const data::Finding& f : found(t)) {
     std::string one = f.subject, other = f.partner;
@@ -293,7 +293,7 @@ std::vector<std::string> told(const Trajectories& t) {
 const std::vector<std::string> kSpoilt{"label swap M1 M2 320-359", "spike M0  100-100", "stuck M7  200-230",
                                        "swap within M5 M4 450-462"};
 
-TEST(ScreenLaws, WhatIsSpoiltIsFound) { EXPECT_EQ(told(spoilt()), kSpoilt); }
+TEST(ScreenLaws, WhatIsSpoiltIsFound) { EXPECT_EQ(summaries_of(spoilt()), kSpoilt); }
 
 TEST(ScreenLaws, TheLaboratoryMayLieElsewhere) {
   Trajectories t = spoilt();
@@ -302,7 +302,7 @@ TEST(ScreenLaws, TheLaboratoryMayLieElsewhere) {
   for (std::int64_t f = 0; f < t.frames(); ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m)
       t.x(f, m) = (rotation * t.x(f, m) + Eigen::Vector3d(12.0, -3.0, 0.7)).eval();
-  EXPECT_EQ(told(t), kSpoilt);
+  EXPECT_EQ(summaries_of(t), kSpoilt);
 }
 
 TEST(ScreenLaws, MarkersMayComeInAnyOrder) {
@@ -316,7 +316,7 @@ TEST(ScreenLaws, MarkersMayComeInAnyOrder) {
         other.x(f, m) = t.x(f, step * m % 8);
         other.state[other.index(f, m)] = t.state[t.index(f, step * m % 8)];
       }
-    EXPECT_EQ(told(other), kSpoilt) << step;
+    EXPECT_EQ(summaries_of(other), kSpoilt) << step;
   }
 }
 
@@ -330,13 +330,13 @@ TEST(ScreenLaws, AnotherMarkerThatIsNeverSeenChangesNothing) {
       more.x(f, m) = t.x(f, m);
       more.state[more.index(f, m)] = t.state[t.index(f, m)];
     }
-  EXPECT_EQ(told(more), kSpoilt);
+  EXPECT_EQ(summaries_of(more), kSpoilt);
 }
 
 TEST(ScreenLaws, WhatWasRejectedIsNotFoundAgain) {
   const Trajectories t = spoilt();
   const Trajectories rest = reject_defects(t, found(t)).value();
-  EXPECT_THAT(told(rest), IsEmpty());
+  EXPECT_THAT(summaries_of(rest), IsEmpty());
   // 1 of the spike, 31 stuck, 40 of each of two labels, 13 of the visit; nothing else was touched.
   EXPECT_EQ(rest.count_missing() - t.count_missing(), 1 + 31 + 2 * 40 + 13);
   EXPECT_EQ(reject_defects(rest, found(t)).value().state, rest.state) << "rejected twice is rejected";

@@ -119,7 +119,7 @@ TEST(DetectUpsampling, FollowsAPhaseThatSlips) {
   EXPECT_TRUE(report.recording.real(1199));
 }
 
-TEST(DetectUpsampling, LooksAtPiecesOfALongRecordingAndFollowsAll) {
+TEST(DetectUpsampling, UsesPiecesOfALongRecordingAndFollowsAll) {
   const auto report =
       detect_upsampling(linear_recording(3, 2, 30'000), {.max_factor = 4, .max_frames = 5000}).value();
   EXPECT_EQ(report.recording.factor, 3);

@@ -377,7 +377,7 @@ TEST(Smooth, FilledStretchesCountAsOneObservation) {
   EXPECT_EQ(result.markers.front().measured, 360);
 }
 
-TEST(Smooth, ColouredNoiseIsToldFromWhite) {
+TEST(Smooth, ColouredNoiseIsDistinguishedFromWhite) {
   Trajectories in = hand(2000);
   Random random(8, 8);
   double wander = 0.0;

@@ -19,7 +19,7 @@ Result<GoalCurve> GoalCurve::through(const Eigen::MatrixXd& values, const TimeBa
   curve.time_ = time;
   curve.values_ = values;
   curve.curvature_.setZero(values.rows(), n);
-  // Thomas algorithm for bend[i-1] + 4 bend[i] + bend[i+1] = 6 (second difference), zero at the ends.
+  // Thomas algorithm for the curvature c, c[i-1] + 4 c[i] + c[i+1] = 6 (second difference), zero at the ends.
   Eigen::VectorXd factor = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 1; i + 1 < n; ++i) {
     const double pivot = 4.0 - factor[i - 1];

@@ -128,7 +128,7 @@ TEST(UnmeasuredLoad, AHandOnARailIsNoFoot) {
   EXPECT_THAT(find(frames), IsEmpty());
 }
 
-TEST(UnmeasuredLoad, UnknownForcesAndDownwardPullsAreNoLoad) {
+TEST(UnmeasuredLoad, UnknownAndDownwardForcesAreNoLoad) {
   auto frames = Walk::frames({true, false});
   for (auto& frame : frames) frame.force = -frame.force;
   EXPECT_THAT(find(frames), IsEmpty());

@@ -63,7 +63,7 @@ TEST(Describe, the_deviation_of_a_length_is_that_of_its_parameters) {
   }
 }
 
-TEST(Describe, told_means_half_the_prior_from_motion_alone) {
+TEST(Describe, determined_means_half_the_prior_from_motion_alone) {
   const auto list = scale_parameters(leg(), default_scale_groups(leg()), 0.1).value();
   const auto size = static_cast<Index>(list.size());
   AdaptResult result;

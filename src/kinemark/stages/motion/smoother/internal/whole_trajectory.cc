@@ -9,6 +9,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
+#include "kinemark/stages/motion/internal/frame_solver.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -20,8 +21,7 @@ using Eigen::VectorXd;
 constexpr std::int64_t kOneSegment = 1024, kSegment = 256;  // frames whose factors are in memory at once
 // Prior SD (rad or m) over the whole recording of a speed that nothing determines.
 constexpr double kFloorSd = 30.0;
-constexpr double kDone = 1e-4;        // half the squared step over its variance: 0.015 standard deviations
-constexpr double kLongestStep = 0.6;  // rad or m; beyond it the linearization is not valid
+constexpr double kDone = 1e-4;  // half the squared step over its variance: 0.015 standard deviations
 constexpr int kHalvings = 10;
 
 }  // namespace

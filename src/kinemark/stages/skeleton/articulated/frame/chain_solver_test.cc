@@ -157,9 +157,9 @@ TEST(ChainSolver, RobustWeightsHoldAgainstAnOutlier) {
   EXPECT_LT((frame.centre[0] - limb.pose[0].joint0).norm(), 0.3 * plain);
 }
 
-// Stagger of the order of the noise: the places that fit lie as close together as any of them is known.
+// Stagger of the order of the noise: the positions that fit lie as close together as any of them is known.
 // Their mean is the answer, and it errs as much as its covariance says.
-TEST(ChainSolver, PlacesThatLieTogetherAreOneWithTheSpreadOfAll) {
+TEST(ChainSolver, PositionsThatLieTogetherAreOneWithTheSpreadOfAll) {
   const double noise_m = 0.002;
   const RandomChain limb =
       make_random_chain({.frames = 600, .stagger_m = 0.004, .noise_sd_m = noise_m, .missing = 0.3});

@@ -41,7 +41,7 @@ struct Found {
   }
 };
 
-TEST(ModeFinder, ThreeMarkersLeaveTwoMirroredPlacesOfEqualWeight) {
+TEST(ModeFinder, ThreeMarkersLeaveTwoMirroredPositionsOfEqualWeight) {
   RandomChain limb = make_random_chain({.frames = 30, .noise_sd_m = 0.0});
   int pairs = 0;
   for (int f = 0; f < 30; ++f) {
@@ -90,7 +90,7 @@ TEST(Profile, IsAGaussianWhereAllIsSeen) {
   }
 }
 
-// Three markers whose two mirrored places have grown into one: the likelihood there is a flat trough, but
+// Three markers whose two mirrored positions have grown into one: the likelihood there is a flat trough, but
 // where noise has driven the two far past each other.
 TEST(Profile, AFoldIsNoGaussian) {
   RandomChain limb = make_random_chain({.frames = 200, .stagger_m = 0.01});

@@ -95,7 +95,7 @@ TEST(PoseSolver, GradientAgreesWithDifferences) {
   }
 }
 
-// The normal matrix is J^T J of the predicted places.
+// The normal matrix is J^T J of the predicted positions.
 TEST(PoseSolver, NormalMatrixIsTheSquaredJacobian) {
   const MixedTree tree;
   PoseSolver solver(tree.chain);

@@ -41,7 +41,7 @@ TEST(GeometryFit, ReturnsToTheGeometryOfExactData) {
 TEST(GeometryFit, DegreesOfFreedomAreCounted) {
   RandomChain limb = make_random_chain({.frames = 20});
   PosedFrames frames = true_poses(limb);
-  // 18 coordinates and 9 parameters a frame; 18 places of markers less 6 turns of axes.
+  // 18 coordinates and 9 parameters a frame; 18 positions of markers less 6 turns of axes.
   EXPECT_EQ(GeometryFit(limb.chain, limb.samples, frames).degrees_of_freedom(), 20 * 9 - 18 + 6);
   // One marker on the first segment: 12 coordinates, and its turn about the line to the joint is open.
   for (const int k : {1, 2}) hide(limb.samples, 0, k);

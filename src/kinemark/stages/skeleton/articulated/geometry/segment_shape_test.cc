@@ -55,7 +55,7 @@ TEST(SegmentShape, OppositeMarkersNeedNotBeSeenTogether) {
   EXPECT_LT(distance_error(shape, limb.chain.marker.leftCols(6)), 1e-8);
 }
 
-TEST(SegmentShape, AMarkerThatNothingTiesToTheOthersHasNoPlace) {
+TEST(SegmentShape, AMarkerThatNothingTiesToTheOthersHasNoPosition) {
   RandomChain limb = make_random_chain({.markers_per_segment = 5, .frames = 40, .noise_sd_m = 0.0});
   for (int f = 0; f < 40; ++f)
     for (const int k : f < 2 ? std::vector<int>{} : std::vector<int>{4}) hide(limb.samples, f, k);

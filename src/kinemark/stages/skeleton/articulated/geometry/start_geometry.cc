@@ -65,7 +65,7 @@ Result<Body> make_body(const ChainSamples& samples, std::vector<int> markers, Se
   return body;
 }
 
-// Places of the joint in both bodies' axes.
+// Positions of the joint in both bodies' axes.
 struct Joint {
   Vector3d in_parent = Vector3d::Zero(), in_child = Vector3d::Zero();
 };

@@ -50,8 +50,8 @@ double squared_distance(const Vector3d& x, const PredictedJoint& path) {
   return d.dot(path.inverse * d);
 }
 
-/// The mode that data and paths prefer together, or -1 when for some open joint another place comes close to
-/// it or the path lies elsewhere.
+/// The mode that data and paths prefer together, or -1 when for some open joint another position comes close
+/// to it or the path lies elsewhere.
 int choose(const FlaggedFrame& flagged, const std::vector<PredictedJoint>& paths,
            const std::vector<bool>& open, double noise_sd_m) {
   const std::size_t n = flagged.modes.size();

@@ -74,7 +74,7 @@ Vector3d residual(const FittedChain& fit, const ChainSamples& samples, const Sam
 std::vector<std::pair<std::int64_t, Vector3d>> residuals(const FittedChain& fit, const ChainSamples& samples,
                                                          const RecordingPass& pass, int marker) {
   std::vector<std::pair<std::int64_t, Vector3d>> out;
-  if (!(fit.marker_weight[at(marker)] > 0.0)) return out;  // its place is not known
+  if (!(fit.marker_weight[at(marker)] > 0.0)) return out;  // its position is not known
   for (const SampledPose& s : pass.sampled)
     if (samples.seen(s.frame, marker)) out.emplace_back(s.frame, residual(fit, samples, s, marker));
   return out;

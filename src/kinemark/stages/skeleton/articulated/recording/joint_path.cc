@@ -17,11 +17,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLongestGap_s = 1.0;  // without a frame that holds a place
-// Standard deviations of the first frame: m about the first place found, m/s (limbs stay far below), m/s^2.
+constexpr double kLongestGap_s = 1.0;  // without a frame that holds a position
+// Standard deviations of the first frame: m about the first position found, m/s (limbs stay far below),
+// m/s^2.
 constexpr std::array<double, 5> kPriorSd{1.0, 10.0, 1000.0};
 
-/// Frames [begin, end) without a gap too long to cross; the first place in them.
+/// Frames [begin, end) without a gap too long to cross; the first position in them.
 struct Piece {
   std::int64_t begin = 0, end = 0;
   Vector3d first_position = Vector3d::Zero();
@@ -60,7 +61,7 @@ std::vector<math::PositionObservation<3>> observe(std::span<const PathPoint> poi
   return out;
 }
 
-/// Log likelihood when every frame draws its place anew from one normal distribution.
+/// Log likelihood when every frame draws its position anew from one normal distribution.
 double likelihood_of_unrelated(std::span<const PathPoint> points) {
   Vector3d mean = Vector3d::Zero();
   Matrix3d spread = Matrix3d::Zero();

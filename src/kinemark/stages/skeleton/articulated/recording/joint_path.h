@@ -11,7 +11,7 @@
 
 namespace kinemark::skeleton::articulated {
 
-/// What one frame says of a point: its place, and with how much information (1/m^2, rank 0 to 3).
+/// What one frame says of a point: its position, and with how much information (1/m^2, rank 0 to 3).
 struct PathPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -29,12 +29,13 @@ struct SmoothedPath {
   [[nodiscard]] Eigen::Matrix3d covariance_at(std::size_t frame) const;
 };
 
-/// Place of a point under jerk that is white noise of density `white_jerk` (m^2/s^5), given all frames, which
-/// may be of any rank. Stretches of more than a second in which no frame holds a place are left unknown but
-/// for their first and last half second. O(F) time. The smoother is math::smooth_wiener() of order 3.
+/// Position of a point under jerk that is white noise of density `white_jerk` (m^2/s^5), given all frames,
+/// which may be of any rank. Stretches of more than a second in which no frame holds a position are left
+/// unknown but for their first and last half second. O(F) time. The smoother is math::smooth_wiener() of
+/// order 3.
 [[nodiscard]] SmoothedPath smooth_path(std::span<const PathPoint> points, double rate_hz, double white_jerk);
 
-/// Log likelihood of the places given such a path, up to a constant that the points alone fix.
+/// Log likelihood of the positions given such a path, up to a constant that the points alone fix.
 [[nodiscard]] double calc_path_likelihood(std::span<const PathPoint> points, double rate_hz,
                                           double white_jerk);
 
@@ -45,7 +46,7 @@ struct PathPrior {
 };
 
 /// The likeliest density of jerk, from up to `max_frames` frames in four windows. `follows` compares with
-/// places that are independent from frame to frame.
+/// positions that are independent from frame to frame.
 [[nodiscard]] PathPrior find_path_prior(std::span<const PathPoint> points, double rate_hz,
                                         std::int64_t max_frames = 2000);
 

@@ -41,7 +41,7 @@ Drawn draw(std::uint64_t seed, int frames, double jerk, double sd_m, double lost
   Q << std::pow(t, 5) / 20, std::pow(t, 4) / 8, std::pow(t, 3) / 6, std::pow(t, 4) / 8, std::pow(t, 3) / 3,
       t * t / 2, std::pow(t, 3) / 6, t * t / 2, t;
   const Matrix3d root = Eigen::LLT<Matrix3d>(jerk * Q).matrixL();
-  Matrix3d state = Matrix3d::Zero();  // rows: axes; columns: place, velocity, acceleration
+  Matrix3d state = Matrix3d::Zero();  // rows: axes; columns: position, velocity, acceleration
   Drawn out;
   for (int f = 0; f < frames; ++f) {
     const Vector3d x = state.col(0);
@@ -178,7 +178,7 @@ TEST(PathSmoother, FindsTheJerkThatWasDrawn) {
   }
 }
 
-TEST(PathSmoother, LooksAtWindowsOfALongRecording) {
+TEST(PathSmoother, UsesWindowsOfALongRecording) {
   // Slow enough that the speed stays that of a limb after 25 s.
   const auto drawn = draw(4, 1500, 1e-2, 0.001, 0.2);
   EXPECT_NEAR(std::log10(find_path_prior(drawn.points, kRate_hz, 400).white_jerk), -2.0, 0.51);
@@ -195,7 +195,7 @@ TEST(PathSmoother, SeesThatFramesAreUnrelated) {
   EXPECT_FALSE(find_path_prior(points, kRate_hz).follows);
 }
 
-TEST(PathSmoother, ATrihedralHoldsAPlaceAndAPlaneDoesNot) {
+TEST(PathSmoother, ATrihedralFixesAPositionAndAPlaneDoesNot) {
   PathPoint p;
   EXPECT_FALSE(holds_a_position(p));
   p.information.diagonal() << 1e6, 1e6, 0.0;

@@ -33,7 +33,7 @@ TEST(RecordingPass, EveryFrameOfAnyNumberOfThreadsIsTheSolversOwn) {
     if (frame.state[0] != CentreState::determined) {
       ASSERT_LT(flagged, one.flagged.size());
       EXPECT_EQ(one.flagged[flagged++].frame, static_cast<std::int64_t>(f));
-      EXPECT_TRUE(one.points[0][f].information.isZero(0.0)) << "no place of its own";
+      EXPECT_TRUE(one.points[0][f].information.isZero(0.0)) << "no position of its own";
     } else {
       EXPECT_LT((one.points[0][f].position - frame.centre[0]).norm(), 1e-7);
       EXPECT_LT((load_symmetric(one.covariance[0].data() + 6 * f) - frame.covariance[0]).norm(), 1e-9);

@@ -88,7 +88,7 @@ TEST(RigidShape, PosesPutTheShapeOntoTheMarkers) {
   }
 }
 
-TEST(RigidShape, AMarkerThatIsElsewhereInFewFramesDoesNotBendTheShape) {
+TEST(RigidShape, AMarkerThatIsElsewhereInFewFramesDoesNotChangeTheShape) {
   TestChain chain = make_chain({.frames = 200, .per_segment = 5, .stagger_m = 0.03, .noise_sd_m = 0.0005});
   for (std::int64_t f = 0; f < 10; ++f) chain.markers.x(f, 2) += Eigen::Vector3d(0.2, 0.0, 0.0);
   EXPECT_LT(distance_error(find_shape(chain), chain.x_in_segment[0]), 0.001);

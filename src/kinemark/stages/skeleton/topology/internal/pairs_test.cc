@@ -73,7 +73,7 @@ TEST(Pairs, OddsHaveTheRightSignAndSaturate) {
   EXPECT_EQ(odds(3, 3), 0.0);
 }
 
-TEST(Pairs, ClustersAreNumberedByFirstMarkerAndStraysMove) {
+TEST(Pairs, ClustersAreNumberedByFirstMarkerAndSinglesMove) {
   PairSpread pairs;
   pairs.variance = pairs.correlation = pairs.frames = Eigen::MatrixXd::Ones(5, 5);
   Eigen::MatrixXd odds = Eigen::MatrixXd::Constant(5, 5, -10.0);

@@ -58,7 +58,7 @@ TEST(CheckLabels, IsSilentOnCleanMotionAndOnNoise) {
   }
 }
 
-TEST(CheckLabels, DoubtsAMarkerThatIsInNobodysPlace) {
+TEST(CheckLabels, DoubtsAMarkerThatIsInNobodysPosition) {
   data::Trajectories t = testing::moving_bodies({.noise_m = 3e-4});
   for (Index f = 100; f < 150; ++f) t.x(f, 2) += Eigen::Vector3d(0.1, 0.05, -0.1);
   Recording r(t);

@@ -28,7 +28,7 @@ TEST(LocalFrameTest, ARigidBodyStandsStillInIt) {
   for (Index f = 0; f < 200; f += 7) EXPECT_LT((local(4, f) - local(4, 0)).norm(), 1e-9) << f;
 }
 
-TEST(LocalFrameTest, TwoMarkersOrALineGiveAPlaceOnly) {
+TEST(LocalFrameTest, TwoMarkersOrALineGiveAPositionOnly) {
   data::Trajectories t = testing::moving_bodies({.frames = 200});
   for (Index f = 0; f < 200; ++f) t.x(f, 2) = 0.5 * (t.x(f, 0) + t.x(f, 1));
   const Recording r(t);

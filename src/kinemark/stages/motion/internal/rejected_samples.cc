@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/internal/carried_places.h"
+#include "kinemark/stages/motion/internal/rejected_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 #include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/internal/place_fit.h"
+#include "kinemark/stages/motion/internal/expected_pose_fit.h"
 
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kLongestLook_s = 1.0;
+constexpr double kFarthest_s = 1.0;
 constexpr double kLeastPrior = 0.5;  // rad or m: nothing is expected more vaguely
 
 /// The nearest frames before and behind f that no sample of was left out, for one marker or, without one, for
@@ -23,15 +23,16 @@ struct Beside {
   std::int64_t before = -1, behind = -1;
 };
 
-class Looker {
+class FramesBeside {
  public:
-  Looker(const Problem& problem, const data::Trajectories& kept, const std::vector<std::uint8_t>& concerned)
+  FramesBeside(const Problem& problem, const data::Trajectories& kept,
+               const std::vector<std::uint8_t>& concerned)
       : problem_(problem),
         kept_(kept),
         concerned_(concerned),
-        far_(std::max<std::int64_t>(8, std::llround(kLongestLook_s * kept.time.rate_hz))) {}
+        far_(std::max<std::int64_t>(8, std::llround(kFarthest_s * kept.time.rate_hz))) {}
 
-  [[nodiscard]] Beside look(std::int64_t f, int marker) const {
+  [[nodiscard]] Beside of(std::int64_t f, int marker) const {
     return {.before = find(f, marker, -1), .behind = find(f, marker, 1)};
   }
 
@@ -59,14 +60,14 @@ double share_of(const Beside& beside, std::int64_t f) {
 
 }  // namespace
 
-data::Trajectories carry_places(const Problem& problem, const data::Trajectories& kept,
-                                const std::vector<std::uint8_t>& concerned, const StepScale& scale,
-                                SolvedFrames& solved) {
+data::Trajectories fill_rejected(const Problem& problem, const data::Trajectories& kept,
+                                 const std::vector<std::uint8_t>& concerned, const StepScale& scale,
+                                 SolvedFrames& solved) {
   const auto& model = problem.model;
   const int M = model.marker_count();
   data::Trajectories filled = kept;
-  const Looker looker(problem, kept, concerned);
-  PlaceFit fit(problem);
+  const FramesBeside frames_beside(problem, kept, concerned);
+  ExpectedPoseFit fit(problem);
   Expectation expected;
   expected.position.setZero(3, M);
   expected.position_sd.setZero(M);
@@ -79,7 +80,7 @@ data::Trajectories carry_places(const Problem& problem, const data::Trajectories
   };
   for (std::int64_t f = 0; f < problem.frames; ++f) {
     if (!concerned[at(f)]) continue;
-    const Beside beside = looker.look(f, -1);
+    const Beside beside = frames_beside.of(f, -1);
     if (beside.before < 0 && beside.behind < 0) continue;
     // The pose: between those beside, as vaguely as they are far.
     const double share = share_of(beside, f);
@@ -97,7 +98,7 @@ data::Trajectories carry_places(const Problem& problem, const data::Trajectories
           (2.0 * scale.stride * static_cast<double>(std::abs(f - near))).cwiseMin(kLeastPrior);
     }
     for (int m = 0; m < M; ++m) {
-      const Beside own = looker.look(f, m);
+      const Beside own = frames_beside.of(f, m);
       if (own.before < 0 && own.behind < 0) {
         expected.position_sd[m] = std::numeric_limits<double>::infinity();
         continue;
@@ -108,7 +109,7 @@ data::Trajectories carry_places(const Problem& problem, const data::Trajectories
       if (own.behind >= 0) expected.position.col(m) += s * position(own.behind, m);
       const std::int64_t near = std::min(own.before < 0 ? problem.frames : f - own.before,
                                          own.behind < 0 ? problem.frames : own.behind - f);
-      expected.position_sd[m] = scale.place_after(m, near);
+      expected.position_sd[m] = scale.position_sd_after(m, near);
     }
     problem.observe(kept, f, y, seen);
     fit.solve(expected, y, seen);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/internal/place_fit.h"
+#include "kinemark/stages/motion/internal/expected_pose_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/frame_solver.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -20,12 +21,11 @@ constexpr double kThirdOfThree = 1.239;  // a third of all lengths of three stan
 constexpr double kRoughest = 3.0;        // a frame may be rougher than its recording by that
 constexpr double kLoopSd_m = 1e-5;       // closed loops are kept shut to that
 constexpr double kCalm = 5.0;            // when no sample is farther than that, all are taken
-constexpr double kLongestFitStep = 0.6;  // rad or m
 constexpr double kSettled = 3e-4;        // rad or m: a step below it ends the search
 
 }  // namespace
 
-PlaceFit::PlaceFit(const Problem& problem) : problem_(problem), w_(problem.model) {
+ExpectedPoseFit::ExpectedPoseFit(const Problem& problem) : problem_(problem), w_(problem.model) {
   const int n = problem.model.speed_count(), M = problem.model.marker_count();
   residual_.setZero(3, M);
   for (auto* v : {&weight_, &distance_, &length_}) v->setZero(M);
@@ -38,14 +38,14 @@ PlaceFit::PlaceFit(const Problem& problem) : problem_(problem), w_(problem.model
   rejected_.assign(at(M), 0);
 }
 
-void PlaceFit::visit(const Expectation& expected) {
+void ExpectedPoseFit::visit(const Expectation& expected) {
   const auto& model = problem_.model;
   model::kinematics(model, w_, x_);
   for (Eigen::Index m = 0; m < expected.position.cols(); ++m)
     w_.marker.col(m) = model::point_in_world(w_, model.markers()[at(m)].body, expected.position.col(m));
 }
 
-double PlaceFit::step(const Expectation& expected) {
+double ExpectedPoseFit::step(const Expectation& expected) {
   const auto& model = problem_.model;
   model::clear_forces(w_);
   model::add_marker_forces(model, w_, weight_, residual_);
@@ -71,13 +71,14 @@ double PlaceFit::step(const Expectation& expected) {
   llt_.solveInPlace(g_);
   if (!g_.allFinite()) return 0.0;
   const double longest = g_.cwiseAbs().maxCoeff();
-  if (longest > kLongestFitStep) g_ *= kLongestFitStep / longest;
+  if (longest > kLongestStep) g_ *= kLongestStep / longest;
   model::integrate(model, x_, g_);
   model::difference(model, expected.x, x_, moved_);
   return longest;
 }
 
-void PlaceFit::solve(const Expectation& expected, const Eigen::Matrix3Xd& y, const Eigen::VectorXd& seen) {
+void ExpectedPoseFit::solve(const Expectation& expected, const Eigen::Matrix3Xd& y,
+                            const Eigen::VectorXd& seen) {
   const Eigen::Index M = seen.size();
   const auto& model = problem_.model;
   x_ = expected.x;
@@ -102,7 +103,7 @@ void PlaceFit::solve(const Expectation& expected, const Eigen::Matrix3Xd& y, con
     if (sorted_.empty()) return 1.0;
     return std::clamp(math::nth_smallest(sorted_, (sorted_.size() - 1) / 3) / kThirdOfThree, 1.0, most);
   };
-  // Robust weights, from the expected pose on: what strays far never pulls.
+  // Robust weights, from the expected pose on: a sample far from it never gains weight.
   double settled = 1.0;
   for (int round = 0; round < kRounds && settled > kSettled; ++round) {
     visit(expected);

@@ -23,9 +23,9 @@ struct Expectation {
 };
 
 /// Robust fit of a pose to an expectation and a frame. Allocates in its constructor only.
-class PlaceFit {
+class ExpectedPoseFit {
  public:
-  explicit PlaceFit(const Problem& problem);
+  explicit ExpectedPoseFit(const Problem& problem);
 
   /// Fit, and compare every sample with what all others together expect of it. Samples beyond
   /// their bound are not taken into the pose.
