@@ -50,6 +50,7 @@ class Walk {
       RootFrame frame{.force = scatter_n * Vector3d(random.gaussian(), random.gaussian(), random.gaussian()),
                       .moment = Vector3d::Zero(),
                       .origin = {0.0058 * static_cast<double>(f), 1.0, 0.0},
+                      .centre = {0.0058 * static_cast<double>(f), 1.0, 0.0},
                       .feet = {},
                       .on_plate = {}};
       for (int foot = 0; foot < 2; ++foot) {
