@@ -81,21 +81,30 @@ class Search {
 
   [[nodiscard]] bool begins(std::int64_t f, int foot) const {
     if (!(vertical_[at(f)] > begin_n_)) return false;
-    if (!frames_[at(f)].on_plate[at(foot)]) return bearer(f, true) == foot;
+    if (!frames_[at(f)].on_plate[at(foot)]) return stands(f, foot) && bearer(f, true) == foot;
     return vertical_[at(f)] > kBeginOnPlate * weight_n_ && bearer(f, false) == foot;
   }
 
   [[nodiscard]] bool goes_on(std::int64_t f, int foot) const {
     if (!(vertical_[at(f)] > end_n_) || frames_[at(f)].on_plate[at(foot)]) return begins(f, foot);
-    return speed(f, foot) < kStanding || bearer(f, true) == foot;
+    return stands(f, foot) || bearer(f, true) == foot;
   }
 
-  [[nodiscard]] double speed(std::int64_t f, int foot) const {
+  /// Still on the floor, or moving with a foot on a plate as on a treadmill.
+  [[nodiscard]] bool stands(std::int64_t f, int foot) const {
+    const auto& frame = frames_[at(f)];
+    const Vector3d own = velocity(f, at(foot));
+    if (own.norm() < kStanding) return true;
+    for (std::size_t i = 0; i < frame.feet.size(); ++i)
+      if (frame.on_plate[i] && (own - velocity(f, i)).norm() < kStanding) return true;
+    return false;
+  }
+
+  [[nodiscard]] Vector3d velocity(std::int64_t f, std::size_t foot) const {
     const std::int64_t last = static_cast<std::int64_t>(frames_.size()) - 1;
     const std::int64_t a = std::max<std::int64_t>(0, f - 1), b = std::min(last, f + 1);
-    if (a == b) return 0.0;
-    return (frames_[at(b)].feet[at(foot)] - frames_[at(a)].feet[at(foot)]).norm() * rate_hz_ /
-           static_cast<double>(b - a);
+    if (a == b) return Vector3d::Zero();
+    return (frames_[at(b)].feet[foot] - frames_[at(a)].feet[foot]) * rate_hz_ / static_cast<double>(b - a);
   }
 
   const std::vector<RootFrame>& frames_;

@@ -119,6 +119,19 @@ TEST(UnmeasuredLoad, AFootOnTheEdgeOfAPlateIsFoundWhereMuchIsMissing) {
   }
 }
 
+TEST(UnmeasuredLoad, OnATreadmillAFootStandsWhileItMoves) {
+  auto frames = Walk::frames({true, false});
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Vector3d belt(-0.015 * static_cast<double>(f), 0.0, 0.0);  // 1.5 m/s
+    frames[f].origin += belt;
+    for (auto& foot : frames[f].feet) foot += belt;
+    frames[f].on_plate[0] = f < 60;
+  }
+  const auto found = find(frames);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].foot, 1);
+}
+
 TEST(UnmeasuredLoad, AHandOnARailIsNoFoot) {
   auto frames = Walk::frames({true, true});
   for (auto& frame : frames) {
