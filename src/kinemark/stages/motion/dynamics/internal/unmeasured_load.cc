@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,7 @@ class Search {
       for (const auto& foot : frame.feet) lowest = std::min(lowest, foot.dot(up_));
     }
     floor_ = lowest;
+    floor_velocity_ = velocity_on_plates();
     const double scatter =
         quiet.empty() ? 0.0 : std::min(kToMedianToSd * math::median(quiet), kMostScatter * weight_n_);
     begin_n_ = std::max({contact_n, kBegin * weight_n_, 5.0 * scatter});
@@ -90,14 +92,22 @@ class Search {
     return stands(f, foot) || bearer(f, true) == foot;
   }
 
-  /// Still on the floor, or moving with a foot on a plate as on a treadmill.
+  /// Moves with the floor, or with the belt of a treadmill.
   [[nodiscard]] bool stands(std::int64_t f, int foot) const {
-    const auto& frame = frames_[at(f)];
-    const Vector3d own = velocity(f, at(foot));
-    if (own.norm() < kStanding) return true;
-    for (std::size_t i = 0; i < frame.feet.size(); ++i)
-      if (frame.on_plate[i] && (own - velocity(f, i)).norm() < kStanding) return true;
-    return false;
+    return (velocity(f, at(foot)) - floor_velocity_).norm() < kStanding;
+  }
+
+  /// Median velocity of the feet on plates; zero where there are none.
+  [[nodiscard]] Vector3d velocity_on_plates() const {
+    std::array<std::vector<double>, 3> axes;
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+      for (std::size_t i = 0; i < frames_[f].feet.size(); ++i) {
+        const Vector3d v = velocity(static_cast<std::int64_t>(f), i);
+        if (!frames_[f].on_plate[i] || !v.allFinite()) continue;
+        for (int axis = 0; axis < 3; ++axis) axes[at(axis)].push_back(v[axis]);
+      }
+    if (axes[0].empty()) return Vector3d::Zero();
+    return {math::median(axes[0]), math::median(axes[1]), math::median(axes[2])};
   }
 
   [[nodiscard]] Vector3d velocity(std::int64_t f, std::size_t foot) const {
@@ -111,6 +121,7 @@ class Search {
   Vector3d up_;
   double weight_n_, rate_hz_;
   double floor_ = 0.0, begin_n_ = 0.0, end_n_ = 0.0;
+  Vector3d floor_velocity_ = Vector3d::Zero();
   std::vector<double> vertical_;  // N
 };
 
