@@ -211,7 +211,7 @@ void compare(const Case& c, const Corruption& done, const motion::IkResult& r, s
     }
   ++tally.draws;
   tally.missed += missed;
-  bool found = false;
+  bool left_out = false;
   for (std::int64_t f = 0; f < a.frames(); ++f)
     for (std::size_t m = 0; m < c.column.size(); ++m) {
       const auto i = static_cast<std::size_t>(f) * c.column.size() + m;
@@ -219,10 +219,10 @@ void compare(const Case& c, const Corruption& done, const motion::IkResult& r, s
                        a.marker_state[i] != data::SampleState::rejected;
       const bool guilty = f >= done.first && f <= done.last &&
                           std::ranges::find(done.markers, static_cast<int>(m)) != done.markers.end();
-      found = found || (out && guilty);
+      left_out = left_out || (out && guilty);
       tally.innocent += out && !guilty;
     }
-  tally.found += found;
+  tally.found += left_out;
 }
 
 /// accept_motion robust [RECORDING...] [kind=KIND] [draws=N] [seed=N]

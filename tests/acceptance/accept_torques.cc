@@ -29,8 +29,8 @@ using namespace kinemark;
 using Eigen::Vector3d;
 using testing_support::print_row;
 
-constexpr double kAirborne = 1.0;  // m/s, mass centre of a foot that swings
-constexpr double kBears = 20.0;    // N
+constexpr double kSwings = 0.8;  // m/s, of one foot against the other, on the floor or on a treadmill
+constexpr double kBears = 20.0;  // N
 constexpr const char* kSides[] = {"r", "l"};
 
 struct Walk {
@@ -53,14 +53,13 @@ int body_named(const model::Model& model, const std::string& name) {
   return -1;
 }
 
-/// Shares of the ground's force between two feet by where its centre of pressure lies; none for feet in the
-/// air.
-std::array<double, 2> shares(const Vector3d& centre, const std::array<Vector3d, 2>& sole,
-                             const std::array<bool, 2>& airborne) {
-  if (airborne[0] || airborne[1]) return {airborne[0] ? 0.0 : 1.0, airborne[1] ? 0.0 : 1.0};
+/// Shares of the ground's force between two feet by where its centre of pressure lies; a foot that swings has
+/// none.
+std::array<double, 2> shares(const Vector3d& centre, const std::array<Vector3d, 2>& sole, bool one_swings) {
   Vector3d across = sole[0] - sole[1], from = centre - sole[1];
   across.y() = from.y() = 0.0;
   const double right = std::clamp(from.dot(across) / across.squaredNorm(), 0.0, 1.0);
+  if (one_swings) return {right > 0.5 ? 1.0 : 0.0, right > 0.5 ? 0.0 : 1.0};
   return {right, 1.0 - right};
 }
 
@@ -113,16 +112,14 @@ void make_plates(Walk& walk) {
     auto& [force, moment, centre] = ground[static_cast<std::size_t>(f)];
     centre = force.cross(moment) / force.squaredNorm();
     centre += (floor - centre.y()) / force.y() * force;
-    std::array<bool, 2> airborne{};
     auto sole = soles[static_cast<std::size_t>(f)];
     const auto before = static_cast<std::size_t>(std::max<std::int64_t>(0, f - 1)),
                after = static_cast<std::size_t>(std::min(F - 1, f + 1));
-    for (std::size_t i = 0; i < 2; ++i) {
-      airborne[i] = (soles[after][i] - soles[before][i]).norm() * walk.motion.time.rate_hz >
-                    kAirborne * static_cast<double>(after - before);
-      sole[i].y() = floor;
-    }
-    const auto share = shares(centre, sole, airborne);
+    const Vector3d moved = (soles[after][0] - soles[before][0]) - (soles[after][1] - soles[before][1]);
+    const bool one_swings =
+        moved.norm() * walk.motion.time.rate_hz > kSwings * static_cast<double>(after - before);
+    for (auto& point : sole) point.y() = floor;
+    const auto share = shares(centre, sole, one_swings);
     Vector3d rest = moment;
     for (std::size_t i = 0; i < 2; ++i) rest -= sole[i].cross(share[i] * force);
     for (std::size_t i = 0; i < 2; ++i) {

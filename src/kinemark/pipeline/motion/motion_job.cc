@@ -88,6 +88,9 @@ Status add_torque_account(report::IkRun& run, const TorqueAccount& account) {
   run.warnings.insert(run.warnings.end(), account.warnings.begin(), account.warnings.end());
   for (const auto& file : account.files)
     if (auto s = add_input(run, "forces", file); !s) return s;
+  if (account.forces_off_vertical_deg)
+    add_gate(run, "forces_off_vertical", *account.forces_off_vertical_deg, kMostOffVerticalDeg, "deg",
+             account.forces_sentence);
   return {};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,9 @@
 
 namespace kinemark::pipeline {
 
+/// Largest accepted angle between the mean of the forces and the model's up axis.
+inline constexpr double kMostOffVerticalDeg = 45.0;
+
 /// Facts about the torques of a motion, for the report.
 struct TorqueAccount {
   std::vector<std::filesystem::path> files;  ///< of forces, as read
@@ -21,6 +25,9 @@ struct TorqueAccount {
       facts;  ///< which plate acted on which body and when; how long forces are unknown; the residual of the
               ///< root
   std::vector<std::string> warnings;  ///< one sentence each
+  /// Angle between the mean of the forces and the model's up axis, degrees; none where no forces say.
+  std::optional<double> forces_off_vertical_deg;
+  std::string forces_sentence;  ///< the same for people, with both directions
 };
 
 /// Fill tau (and tau_sd) of a motion by inverse dynamics, with the forces of a file unless `forces` is empty.

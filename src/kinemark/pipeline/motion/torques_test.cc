@@ -24,6 +24,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::Pair;
 
 constexpr double kMass = 70.0, kGravity = 9.81, kRate = 100.0;
@@ -166,9 +167,36 @@ TEST(Torques, ForcesInOtherAxesAreNoticed) {
   const auto model = model::Model::compile(description).value();
   auto motion = stand(model, 10);
   const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
-  EXPECT_THAT(account.warnings,
-              Contains(HasSubstr(
-                  "the forces push along (0.00, 0.00, 1.00) on average, up in the model is (0, 1, 0)")));
+  EXPECT_NEAR(account.forces_off_vertical_deg.value(), 90.0, 0.1);
+  EXPECT_THAT(account.forces_sentence, HasSubstr("The forces push along (0.00, 0.00, 1.00) on average, up in "
+                                                 "the model is (0.00, 1.00, 0.00): 90 deg apart"));
+}
+
+/// A foot and a trunk 0.9 m along z from it.
+model::Model two_bodies(const Vector3d& gravity) {
+  data::ModelDescription description = statue().description();
+  description.gravity = gravity;
+  description.bodies[0].mass = 2.0;
+  description.bodies.push_back(
+      {.name = "trunk", .mass = kMass, .inertia_about_com = Eigen::Matrix3d::Identity()});
+  description.joints.push_back({.name = "waist",
+                                .parent_body_idx = 0,
+                                .child_body_idx = 1,
+                                .parent_from_joint = {Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, 0.9)}});
+  return model::Model::compile(description).value();
+}
+
+TEST(Torques, ABodyThatStandsAcrossGravityIsNoticedWithoutForces) {
+  const auto standing = two_bodies({0.0, 0.0, -kGravity}), across = two_bodies({0.0, -kGravity, 0.0});
+  auto motion = stand(standing, 10);
+  const auto upright = add_torques(standing, motion, {}, {.error_bars = false}).value();
+  EXPECT_THAT(upright.warnings, Not(Contains(HasSubstr("stands along"))));
+  EXPECT_FALSE(upright.forces_off_vertical_deg);
+  const auto sideways = add_torques(across, motion, {}, {.error_bars = false}).value();
+  EXPECT_THAT(
+      sideways.warnings,
+      Contains(HasSubstr("the body stands along (0.00, 0.00, 1.00) on average, from its feet to its mass "
+                         "centre, and up in the model is (0.00, 1.00, 0.00)")));
 }
 
 TEST(Torques, ABodyThatTheModelLacksIsNamedWithItsFile) {

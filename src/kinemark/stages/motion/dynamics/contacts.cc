@@ -28,26 +28,6 @@ Result<int> find_body(const model::Model& model, const std::string& name, const 
   return model.body_of(static_cast<int>(it - bodies.begin()));
 }
 
-/// Tree indices of the bodies that are named as feet, by the caller or by themselves.
-Result<std::vector<int>> find_feet(const model::Model& model, const std::vector<std::string>& named) {
-  std::vector<int> feet;
-  for (const auto& name : named) {
-    const auto body = find_body(model, name, "the list of feet");
-    if (!body) return std::unexpected(body.error());
-    feet.push_back(*body);
-  }
-  if (!feet.empty()) return feet;
-  const auto& bodies = model.description().bodies;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    std::string name = bodies[b].name;
-    std::ranges::transform(name, name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name.find("calcn") != std::string::npos || name.find("foot") != std::string::npos)
-      feet.push_back(model.body_of(static_cast<int>(b)));
-  }
-  return feet;
-}
-
 /// Where the mass centres of the feet are in one frame.
 class Feet {
  public:
@@ -80,14 +60,32 @@ class Feet {
 
 }  // namespace
 
+Result<std::vector<int>> find_feet(const model::Model& model, const std::vector<std::string>& named) {
+  std::vector<int> feet;
+  for (const auto& name : named) {
+    const auto body = find_body(model, name, "the list of feet");
+    if (!body) return std::unexpected(body.error());
+    feet.push_back(*body);
+  }
+  if (!feet.empty()) return feet;
+  const auto& bodies = model.description().bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::string name = bodies[b].name;
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (name.find("calcn") != std::string::npos || name.find("foot") != std::string::npos)
+      feet.push_back(model.body_of(static_cast<int>(b)));
+  }
+  return feet;
+}
+
 Result<ContactPlan> plan_contacts(const model::Model& model, const data::JointMotion& motion,
-                                  const data::Wrenches& wrenches, const DynamicsOptions& options) {
-  auto feet = find_feet(model, options.feet);
-  if (!feet) return std::unexpected(feet.error());
-  ContactPlan plan{.feet = *feet};
-  if (feet->empty())  // any body may touch a plate
-    for (int b = 0; b < static_cast<int>(model.bodies().size()); ++b) feet->push_back(b);
-  Feet paths(model, motion, std::move(*feet));
+                                  const data::Wrenches& wrenches, std::vector<int> feet,
+                                  double contact_force_n) {
+  if (feet.empty())  // any body may touch a plate
+    for (int b = 0; b < static_cast<int>(model.bodies().size()); ++b) feet.push_back(b);
+  Feet paths(model, motion, std::move(feet));
+  ContactPlan plan;
   const std::int64_t F = wrenches.frames();
   for (const auto& wrench : wrenches.items) {
     int given = data::kGround;
@@ -99,7 +97,7 @@ Result<ContactPlan> plan_contacts(const model::Model& model, const data::JointMo
     auto& of_wrench = plan.body.emplace_back(at(F), data::kGround);
     // Unknown forces count as acting, so that they are not taken for none.
     const auto acts = [&](std::int64_t f) {
-      return !(of_frame(wrench.force, f).norm() <= (wrench.body.empty() ? options.contact_force_n : 0.0)) ||
+      return !(of_frame(wrench.force, f).norm() <= (wrench.body.empty() ? contact_force_n : 0.0)) ||
              (!wrench.body.empty() && of_frame(wrench.moment, f).norm() > 0.0);
     };
     const auto known = [&](std::int64_t f) { return of_frame(wrench.force, f).allFinite(); };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kinemark/data/joint_motion.h"
@@ -15,14 +16,19 @@ namespace kinemark::motion {
 struct ContactPlan {
   std::vector<std::vector<int>> body;  ///< W x F
   std::vector<Contact> contacts;       ///< by wrench and time
-  std::vector<int> feet;               ///< tree indices of the bodies that options or their names call feet
 };
 
+/// Tree indices of the bodies that are named as feet, by the caller or by themselves. Fails for a name that
+/// the model does not have.
+[[nodiscard]] Result<std::vector<int>> find_feet(const model::Model& model,
+                                                 const std::vector<std::string>& named);
+
 /// A wrench that names its body acts there. Any other acts, over each stretch of frames with more than
-/// contact_force_n, on the one foot whose mass centre is nearest to the point of force on average. Fails for
-/// a body or foot that the model does not have. Wrenches must be validated and as long as the motion.
+/// contact_force_n, on the one of `feet`, or of all bodies where there are none, whose mass centre is nearest
+/// to the point of force on average. Fails for a body or foot that the model does not have. Wrenches must be
+/// validated and as long as the motion.
 [[nodiscard]] Result<ContactPlan> plan_contacts(const model::Model& model, const data::JointMotion& motion,
-                                                const data::Wrenches& wrenches,
-                                                const DynamicsOptions& options);
+                                                const data::Wrenches& wrenches, std::vector<int> feet,
+                                                double contact_force_n);
 
 }  // namespace kinemark::motion

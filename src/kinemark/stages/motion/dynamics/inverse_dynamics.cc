@@ -153,6 +153,7 @@ std::vector<Root> make_roots(const model::Model& model, const std::vector<int>& 
     root.frames.assign(at(frames), {.force = unknown,
                                     .moment = unknown,
                                     .origin = unknown,
+                                    .centre = unknown,
                                     .feet = std::vector<Vector3d>(root.feet.size(), unknown),
                                     .on_plate = std::vector<std::uint8_t>(root.feet.size(), 0)});
     out.push_back(std::move(root));
@@ -181,6 +182,18 @@ RootResidual residual_of(const model::Model& model, const Root& root) {
   out.force_rms_n = std::sqrt(out.force_rms_n / count);
   out.moment_rms_nm = std::sqrt(out.moment_rms_nm / count);
   return out;
+}
+
+Vector3d mean_feet_to_centre(const Root& root) {
+  Vector3d sum = Vector3d::Zero();
+  std::int64_t known = 0;
+  for (const auto& frame : root.frames) {
+    if (!frame.centre.allFinite()) continue;
+    ++known;
+    sum += frame.centre;
+    for (const auto& foot : frame.feet) sum -= foot / static_cast<double>(frame.feet.size());
+  }
+  return known > 0 ? Vector3d(sum / static_cast<double>(known)) : Vector3d::Zero();
 }
 
 /// Finds feet that bear load without a measured force and takes the torques of their limbs back.
@@ -225,9 +238,11 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
   }
   kinemark::check(!bars || errors->covariance.size() == 6 * motion.q.size(),
                   "errors must hold 6 numbers per coordinate and frame");
+  const auto feet = find_feet(model, options.feet);
+  if (!feet) return std::unexpected(feet.error());
   ContactPlan plan;
   if (wrenches) {
-    auto planned = plan_contacts(model, motion, *wrenches, options);
+    auto planned = plan_contacts(model, motion, *wrenches, *feet, options.contact_force_n);
     if (!planned) return std::unexpected(planned.error());
     plan = std::move(*planned);
     summary.contacts = plan.contacts;
@@ -235,7 +250,7 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
 
   const std::int64_t F = motion.frames(), n = motion.size();
   Array<double> tau(at(F * n), kNaN), tau_sd(bars ? at(F * n) : 0, kNaN);
-  auto roots = make_roots(model, plan.feet, F);
+  auto roots = make_roots(model, *feet, F);
   std::vector<std::uint8_t> known(at(F), 0);
   parallel_for(F, 16, options.threads, [&](std::int64_t begin, std::int64_t end) {
     Worker worker(model, motion, wrenches, plan);
@@ -259,6 +274,7 @@ Result<DynamicsSummary> inverse_dynamics(const model::Model& model, data::JointM
 
   for (const auto& root : roots) {
     summary.roots.push_back(residual_of(model, root));
+    if (!root.feet.empty()) summary.feet_to_centre = mean_feet_to_centre(root);
     if (wrenches) withdraw_unmeasured(model, root, options.contact_force_n, motion, summary);
   }
   summary.body_weight_n = total_mass_kg(model) * model.gravity().norm();

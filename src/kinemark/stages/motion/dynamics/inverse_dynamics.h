@@ -53,9 +53,12 @@ struct DynamicsSummary {
   std::vector<RootResidual> roots;            ///< one a free root
   std::vector<Contact> contacts;              ///< by wrench and time
   std::vector<UnmeasuredContact> unmeasured;  ///< by foot and time; empty without wrenches
-  double body_weight_n = 0.0;                 ///< mass of the model times gravity
-  bool rates_estimated = false;               ///< qd and qdd were absent and were filled by estimate_rates()
-  std::vector<std::string> warnings;          ///< one sentence each
+  Eigen::Vector3d feet_to_centre =
+      Eigen::Vector3d::Zero();   ///< m, mean over frames, from the feet to the mass centre; 0 where no body's
+                                 ///< name says foot
+  double body_weight_n = 0.0;    ///< mass of the model times gravity
+  bool rates_estimated = false;  ///< qd and qdd were absent and were filled by estimate_rates()
+  std::vector<std::string> warnings;  ///< one sentence each
 };
 
 /// Fill tau (and tau_sd) of a motion: tau = M q'' + b + g - sum J'f in the speeds of the tree, converted to

@@ -119,7 +119,17 @@ RootFrame FrameDynamics::root_frame(const model::Model::FreeJoint& root, const s
   RootFrame out{.force = w_.joint_rotation[at(root.body)] * tau_.segment<3>(root.speed_idx),
                 .moment = w_.joint_out_rotation[at(root.body)] * tau_.segment<3>(root.speed_idx + 3),
                 .origin = model::point_in_world(w_, root.body,
-                                                model_.bodies()[at(root.body)].body_from_joint.translation)};
+                                                model_.bodies()[at(root.body)].body_from_joint.translation),
+                .centre = Vector3d::Zero(),
+                .feet = {},
+                .on_plate = {}};
+  double mass_kg = 0.0;
+  for (std::size_t b = 0; b < model_.bodies().size(); ++b) {
+    const auto& body = model_.bodies()[b];
+    out.centre += body.mass * model::point_in_world(w_, static_cast<int>(b), body.com_in_body);
+    mass_kg += body.mass;
+  }
+  out.centre /= mass_kg;
   for (const int foot : feet)
     out.feet.push_back(model::point_in_world(w_, foot, model_.bodies()[at(foot)].com_in_body));
   return out;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,7 @@ class Search {
       for (const auto& foot : frame.feet) lowest = std::min(lowest, foot.dot(up_));
     }
     floor_ = lowest;
+    floor_velocity_ = velocity_on_plates();
     const double scatter =
         quiet.empty() ? 0.0 : std::min(kToMedianToSd * math::median(quiet), kMostScatter * weight_n_);
     begin_n_ = std::max({contact_n, kBegin * weight_n_, 5.0 * scatter});
@@ -81,27 +83,45 @@ class Search {
 
   [[nodiscard]] bool begins(std::int64_t f, int foot) const {
     if (!(vertical_[at(f)] > begin_n_)) return false;
-    if (!frames_[at(f)].on_plate[at(foot)]) return bearer(f, true) == foot;
+    if (!frames_[at(f)].on_plate[at(foot)]) return stands(f, foot) && bearer(f, true) == foot;
     return vertical_[at(f)] > kBeginOnPlate * weight_n_ && bearer(f, false) == foot;
   }
 
   [[nodiscard]] bool goes_on(std::int64_t f, int foot) const {
     if (!(vertical_[at(f)] > end_n_) || frames_[at(f)].on_plate[at(foot)]) return begins(f, foot);
-    return speed(f, foot) < kStanding || bearer(f, true) == foot;
+    return stands(f, foot) || bearer(f, true) == foot;
   }
 
-  [[nodiscard]] double speed(std::int64_t f, int foot) const {
+  /// Moves with the floor, or with the belt of a treadmill.
+  [[nodiscard]] bool stands(std::int64_t f, int foot) const {
+    return (velocity(f, at(foot)) - floor_velocity_).norm() < kStanding;
+  }
+
+  /// Median velocity of the feet on plates; zero where there are none.
+  [[nodiscard]] Vector3d velocity_on_plates() const {
+    std::array<std::vector<double>, 3> axes;
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+      for (std::size_t i = 0; i < frames_[f].feet.size(); ++i) {
+        const Vector3d v = velocity(static_cast<std::int64_t>(f), i);
+        if (!frames_[f].on_plate[i] || !v.allFinite()) continue;
+        for (int axis = 0; axis < 3; ++axis) axes[at(axis)].push_back(v[axis]);
+      }
+    if (axes[0].empty()) return Vector3d::Zero();
+    return {math::median(axes[0]), math::median(axes[1]), math::median(axes[2])};
+  }
+
+  [[nodiscard]] Vector3d velocity(std::int64_t f, std::size_t foot) const {
     const std::int64_t last = static_cast<std::int64_t>(frames_.size()) - 1;
     const std::int64_t a = std::max<std::int64_t>(0, f - 1), b = std::min(last, f + 1);
-    if (a == b) return 0.0;
-    return (frames_[at(b)].feet[at(foot)] - frames_[at(a)].feet[at(foot)]).norm() * rate_hz_ /
-           static_cast<double>(b - a);
+    if (a == b) return Vector3d::Zero();
+    return (frames_[at(b)].feet[foot] - frames_[at(a)].feet[foot]) * rate_hz_ / static_cast<double>(b - a);
   }
 
   const std::vector<RootFrame>& frames_;
   Vector3d up_;
   double weight_n_, rate_hz_;
   double floor_ = 0.0, begin_n_ = 0.0, end_n_ = 0.0;
+  Vector3d floor_velocity_ = Vector3d::Zero();
   std::vector<double> vertical_;  // N
 };
 

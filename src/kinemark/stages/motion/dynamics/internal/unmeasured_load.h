@@ -16,6 +16,7 @@ struct RootFrame {
   Eigen::Vector3d force;               ///< N; NaN where a force is unknown
   Eigen::Vector3d moment;              ///< N m, about `origin`
   Eigen::Vector3d origin;              ///< m, of the root joint
+  Eigen::Vector3d centre;              ///< m, mass centre of the whole model
   std::vector<Eigen::Vector3d> feet;   ///< m, mass centre of each foot
   std::vector<std::uint8_t> on_plate;  ///< of each foot: a measured force acts on it
 };

@@ -50,6 +50,7 @@ class Walk {
       RootFrame frame{.force = scatter_n * Vector3d(random.gaussian(), random.gaussian(), random.gaussian()),
                       .moment = Vector3d::Zero(),
                       .origin = {0.0058 * static_cast<double>(f), 1.0, 0.0},
+                      .centre = {0.0058 * static_cast<double>(f), 1.0, 0.0},
                       .feet = {},
                       .on_plate = {}};
       for (int foot = 0; foot < 2; ++foot) {
@@ -116,6 +117,19 @@ TEST(UnmeasuredLoad, AFootOnTheEdgeOfAPlateIsFoundWhereMuchIsMissing) {
     EXPECT_EQ(found[0].first_frame, 5);
     EXPECT_EQ(found[0].last_frame, 44);
   }
+}
+
+TEST(UnmeasuredLoad, OnATreadmillAFootStandsWhileItMoves) {
+  auto frames = Walk::frames({true, false});
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Vector3d belt(-0.015 * static_cast<double>(f), 0.0, 0.0);  // 1.5 m/s
+    frames[f].origin += belt;
+    for (auto& foot : frames[f].feet) foot += belt;
+    frames[f].on_plate[0] = f < 60;
+  }
+  const auto found = find(frames);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].foot, 1);
 }
 
 TEST(UnmeasuredLoad, AHandOnARailIsNoFoot) {
