@@ -99,14 +99,14 @@ function(kinemark_library name)
 endfunction()
 
 # kinemark_tests(name SOURCES a_test.cc ... LINK links... THREADS b_test.cc ... LABELS ... [UNSANITIZED])
-# -> program test_name, ctest -R name. UNSANITIZED: left out where addresses are watched, as are tests whose name ends in
+# -> program test_name, ctest -R name. LONG: optimised like the library where other tests are not. UNSANITIZED: left out where addresses are watched, as are tests whose name ends in
 # "TakesLong"; KINEMARK_UNIT_TESTS=OFF leaves out all others. THREADS: the sources, with what they need, of tests that run several threads: those with "Thread" or
 # "thread" in their name, and nothing else, are what the thread sanitizer's build makes and runs (target threads).
 function(kinemark_tests name)
   if(NOT KINEMARK_DEVELOPER)
     return()
   endif()
-  cmake_parse_arguments(ARG "UNSANITIZED" "" "SOURCES;THREADS;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED;LONG" "" "SOURCES;THREADS;LINK;LABELS" ${ARGN})
   if(ARG_UNSANITIZED AND KINEMARK_SANITIZE_ADDRESS)
     return()
   endif()
@@ -125,7 +125,11 @@ function(kinemark_tests name)
   endif()
   add_executable(test_${name} ${ARG_SOURCES} ${ARG_THREADS})
   target_link_libraries(test_${name} PRIVATE kinemark_flags kinemark::testing ${ARG_LINK} GTest::gmock GTest::gtest GTest::gtest_main)
-  target_compile_options(test_${name} PRIVATE ${KINEMARK_TEST_OPTIONS})
+  if(NOT ARG_LONG)
+    target_compile_options(test_${name} PRIVATE ${KINEMARK_TEST_OPTIONS})
+  elseif(KINEMARK_TEST_OPTIONS)
+    set_target_properties(test_${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # made with those options
+  endif()
   kinemark_precompile(test_${name} TESTS)
   if(ARG_THREADS)
     list(APPEND ARG_LABELS threads)
