@@ -28,7 +28,7 @@ class JointsPlausibleTest : public ::testing::Test {
                                                  .stagger_m = 0.03,
                                                  .noise_sd_m = 0.001})
                          .value();
-    Random random(3);
+    Random random(3, 1);
     const auto& last = recording.layout.segments.back();
     for (std::int64_t f = 0; f < recording.markers.frames() && torn_m > 0.0; ++f) {
       Eigen::Vector3d by;

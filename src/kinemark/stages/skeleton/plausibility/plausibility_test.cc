@@ -26,7 +26,7 @@ data::Skeleton sound_skeleton(const testing::TestChain& chain) {
 
 /// Every marker of a segment anywhere within so much of its place, anew in every frame.
 void shake(testing::TestChain& chain, std::size_t segment, double by_m) {
-  Random random(5);
+  Random random(5, 1);
   for (const int m : chain.layout.segments[segment].markers)
     for (std::int64_t f = 0; f < chain.markers.frames(); ++f)
       for (double& c : chain.markers.x(f, m)) c += random.uniform(-by_m, by_m);
@@ -61,7 +61,7 @@ TEST(JudgeLayout, NamesMarkersTooFarApart) {
 
 TEST(JudgeLayout, NamesAJointWithoutACommonPoint) {
   auto chain = sound_chain();
-  Random random(6);
+  Random random(6, 1);
   for (std::int64_t f = 0; f < chain.markers.frames(); ++f) {
     Eigen::Vector3d apart;
     for (double& c : apart) c = random.uniform(-0.3, 0.3);
@@ -111,7 +111,7 @@ TEST(JudgeSkeleton, NamesAJointFarFromItsMarkers) {
 TEST(JudgeSkeleton, NamesAJointThatLeavesItsMarkers) {
   const auto chain = sound_chain();
   auto skeleton = sound_skeleton(chain);
-  Random random(7);
+  Random random(7, 1);
   for (std::int64_t f = 0; f < skeleton.frames(); ++f)
     skeleton.centre_in_world[3 * skeleton.index(f, 1)] += random.uniform(-0.5, 0.5);
   const auto found = judge_skeleton(chain.markers, skeleton);
