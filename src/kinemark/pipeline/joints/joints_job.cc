@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 #include "kinemark/pipeline/joints/joints_layout.h"
+#include "kinemark/pipeline/joints/joints_parts.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 
@@ -76,7 +79,7 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
 }
 
 Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& markers,
-                                JointsOutcome& outcome) {
+                                const data::SegmentLayout& layout, JointsOutcome& outcome) {
   if (job.method == "articulated") {
     skeleton::ArticulatedOptions options;
     options.noise_sd_m = job.noise_sd_m;
@@ -84,9 +87,13 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.soft_tissue = job.soft_tissue;
     options.joint = job.kind;
     options.threads = job.threads;
-    auto fit = skeleton::fit_articulated(markers, outcome.layout, options, job.progress);
+    auto fit = skeleton::fit_articulated(markers, layout, options, job.progress);
     if (!fit) return std::unexpected(fit.error());
-    if (job.soft_tissue) outcome.marker_noise_sd_m = std::move(fit->marker_noise_sd_m);
+    if (!job.soft_tissue) return std::move(fit->skeleton);
+    auto& noise = outcome.marker_noise_sd_m;
+    noise.resize(fit->marker_noise_sd_m.size(), kNaN);
+    for (std::size_t m = 0; m < noise.size(); ++m)
+      if (std::isfinite(fit->marker_noise_sd_m[m])) noise[m] = fit->marker_noise_sd_m[m];
     return std::move(fit->skeleton);
   }
   skeleton::FunctionalOptions options;
@@ -94,7 +101,7 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
   options.sides = job.sides;
   options.kind = job.kind;
   options.noise_sd_m = job.noise_sd_m;
-  return skeleton::find_joints(markers, outcome.layout, options);
+  return skeleton::find_joints(markers, layout, options);
 }
 
 /// A gate for each segment and joint that was left out as no body's, and for each joint that was placed in no
@@ -132,19 +139,43 @@ void judge(const JointsJob& job, JointsOutcome& outcome) {
   }
 }
 
+/// What is solved together: all joints, or for the articulated method of segments that were found in the data
+/// every tree by itself.
+std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutcome& outcome,
+                                          const data::SegmentLayout& layout) {
+  if (job.method != "articulated" || (!outcome.topology && outcome.left_out.empty())) return {layout};
+  return trees_of(layout);
+}
+
 /// Centres and axes of a body: what is none's is left out and the rest is solved anew, until all of it is
-/// plausible.
+/// plausible. A tree of which nothing is left, or that cannot be solved, is told; it is a failure where no other is.
 Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
-  while (true) {
-    auto found = estimate(job, markers, outcome);
-    if (!found) return std::unexpected(with_left_out(outcome, found.error()));
+  auto waiting = parts_of(job, outcome, outcome.layout);
+  std::vector<data::Skeleton> solved;
+  Status first;
+  outcome.layout = {};
+  for (std::size_t next = 0; next < waiting.size(); ++next) {
+    data::SegmentLayout layout = std::move(waiting[next]);
+    auto found = estimate(job, markers, layout, outcome);
+    if (!found) {
+      if (found.error().code != Code::bad_input) return std::unexpected(found.error());
+      if (first) first = std::unexpected(with_left_out(outcome, found.error()));
+      outcome.warnings.push_back(fmt::format("Nothing can be said of {}: {}.", names_of(layout), found.error().message));
+      continue;
+    }
     const auto bad = skeleton::judge_skeleton(markers, *found);
     if (bad.empty()) {
-      outcome.skeleton = std::move(*found);
-      return {};
+      solved.push_back(std::move(*found));
+      append(layout, outcome.layout);
+    } else if (auto s = leave_out(job, bad, layout, outcome); !s) {
+      if (first) first = s;
+    } else {
+      std::ranges::move(parts_of(job, outcome, layout), std::back_inserter(waiting));
     }
-    if (auto s = leave_out(job, bad, outcome); !s) return s;
   }
+  if (solved.empty()) return first;
+  outcome.skeleton = join_skeletons(std::move(solved));
+  return {};
 }
 
 /// Centres and axes, and markers that moved on their segment.

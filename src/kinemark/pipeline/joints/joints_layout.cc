@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 
@@ -40,50 +41,6 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
   return outcome.topology->layout;
 }
 
-/// What the likelihood of a chain can be asked about: the largest tree of segments with two markers or more.
-Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout,
-                                         std::vector<std::string>& warnings) {
-  const auto S = layout.segments.size();
-  const auto usable = [&](int s) { return layout.segments[static_cast<std::size_t>(s)].markers.size() >= 2; };
-  std::vector<int> tree(S);
-  std::iota(tree.begin(), tree.end(), 0);
-  for (const auto& joint : layout.joints) {
-    if (!usable(joint.parent) || !usable(joint.child)) continue;
-    const int from = tree[static_cast<std::size_t>(joint.child)],
-              to = tree[static_cast<std::size_t>(joint.parent)];
-    std::ranges::replace(tree, from, to);
-  }
-  int best = 0;
-  for (const int t : tree)
-    if (std::ranges::count(tree, t) > std::ranges::count(tree, best)) best = t;
-  if (static_cast<std::size_t>(std::ranges::count(tree, best)) == S) return layout;
-  data::SegmentLayout out;
-  std::vector<int> number(S, -1);
-  std::string left;
-  for (std::size_t s = 0; s < S; ++s) {
-    if (tree[s] == best) {
-      number[s] = static_cast<int>(out.segments.size());
-      out.segments.push_back(layout.segments[s]);
-    } else {
-      left += (left.empty() ? "" : ", ") + layout.segments[s].name;
-    }
-  }
-  for (const auto& joint : layout.joints) {
-    const int parent = number[static_cast<std::size_t>(joint.parent)],
-              child = number[static_cast<std::size_t>(joint.child)];
-    if (parent >= 0 && child >= 0) out.joints.push_back({joint.name, parent, child});
-  }
-  if (out.joints.empty())
-    return fail(Code::bad_input,
-                fmt::format("none of the {} joints found lies between two segments of two markers or more, "
-                            "which the articulated method needs; name the segments in a file, or use another "
-                            "method",
-                            layout.joints.size()));
-  warnings.push_back(fmt::format(
-      "Left out, as the articulated method needs two markers on a segment and one tree of them: {}.", left));
-  return out;
-}
-
 /// The worst of what was left out in words, how many more there are, and what to do.
 Status refuse(const JointsJob& job, const JointsOutcome& outcome) {
   const auto worst = std::ranges::max_element(outcome.left_out, {}, &skeleton::Implausible::value_m);
@@ -97,6 +54,15 @@ Status refuse(const JointsJob& job, const JointsOutcome& outcome) {
                           next));
 }
 
+/// Names of segments that no joint is left of.
+std::vector<std::string> lonely_segments(const data::SegmentLayout& layout) {
+  std::vector<std::string> out;
+  for (int s = 0; s < static_cast<int>(layout.segments.size()); ++s)
+    if (std::ranges::none_of(layout.joints, [&](const auto& joint) { return joint.parent == s || joint.child == s; }))
+      out.push_back(layout.segments[at(s)].name);
+  return out;
+}
+
 }  // namespace
 
 Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
@@ -106,25 +72,60 @@ Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOu
   };
   if (!layout) return of_recording(layout.error());
   outcome.layout = std::move(*layout);
-  if (const auto bad = skeleton::judge_layout(markers, outcome.layout); !bad.empty()) {
-    if (auto s = leave_out(job, bad, outcome); !s) return fail_at(job.input.string(), s.error());
-  } else if (job.method == "articulated" && outcome.topology) {
-    auto tree = largest_tree(outcome.layout, outcome.warnings);
-    if (!tree) return of_recording(tree.error());
-    outcome.layout = std::move(*tree);
+  const bool lines_alone = job.method == "articulated" && outcome.topology.has_value();
+  if (lines_alone) {
+    // Joints of a single marker cannot be asked for; of a layout that was found they are no one's wish.
+    const auto joints = outcome.layout.joints.size();
+    std::erase_if(outcome.layout.joints, [&](const auto& joint) {
+      return outcome.layout.segments[at(joint.parent)].markers.size() < 2 ||
+             outcome.layout.segments[at(joint.child)].markers.size() < 2;
+    });
+    if (outcome.layout.joints.empty())
+      return of_recording({Code::bad_input,
+                           fmt::format("none of the {} joints found lies between two segments of two markers or more, "
+                                       "which the articulated method needs; name the segments in a file, or use "
+                                       "another method",
+                                       joints)});
+    if (const auto lonely = lonely_segments(outcome.layout); !lonely.empty())
+      outcome.warnings.push_back(fmt::format(
+          "Left out, as the articulated method needs two markers on a segment and on one beside it: {}.", join(lonely)));
   }
+  if (const auto bad = skeleton::judge_layout(markers, outcome.layout); !bad.empty())
+    if (auto s = leave_out(job, bad, outcome.layout, outcome); !s) return fail_at(job.input.string(), s.error());
   return {};
 }
 
-Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad, JointsOutcome& outcome) {
+Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad, data::SegmentLayout& layout,
+                 JointsOutcome& outcome) {
   outcome.left_out.insert(outcome.left_out.end(), bad.begin(), bad.end());
-  outcome.layout = skeleton::leave_out(outcome.layout, bad);
-  if (outcome.layout.joints.empty()) return refuse(job, outcome);
-  if (job.method != "articulated") return {};
-  auto tree = largest_tree(outcome.layout, outcome.warnings);
-  if (!tree) return refuse(job, outcome);
-  outcome.layout = std::move(*tree);
-  return {};
+  layout = skeleton::leave_out(layout, bad);
+  return layout.joints.empty() ? refuse(job, outcome) : Status();
+}
+
+std::vector<data::SegmentLayout> trees_of(const data::SegmentLayout& layout) {
+  const auto S = layout.segments.size();
+  std::vector<int> tree(S);
+  std::iota(tree.begin(), tree.end(), 0);
+  for (const auto& joint : layout.joints) {
+    const int from = tree[at(joint.child)], to = tree[at(joint.parent)];
+    std::ranges::replace(tree, from, to);
+  }
+  std::vector<data::SegmentLayout> out;
+  for (int t = 0; t < static_cast<int>(S); ++t) {
+    if (std::ranges::count(tree, t) < 2) continue;
+    data::SegmentLayout part;
+    std::vector<int> number(S, -1);
+    for (std::size_t s = 0; s < S; ++s) {
+      if (tree[s] != t) continue;
+      number[s] = static_cast<int>(part.segments.size());
+      part.segments.push_back(layout.segments[s]);
+    }
+    for (const auto& joint : layout.joints)
+      if (number[at(joint.parent)] >= 0)
+        part.joints.push_back({joint.name, number[at(joint.parent)], number[at(joint.child)]});
+    out.push_back(std::move(part));
+  }
+  return out;
 }
 
 Error with_left_out(const JointsOutcome& outcome, const Error& error) {

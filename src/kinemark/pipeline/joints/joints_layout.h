@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trajectories.h"
@@ -16,13 +17,16 @@ namespace kinemark::pipeline {
 
 /// Fills outcome.layout, and outcome.topology where the data give it: the segments of the job's file, or those
 /// that the markers show, in which case all failures are the recording's. What the markers contradict goes into
-/// outcome.left_out; the articulated method gets the largest tree of what remains.
+/// outcome.left_out; of a layout that was found the articulated method gets segments of two markers or more.
 [[nodiscard]] Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome);
 
-/// Takes segments and joints out of outcome.layout and into outcome.left_out. Code::bad_input in one sentence,
-/// which names the worst of them and what to do next, where no joint is left.
+/// Takes segments and joints out of a layout and into outcome.left_out. Code::bad_input in one sentence,
+/// which names the worst of all that were left out and what to do next, where no joint of the layout is left.
 [[nodiscard]] Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad,
-                               JointsOutcome& outcome);
+                               data::SegmentLayout& layout, JointsOutcome& outcome);
+
+/// Parts of a layout that joints connect, of two segments or more, in the order of their first segments.
+[[nodiscard]] std::vector<data::SegmentLayout> trees_of(const data::SegmentLayout& layout);
 
 /// An error of what is solved after something was left out: the same, and what that was.
 [[nodiscard]] Error with_left_out(const JointsOutcome& outcome, const Error& error);
