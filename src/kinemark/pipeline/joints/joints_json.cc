@@ -81,6 +81,7 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
     out["axis_in_parent"] = numbers(joint.axis_in_parent);
     out["axis_in_child"] = numbers(joint.axis_in_child);
     out["axis_sd_deg"] = number(joint.axis_sd_rad * kDegPerRad);
+    out["axis_covariance_in_parent"] = matrix(joint.axis_covariance_in_parent);
   }
   out["centre_sd_m"] = number(frames.sd_m);
   if (hinge) out["centre_sd_across_axis_m"] = number(frames.across_sd_m);
