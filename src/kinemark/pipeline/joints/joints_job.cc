@@ -148,7 +148,8 @@ std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutc
 }
 
 /// Centres and axes of a body: what is none's is left out and the rest is solved anew, until all of it is
-/// plausible. A tree of which nothing is left, or that cannot be solved, is told; it is a failure where no other is.
+/// plausible. A tree of which nothing is left, or that cannot be solved, is told; it is a failure where no
+/// other is.
 Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
   auto waiting = parts_of(job, outcome, outcome.layout);
   std::vector<data::Skeleton> solved;
@@ -160,7 +161,8 @@ Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, 
     if (!found) {
       if (found.error().code != Code::bad_input) return std::unexpected(found.error());
       if (first) first = std::unexpected(with_left_out(outcome, found.error()));
-      outcome.warnings.push_back(fmt::format("Nothing can be said of {}: {}.", names_of(layout), found.error().message));
+      outcome.warnings.push_back(
+          fmt::format("Nothing can be said of {}: {}.", names_of(layout), found.error().message));
       continue;
     }
     const auto bad = skeleton::judge_skeleton(markers, *found);

@@ -50,13 +50,14 @@ struct JointsOutcome : JobOutcome {
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
   std::vector<data::Finding> slips;            ///< markers that moved on their segment
   std::vector<double> marker_noise_sd_m;       ///< M, with soft_tissue; NaN where unknown; empty otherwise
-  std::vector<skeleton::Implausible> left_out;  ///< segments and joints that are no body's: not in the skeleton
-  std::string next_step;                        ///< what to do about them, one sentence; empty: nothing
+  std::vector<skeleton::Implausible>
+      left_out;           ///< segments and joints that are no body's: not in the skeleton
+  std::string next_step;  ///< what to do about them, one sentence; empty: nothing
 };
 
 /// Read, find, write. Either all files appear or, on a failure, none. Segments and joints that cannot be a
-/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and told; Code::bad_input where none is left.
-/// Progress counts frames.
+/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and told; Code::bad_input where none is
+/// left. Progress counts frames.
 [[nodiscard]] Result<JointsOutcome> run_joints(const JointsJob& job);
 
 /// The centres as trajectories, one a joint. States: model_filled where the joint was placed by its frame,

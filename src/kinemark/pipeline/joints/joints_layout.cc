@@ -48,17 +48,19 @@ Status refuse(const JointsJob& job, const JointsOutcome& outcome) {
   std::string next = propose_next_step(job, outcome);
   next.pop_back();
   next.front() = static_cast<char>(next.front() - 'A' + 'a');
-  return fail(Code::bad_input,
-              fmt::format("no joint of a body can be found: {}{}; {}", worst->description(),
-                          more > 0 ? fmt::format(", and {} more such segments or joints were left out", more) : "",
-                          next));
+  return fail(
+      Code::bad_input,
+      fmt::format("no joint of a body can be found: {}{}; {}", worst->description(),
+                  more > 0 ? fmt::format(", and {} more such segments or joints were left out", more) : "",
+                  next));
 }
 
 /// Names of segments that no joint is left of.
 std::vector<std::string> lonely_segments(const data::SegmentLayout& layout) {
   std::vector<std::string> out;
   for (int s = 0; s < static_cast<int>(layout.segments.size()); ++s)
-    if (std::ranges::none_of(layout.joints, [&](const auto& joint) { return joint.parent == s || joint.child == s; }))
+    if (std::ranges::none_of(layout.joints,
+                             [&](const auto& joint) { return joint.parent == s || joint.child == s; }))
       out.push_back(layout.segments[at(s)].name);
   return out;
 }
@@ -81,22 +83,25 @@ Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOu
              outcome.layout.segments[at(joint.child)].markers.size() < 2;
     });
     if (outcome.layout.joints.empty())
-      return of_recording({Code::bad_input,
-                           fmt::format("none of the {} joints found lies between two segments of two markers or more, "
-                                       "which the articulated method needs; name the segments in a file, or use "
-                                       "another method",
-                                       joints)});
+      return of_recording(
+          {Code::bad_input,
+           fmt::format("none of the {} joints found lies between two segments of two markers or more, "
+                       "which the articulated method needs; name the segments in a file, or use "
+                       "another method",
+                       joints)});
     if (const auto lonely = lonely_segments(outcome.layout); !lonely.empty())
       outcome.warnings.push_back(fmt::format(
-          "Left out, as the articulated method needs two markers on a segment and on one beside it: {}.", join(lonely)));
+          "Left out, as the articulated method needs two markers on a segment and on one beside it: {}.",
+          join(lonely)));
   }
   if (const auto bad = skeleton::judge_layout(markers, outcome.layout); !bad.empty())
-    if (auto s = leave_out(job, bad, outcome.layout, outcome); !s) return fail_at(job.input.string(), s.error());
+    if (auto s = leave_out(job, bad, outcome.layout, outcome); !s)
+      return fail_at(job.input.string(), s.error());
   return {};
 }
 
-Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad, data::SegmentLayout& layout,
-                 JointsOutcome& outcome) {
+Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad,
+                 data::SegmentLayout& layout, JointsOutcome& outcome) {
   outcome.left_out.insert(outcome.left_out.end(), bad.begin(), bad.end());
   layout = skeleton::leave_out(layout, bad);
   return layout.joints.empty() ? refuse(job, outcome) : Status();
@@ -146,10 +151,12 @@ std::string propose_next_step(const JointsJob& job, const JointsOutcome& outcome
   }
   const std::string without =
       loose.empty() ? "" : fmt::format(", without the markers {}", join_names(loose, kNamesListed));
-  if (job.segments.empty()) return fmt::format("Name the segments of the body in a file (--segments){}.", without);
+  if (job.segments.empty())
+    return fmt::format("Name the segments of the body in a file (--segments){}.", without);
   if (joints.empty()) return fmt::format("Name the segments{}.", without);
   return fmt::format("Look at the markers of both segments of {}, or leave {} out of the segments file{}.",
-                     join_names(joints, kNamesListed), joints.size() == 1 ? "this joint" : "these joints", without);
+                     join_names(joints, kNamesListed), joints.size() == 1 ? "this joint" : "these joints",
+                     without);
 }
 
 }  // namespace kinemark::pipeline

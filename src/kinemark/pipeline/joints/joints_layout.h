@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Which segments and joints a search for joints is about: those of the job's file or those that the data show,
-// without what is no body's.
+// Which segments and joints a search for joints is about: those of the job's file or those that the data
+// show, without what is no body's.
 #pragma once
 
 #include <span>
@@ -15,9 +15,10 @@
 
 namespace kinemark::pipeline {
 
-/// Fills outcome.layout, and outcome.topology where the data give it: the segments of the job's file, or those
-/// that the markers show, in which case all failures are the recording's. What the markers contradict goes into
-/// outcome.left_out; of a layout that was found the articulated method gets segments of two markers or more.
+/// Fills outcome.layout, and outcome.topology where the data give it: the segments of the job's file, or
+/// those that the markers show, in which case all failures are the recording's. What the markers contradict
+/// goes into outcome.left_out; of a layout that was found the articulated method gets segments of two markers
+/// or more.
 [[nodiscard]] Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome);
 
 /// Takes segments and joints out of a layout and into outcome.left_out. Code::bad_input in one sentence,

@@ -44,7 +44,8 @@ std::string names_of(const data::SegmentLayout& layout) {
 void append(const data::SegmentLayout& layout, data::SegmentLayout& to) {
   const int first = static_cast<int>(to.segments.size());
   to.segments.insert(to.segments.end(), layout.segments.begin(), layout.segments.end());
-  for (const auto& joint : layout.joints) to.joints.push_back({joint.name, first + joint.parent, first + joint.child});
+  for (const auto& joint : layout.joints)
+    to.joints.push_back({joint.name, first + joint.parent, first + joint.child});
 }
 
 data::Skeleton join_skeletons(std::vector<data::Skeleton> parts) {

@@ -16,8 +16,8 @@ namespace kinemark::pipeline {
 /// Segments and joints of a layout behind those of another.
 void append(const data::SegmentLayout& layout, data::SegmentLayout& to);
 
-/// Skeletons of one recording, none of which has a segment of another, one behind the other; one at least. Noise: RMS
-/// over all markers placed.
+/// Skeletons of one recording, none of which has a segment of another, one behind the other; one at least.
+/// Noise: RMS over all markers placed.
 [[nodiscard]] data::Skeleton join_skeletons(std::vector<data::Skeleton> parts);
 
 }  // namespace kinemark::pipeline

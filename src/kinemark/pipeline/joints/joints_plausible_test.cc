@@ -17,8 +17,8 @@
 namespace kinemark::pipeline {
 namespace {
 
-/// Three segments with four markers each, the last of them torn off by up to `torn_m` along every axis in every
-/// frame, or each of its markers for itself.
+/// Three segments with four markers each, the last of them torn off by up to `torn_m` along every axis in
+/// every frame, or each of its markers for itself.
 class JointsPlausibleTest : public ::testing::Test {
  protected:
   void make(double torn_m, bool together, std::vector<double> lengths_m = {0.12, 0.15, 0.16}) {
@@ -103,7 +103,8 @@ TEST_F(JointsPlausibleTest, ASegmentWithoutAShapeIsLeftOutAndItsMarkersNamed) {
   ASSERT_EQ(outcome->left_out.size(), 1U);
   EXPECT_TRUE(outcome->left_out[0].is_segment);
   EXPECT_EQ(outcome->left_out[0].markers.size(), 4U);
-  EXPECT_NE(outcome->next_step.find(outcome->left_out[0].markers[0]), std::string::npos) << outcome->next_step;
+  EXPECT_NE(outcome->next_step.find(outcome->left_out[0].markers[0]), std::string::npos)
+      << outcome->next_step;
 }
 
 TEST_F(JointsPlausibleTest, WhereNothingIsLeftNothingIsWritten) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kSmall_rad = 0.1;    ///< SD of a motion that is too small to tell a centre
-constexpr double kOneArc = 0.5;       ///< second SD of the rotation over the first: below, the motion is one arc
+constexpr double kOneArc = 0.5;  ///< second SD of the rotation over the first: below, the motion is one arc
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
 std::string millimetres(double m) { return fmt::format("{:.1f} mm", 1e3 * m); }

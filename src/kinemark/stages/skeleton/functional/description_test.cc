@@ -19,12 +19,14 @@ data::SkeletonJoint ball(double range_rad, const Eigen::Vector3d& sd_m) {
 }
 
 TEST(DescribeJoint, ABallIsKnownAsFarAsItIs) {
-  EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.0005, 0.002}), kAround), "57 deg of motion: centre known to 2.0 mm");
+  EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.0005, 0.002}), kAround),
+            "57 deg of motion: centre known to 2.0 mm");
   EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.05, 0.002}), kAround),
             "57 deg of motion: centre known to 2.0 mm across one direction, to 50.0 mm along it");
   EXPECT_EQ(describe_joint(ball(0.5, {0.001, 0.05, 0.1}), kAround),
             "29 deg of motion: centre known to 1.0 mm in one direction only, to 100.0 mm in the others");
-  EXPECT_EQ(describe_joint(ball(0.5, {0.1, 0.1, 0.1}), kAround), "29 deg of motion: centre not known (100.0 mm)");
+  EXPECT_EQ(describe_joint(ball(0.5, {0.1, 0.1, 0.1}), kAround),
+            "29 deg of motion: centre not known (100.0 mm)");
 }
 
 TEST(DescribeJoint, AMotionThatIsTooSmallOrOneArcIsToldWhereItMatters) {

@@ -14,7 +14,7 @@ namespace kinemark::skeleton {
 namespace {
 
 constexpr std::size_t kLeastFrames = 4;
-constexpr double kSlides = 0.5;         ///< probability beyond which skin is taken to slide
+constexpr double kSlides = 0.5;             ///< probability beyond which skin is taken to slide
 constexpr std::int64_t kNoiseFrames = 200;  ///< from which the noise of the poses is estimated
 
 struct Solution {
@@ -172,7 +172,8 @@ JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const Seg
   fit.covariance = slide.share > kSlides ? slide.covariance : fit.scatter;
   if (kind == data::JointKind::hinge) {
     fit.axis_covariance += axis_slide_covariance(samples, parent, child, motion, fit.axis_in_parent);
-    fit.axis_sd_rad = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fit.axis_covariance).eigenvalues()(2));
+    fit.axis_sd_rad =
+        std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fit.axis_covariance).eigenvalues()(2));
   }
   for (int i = 0; i < 6; ++i) {
     const double sd = best.open(i);

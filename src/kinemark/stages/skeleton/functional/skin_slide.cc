@@ -18,18 +18,18 @@ namespace kinemark::skeleton {
 namespace {
 
 constexpr std::int64_t kMostFrames = 1500, kLeastSlideFrames = 40;
-constexpr int kTerms = 9;              ///< three linear, six quadratic functions of the posture
-constexpr int kSlide = 2 * 3 * kTerms; ///< coefficients: both sides, three axes
+constexpr int kTerms = 9;                   ///< three linear, six quadratic functions of the posture
+constexpr int kSlide = 2 * 3 * kTerms;      ///< coefficients: both sides, three axes
 constexpr double kLeastPosture_rad = 0.01;  ///< components of the posture that move less are not blown up
 /// A component of the posture that hardly moves is mostly crosstalk and slides less than in proportion to its
 /// SD: it counts as having this SD in quadrature.
 constexpr double kCrosstalk_rad = 0.14;
-constexpr double kQuadratic = 0.15;    ///< variance of quadratic coefficients over that of linear ones
-constexpr double kPriorMedian = 0.5;   ///< of the amplitude, over the RMS gap per axis
-constexpr double kPriorLog = 1.0;      ///< SD of its logarithm
+constexpr double kQuadratic = 0.15;   ///< variance of quadratic coefficients over that of linear ones
+constexpr double kPriorMedian = 0.5;  ///< of the amplitude, over the RMS gap per axis
+constexpr double kPriorLog = 1.0;     ///< SD of its logarithm
 constexpr int kGrid = 24;
 constexpr double kGridFrom = 0.02, kGridTo = 3.0;  ///< of the amplitude, over the RMS gap per axis
-constexpr double kRigidShare = 4.0;    ///< energy of skin motion as one body over that of deformation
+constexpr double kRigidShare = 4.0;  ///< energy of skin motion as one body over that of deformation
 
 using Row = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
@@ -141,7 +141,8 @@ double SlideProblem::log_likelihood(double amplitude_m) const {
     const Eigen::LLT<Eigen::MatrixXd> llt(inner);
     const double scale = amplitude_m / variance;
     const Eigen::MatrixXd zx = llt.matrixL().solve(Eigen::MatrixXd(scale * xz().transpose()));
-    const Eigen::VectorXd zy = llt.matrixL().solve(Eigen::VectorXd(scale * normal.block(6, 6 + kSlide, kSlide, 1)));
+    const Eigen::VectorXd zy =
+        llt.matrixL().solve(Eigen::VectorXd(scale * normal.block(6, 6 + kSlide, kSlide, 1)));
     M -= zx.transpose() * zx;
     right -= zx.transpose() * zy;
     squares -= zy.squaredNorm();
@@ -252,7 +253,8 @@ SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& chi
   problem.variance = variance;
   // Frames that are alike count as one: all sums shrink, and with them the weight of what the solution gets.
   problem.normal /= out.frames_alike;
-  const Matrix6 per_frame = solve * (out.frames_alike * static_cast<double>(motion.frames.size()) / static_cast<double>(n));
+  const Matrix6 per_frame =
+      solve * (out.frames_alike * static_cast<double>(motion.frames.size()) / static_cast<double>(n));
   const Amplitudes amplitude = infer_amplitude(problem, gap);
   double squares = 0.0;
   for (std::size_t i = 0; i < amplitude.value.size(); ++i) {

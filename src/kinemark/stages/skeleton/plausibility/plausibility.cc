@@ -16,7 +16,8 @@
 namespace kinemark::skeleton {
 namespace {
 
-constexpr EnumNames<BodyFigure::noise> kFigures{"shape", "spread", "gap", "distance", "reach", "length", "noise"};
+constexpr EnumNames<BodyFigure::noise> kFigures{"shape", "spread", "gap",  "distance",
+                                                "reach", "length", "noise"};
 constexpr double kMm = 1e3;
 /// Joints whose figure is this share of the worst or more are left out with it: what a bad joint does to its
 /// neighbours is less.
@@ -34,8 +35,8 @@ std::vector<std::string> names_of(const std::vector<std::string>& names, const s
 
 /// Markers of both segments of a joint.
 template <class Segments>
-std::vector<std::string> markers_of(const std::vector<std::string>& names, const Segments& segments, int parent,
-                                    int child) {
+std::vector<std::string> markers_of(const std::vector<std::string>& names, const Segments& segments,
+                                    int parent, int child) {
   auto out = names_of(names, segments[at(parent)].markers);
   const auto more = names_of(names, segments[at(child)].markers);
   out.insert(out.end(), more.begin(), more.end());
@@ -50,7 +51,8 @@ double spread_of(const Eigen::Matrix3Xd& x) {
   return widest;
 }
 
-/// RMS change of the distances between a joint and the markers of its segments, over the frames that place it.
+/// RMS change of the distances between a joint and the markers of its segments, over the frames that place
+/// it.
 double distance_change(const data::Trajectories& markers, const data::Skeleton& skeleton, std::size_t j) {
   const auto& joint = skeleton.joints[j];
   double worst = 0.0;
@@ -66,7 +68,8 @@ double distance_change(const data::Trajectories& markers, const data::Skeleton& 
         squares += d * d;
       }
       if (n < 2.0) continue;
-      worst = std::max(worst, number_or_infinity(std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)))));
+      worst =
+          std::max(worst, number_or_infinity(std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)))));
     }
   return worst;
 }
@@ -99,13 +102,14 @@ void keep_worst(std::vector<Implausible>& found) {
 Implausible joint_found(const data::Skeleton& skeleton, std::size_t j, BodyFigure figure, double value_m,
                         double least_m, double most_m) {
   const auto& joint = skeleton.joints[j];
-  return {.name = joint.name,
-          .other = {},
-          .figure = figure,
-          .value_m = value_m,
-          .least_m = least_m,
-          .most_m = most_m,
-          .markers = markers_of(skeleton.markers, skeleton.segments, joint.parent_segment, joint.child_segment)};
+  return {
+      .name = joint.name,
+      .other = {},
+      .figure = figure,
+      .value_m = value_m,
+      .least_m = least_m,
+      .most_m = most_m,
+      .markers = markers_of(skeleton.markers, skeleton.segments, joint.parent_segment, joint.child_segment)};
 }
 
 /// Trace of a joint's covariance, in the segment that knows it less.
@@ -121,8 +125,9 @@ void judge_lengths(const data::Skeleton& skeleton, const PlausibilityOptions& op
     const auto a = at(length.joint_a), b = at(length.joint_b);
     const double doubt_a = doubt_of(skeleton.joints[a]), doubt_b = doubt_of(skeleton.joints[b]);
     const bool first = doubt_a != doubt_b ? doubt_a > doubt_b : change[a] > change[b];
-    found.push_back(joint_found(skeleton, first ? a : b, BodyFigure::length, number_or_infinity(length.length_m),
-                                options.least_length_m, options.most_length_m));
+    found.push_back(joint_found(skeleton, first ? a : b, BodyFigure::length,
+                                number_or_infinity(length.length_m), options.least_length_m,
+                                options.most_length_m));
     found.back().other = skeleton.joints[first ? b : a].name;
   }
 }
@@ -135,8 +140,8 @@ Status PlausibilityOptions::check() const {
   if (!(most_noise_m > 0.0) || !std::isfinite(most_noise_m))
     return fail(Code::usage, fmt::format("noise of {} m at most; need more than 0", most_noise_m));
   if (!(least_length_m >= 0.0) || !(most_length_m > least_length_m) || !std::isfinite(most_length_m))
-    return fail(Code::usage,
-                fmt::format("lengths from {} to {} m; need 0 or more, then more", least_length_m, most_length_m));
+    return fail(Code::usage, fmt::format("lengths from {} to {} m; need 0 or more, then more", least_length_m,
+                                         most_length_m));
   return {};
 }
 
@@ -153,7 +158,8 @@ std::string Implausible::description() const {
     case BodyFigure::gap:
       return fmt::format("{}: its two segments place it {} apart (RMS per axis); {}", who, value, most);
     case BodyFigure::distance:
-      return fmt::format("{}: its distance from a marker of its segments changes by {} (RMS); {}", who, value, most);
+      return fmt::format("{}: its distance from a marker of its segments changes by {} (RMS); {}", who, value,
+                         most);
     case BodyFigure::reach:
       return fmt::format("{}: it lies {} from the nearest marker of a segment; {}", who, value, most);
     case BodyFigure::noise:
@@ -161,8 +167,9 @@ std::string Implausible::description() const {
     case BodyFigure::length:
       break;
   }
-  return fmt::format("{}: it lies {} from joint '{}' of the same segment; {:.0f} to {:.0f} mm are expected of a body",
-                     who, value, other, kMm * least_m, kMm * most_m);
+  return fmt::format(
+      "{}: it lies {} from joint '{}' of the same segment; {:.0f} to {:.0f} mm are expected of a body", who,
+      value, other, kMm * least_m, kMm * most_m);
 }
 
 std::string Implausible::sentence() const {
@@ -223,7 +230,8 @@ std::vector<Implausible> judge_skeleton(const data::Trajectories& markers, const
     change.push_back(distance_change(markers, skeleton, j));
     if (change[j] > change[worst]) worst = j;
     if (change[j] > options.most_noise_m)
-      changing.push_back(joint_found(skeleton, j, BodyFigure::distance, change[j], 0.0, options.most_noise_m));
+      changing.push_back(
+          joint_found(skeleton, j, BodyFigure::distance, change[j], 0.0, options.most_noise_m));
     if (const double reach = number_or_infinity(reach_of(skeleton, j)); reach > options.most_length_m)
       far.push_back(joint_found(skeleton, j, BodyFigure::reach, reach, 0.0, options.most_length_m));
   }
@@ -241,8 +249,8 @@ std::vector<Implausible> judge_skeleton(const data::Trajectories& markers, const
 
 data::SegmentLayout leave_out(const data::SegmentLayout& layout, std::span<const Implausible> what) {
   const auto named = [&](bool segment, const std::string& name) {
-    return std::ranges::any_of(what,
-                               [&](const Implausible& w) { return w.is_segment == segment && w.name == name; });
+    return std::ranges::any_of(
+        what, [&](const Implausible& w) { return w.is_segment == segment && w.name == name; });
   };
   data::SegmentLayout out;
   std::vector<int> number(layout.segments.size(), -1);
@@ -253,7 +261,8 @@ data::SegmentLayout leave_out(const data::SegmentLayout& layout, std::span<const
   }
   for (const auto& joint : layout.joints) {
     const int parent = number[at(joint.parent)], child = number[at(joint.child)];
-    if (parent >= 0 && child >= 0 && !named(false, joint.name)) out.joints.push_back({joint.name, parent, child});
+    if (parent >= 0 && child >= 0 && !named(false, joint.name))
+      out.joints.push_back({joint.name, parent, child});
   }
   return out;
 }

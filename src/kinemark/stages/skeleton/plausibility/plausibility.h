@@ -17,9 +17,9 @@ namespace kinemark::skeleton {
 
 /// What is expected of a body whose markers are on skin or on clothes.
 struct PlausibilityOptions {
-  double most_noise_m = 0.02;     ///< > 0; per axis, of markers about their segment and of a joint's two places
+  double most_noise_m = 0.02;  ///< > 0; per axis, of markers about their segment and of a joint's two places
   double least_length_m = 0.005;  ///< >= 0; between two joints of a segment
-  double most_length_m = 1.5;     ///< > least_length_m; between joints, and from a joint to its nearest marker
+  double most_length_m = 1.5;  ///< > least_length_m; between joints, and from a joint to its nearest marker
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
@@ -54,15 +54,16 @@ struct Implausible {
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Segments and joints of a layout that the markers contradict, before any joint is fitted: shape and spread of
-/// each segment; gap of each joint between two segments whose poses the markers tell. O(F M).
+/// Segments and joints of a layout that the markers contradict, before any joint is fitted: shape and spread
+/// of each segment; gap of each joint between two segments whose poses the markers tell. O(F M).
 [[nodiscard]] std::vector<Implausible> judge_layout(const data::Trajectories& markers,
                                                     const data::SegmentLayout& layout,
                                                     const PlausibilityOptions& options = {});
 
-/// Joints of a result that contradict its own markers or a body's size: distance, reach and length, in that order
-/// of joints; of a length that is too long or short the joint is named that is known worse. Where none of these
-/// is beyond its bound but the noise of all markers is, the joint whose distances change most. O(F M).
+/// Joints of a result that contradict its own markers or a body's size: distance, reach and length, in that
+/// order of joints; of a length that is too long or short the joint is named that is known worse. Where none
+/// of these is beyond its bound but the noise of all markers is, the joint whose distances change most. O(F
+/// M).
 [[nodiscard]] std::vector<Implausible> judge_skeleton(const data::Trajectories& markers,
                                                       const data::Skeleton& skeleton,
                                                       const PlausibilityOptions& options = {});

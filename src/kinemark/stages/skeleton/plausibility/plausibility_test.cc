@@ -133,7 +133,8 @@ TEST(JudgeSkeleton, NamesAJointWhereTheNoiseAloneIsTooLarge) {
 
 TEST(LeaveOut, TakesASegmentWithItsJointsAndAJointAlone) {
   const auto chain = sound_chain();
-  const Implausible segment{.is_segment = true, .name = chain.layout.segments[2].name, .other = {}, .markers = {}};
+  const Implausible segment{
+      .is_segment = true, .name = chain.layout.segments[2].name, .other = {}, .markers = {}};
   const Implausible joint{.name = chain.layout.joints[0].name, .other = {}, .markers = {}};
   const auto one = leave_out(chain.layout, std::vector{segment});
   EXPECT_EQ(one.segments.size(), 2U);

@@ -59,9 +59,9 @@ void solve_cholesky(const Eigen::MatrixXd& L, Column&& x) {
   solve_upper(L, x);
 }
 
-/// A = U U^T with U upper triangular, from the last row to the first; reads and overwrites the upper triangle. False
-/// when a pivot is at most 0. Where rows of a tree's leaves stand behind those of its root, as in a chain, nothing
-/// fills in: zeros stay zero and are passed over.
+/// A = U U^T with U upper triangular, from the last row to the first; reads and overwrites the upper
+/// triangle. False when a pivot is at most 0. Where rows of a tree's leaves stand behind those of its root,
+/// as in a chain, nothing fills in: zeros stay zero and are passed over.
 inline bool cholesky_from_leaves(Eigen::MatrixXd& A) {
   const Eigen::Index n = A.rows();
   for (Eigen::Index j = n - 1; j >= 0; --j) {

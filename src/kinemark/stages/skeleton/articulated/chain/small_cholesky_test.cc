@@ -66,7 +66,8 @@ TEST(SmallCholesky, FromLeavesFactorsAndSolvesOfAnySize) {
 TEST(SmallCholesky, FromLeavesFillsNothingInATree) {
   // A root, two branches of two rows each: the branches know of each other through the root alone.
   MatrixXd A = MatrixXd::Identity(5, 5) * 4.0;
-  for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {3, 4}}) A(i, j) = A(j, i) = 1.0;
+  for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {3, 4}})
+    A(i, j) = A(j, i) = 1.0;
   ASSERT_TRUE(cholesky_from_leaves(A));
   for (const auto& [i, j] : {std::pair{1, 3}, {1, 4}, {2, 3}, {2, 4}}) EXPECT_EQ(A(i, j), 0.0);
 }
