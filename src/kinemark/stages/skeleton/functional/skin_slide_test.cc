@@ -21,6 +21,7 @@ constexpr double kSlide_m = 0.008;  ///< of a marker at one radian, SD per axis 
 testing::TestChain ball(bool with_skin, std::uint64_t seed) {
   auto chain = testing::make_chain({.frames = 300,
                                     .per_segment = 4,
+                                    .stagger_m = 0.06,  // as far from the bone as on a thigh
                                     .rotations = testing::Rotations::cone,
                                     .noise_sd_m = 0.0005,
                                     .seed = seed});
