@@ -75,6 +75,12 @@ class Clean(CommandTest):
         self.good("clean", walk, "walk.nwb", "--gaps", "auto", "--derivatives", "--quiet")
         self.assertLess(self.info("walk.nwb")["missing"], self.info(walk)["missing"])
 
+    def test_a_trial_with_model_outputs_among_its_points(self):
+        """Forces stored as points have gaps that no method fills with numbers; the trial is written all the same."""
+        trial = real_file("btk-others/PiG_Motion3_FF.c3d")
+        self.good("clean", trial, "trial.c3d", "--gaps", "auto", "--quiet")
+        self.assertEqual(self.info("trial.c3d")["frames"], self.info(trial)["frames"])
+
 
 if __name__ == "__main__":
     unittest.main()

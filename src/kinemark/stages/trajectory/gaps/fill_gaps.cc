@@ -175,6 +175,7 @@ void fill_one(const data::Trajectories& in, const Filler& filler, const std::vec
     } else {
       account.sd_m = std::sqrt(piece.combination.sd_m.squaredNorm() / static_cast<double>(account.frames()));
       account.max_sd_m = piece.combination.sd_m.maxCoeff();
+      if (!piece.combination.gap.allFinite()) why = "no method predicts a finite path";
       if (why.empty()) why = why_not_used(piece, work.span, sd_m, options, in.time.rate_hz);
     }
     work.accounts.push_back(std::move(account));

@@ -312,6 +312,17 @@ TEST(FillGaps, SurvivesAndExplainsBadInput) {
   EXPECT_EQ(fill_gaps(infinite).error().code, Code::bad_input);
 }
 
+TEST(FillGaps, APathBeyondAllNumbersStaysOpen) {
+  Trajectories t = moving_bodies({.noise_m = kNoiseM});
+  for (std::int64_t f = 0; f < t.frames(); ++f) t.x(f, 2) *= 1e170;
+  hide(t, 2, 200, 240);
+  for (const GapMethod method : {GapMethod::automatic, GapMethod::cubic, GapMethod::regression}) {
+    const GapResult r = fill(t, {.method = method, .max_sd_m = kInfinity});
+    EXPECT_TRUE(r.trajectories.validate());
+    EXPECT_TRUE(only_gap(r).filled || !only_gap(r).why_open.empty());
+  }
+}
+
 TEST(FillGaps, EveryMethodCopesWithEveryRaggedRecording) {
   Random random(11, 1);
   for (const int method : {1, 2, 3, 4, 5, 6, 7, 8}) {

@@ -377,6 +377,26 @@ TEST(Smooth, FilledStretchesCountAsOneObservation) {
   EXPECT_EQ(result.markers.front().measured, 360);
 }
 
+TEST(Smooth, SamplesThatAreWorthNextToNothingStandAsTheyAre) {
+  // A filled second of 1 m of uncertainty among samples of micrometres: nothing reaches its middle.
+  Trajectories in = hand();
+  in.covariance.assign(6 * 400, 0.0);
+  for (int f = 0; f < 400; ++f) {
+    const bool filled = f >= 100 && f < 200;
+    if (filled) {
+      in.state[in.index(f, 0)] = SampleState::model_filled;
+      in.set_method(f, 0, "auto");
+    }
+    for (const std::size_t d : math::kSymmetric3Diagonal) in.covariance[at(6 * f) + d] = filled ? 1.0 : 1e-12;
+  }
+  const auto result = smooth(in, {.order = 5, .cutoff_hz = 40.0}).value();
+  ASSERT_TRUE(result.trajectories.validate()) << "present samples have coordinates";
+  EXPECT_EQ(result.trajectories.state[150], SampleState::model_filled);
+  EXPECT_EQ(result.trajectories.x(150, 0), in.x(150, 0));
+  EXPECT_GT(std::sqrt(result.trajectories.covariance[6 * 150]), 0.1);
+  EXPECT_TRUE(std::isnan(result.derivatives.velocity[3 * 150])) << "what is not determined is not given";
+}
+
 TEST(Smooth, ColouredNoiseIsDistinguishedFromWhite) {
   Trajectories in = hand(2000);
   Random random(8, 8);

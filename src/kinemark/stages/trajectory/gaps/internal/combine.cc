@@ -165,10 +165,10 @@ Combination combine(const GapProblem& p, const std::vector<Fill>& fills, bool on
   out.weights.assign(fills.size(), 0.0);
   out.guarded.assign(fills.size(), false);
   Pool pool = grow_errors(p, fills);
-  if (pool.use.empty()) {  // no windows: the most conservative candidate
+  if (pool.use.empty()) {  // no windows: the most conservative candidate, if it is finite
     std::size_t k = 0;
     for (std::size_t i = 0; i < fills.size(); ++i)
-      if (fills[i].kind == FillKind::pchip) k = i;
+      if (fills[i].gap.allFinite() && (fills[i].kind == FillKind::pchip || !fills[k].gap.allFinite())) k = i;
     out.weights[k] = 1.0;
     out.gap = fills[k].gap;
     out.sd_m = Eigen::VectorXd::Constant(p.shape.length, std::numeric_limits<double>::quiet_NaN());

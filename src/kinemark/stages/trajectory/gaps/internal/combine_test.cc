@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "kinemark/core/random.h"
 
@@ -124,6 +125,18 @@ TEST(Combine, ErrorsGrowFromShortWindowsToALongGap) {
   fills[0].errors = fills[0].errors.topRows(kRows / 2).eval();
   EXPECT_NEAR(combine(p, fills, false).sd_m.mean(), 0.9 * 0.002,
               0.0003);  // growth 1: twice the length, twice the error
+}
+
+TEST(Combine, WithoutWindowsAFiniteCandidateIsTaken) {
+  GapProblem p = problem();
+  p.starts.clear();
+  Fill lost = candidate(FillKind::pchip, 1e-3, 1), sound = candidate(FillKind::chord, 1e-3, 2);
+  for (Fill* fill : {&lost, &sound}) fill->errors.resize(kRows, 0);
+  lost.gap(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  const Combination taken = combine(p, {lost, sound}, false);
+  EXPECT_EQ(taken.weights, (std::vector<double>{0.0, 1.0}));
+  EXPECT_TRUE(taken.gap.allFinite());
+  EXPECT_FALSE(combine(p, {lost}, false).gap.allFinite()) << "the caller leaves such a gap open";
 }
 
 }  // namespace

@@ -129,6 +129,12 @@ class Run {
         out_.state[(k * series_.axes + axis) * 4 + i] =
             std::isnan(v) ? kNaN : smoothed_[axis * m + i] * unit_[i];
     }
+    // A sample that is worth next to nothing beside the others, far from them, stands as it is.
+    if (const double r = variance(k); r > 0.0 && std::isnan(out_.variance[k * 4])) {
+      out_.variance[k * 4] = r;
+      for (int axis = 0; axis < series_.axes; ++axis)
+        out_.state[(k * series_.axes + axis) * 4] = series_.y[k * series_.axes + axis];
+    }
   }
 
   Series series_;
