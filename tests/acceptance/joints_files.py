@@ -29,11 +29,11 @@ def lengths_of(skeleton):
 
 def reaches_of(skeleton):
     """Distance of each joint from the nearest marker of each of its segments, m."""
-    places = {s["name"]: [m["x_in_segment_m"] for m in s["markers"]] for s in skeleton["segments"]}
+    positions = {s["name"]: [m["x_in_segment_m"] for m in s["markers"]] for s in skeleton["segments"]}
     for joint in skeleton["joints"]:
         for side in ("parent", "child"):
             centre = joint[f"centre_in_{side}_m"]
-            known = [x for x in places[joint[side]] if None not in x]
+            known = [x for x in positions[joint[side]] if None not in x]
             if centre is not None and known:
                 yield min(sum((a - b) ** 2 for a, b in zip(centre, x)) ** 0.5 for x in known)
 

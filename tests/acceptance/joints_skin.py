@@ -46,17 +46,17 @@ def align(from_points, to_points):
     return rotation, b - rotation @ a
 
 
-def slide(rng, posture, places):
+def slide(rng, posture, positions):
     """Displacements on the bone, frames x markers x 3: a part as one body and a part of each marker."""
     scaled = posture / np.abs(posture).max()
     terms = [scaled[:, i] for i in range(3)] + [0.5 * scaled[:, i] * scaled[:, j] for i in range(3) for j in range(i, 3)]
     terms = np.stack(terms, 1)
-    arms = places - places.mean(0)
+    arms = positions - positions.mean(0)
     size = np.sqrt((arms**2).sum(1).mean())
     shift = terms @ rng.normal(size=(9, 3))
     turn = terms @ rng.normal(size=(9, 3)) / size
     together = shift[:, None] + np.cross(turn[:, None], arms[None])
-    alone = np.einsum("ft,tmc->fmc", terms, rng.normal(size=(9, len(places), 3)))
+    alone = np.einsum("ft,tmc->fmc", terms, rng.normal(size=(9, len(positions), 3)))
     share = rng.uniform(0.65, 0.9)
     together *= np.sqrt(share / (together**2).mean())
     alone *= np.sqrt((1 - share) / (alone**2).mean())
@@ -107,7 +107,7 @@ def write(path, names, markers):
 
 
 def solve(name, names, markers, counts, method):
-    """The joint that the program finds, with the places of each segment's markers."""
+    """The joint that the program finds, with the positions of each segment's markers."""
     recording, segments = SCRATCH / f"{name}.csv", SCRATCH / f"{name}.toml"
     write(recording, names, markers)
     parts = names[: counts[0]], names[counts[0] :]

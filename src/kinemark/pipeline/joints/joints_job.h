@@ -56,7 +56,7 @@ struct JointsOutcome : JobOutcome {
 };
 
 /// Read, find, write. Either all files appear or, on a failure, none. Segments and joints that cannot be a
-/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and told; Code::bad_input where none is
+/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and reported; Code::bad_input where none is
 /// left. Progress counts frames.
 [[nodiscard]] Result<JointsOutcome> run_joints(const JointsJob& job);
 

@@ -72,7 +72,7 @@ TEST_F(JointsPlausibleTest, ABodyIsLeftAlone) {
   }
 }
 
-TEST_F(JointsPlausibleTest, AJointWithoutACommonPointIsLeftOutAndTold) {
+TEST_F(JointsPlausibleTest, AJointWithoutACommonPointIsLeftOutAndReported) {
   make(0.2, true);
   for (const std::string method : {"score", "articulated"}) {
     job.method = method;

@@ -29,7 +29,7 @@ TEST(DescribeJoint, ABallIsKnownAsFarAsItIs) {
             "29 deg of motion: centre not known (100.0 mm)");
 }
 
-TEST(DescribeJoint, AMotionThatIsTooSmallOrOneArcIsToldWhereItMatters) {
+TEST(DescribeJoint, AMotionThatIsTooSmallOrOneArcIsSaidWhereItMatters) {
   const auto wide = ball(1.0, {0.001, 0.05, 0.002}), narrow = ball(1.0, {0.001, 0.0005, 0.002});
   const Eigen::Vector3d arc(0.4, 0.1, 0.05), small(0.08, 0.07, 0.05);
   EXPECT_TRUE(describe_joint(wide, arc).ends_with("to 50.0 mm along it: the motion was one arc only"));

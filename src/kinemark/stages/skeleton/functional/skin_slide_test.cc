@@ -45,12 +45,12 @@ testing::TestChain ball(bool with_skin, std::uint64_t seed) {
   return chain;
 }
 
-TEST(SkinSlide, IsNotToldOfFewFrames) {
+TEST(SkinSlide, IsNotFoundInFewFrames) {
   const SegmentPoses none;
   EXPECT_FALSE(measure_skin_slide(none, none, {}, Matrix6::Identity(), Vector6::Zero()).known);
 }
 
-TEST(SkinSlide, IsToldWhereThereIsOneAndNotWhereThereIsNone) {
+TEST(SkinSlide, IsFoundWhereThereIsOneAndNotWhereThereIsNone) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     for (const bool with_skin : {false, true}) {
       const testing::JointSetup setup(ball(with_skin, seed));
