@@ -55,7 +55,7 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Without --segments the markers are sorted into segments and joints by how they move. Exit status 1: "
       "a\n"
-      "joint could be placed in no frame.");
+      "segment or joint was left out as no body's, or a joint could be placed in no frame.");
   const auto arguments = std::make_shared<JointsArguments>();
   auto& job = arguments->job;
   command->add_option("IN", job.input, "Recording, .c3d, .trc, .csv or .nwb")->required();

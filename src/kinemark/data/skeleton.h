@@ -73,7 +73,9 @@ struct SkeletonJoint {
                   covariance_in_child = Eigen::Matrix3d::Zero();  ///< m^2; NaN when unknown
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(),
                   axis_in_child = Eigen::Vector3d::Zero();  ///< unit length; zero for a ball joint
-  double axis_sd_rad = 0.0;          ///< of each of the two tilts of the axis; NaN when unknown
+  double axis_sd_rad = 0.0;  ///< of the tilt of the axis that is known less; NaN when unknown
+  /// Of the axis in the parent, rad^2: zero along it, and for a ball joint; NaN when unknown.
+  Eigen::Matrix3d axis_covariance_in_parent = Eigen::Matrix3d::Zero();
   double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen
   std::string method;                ///< "SCoRE", "articulated", ...
   std::string description;           ///< what the motion shows of this joint and what it does not

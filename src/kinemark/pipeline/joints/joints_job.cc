@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/joints/joints_json.h"
+#include "kinemark/pipeline/joints/joints_layout.h"
+#include "kinemark/pipeline/joints/joints_parts.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 
@@ -75,76 +78,8 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
   return {};
 }
 
-Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajectories& markers,
-                                        JointsOutcome& outcome) {
-  if (!job.segments.empty()) return read_segments(job.segments, markers.names);
-  if (markers.markers() < 4)
-    return fail(
-        Code::bad_input,
-        fmt::format("{} markers in all; a joint needs 4 at least, three on one segment and one on another",
-                    markers.markers()));
-  skeleton::TopologyOptions options;
-  options.noise_sd_m = job.noise_sd_m;
-  auto topology = skeleton::find_topology(markers, options);
-  if (!topology) return std::unexpected(topology.error());
-  outcome.warnings.push_back(fmt::format("Found in the data: {} segments, {} joints.",
-                                         topology->layout.segments.size(), topology->layout.joints.size()));
-  if (topology->layout.segments.size() < 2)
-    return fail(Code::bad_input,
-                fmt::format("all {} markers keep their distances: they are on one segment, or "
-                            "nothing moved, so no joint can be found",
-                            markers.markers()));
-  outcome.warnings.insert(outcome.warnings.end(), topology->warnings.begin(), topology->warnings.end());
-  outcome.topology = std::move(*topology);
-  return outcome.topology->layout;
-}
-
-/// What the likelihood of a chain can be asked about: the largest tree of segments with two markers or more.
-Result<data::SegmentLayout> largest_tree(const data::SegmentLayout& layout,
-                                         std::vector<std::string>& warnings) {
-  const auto S = layout.segments.size();
-  const auto usable = [&](int s) { return layout.segments[static_cast<std::size_t>(s)].markers.size() >= 2; };
-  std::vector<int> tree(S);
-  std::iota(tree.begin(), tree.end(), 0);
-  for (const auto& joint : layout.joints) {
-    if (!usable(joint.parent) || !usable(joint.child)) continue;
-    const int from = tree[static_cast<std::size_t>(joint.child)],
-              to = tree[static_cast<std::size_t>(joint.parent)];
-    std::ranges::replace(tree, from, to);
-  }
-  int best = 0;
-  for (const int t : tree)
-    if (std::ranges::count(tree, t) > std::ranges::count(tree, best)) best = t;
-  if (static_cast<std::size_t>(std::ranges::count(tree, best)) == S) return layout;
-  data::SegmentLayout out;
-  std::vector<int> number(S, -1);
-  std::string left;
-  for (std::size_t s = 0; s < S; ++s) {
-    if (tree[s] == best) {
-      number[s] = static_cast<int>(out.segments.size());
-      out.segments.push_back(layout.segments[s]);
-    } else {
-      left += (left.empty() ? "" : ", ") + layout.segments[s].name;
-    }
-  }
-  for (const auto& joint : layout.joints) {
-    const int parent = number[static_cast<std::size_t>(joint.parent)],
-              child = number[static_cast<std::size_t>(joint.child)];
-    if (parent >= 0 && child >= 0) out.joints.push_back({joint.name, parent, child});
-  }
-  if (out.joints.empty())
-    return fail(Code::bad_input,
-                fmt::format("none of the {} joints found lies between two segments of two markers or more, "
-                            "which the articulated method needs; name the segments in a file, or use another "
-                            "method",
-                            layout.joints.size()));
-  warnings.push_back(fmt::format(
-      "Left out, as the articulated method needs two markers on a segment and one tree of them: {}.", left));
-  return out;
-}
-
 Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& markers,
-                                JointsOutcome& outcome) {
+                                const data::SegmentLayout& layout, JointsOutcome& outcome) {
   if (job.method == "articulated") {
     skeleton::ArticulatedOptions options;
     options.noise_sd_m = job.noise_sd_m;
@@ -152,9 +87,13 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.soft_tissue = job.soft_tissue;
     options.joint = job.kind;
     options.threads = job.threads;
-    auto fit = skeleton::fit_articulated(markers, outcome.layout, options, job.progress);
+    auto fit = skeleton::fit_articulated(markers, layout, options, job.progress);
     if (!fit) return std::unexpected(fit.error());
-    if (job.soft_tissue) outcome.marker_noise_sd_m = std::move(fit->marker_noise_sd_m);
+    if (!job.soft_tissue) return std::move(fit->skeleton);
+    auto& noise = outcome.marker_noise_sd_m;
+    noise.resize(fit->marker_noise_sd_m.size(), kNaN);
+    for (std::size_t m = 0; m < noise.size(); ++m)
+      if (std::isfinite(fit->marker_noise_sd_m[m])) noise[m] = fit->marker_noise_sd_m[m];
     return std::move(fit->skeleton);
   }
   skeleton::FunctionalOptions options;
@@ -162,11 +101,26 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
   options.sides = job.sides;
   options.kind = job.kind;
   options.noise_sd_m = job.noise_sd_m;
-  return skeleton::find_joints(markers, outcome.layout, options);
+  return skeleton::find_joints(markers, layout, options);
 }
 
-/// A gate for each joint that was placed in no frame.
-void judge(JointsOutcome& outcome) {
+/// A gate for each segment and joint that was left out as no body's, and for each joint that was placed in no
+/// frame.
+void judge(const JointsJob& job, JointsOutcome& outcome) {
+  for (const auto& bad : outcome.left_out) {
+    const bool short_of = bad.value_m < bad.least_m;
+    outcome.gates.push_back({.name = "plausible",
+                             .passed = false,
+                             .value = 1e3 * bad.value_m,
+                             .bound = 1e3 * (short_of ? bad.least_m : bad.most_m),
+                             .unit = "mm",
+                             .sentence = bad.sentence()});
+    outcome.warnings.push_back("Left out: " + bad.sentence());
+  }
+  if (!outcome.left_out.empty()) {
+    outcome.next_step = propose_next_step(job, outcome);
+    outcome.warnings.push_back(outcome.next_step);
+  }
   const auto& skeleton = outcome.skeleton;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     bool placed = false;
@@ -185,24 +139,50 @@ void judge(JointsOutcome& outcome) {
   }
 }
 
-/// The segments of the job's file, or those that the data show, in which case all failures are the
-/// recording's.
-Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
-  auto layout = find_layout(job, markers, outcome);
-  if (layout && job.method == "articulated" && outcome.topology)
-    layout = largest_tree(*layout, outcome.warnings);
-  if (!layout)
-    return job.segments.empty() ? fail_at(job.input.string(), layout.error())
-                                : std::unexpected(layout.error());
-  outcome.layout = std::move(*layout);
+/// What is solved together: all joints, or for the articulated method of segments that were found in the data
+/// every tree by itself.
+std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutcome& outcome,
+                                          const data::SegmentLayout& layout) {
+  if (job.method != "articulated" || (!outcome.topology && outcome.left_out.empty())) return {layout};
+  return trees_of(layout);
+}
+
+/// Centres and axes of a body: what is none's is left out and the rest is solved anew, until all of it is
+/// plausible. A tree of which nothing is left, or that cannot be solved, is reported; it is a failure where no
+/// other is.
+Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
+  auto waiting = parts_of(job, outcome, outcome.layout);
+  std::vector<data::Skeleton> solved;
+  Status first;
+  outcome.layout = {};
+  for (std::size_t next = 0; next < waiting.size(); ++next) {
+    data::SegmentLayout layout = std::move(waiting[next]);
+    auto found = estimate(job, markers, layout, outcome);
+    if (!found) {
+      if (found.error().code != Code::bad_input) return std::unexpected(found.error());
+      if (first) first = std::unexpected(with_left_out(outcome, found.error()));
+      outcome.warnings.push_back(
+          fmt::format("Nothing can be said of {}: {}.", names_of(layout), found.error().message));
+      continue;
+    }
+    const auto bad = skeleton::judge_skeleton(markers, *found);
+    if (bad.empty()) {
+      solved.push_back(std::move(*found));
+      append(layout, outcome.layout);
+    } else if (auto s = leave_out(job, bad, layout, outcome); !s) {
+      if (first) first = s;
+    } else {
+      std::ranges::move(parts_of(job, outcome, layout), std::back_inserter(waiting));
+    }
+  }
+  if (solved.empty()) return first;
+  outcome.skeleton = join_skeletons(std::move(solved));
   return {};
 }
 
 /// Centres and axes, and markers that moved on their segment.
 Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
-  auto found = estimate(job, markers, outcome);
-  if (!found) return std::unexpected(found.error());
-  outcome.skeleton = std::move(*found);
+  if (auto s = solve_plausibly(job, markers, outcome); !s) return s;
   auto slips = skeleton::find_slips(markers, outcome.layout);
   if (!slips) return std::unexpected(slips.error());
   outcome.slips = std::move(*slips);
@@ -255,7 +235,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   if (!staging) return std::unexpected(staging.error());
   // Solve and judge.
   if (auto s = solve(job, trial.markers, outcome); !s) return fail_at(name, s.error());
-  judge(outcome);
+  judge(job, outcome);
   // Write.
   data::Trial centres;
   centres.source = trial.source;

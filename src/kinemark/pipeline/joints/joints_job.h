@@ -16,6 +16,7 @@
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/skeleton/functional/functional.h"
 #include "kinemark/stages/skeleton/functional/slip.h"
+#include "kinemark/stages/skeleton/plausibility/plausibility.h"
 #include "kinemark/stages/skeleton/topology/topology.h"
 
 namespace kinemark::pipeline {
@@ -39,7 +40,8 @@ struct JointsJob : JobSettings {
   bool keep_defects = false;    ///< use what screening calls swapped, stuck, false
 };
 
-/// Warnings: what was done before and after, and what is odd. Gates: every joint was placed in some frame.
+/// Warnings: what was done before and after, and what is odd. Gates: nothing had to be left out as no body's,
+/// every joint was placed in some frame.
 struct JointsOutcome : JobOutcome {
   data::InputFile input;                       ///< the recording
   data::SegmentLayout layout;                  ///< as used; the skeleton's markers are its numbers
@@ -48,9 +50,14 @@ struct JointsOutcome : JobOutcome {
   std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
   std::vector<data::Finding> slips;            ///< markers that moved on their segment
   std::vector<double> marker_noise_sd_m;       ///< M, with soft_tissue; NaN where unknown; empty otherwise
+  std::vector<skeleton::Implausible>
+      left_out;           ///< segments and joints that are no body's: not in the skeleton
+  std::string next_step;  ///< what to do about them, one sentence; empty: nothing
 };
 
-/// Read, find, write. Either all files appear or, on a failure, none. Progress counts frames.
+/// Read, find, write. Either all files appear or, on a failure, none. Segments and joints that cannot be a
+/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and reported; Code::bad_input where none is
+/// left. Progress counts frames.
 [[nodiscard]] Result<JointsOutcome> run_joints(const JointsJob& job);
 
 /// The centres as trajectories, one a joint. States: model_filled where the joint was placed by its frame,

@@ -81,6 +81,7 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
     out["axis_in_parent"] = numbers(joint.axis_in_parent);
     out["axis_in_child"] = numbers(joint.axis_in_child);
     out["axis_sd_deg"] = number(joint.axis_sd_rad * kDegPerRad);
+    out["axis_covariance_in_parent"] = matrix(joint.axis_covariance_in_parent);
   }
   out["centre_sd_m"] = number(frames.sd_m);
   if (hinge) out["centre_sd_across_axis_m"] = number(frames.across_sd_m);
@@ -108,6 +109,21 @@ Json topology_json(const JointsOutcome& outcome) {
   return out;
 }
 
+/// Segments and joints that are no body's, and what to do.
+void add_left_out(const JointsOutcome& outcome, Json& json) {
+  json["left_out"] = Json::array();
+  for (const auto& bad : outcome.left_out)
+    json["left_out"].push_back({{"kind", bad.is_segment ? "segment" : "joint"},
+                                {"name", bad.name},
+                                {"figure", skeleton::to_string(bad.figure)},
+                                {"value_m", number(bad.value_m)},
+                                {"least_m", bad.least_m},
+                                {"most_m", bad.most_m},
+                                {"markers", bad.markers},
+                                {"words", bad.sentence()}});
+  if (!outcome.next_step.empty()) json["next_step"] = outcome.next_step;
+}
+
 }  // namespace
 
 Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
@@ -117,6 +133,7 @@ Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
   json["input"] = {{"path", outcome.input.path}, {"xxh3_64", outcome.input.hash}};
   json["method"] = job.method;
   json["notes"] = outcome.warnings;
+  add_left_out(outcome, json);
   json["slips"] = Json::array();
   for (const auto& slip : outcome.slips)
     json["slips"].push_back({{"words", sentence_of(slip, outcome.skeleton.time)},

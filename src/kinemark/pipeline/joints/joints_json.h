@@ -12,7 +12,8 @@
 namespace kinemark::pipeline {
 
 /// What skeleton.json holds: skeleton_json(), how it was found ("version", "command", "input", "method",
-/// "notes", "slips", "marker_noise" with soft tissue) and "topology" where the data gave the segments.
+/// "notes", "left_out", "next_step" where something was, "slips", "marker_noise" with soft tissue) and
+/// "topology" where the data gave the segments.
 [[nodiscard]] nlohmann::ordered_json joints_json(const JointsJob& job, const JointsOutcome& outcome);
 
 /// A skeleton without its frames as JSON (SI units, degrees where a name says so); unknown numbers are null.

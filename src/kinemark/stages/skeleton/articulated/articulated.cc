@@ -18,6 +18,7 @@
 #include "kinemark/stages/skeleton/articulated/recording/continuity.h"
 #include "kinemark/stages/skeleton/articulated/recording/findings.h"
 #include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
+#include "kinemark/stages/skeleton/articulated/recording/skin.h"
 #include "kinemark/stages/skeleton/articulated/recording/widening.h"
 
 namespace kinemark::skeleton {
@@ -169,6 +170,9 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const articulated::Obse
     out.axis_in_parent = above_axis;
     out.axis_in_child = below_axis;
     out.axis_sd_rad = seen.axis_sd_rad;
+    out.axis_covariance_in_parent =
+        seen.axis_sd_rad * seen.axis_sd_rad *
+        (Matrix3d::Identity() - out.axis_in_parent * out.axis_in_parent.transpose());
   }
   return out;
 }
@@ -377,7 +381,9 @@ Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const 
   else
     w.continuity = {.prior = std::vector<articulated::PathPrior>(J),
                     .path = std::vector<articulated::SmoothedPath>(J)};
-  return assemble(w);
+  ArticulatedFit out = assemble(w);
+  articulated::account_for_skin(markers, out.skeleton);
+  return out;
 }
 
 }  // namespace kinemark::skeleton

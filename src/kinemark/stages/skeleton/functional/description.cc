@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
+constexpr double kSmall_rad = 0.1;    ///< SD of a motion that is too small to tell a centre
+constexpr double kOneArc = 0.5;  ///< second SD of the rotation over the first: below, the motion is one arc
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
 std::string millimetres(double m) { return fmt::format("{:.1f} mm", 1e3 * m); }
@@ -31,22 +33,30 @@ std::string describe_hinge(const data::SkeletonJoint& joint, const Eigen::Matrix
   return text + ", position along it not";
 }
 
-std::string describe_ball(const Eigen::Matrix3d& covariance) {
+/// Why a centre is known so badly, where the motion tells.
+std::string describe_lack(const Eigen::Vector3d& sd_rad) {
+  if (sd_rad(0) < kSmall_rad) return ": the motion was too small";
+  if (sd_rad(1) < kOneArc * sd_rad(0)) return ": the motion was one arc only";
+  return "";
+}
+
+std::string describe_ball(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& sd_rad) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   const Eigen::Vector3d sd = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   if (sd(2) < kKnown_m) return fmt::format("centre known to {}", millimetres(sd(2)));
+  const std::string why = describe_lack(sd_rad);
   if (sd(1) < kKnown_m)
-    return fmt::format("centre known to {} across one direction, to {} along it", millimetres(sd(1)),
-                       millimetres(sd(2)));
+    return fmt::format("centre known to {} across one direction, to {} along it{}", millimetres(sd(1)),
+                       millimetres(sd(2)), why);
   if (sd(0) < kKnown_m)
-    return fmt::format("centre known to {} in one direction only, to {} in the others", millimetres(sd(0)),
-                       millimetres(sd(2)));
-  return fmt::format("centre not known ({})", millimetres(sd(2)));
+    return fmt::format("centre known to {} in one direction only, to {} in the others{}", millimetres(sd(0)),
+                       millimetres(sd(2)), why);
+  return fmt::format("centre not known ({}){}", millimetres(sd(2)), why);
 }
 
 }  // namespace
 
-std::string describe_joint(const data::SkeletonJoint& joint) {
+std::string describe_joint(const data::SkeletonJoint& joint, const Eigen::Vector3d& sd_rad) {
   const bool in_parent = joint.covariance_in_parent.allFinite();
   const Eigen::Matrix3d& covariance = in_parent ? joint.covariance_in_parent : joint.covariance_in_child;
   const std::string motion =
@@ -58,7 +68,7 @@ std::string describe_joint(const data::SkeletonJoint& joint) {
     return motion + ": the joint hardly moves, neither centre nor axis can be known";
   return motion + ": " +
          (joint.kind == data::JointKind::hinge ? describe_hinge(joint, covariance)
-                                               : describe_ball(covariance));
+                                               : describe_ball(covariance, sd_rad));
 }
 
 }  // namespace kinemark::skeleton

@@ -9,6 +9,8 @@
 namespace kinemark::skeleton {
 namespace {
 
+const Eigen::Vector3d kAround(0.3, 0.25, 0.1);  ///< rotations about more than one axis
+
 data::SkeletonJoint ball(double range_rad, const Eigen::Vector3d& sd_m) {
   data::SkeletonJoint joint;
   joint.range_of_motion_rad = range_rad;
@@ -17,12 +19,24 @@ data::SkeletonJoint ball(double range_rad, const Eigen::Vector3d& sd_m) {
 }
 
 TEST(DescribeJoint, ABallIsKnownAsFarAsItIs) {
-  EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.0005, 0.002})), "57 deg of motion: centre known to 2.0 mm");
-  EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.05, 0.002})),
+  EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.0005, 0.002}), kAround),
+            "57 deg of motion: centre known to 2.0 mm");
+  EXPECT_EQ(describe_joint(ball(1.0, {0.001, 0.05, 0.002}), kAround),
             "57 deg of motion: centre known to 2.0 mm across one direction, to 50.0 mm along it");
-  EXPECT_EQ(describe_joint(ball(0.5, {0.001, 0.05, 0.1})),
+  EXPECT_EQ(describe_joint(ball(0.5, {0.001, 0.05, 0.1}), kAround),
             "29 deg of motion: centre known to 1.0 mm in one direction only, to 100.0 mm in the others");
-  EXPECT_EQ(describe_joint(ball(0.5, {0.1, 0.1, 0.1})), "29 deg of motion: centre not known (100.0 mm)");
+  EXPECT_EQ(describe_joint(ball(0.5, {0.1, 0.1, 0.1}), kAround),
+            "29 deg of motion: centre not known (100.0 mm)");
+}
+
+TEST(DescribeJoint, AMotionThatIsTooSmallOrOneArcIsSaidWhereItMatters) {
+  const auto wide = ball(1.0, {0.001, 0.05, 0.002}), narrow = ball(1.0, {0.001, 0.0005, 0.002});
+  const Eigen::Vector3d arc(0.4, 0.1, 0.05), small(0.08, 0.07, 0.05);
+  EXPECT_TRUE(describe_joint(wide, arc).ends_with("to 50.0 mm along it: the motion was one arc only"));
+  EXPECT_TRUE(describe_joint(wide, small).ends_with(": the motion was too small"));
+  EXPECT_TRUE(describe_joint(wide, kAround).ends_with("along it")) << "the motion is not the reason";
+  for (const auto& sd_rad : {arc, small})
+    EXPECT_TRUE(describe_joint(narrow, sd_rad).ends_with("centre known to 2.0 mm")) << "nothing is lacking";
 }
 
 TEST(DescribeJoint, AHingeTellsAxisAndPosition) {
@@ -30,24 +44,24 @@ TEST(DescribeJoint, AHingeTellsAxisAndPosition) {
   joint.kind = data::JointKind::hinge;
   joint.axis_in_parent = Eigen::Vector3d::UnitX();
   joint.axis_sd_rad = 0.035;
-  EXPECT_EQ(describe_joint(joint),
+  EXPECT_EQ(describe_joint(joint, kAround),
             "12 deg of motion: axis direction known to 2.0 deg, its position not, position along it not");
   joint.covariance_in_parent = Eigen::Vector3d(0.09, 1e-6, 1e-6).asDiagonal();
   EXPECT_EQ(
-      describe_joint(joint),
+      describe_joint(joint, kAround),
       "12 deg of motion: axis direction known to 2.0 deg, its position to 1.0 mm, position along it not");
   joint.axis_sd_rad = 0.5;
-  EXPECT_NE(describe_joint(joint).find("axis direction not known"), std::string::npos);
+  EXPECT_NE(describe_joint(joint, kAround).find("axis direction not known"), std::string::npos);
 }
 
 TEST(DescribeJoint, AStillJointAndAnUnknownOneSaySo) {
-  EXPECT_EQ(describe_joint(ball(0.01, {0.3, 0.3, 0.3})),
+  EXPECT_EQ(describe_joint(ball(0.01, {0.3, 0.3, 0.3}), kAround),
             "1 deg of motion: the joint hardly moves, neither centre nor axis can be known");
   data::SkeletonJoint joint = ball(0.5, {1, 1, 1});
   joint.covariance_in_parent.setConstant(std::numeric_limits<double>::quiet_NaN());
   joint.covariance_in_child = joint.covariance_in_parent;
   joint.range_of_motion_rad = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(describe_joint(joint), "motion not seen as an angle: centre not known");
+  EXPECT_EQ(describe_joint(joint, kAround), "motion not seen as an angle: centre not known");
 }
 
 }  // namespace

@@ -23,10 +23,14 @@ struct JointFit {
   bool in_parent = false, in_child = false;      ///< the position is known in that segment
   Vector6 centre = Vector6::Zero();              ///< in parent's axes, in child's axes, m
   Matrix6 covariance = Matrix6::Zero();          ///< m^2
+  Matrix6 scatter =
+      Matrix6::Zero();             ///< the part of it that blocks of frames show: what does not repeat itself
   Matrix6 open = Matrix6::Zero();  ///< the part of it due to lack of motion and noise of the poses
   /// unit length; zero for a ball joint
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(), axis_in_child = Eigen::Vector3d::Zero();
-  double axis_sd_rad = 0.0;     ///< of each tilt
+  Eigen::Matrix3d axis_covariance = Eigen::Matrix3d::Zero();  ///< of the unit vector in the parent, rad^2
+  double axis_sd_rad = 0.0;                                   ///< of the tilt that is known less
+  double slide_share = 0.0;     ///< probability that skin slides with the posture, SkinSlide::share
   double residual_rms_m = 0.0;  ///< distance between the two positions, or distance from the spheres, RMS
   std::int64_t frames = 0;      ///< used
   std::string method;           ///< name of the method that found it

@@ -38,6 +38,7 @@ RelativeMotion measure_motion(const SegmentPoses& parent, const SegmentPoses& ch
   }
   if (rotations.empty()) return motion;
   const Eigen::Matrix3d mean = math::fit_rotation(sum).rotation;
+  motion.mean = mean;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const Eigen::Matrix3d& rotation : rotations) {
     const Eigen::Vector3d v = math::log_so3(mean.transpose() * rotation);

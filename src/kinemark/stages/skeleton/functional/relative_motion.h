@@ -19,6 +19,7 @@ struct RelativeMotion {
   Eigen::Vector3d sd_rad =
       Eigen::Vector3d::Zero();  ///< SD of the rotation from the mean, about its axes, largest first
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the child's mean pose
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Identity();  ///< rotation, from the child's axes to the parent's
 
   /// Hinge if the second largest SD is at most a quarter of the largest, or at most what noise of the poses
   /// (rad, per axis) alone would produce.

@@ -8,11 +8,13 @@
 #include <limits>
 
 #include "kinemark/data/joint_choice.h"
+#include "kinemark/stages/skeleton/functional/skin_slide.h"
 
 namespace kinemark::skeleton {
 namespace {
 
 constexpr std::size_t kLeastFrames = 4;
+constexpr double kSlides = 0.5;             ///< probability beyond which skin is taken to slide
 constexpr std::int64_t kNoiseFrames = 200;  ///< from which the noise of the poses is estimated
 
 struct Solution {
@@ -20,6 +22,7 @@ struct Solution {
   Vector6 axis = Vector6::Zero();  ///< two unit vectors; zero for a ball
   Vector6 open = Vector6::Zero();  ///< SD along each eigenvector due to undetermined directions, m
   Matrix6 directions = Matrix6::Identity();
+  Matrix6 inverse = Matrix6::Zero();  ///< centre = inverse * right-hand side
 };
 
 /// Eigenvectors of the normal matrix, smallest first. A hinge leaves the first out.
@@ -41,6 +44,7 @@ Solution solve(const ScoreSums& sums, data::JointKind kind, double residual_vari
     const Vector6 e = s.directions.col(i);
     const double value = std::max(0.0, eigen.eigenvalues()(i));
     s.centre += e * (e.dot(sums.right) / (value + prior));
+    s.inverse += e * e.transpose() / (value + prior);
     // Noise of the poses acts like motion: it biases the centre towards the markers by its share of the
     // eigenvalue.
     const double from_prior = prior / (value + prior);
@@ -147,7 +151,6 @@ JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const Seg
   fit.axis_in_parent = best.axis.head<3>();
   fit.axis_in_child = best.axis.tail<3>();
 
-  double tilts = 0.0;
   const double scale = static_cast<double>(blocks - 1) / static_cast<double>(blocks);
   for (const ScoreSums& s : sums) {
     ScoreSums rest = all;
@@ -156,14 +159,22 @@ JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const Seg
     Vector6 d = without.centre - best.centre;
     if (kind == data::JointKind::hinge) {
       const Vector6 axis = same_sign(without.axis, best.axis);
-      tilts += scale * 0.5 * (axis - best.axis).head<3>().squaredNorm();
+      const Eigen::Vector3d tilt = (axis - best.axis).head<3>();
+      fit.axis_covariance += scale * tilt * tilt.transpose();
       // The position of the point along the axis is a convention and does not count as error.
       const Vector6 along = best.directions.col(0);
       d -= along * along.dot(d);
     }
-    fit.covariance += scale * d * d.transpose();
+    fit.scatter += scale * d * d.transpose();
   }
-  fit.axis_sd_rad = std::sqrt(tilts);
+  const SkinSlide slide = measure_skin_slide(parent, child, motion, best.inverse, best.centre);
+  fit.slide_share = slide.share;
+  fit.covariance = slide.share > kSlides ? slide.covariance : fit.scatter;
+  if (kind == data::JointKind::hinge) {
+    fit.axis_covariance += axis_slide_covariance(samples, parent, child, motion, fit.axis_in_parent);
+    fit.axis_sd_rad =
+        std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fit.axis_covariance).eigenvalues()(2));
+  }
   for (int i = 0; i < 6; ++i) {
     const double sd = best.open(i);
     fit.open += sd * sd * best.directions.col(i) * best.directions.col(i).transpose();

@@ -127,7 +127,7 @@ void find_joint_slips(const Samples& samples, const data::SegmentLayout& layout,
   for (const int side : {0, 1}) {
     const Eigen::Vector3d shift = second.centre.segment<3>(3 * side) - first.centre.segment<3>(3 * side);
     const auto chance = [&](const JointFit& fit) -> Matrix6 {
-      return fit.covariance - kOpenDiffers * fit.open;
+      return fit.scatter + (1.0 - kOpenDiffers) * fit.open;
     };
     const Matrix6 both = chance(first) + chance(second);
     const Eigen::Matrix3d covariance = both.block<3, 3>(3 * side, 3 * side);

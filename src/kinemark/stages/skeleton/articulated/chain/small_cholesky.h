@@ -59,4 +59,48 @@ void solve_cholesky(const Eigen::MatrixXd& L, Column&& x) {
   solve_upper(L, x);
 }
 
+/// A = U U^T with U upper triangular, from the last row to the first; reads and overwrites the upper
+/// triangle. False when a pivot is at most 0. Where rows of a tree's leaves stand behind those of its root,
+/// as in a chain, nothing fills in: zeros stay zero and are passed over.
+inline bool cholesky_from_leaves(Eigen::MatrixXd& A) {
+  const Eigen::Index n = A.rows();
+  for (Eigen::Index j = n - 1; j >= 0; --j) {
+    double* column = A.data() + j * n;
+    if (!(column[j] > 0.0)) return false;
+    const double root = std::sqrt(column[j]);
+    column[j] = root;
+    for (Eigen::Index i = 0; i < j; ++i) column[i] /= root;
+    for (Eigen::Index c = 0; c < j; ++c) {
+      const double factor = column[c];
+      if (factor == 0.0) continue;
+      double* other = A.data() + c * n;
+      for (Eigen::Index i = 0; i <= c; ++i) other[i] -= factor * column[i];
+    }
+  }
+  return true;
+}
+
+/// x <- U^-1 x.
+template <class Column>
+void solve_from_leaves(const Eigen::MatrixXd& U, Column&& x) {
+  for (Eigen::Index j = U.rows() - 1; j >= 0; --j) {
+    if (x[j] == 0.0) continue;
+    const double* column = U.data() + j * U.rows();
+    const double value = x[j] / column[j];
+    x[j] = value;
+    for (Eigen::Index i = 0; i < j; ++i) x[i] -= value * column[i];
+  }
+}
+
+/// x <- U^-T x.
+template <class Column>
+void solve_to_leaves(const Eigen::MatrixXd& U, Column&& x) {
+  for (Eigen::Index j = 0; j < U.rows(); ++j) {
+    const double* column = U.data() + j * U.rows();
+    double value = x[j];
+    for (Eigen::Index i = 0; i < j; ++i) value -= column[i] * x[i];
+    x[j] = value / column[j];
+  }
+}
+
 }  // namespace kinemark::skeleton::articulated

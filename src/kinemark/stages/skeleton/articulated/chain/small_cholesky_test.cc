@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "kinemark/core/random.h"
 
@@ -43,10 +44,40 @@ TEST(SmallCholesky, FactorsAndSolvesOfAnySize) {
   }
 }
 
+TEST(SmallCholesky, FromLeavesFactorsAndSolvesOfAnySize) {
+  Random random(2, 1);
+  for (const Eigen::Index n : {1, 3, 9, 15}) {
+    const MatrixXd root = random_matrix(random, n, n + 4);
+    const MatrixXd A = root * root.transpose();
+    MatrixXd U = A;
+    ASSERT_TRUE(cholesky_from_leaves(U));
+    const MatrixXd upper = U.triangularView<Eigen::Upper>();
+    EXPECT_LT((upper * upper.transpose() - A).norm(), 1e-12 * A.norm()) << n;
+    const VectorXd x = random_matrix(random, n, 1);
+    VectorXd half = upper * x;
+    solve_from_leaves(U, half);
+    EXPECT_LT((half - x).norm(), 1e-9 * x.norm()) << n;
+    half = upper.transpose() * x;
+    solve_to_leaves(U, half);
+    EXPECT_LT((half - x).norm(), 1e-9 * x.norm()) << n;
+  }
+}
+
+TEST(SmallCholesky, FromLeavesFillsNothingInATree) {
+  // A root, two branches of two rows each: the branches know of each other through the root alone.
+  MatrixXd A = MatrixXd::Identity(5, 5) * 4.0;
+  for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {3, 4}})
+    A(i, j) = A(j, i) = 1.0;
+  ASSERT_TRUE(cholesky_from_leaves(A));
+  for (const auto& [i, j] : {std::pair{1, 3}, {1, 4}, {2, 3}, {2, 4}}) EXPECT_EQ(A(i, j), 0.0);
+}
+
 TEST(SmallCholesky, RefusesWhatIsNotPositive) {
   MatrixXd indefinite(2, 2), weak(2, 2);
   indefinite << 1.0, 2.0, 2.0, 1.0;
   weak << 1.0, 0.0, 0.0, 1e-6;
+  MatrixXd same = indefinite;
+  EXPECT_FALSE(cholesky_from_leaves(same));
   EXPECT_FALSE(cholesky(indefinite));
   MatrixXd copy = weak;
   EXPECT_TRUE(cholesky(copy));

@@ -47,6 +47,9 @@ PoseSolver::PoseSolver(const Chain& chain) : chain_(&chain) {
   damping_.resize(n);
   origin_.resize(chain.segments());
   residual_.resize(chain.segments());
+  lever_.resize(chain.joints());
+  weight_beyond_.resize(chain.joints());
+  residual_beyond_.resize(chain.joints());
   trial_.rotation.resize(chain.segments());
   by_frame_.resize(3, n);
   by_geometry_.resize(3, static_cast<Eigen::Index>(chain.geometry_parameters().size()));
@@ -111,6 +114,11 @@ void PoseSolver::normal(const ChainPose& pose, std::span<const JointPrior> prior
   const Chain& c = *chain_;
   H_.setZero();
   b_.setZero();
+  for (int j = 0; j < c.joints(); ++j) {
+    lever_[j] = skew(c.joint.col(j)) * pose.rotation[c.layout.parent[j]].transpose();
+    weight_beyond_[j] = 0.0;
+    residual_beyond_[j].setZero();
+  }
   for (int q = 0; q < c.segments(); ++q) {
     const FrameSums::Segment& s = sums_.segment[q];
     if (s.seen == 0) continue;
@@ -133,27 +141,33 @@ void PoseSolver::normal(const ChainPose& pose, std::span<const JointPrior> prior
       H_(at + 1, at + 1) += more;
     }
     // and by -R_i [l] eta_i with the rotation of every segment i between joint 0 and this one.
+    const Matrix3d turned = own * R.transpose();
     for (const int j : c.joints_to(q)) {
       const int i = c.layout.parent[j];
-      const int at_i = c.rotation_offset(i);
-      const int size_i = c.rotation_size(i);
-      const Vector3d v = c.joint.col(j);
-      const Matrix3d lever = skew(v) * pose.rotation[i].transpose();
-      const Vector3d in_segment = pose.rotation[i].transpose() * residual;
-      add(b_, at_i, size_i, v.cross(in_segment));
-      add(H_, at_i, size_i, 0, 3, s.w * lever);
-      add(H_, at, size, at_i, size_i, own * R.transpose() * lever.transpose());
-      for (const int j2 : c.joints_to(q)) {
-        if (j2 > j) break;
-        const int i2 = c.layout.parent[j2];
-        const Matrix3d lever2 = skew(c.joint.col(j2)) * pose.rotation[i2].transpose();
-        add(H_, at_i, size_i, c.rotation_offset(i2), c.rotation_size(i2), s.w * lever * lever2.transpose());
-      }
-      if (observed && size_i == 2) {
-        const double more = v[2] * in_segment[2];
-        H_(at_i, at_i) += more;
-        H_(at_i + 1, at_i + 1) += more;
-      }
+      add(H_, at, size, c.rotation_offset(i), c.rotation_size(i), turned * lever_[j].transpose());
+      weight_beyond_[j] += s.w;
+      residual_beyond_[j] += residual;
+    }
+  }
+  // All segments beyond a joint move with the same lever.
+  for (int j = 1; j < c.joints(); ++j) {
+    if (!(weight_beyond_[j] > 0.0)) continue;
+    const int i = c.layout.parent[j];
+    const int at = c.rotation_offset(i);
+    const int size = c.rotation_size(i);
+    const Vector3d v = c.joint.col(j);
+    const Vector3d in_segment = pose.rotation[i].transpose() * residual_beyond_[j];
+    const Matrix3d weighed = weight_beyond_[j] * lever_[j];
+    add(b_, at, size, v.cross(in_segment));
+    add(H_, at, size, 0, 3, weighed);
+    for (const int j2 : c.joints_to(j + 1)) {
+      const int i2 = c.layout.parent[j2];
+      add(H_, at, size, c.rotation_offset(i2), c.rotation_size(i2), weighed * lever_[j2].transpose());
+    }
+    if (observed && size == 2) {
+      const double more = v[2] * in_segment[2];
+      H_(at, at) += more;
+      H_(at + 1, at + 1) += more;
     }
   }
   const Eigen::Index n = H_.rows();
@@ -192,14 +206,15 @@ double PoseSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, i
     for (int i = 0; i < n; ++i) {
       factor_(i, i) += lambda * damping_[i] + (i < 3 ? 1e-13 * weight + 1e-300 : 1e-12 * damping_[i]);
     }
-    if (!cholesky(factor_)) {
+    if (!cholesky_from_leaves(factor_)) {
       fresh = false;
       lambda = std::max(6.0 * lambda, 1e-8);
       if (lambda > 1e7) break;
       continue;
     }
     step_ = b_;
-    solve_cholesky(factor_, step_);
+    solve_from_leaves(factor_, step_);
+    solve_to_leaves(factor_, step_);
     double big = 0.0;
     for (int i = 3; i < n; ++i) big = std::max(big, std::abs(step_[i]));
     if (big > 1.5) step_ *= 1.5 / big;

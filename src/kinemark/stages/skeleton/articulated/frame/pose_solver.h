@@ -75,6 +75,10 @@ class PoseSolver {
   Eigen::MatrixXd H_, factor_;
   Eigen::VectorXd b_, step_, damping_;
   std::vector<Vector3d> origin_, residual_;
+  // Joint by joint: its lever, and the sums over all segments beyond it.
+  std::vector<Matrix3d> lever_;
+  std::vector<double> weight_beyond_;
+  std::vector<Vector3d> residual_beyond_;
   ChainPose trial_;
   Eigen::Matrix3Xd by_frame_, by_geometry_;
 };

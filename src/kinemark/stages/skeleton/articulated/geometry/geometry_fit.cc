@@ -138,19 +138,21 @@ void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool ke
     solver_.normal(frames_.pose[i], {}, false, H, b);
     solver_.linearize_geometry(frames_.pose[i], x, frames_.weight[i], G, &S, &right);
     hold_loose_rotations(chain_, H);
-    if (!cholesky(H)) continue;
+    if (!cholesky_from_leaves(H)) continue;
     if (keep) {
       step_[i] = b;
-      solve_cholesky(H, step_[i]);
+      solve_from_leaves(H, step_[i]);
+      solve_to_leaves(H, step_[i]);
     }
-    for (Eigen::Index c = 0; c < n; ++c) solve_lower(H, G.col(c));
-    solve_lower(H, b);
-    S.noalias() -= G.transpose() * G;
+    for (Eigen::Index c = 0; c < n; ++c) solve_from_leaves(H, G.col(c));
+    solve_from_leaves(H, b);
+    S.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose(), -1.0);
     right.noalias() -= G.transpose() * b;
     if (!keep) continue;
-    for (Eigen::Index c = 0; c < n; ++c) solve_upper(H, G.col(c));
+    for (Eigen::Index c = 0; c < n; ++c) solve_to_leaves(H, G.col(c));
     by_geometry_[i] = G;
   }
+  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
   add_prior(S, right);
 }
 

@@ -91,9 +91,10 @@ void describe(const JointFit& fit, const RelativeMotion& motion, data::SkeletonJ
     out.axis_in_parent = fit.axis_in_parent;
     out.axis_in_child = fit.axis_in_child;
     out.axis_sd_rad = fit.axis_sd_rad;
+    out.axis_covariance_in_parent = fit.axis_covariance;
   }
   out.range_of_motion_rad = motion.frames.size() > 1 ? motion.range_rad : kNaN;
-  out.description = describe_joint(out);
+  out.description = describe_joint(out, motion.sd_rad);
 }
 
 void add_lengths(data::Skeleton& skeleton) {

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Which segments and joints a search for joints is about: those of the job's file or those that the data
+// show, without what is no body's.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/pipeline/joints/joints_job.h"
+#include "kinemark/stages/skeleton/plausibility/plausibility.h"
+
+namespace kinemark::pipeline {
+
+/// Fills outcome.layout, and outcome.topology where the data give it: the segments of the job's file, or
+/// those that the markers show, in which case all failures are the recording's. What the markers contradict
+/// goes into outcome.left_out; of a layout that was found the articulated method gets segments of two markers
+/// or more.
+[[nodiscard]] Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome);
+
+/// Takes segments and joints out of a layout and into outcome.left_out. Code::bad_input in one sentence,
+/// which names the worst of all that were left out and what to do next, where no joint of the layout is left.
+[[nodiscard]] Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad,
+                               data::SegmentLayout& layout, JointsOutcome& outcome);
+
+/// Parts of a layout that joints connect, of two segments or more, in the order of their first segments.
+[[nodiscard]] std::vector<data::SegmentLayout> trees_of(const data::SegmentLayout& layout);
+
+/// An error of what is solved after something was left out: the same, and what that was.
+[[nodiscard]] Error with_left_out(const JointsOutcome& outcome, const Error& error);
+
+/// What to do about outcome.left_out, one sentence.
+[[nodiscard]] std::string propose_next_step(const JointsJob& job, const JointsOutcome& outcome);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/skeleton/functional/skin_slide.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "kinemark/core/index.h"
+#include "kinemark/data/joint_choice.h"
+#include "kinemark/math/euler.h"
+#include "kinemark/stages/skeleton/functional/internal/rigid_shape.h"
+
+namespace kinemark::skeleton {
+namespace {
+
+constexpr std::int64_t kMostFrames = 1500, kLeastSlideFrames = 40;
+constexpr int kTerms = 9;                   ///< three linear, six quadratic functions of the posture
+constexpr int kSlide = 2 * 3 * kTerms;      ///< coefficients: both sides, three axes
+constexpr double kLeastPosture_rad = 0.01;  ///< components of the posture that move less are not blown up
+/// A component of the posture that hardly moves is mostly crosstalk and slides less than in proportion to its
+/// SD: it counts as having this SD in quadrature.
+constexpr double kCrosstalk_rad = 0.14;
+constexpr double kQuadratic = 0.15;   ///< variance of quadratic coefficients over that of linear ones
+constexpr double kPriorMedian = 0.5;  ///< of the amplitude, over the RMS gap per axis
+constexpr double kPriorLog = 1.0;     ///< SD of its logarithm
+constexpr int kGrid = 24;
+constexpr double kGridFrom = 0.02, kGridTo = 3.0;  ///< of the amplitude, over the RMS gap per axis
+constexpr double kRigidShare = 4.0;  ///< energy of skin motion as one body over that of deformation
+
+using Row = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+/// Posture of the frames drawn: F x 3 principal components, rad, largest first, about their mean.
+struct Posture {
+  std::vector<std::int64_t> frames;
+  Eigen::MatrixX3d component;
+  Eigen::Vector3d sd_rad = Eigen::Vector3d::Zero();
+};
+
+Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const RelativeMotion& motion) {
+  Posture out;
+  const auto n = static_cast<std::int64_t>(motion.frames.size());
+  const std::int64_t drawn = std::min(n, kMostFrames);
+  out.component.resize(drawn, 3);
+  for (std::int64_t i = 0; i < drawn; ++i) {
+    const std::int64_t f = motion.frames[at(i * n / drawn)];
+    out.frames.push_back(f);
+    const Eigen::Matrix3d rotation =
+        parent.world_from_segment[at(f)].transpose() * child.world_from_segment[at(f)];
+    out.component.row(i) =
+        (motion.axes.transpose() * math::log_so3(motion.mean.transpose() * rotation)).transpose();
+  }
+  out.component.rowwise() -= out.component.colwise().mean().eval();
+  out.sd_rad = (out.component.colwise().squaredNorm() / static_cast<double>(drawn)).cwiseSqrt().transpose();
+  return out;
+}
+
+/// Functions of the posture, F x 9, each of the size that its coefficients are expected to have alike.
+Eigen::MatrixXd terms_of(const Posture& posture) {
+  const auto n = posture.component.rows();
+  Eigen::MatrixX3d z(n, 3);
+  for (int k = 0; k < 3; ++k) {
+    const double sd = posture.sd_rad(k);
+    const double size = std::sqrt((sd * sd + kCrosstalk_rad * kCrosstalk_rad) /
+                                  (posture.sd_rad(0) * posture.sd_rad(0) + kCrosstalk_rad * kCrosstalk_rad));
+    z.col(k) = posture.component.col(k) * (size / std::max(sd, kLeastPosture_rad));
+  }
+  Eigen::MatrixXd out(n, kTerms);
+  out.leftCols<3>() = z;
+  int column = 3;
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b, ++column) {
+      out.col(column) = z.col(a).cwiseProduct(z.col(b)) * std::sqrt(kQuadratic * (a == b ? 0.5 : 1.0));
+      out.col(column).array() -= out.col(column).mean();
+    }
+  return out;
+}
+
+/// One frame's rows of p_a - R p_b + slide = y, in the parent's axes.
+Row row_of(const SegmentPoses& parent, const SegmentPoses& child, std::int64_t frame,
+           const Eigen::Ref<const Eigen::RowVectorXd>& terms) {
+  const auto f = at(frame);
+  const Eigen::Matrix3d to_parent = parent.world_from_segment[f].transpose();
+  const Eigen::Matrix3d rotation = to_parent * child.world_from_segment[f];
+  Row out(3, 6 + kSlide + 1);
+  out.leftCols<3>().setIdentity();
+  out.middleCols<3>(3) = -rotation;
+  for (int k = 0; k < kTerms; ++k) {
+    // Two sides share the amplitude's square.
+    out.middleCols<3>(6 + 3 * k) = terms(k) * std::sqrt(0.5) * Eigen::Matrix3d::Identity();
+    out.middleCols<3>(6 + 3 * kTerms + 3 * k) = terms(k) * std::sqrt(0.5) * rotation;
+  }
+  out.col(6 + kSlide) = to_parent * (child.origin[f] - parent.origin[f]);
+  return out;
+}
+
+/// Frames that count as one: 1 + 2 sum of autocorrelations while pairs of them are positive (Geyer 1992).
+double frames_alike(const Eigen::MatrixX3d& residual) {
+  const auto n = residual.rows();
+  const double variance = residual.squaredNorm();
+  if (!(variance > 0.0)) return 1.0;
+  const auto correlation = [&](Eigen::Index lag) {
+    return residual.topRows(n - lag).cwiseProduct(residual.bottomRows(n - lag)).sum() / variance;
+  };
+  double sum = 1.0;
+  for (Eigen::Index lag = 1; lag + 1 < n / 2; lag += 2) {
+    const double pair = correlation(lag) + correlation(lag + 1);
+    if (!(pair > 0.0)) break;
+    sum += 2.0 * pair;
+  }
+  return std::clamp(sum, 1.0, static_cast<double>(n) / 4.0);
+}
+
+/// Sums of the regression: what the slide's size is inferred from.
+struct SlideProblem {
+  Eigen::MatrixXd normal;  ///< of joint, slide and gap together
+  double variance = 0.0;   ///< of the noise of a frame that counts as one
+
+  [[nodiscard]] Matrix6 xx() const { return normal.topLeftCorner<6, 6>(); }
+  [[nodiscard]] Eigen::MatrixXd xz() const { return normal.block(0, 6, 6, kSlide); }
+  /// Log likelihood of an amplitude, the joint itself integrated out.
+  [[nodiscard]] double log_likelihood(double amplitude_m) const;
+  /// Covariance of least squares.
+  [[nodiscard]] Matrix6 covariance(const Matrix6& solve, double amplitude_m) const {
+    const Eigen::MatrixXd z = solve * xz();
+    return variance * solve * xx() * solve + amplitude_m * amplitude_m * z * z.transpose();
+  }
+};
+
+double SlideProblem::log_likelihood(double amplitude_m) const {
+  const Vector6 xy = normal.block<6, 1>(0, 6 + kSlide);
+  Matrix6 M = xx() / variance;
+  Vector6 right = xy / variance;
+  double squares = normal(6 + kSlide, 6 + kSlide) / variance, log_det = 0.0;
+  if (amplitude_m > 0.0) {
+    Eigen::MatrixXd inner = normal.block(6, 6, kSlide, kSlide) * (amplitude_m * amplitude_m / variance);
+    inner.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(inner);
+    const double scale = amplitude_m / variance;
+    const Eigen::MatrixXd zx = llt.matrixL().solve(Eigen::MatrixXd(scale * xz().transpose()));
+    const Eigen::VectorXd zy =
+        llt.matrixL().solve(Eigen::VectorXd(scale * normal.block(6, 6 + kSlide, kSlide, 1)));
+    M -= zx.transpose() * zx;
+    right -= zx.transpose() * zy;
+    squares -= zy.squaredNorm();
+    log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  }
+  M.diagonal().array() += 1.0 / (data::kJointPriorSd_m * data::kJointPriorSd_m);
+  const Eigen::LLT<Matrix6> llt(M);
+  log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (log_det + squares - right.dot(llt.solve(right)));
+}
+
+/// The amplitude's grid with the weight of each value; the first is none.
+struct Amplitudes {
+  std::array<double, kGrid + 1> value{}, weight{};
+};
+
+Amplitudes infer_amplitude(const SlideProblem& problem, double gap_m) {
+  Amplitudes out;
+  std::array<double, kGrid + 1> log_weight{};
+  const double step = std::log(kGridTo / kGridFrom) / (kGrid - 1);
+  log_weight[0] = problem.log_likelihood(0.0);
+  for (int i = 1; i <= kGrid; ++i) {
+    const double ratio = kGridFrom * std::exp(step * (i - 1));
+    out.value[at(i)] = ratio * gap_m;
+    const double deviate = std::log(ratio / kPriorMedian) / kPriorLog;
+    // The grid's weights sum to one, as that of "none" is one.
+    log_weight[at(i)] = problem.log_likelihood(out.value[at(i)]) - 0.5 * deviate * deviate +
+                        std::log(step / (kPriorLog * std::sqrt(2.0 * M_PI)));
+  }
+  const double best = *std::ranges::max_element(log_weight);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < log_weight.size(); ++i) sum += out.weight[i] = std::exp(log_weight[i] - best);
+  for (double& w : out.weight) w /= sum;
+  return out;
+}
+
+/// A turn of the markers by one SD of the hinge's angle, rad^2, in the segment's axes.
+Eigen::Matrix3d turn_covariance(const Samples& samples, const SegmentPoses& poses, const Posture& posture) {
+  const auto K = static_cast<Eigen::Index>(poses.markers.size());
+  double energy = 0.0;
+  Eigen::Index placed = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (Eigen::Index k = 0; k < K; ++k) {
+    const Eigen::Vector3d x = poses.x_in_segment.col(k);
+    if (!x.allFinite()) continue;
+    Eigen::Vector3d with = Eigen::Vector3d::Zero();
+    double weight = 0.0, squares = 0.0, n = 0.0;
+    for (std::size_t i = 0; i < posture.frames.size(); ++i) {
+      const std::int64_t f = posture.frames[i];
+      if (!samples.seen(f, poses.markers[at(k)])) continue;
+      const double angle = posture.component(static_cast<Eigen::Index>(i), 0) / posture.sd_rad(0);
+      const Eigen::Vector3d off = poses.to_segment(f, samples.x(f, poses.markers[at(k)])) - x;
+      with += angle * off;
+      weight += angle * angle;
+      squares += off.squaredNorm();
+      n += 1.0;
+    }
+    if (!(weight > 0.0)) continue;
+    // Without what noise alone would show.
+    energy += (with / weight).squaredNorm() - squares / (n * weight);
+    mean += x;
+    ++placed;
+  }
+  if (placed < 3 || !(energy > 0.0)) return Eigen::Matrix3d::Zero();
+  mean /= static_cast<double>(placed);
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (Eigen::Index k = 0; k < K; ++k) {
+    const Eigen::Vector3d d = poses.x_in_segment.col(k) - mean;
+    if (d.allFinite()) scatter += d * d.transpose();
+  }
+  // Six ways to move as one body have kRigidShare times the energy of all others together.
+  return kRigidShare * energy / 6.0 * internal::inertia(scatter).inverse();
+}
+
+}  // namespace
+
+SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& child,
+                             const RelativeMotion& motion, const Matrix6& solve, const Vector6& centre) {
+  SkinSlide out;
+  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastSlideFrames) return out;
+  const Posture posture = posture_of(parent, child, motion);
+  const Eigen::MatrixXd terms = terms_of(posture);
+  const auto n = terms.rows();
+  constexpr int kAll = 6 + kSlide + 1;
+  SlideProblem problem{.normal = Eigen::MatrixXd::Zero(kAll, kAll)};
+  double gap = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
+    problem.normal.noalias() += row.transpose() * row;
+    gap += (row.col(kAll - 1) - row.leftCols<6>() * centre).squaredNorm();
+  }
+  gap = std::sqrt(gap / (3.0 * static_cast<double>(n)));
+  if (!(gap > 0.0)) return out;
+  // Noise about joint and slide together, both fitted.
+  Eigen::MatrixXd both = problem.normal.topLeftCorner(kAll - 1, kAll - 1);
+  both.diagonal().array() += 1e-9 * both.trace() / (kAll - 1);
+  const Eigen::VectorXd fitted = both.ldlt().solve(problem.normal.topRightCorner(kAll - 1, 1));
+  Eigen::MatrixX3d residual(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
+    residual.row(i) = (row.col(kAll - 1) - row.leftCols(kAll - 1) * fitted).transpose();
+  }
+  const double freedom = std::max(3.0 * static_cast<double>(n) - 6.0 - 0.5 * kSlide, 1.0);
+  const double variance = std::max(residual.squaredNorm() / freedom, 1e-12 * gap * gap);
+  out.known = true;
+  out.frames_alike = frames_alike(residual);
+  out.noise_sd_m = std::sqrt(variance);
+  problem.variance = variance;
+  // Frames that are alike count as one: all sums shrink, and with them the weight of what the solution gets.
+  problem.normal /= out.frames_alike;
+  const Matrix6 per_frame =
+      solve * (out.frames_alike * static_cast<double>(motion.frames.size()) / static_cast<double>(n));
+  const Amplitudes amplitude = infer_amplitude(problem, gap);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < amplitude.value.size(); ++i) {
+    squares += amplitude.weight[i] * amplitude.value[i] * amplitude.value[i];
+    out.covariance += amplitude.weight[i] * problem.covariance(per_frame, amplitude.value[i]);
+  }
+  out.share = 1.0 - amplitude.weight[0];
+  out.amplitude_m = std::sqrt(squares);
+  return out;
+}
+
+Eigen::Matrix3d axis_slide_covariance(const Samples& samples, const SegmentPoses& parent,
+                                      const SegmentPoses& child, const RelativeMotion& motion,
+                                      const Eigen::Vector3d& axis_in_parent) {
+  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastSlideFrames) return Eigen::Matrix3d::Zero();
+  const Posture posture = posture_of(parent, child, motion);
+  if (!(posture.sd_rad(0) > 0.0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d to_parent = motion.mean;
+  const Eigen::Matrix3d turn = turn_covariance(samples, parent, posture) +
+                               to_parent * turn_covariance(samples, child, posture) * to_parent.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis_in_parent * axis_in_parent.transpose();
+  return across * turn * across / (posture.sd_rad(0) * posture.sd_rad(0));
+}
+
+}  // namespace kinemark::skeleton
