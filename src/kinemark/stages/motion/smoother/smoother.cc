@@ -178,8 +178,9 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
                                    .subject = "the smoother",
                                    .size = static_cast<double>(outcome.iterations)});
   fill_coordinates(problem.model, states, result.motion);
-  result.motion.status.assign(at(problem.frames), outcome.converged ? data::FrameStatus::converged
-                                                                    : data::FrameStatus::not_converged);
+  for (const auto unsettled : outcome.unsettled)
+    result.motion.status.push_back(unsettled ? data::FrameStatus::not_converged
+                                             : data::FrameStatus::converged);
   if (options.error_bars) fill_bars(problem, observations, noise, states, trajectory, result);
   fill_marker_errors(problem, markers, states, result);
   result.solve_seconds = seconds_since(solving);

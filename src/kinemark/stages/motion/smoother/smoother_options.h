@@ -14,7 +14,7 @@ struct SmootherOptions {
   /// than its own.
   IkOptions ik;
   double huber_sd = 4.5;    ///< Huber threshold in SDs: larger residuals of a marker count linearly; 0: never
-  int max_iterations = 10;  ///< Gauss-Newton steps over the whole recording, >= 1
+  int max_iterations = 50;  ///< Gauss-Newton steps over the whole recording, >= 1
   bool error_bars =
       true;  ///< q_sd and the covariance of q, qd and qdd; without them nothing is marked undetermined
 

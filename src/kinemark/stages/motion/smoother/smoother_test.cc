@@ -167,6 +167,26 @@ TEST(Smoother, AnOutlierIsLeftOutOrCountsForLittle) {
   EXPECT_LT(change({}), clean.motion.q_sd[elbow]);
 }
 
+TEST(Smoother, OnlyFramesThatStillMoveAreNotConverged) {
+  const auto model = body();
+  auto markers = testing_body::record(model, kFrames, kNoise_m, 11);
+  for (std::int64_t f = 90; f < 96; ++f)  // a stretch that two steps do not settle
+    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m).x() += 0.3;
+  SmootherOptions options{.ik = {.judge_samples = false}};
+  std::vector<std::ptrdiff_t> off;
+  for (const int steps : {1, 2, 3, 4, 5, 6}) {
+    options.max_iterations = steps;
+    const auto early = smooth_motion(model, markers, options).value();
+    off.push_back(std::ranges::count(early.motion.status, data::FrameStatus::not_converged));
+    EXPECT_EQ(early.converged, off.back() == 0) << steps;
+  }
+  EXPECT_THAT(off, ::testing::Contains(::testing::AllOf(::testing::Gt(0), ::testing::Lt(kFrames))));
+  options.max_iterations = 50;
+  const auto late = smooth_motion(model, markers, options).value();
+  EXPECT_TRUE(late.converged);
+  EXPECT_EQ(std::ranges::count(late.motion.status, data::FrameStatus::not_converged), 0);
+}
+
 TEST(Smoother, LongRecordingsAreDoneInPieces) {
   const auto model = body();
   const auto whole = smooth_motion(model, testing_body::record(model, 1100, kNoise_m, 8)).value();

@@ -148,6 +148,7 @@ WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterat
   MatrixXd moved(states.rows(), states.cols());
   VectorXd next(3 * n), own(n), x;
   outcome.cost = evaluate(states);
+  outcome.unsettled.assign(at(frames_), 1);
   for (int i = 0; i < max_iterations; ++i) {
     if (progress && !progress(i * frames_, max_iterations * frames_)) {
       outcome.stopped = true;
@@ -163,7 +164,9 @@ WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterat
       next.head(n) = own;
     });
     if (!step_.allFinite()) break;
-    const double decrement = -0.5 * step_.cwiseProduct(gradient_).sum();
+    const VectorXd decrements = -0.5 * step_.cwiseProduct(gradient_).colwise().sum().transpose();
+    const double decrement = decrements.sum();
+    for (std::int64_t k = 0; k < frames_; ++k) outcome.unsettled[at(k)] = std::abs(decrements[k]) > kDone;
     clip(states);
     double share = 1.0, moved_cost = 0.0;
     bool better = false;
@@ -188,6 +191,7 @@ WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterat
       break;
     }
   }
+  if (outcome.converged) std::ranges::fill(outcome.unsettled, std::uint8_t{0});
   return outcome;
 }
 

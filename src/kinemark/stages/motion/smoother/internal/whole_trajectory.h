@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -32,6 +33,9 @@ class WholeTrajectory {
     bool converged = false, stopped = false;
     int iterations = 0;
     double cost = 0.0;
+    /// Of each frame: its posture would move by more than 0.015 standard deviations in another step. All 0
+    /// when converged.
+    std::vector<std::uint8_t> unsettled;
   };
   /// Improve all postures (one column per frame, 4 or more) by at most so many steps.
   Outcome solve(Eigen::MatrixXd& states, int max_iterations, const Progress& progress);
