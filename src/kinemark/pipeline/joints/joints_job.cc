@@ -148,8 +148,8 @@ std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutc
 }
 
 /// Centres and axes of a body: what is none's is left out and the rest is solved anew, until all of it is
-/// plausible. A tree of which nothing is left, or that cannot be solved, is reported; it is a failure where no
-/// other is.
+/// plausible. A tree of which nothing is left, or that cannot be solved, is reported; it is a failure where
+/// no other is.
 Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
   auto waiting = parts_of(job, outcome, outcome.layout);
   std::vector<data::Skeleton> solved;

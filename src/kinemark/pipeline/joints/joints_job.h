@@ -56,8 +56,8 @@ struct JointsOutcome : JobOutcome {
 };
 
 /// Read, find, write. Either all files appear or, on a failure, none. Segments and joints that cannot be a
-/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and reported; Code::bad_input where none is
-/// left. Progress counts frames.
+/// body's (skeleton::judge_layout(), judge_skeleton()) are left out and reported; Code::bad_input where none
+/// is left. Progress counts frames.
 [[nodiscard]] Result<JointsOutcome> run_joints(const JointsJob& job);
 
 /// The centres as trajectories, one a joint. States: model_filled where the joint was placed by its frame,
