@@ -98,19 +98,21 @@ function(kinemark_library name)
   set_property(GLOBAL APPEND PROPERTY KINEMARK_COMPONENTS ${name})
 endfunction()
 
-# kinemark_tests(name SOURCES a_test.cc ... LINK links... THREADS b_test.cc ... LABELS ... [UNSANITIZED])
-# -> program test_name, ctest -R name. LONG: optimised like the library where other tests are not. UNSANITIZED: left out where addresses are watched, as are tests whose name ends in
-# "TakesLong"; KINEMARK_UNIT_TESTS=OFF leaves out all others. THREADS: the sources, with what they need, of tests that run several threads: those with "Thread" or
-# "thread" in their name, and nothing else, are what the thread sanitizer's build makes and runs (target threads).
+# kinemark_tests(name SOURCES a_test.cc ... LINK links... THREADS b_test.cc ... LABELS ... [UNSANITIZED] [ACCEPTANCE] [LONG])
+# -> program test_name, ctest -R name. UNSANITIZED: left out where addresses are watched, as are tests whose name ends in
+# "TakesLong"; KINEMARK_UNIT_TESTS=OFF leaves out all others but ACCEPTANCE, whose figures are rows of that table. LONG:
+# optimised like the library where KINEMARK_TEST_OPTIONS says that tests are not. THREADS: the sources, with what they need,
+# of tests that run several threads: those with "Thread" or "thread" in their name, and nothing else, are what the thread
+# sanitizer's build makes and runs (target threads).
 function(kinemark_tests name)
   if(NOT KINEMARK_DEVELOPER)
     return()
   endif()
-  cmake_parse_arguments(ARG "UNSANITIZED;LONG" "" "SOURCES;THREADS;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED;LONG;ACCEPTANCE" "" "SOURCES;THREADS;LINK;LABELS" ${ARGN})
   if(ARG_UNSANITIZED AND KINEMARK_SANITIZE_ADDRESS)
     return()
   endif()
-  if(NOT ARG_UNSANITIZED AND NOT KINEMARK_UNIT_TESTS)
+  if(NOT KINEMARK_UNIT_TESTS AND NOT ARG_UNSANITIZED AND NOT ARG_ACCEPTANCE)
     return()
   endif()
   if(KINEMARK_SANITIZE_THREAD)

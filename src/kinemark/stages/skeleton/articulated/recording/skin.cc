@@ -21,9 +21,10 @@ using Eigen::Vector3d;
 
 constexpr double kSlides = 0.5;  ///< probability beyond which skin is taken to slide
 
-/// Centres of a joint moved in both segments, with their covariance on top, in every frame that shows a pose.
-void move_centres(std::size_t j, const SegmentPoses& parent, const SegmentPoses& child, const Vector6& shift,
-                  const Matrix6& covariance, data::Skeleton& skeleton) {
+/// The covariance of a joint in both segments, on top of that of its centres in every frame that shows a
+/// pose.
+void widen_centres(std::size_t j, const SegmentPoses& parent, const SegmentPoses& child,
+                   const Matrix6& covariance, data::Skeleton& skeleton) {
   for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
     const std::size_t i = skeleton.index(f, static_cast<std::int64_t>(j));
     const bool in_parent = parent.known[at(f)] != 0, in_child = child.known[at(f)] != 0;
@@ -32,15 +33,14 @@ void move_centres(std::size_t j, const SegmentPoses& parent, const SegmentPoses&
     Eigen::Matrix<double, 3, 6> rotation;
     rotation.leftCols<3>() = share * parent.world_from_segment[at(f)];
     rotation.rightCols<3>() = (1.0 - share) * child.world_from_segment[at(f)];
-    Eigen::Map<Vector3d>(skeleton.centre_in_world.data() + 3 * i) += rotation * shift;
     const Matrix3d wider = skeleton.centre_covariance(f, static_cast<std::int64_t>(j)) +
                            rotation * covariance * rotation.transpose();
     math::pack_symmetric3(wider, skeleton.covariance.data() + 6 * i);
   }
 }
 
-/// Lengths from or to a joint, from where it is now.
-void measure_lengths(int joint, data::Skeleton& skeleton) {
+/// Standard deviations of lengths from or to a joint, from its covariance as it is now.
+void widen_lengths(int joint, data::Skeleton& skeleton) {
   for (auto& length : skeleton.lengths) {
     if (length.joint_a != joint && length.joint_b != joint) continue;
     const auto &a = skeleton.joints[at(length.joint_a)], &b = skeleton.joints[at(length.joint_b)];
@@ -52,7 +52,6 @@ void measure_lengths(int joint, data::Skeleton& skeleton) {
     const Vector3d along = d.normalized();
     const Matrix3d C = (a_in_parent ? a.covariance_in_parent : a.covariance_in_child) +
                        (b_in_parent ? b.covariance_in_parent : b.covariance_in_child);
-    length.length_m = d.norm();
     length.sd_m = std::sqrt(along.dot(C * along));
   }
 }
@@ -69,10 +68,9 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   Vector6 shift = fit.centre;
   shift.head<3>() -= joint.centre_in_parent;
   shift.tail<3>() -= joint.centre_in_child;
-  joint.centre_in_parent += shift.head<3>();
-  joint.centre_in_child += shift.tail<3>();
-  joint.covariance_in_parent = fit.covariance.topLeftCorner<3, 3>();
-  joint.covariance_in_child = fit.covariance.bottomRightCorner<3, 3>();
+  const Matrix6 covariance = fit.covariance + shift * shift.transpose();
+  joint.covariance_in_parent += covariance.topLeftCorner<3, 3>();
+  joint.covariance_in_child += covariance.bottomRightCorner<3, 3>();
   if (joint.kind == data::JointKind::hinge) {
     joint.axis_covariance_in_parent += fit.axis_covariance;
     joint.axis_sd_rad =
@@ -80,8 +78,8 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   }
   joint.range_of_motion_rad = motion.range_rad;
   joint.description = describe_joint(joint, motion.sd_rad) + ", as skin slides with the posture";
-  move_centres(j, parent, child, shift, fit.covariance, skeleton);
-  measure_lengths(static_cast<int>(j), skeleton);
+  widen_centres(j, parent, child, covariance, skeleton);
+  widen_lengths(static_cast<int>(j), skeleton);
 }
 
 }  // namespace
