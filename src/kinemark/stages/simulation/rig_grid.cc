@@ -98,11 +98,12 @@ Result<GridRecording> record_grid(const PhysicalRig& rig, const GridOptions& opt
   out.distance_m = options.distance_m;
   Random placement(rig.seed, 200);
   Eigen::Matrix2Xd on_board(2, options.nodes * options.nodes);
+  const int middle = options.nodes / 2;  // of an odd number of nodes
   for (int i = 0; i < options.nodes; ++i)
     for (int j = 0; j < options.nodes; ++j)
       for (int axis = 0; axis < 2; ++axis)
-        on_board(axis, i * options.nodes + j) = ((axis == 0 ? i : j) - options.nodes / 2) * out.spacing_m +
-                                                options.placement_sd_m * placement.gaussian();
+        on_board(axis, i * options.nodes + j) =
+            ((axis == 0 ? i : j) - middle) * out.spacing_m + options.placement_sd_m * placement.gaussian();
   for (int c = 0; c < rig.rig.camera_count(); ++c) {
     Random random(rig.seed, 210 + static_cast<std::uint64_t>(c));
     out.x_in_cam.push_back(hang_board(options, on_board, random));
