@@ -43,7 +43,7 @@ struct Contact {
 /// A stretch of frames in which a foot bears load that no wrench explains: one that stands beside the plates
 /// or on their edge. The torques of its limb are not determined there.
 struct UnmeasuredContact {
-  std::string body;
+  std::string body;                              ///< the foot, as the model names it
   std::int64_t first_frame = 0, last_frame = 0;  ///< both ends included
   double force_max_n = 0.0;                      ///< largest unexplained force upwards
 };

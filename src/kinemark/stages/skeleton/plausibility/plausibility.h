@@ -40,13 +40,13 @@ enum class BodyFigure : std::uint8_t {
 
 /// A segment or a joint that cannot be part of a body.
 struct Implausible {
-  bool is_segment = false;  ///< a segment; false: a joint
-  std::string name;         ///< as in the layout
-  std::string other;        ///< of a length: the joint at its other end
-  BodyFigure figure = BodyFigure::shape;
-  double value_m = 0.0;                ///< what was measured; infinite where it is no number
-  double least_m = 0.0, most_m = 0.0;  ///< what was expected
-  std::vector<std::string> markers;    ///< of the segment, or of the joint's segments
+  bool is_segment = false;                ///< a segment; false: a joint
+  std::string name;                       ///< as in the layout
+  std::string other;                      ///< of a length: the joint at its other end
+  BodyFigure figure = BodyFigure::shape;  ///< which of its figures is beyond its bound
+  double value_m = 0.0;                   ///< what was measured; infinite where it is no number
+  double least_m = 0.0, most_m = 0.0;     ///< what was expected
+  std::vector<std::string> markers;       ///< of the segment, or of the joint's segments
 
   /// Name, figure and what was expected, begun in lower case and without full stop.
   [[nodiscard]] std::string description() const;
