@@ -81,8 +81,8 @@ void tell_unmeasured(const motion::DynamicsSummary& dynamics, const TimeBase& ti
 }
 
 std::string direction(const Vector3d& v) {
-  // + 0.0: no "-0.00"
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+  const auto rounded = [](double x) { return std::abs(x) < 0.005 ? 0.0 : x; };  // no "-0.00"
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", rounded(v.x()), rounded(v.y()), rounded(v.z()));
 }
 
 /// Plates push the body upwards; otherwise recording and model have different axes.
