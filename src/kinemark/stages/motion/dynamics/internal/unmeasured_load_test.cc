@@ -16,7 +16,6 @@ namespace kinemark::motion::internal {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr double kMass = 70.0, kRate = 100.0, kWeight = kMass * 9.81;
