@@ -26,7 +26,6 @@ namespace {
 using namespace kinemark;
 using testing_support::print_note;
 using testing_support::print_row;
-namespace fs = std::filesystem;
 
 struct Recording {
   std::string name, model, markers, setup;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "kinemark/io/file.h"
 #include "support/scratch.h"
@@ -183,7 +184,7 @@ TEST(ParseTable, SaysLineAndColumnOfWhatIsWrong) {
 TEST(ParseTable, EveryByteMayBeWrong) {
   for (const std::string& whole : {kVersion1 + kBody, kVersion3 + kBody, kSimm + kBody}) {
     for (std::size_t i = 0; i < whole.size(); ++i) {
-      (void)parse_table(whole.substr(0, i), "t");
+      std::ignore = parse_table(whole.substr(0, i), "t");
       for (const char c : {'\0', '\t', '\n', ' ', '-', '9', '=', '\xFF'}) {
         std::string text = whole;
         text[i] = c;
