@@ -29,6 +29,21 @@ if(KINEMARK_DEVELOPER)
     endif()
   endif()
 endif()
+# What a compiler and linker can do against a file made to hurt: checked reads of containers, guarded stacks, indirect jumps
+# only to where functions begin, addresses settled and sealed before the program starts (tools/check_hardened reads them
+# back from the program). Sanitizers see more, and do not go with fortified functions.
+option(KINEMARK_HARDENED "Compile with the guards of compiler, linker and standard library" ${PROJECT_IS_TOP_LEVEL})
+if(KINEMARK_HARDENED)
+  target_compile_definitions(kinemark_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  if(NOT KINEMARK_SANITIZE_ADDRESS AND NOT KINEMARK_SANITIZE_THREAD)
+    target_compile_options(kinemark_flags INTERFACE -fstack-protector-strong -fstack-clash-protection
+      "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+      target_compile_options(kinemark_flags INTERFACE -fcf-protection=full)
+    endif()
+    target_link_options(kinemark_flags INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack)
+  endif()
+endif()
 if(KINEMARK_SANITIZE_ADDRESS)
   target_compile_options(kinemark_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   # Null, misaligned and mistyped reads are looked for where bytes become numbers. Elsewhere these checks stand at every
