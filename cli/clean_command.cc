@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/clean/clean_job.h"
+#include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
 namespace {
@@ -39,7 +40,7 @@ void print_clean_outcome(const CommonOptions& common, const pipeline::CleanOutco
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
   for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
+  if (common.json) fmt::print("{}\n", pipeline::json_text(report::clean_summary_json(report)));
 }
 
 Status read_names(CleanArguments& arguments) {

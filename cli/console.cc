@@ -11,6 +11,8 @@
 #include <memory>
 #include <utility>
 
+#include "kinemark/core/utf8.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 
 namespace kinemark::cli {
@@ -26,7 +28,7 @@ extern "C" void note_signal(int number) {
 }  // namespace
 
 void say(const CommonOptions& common, std::string_view line) {
-  if (!common.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+  if (!common.quiet) std::fprintf(stderr, "%s\n", printable_sentence(line).c_str());
 }
 
 void settle(const CommonOptions& common, std::string counts, pipeline::JobSettings& job) {
@@ -44,11 +46,11 @@ void say_written(const CommonOptions& common, const pipeline::JobOutcome& outcom
 void print_written(const CommonOptions& common, const pipeline::JobOutcome& outcome) {
   for (const auto& warning : outcome.warnings) say(common, fmt::format("note: {}", warning));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", pipeline::outcome_json(outcome).dump(2));
+  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::outcome_json(outcome)));
 }
 
 int report_error(const Error& error) {
-  std::fprintf(stderr, "kinemark: %s\n", error.message.c_str());
+  std::fprintf(stderr, "kinemark: %s\n", printable_sentence(error.message).c_str());
   if (error.code == Code::cancelled && caught_signal() != 0) return 128 + caught_signal();
   return exit_status(error.code);
 }

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/io/file.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "studies/common/study_page.h"
 #include "studies/macaque/macaque_figures.h"
 #include "studies/macaque/study_macaque_job.h"
@@ -61,7 +62,7 @@ int run_study(const CommonOptions& common, const StudyArguments& arguments, cons
   }
   say(common, studies::study_text(study->table));
   if (file) say(common, "wrote " + arguments.figures);
-  if (common.json) fmt::print("{}\n", studies::study_json(study->table).dump(2));
+  if (common.json) fmt::print("{}\n", pipeline::json_text(studies::study_json(study->table)));
   return study->table.pass() ? 0 : 1;
 }
 

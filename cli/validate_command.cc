@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/validate_job.h"
 
@@ -17,7 +18,7 @@ void print_validate_outcome(const CommonOptions& common, const pipeline::Validat
     for (const auto& warning : checked.warnings) say(common, fmt::format("{}: {}", file, warning));
     if (checked.exit_status() == 0) say(common, fmt::format("{}: good", file));
   }
-  if (common.json) fmt::print("{}\n", pipeline::validate_json(outcome).dump(2));
+  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::validate_json(outcome)));
 }
 
 int run_command(const CommonOptions& common, pipeline::ValidateJob& job) {

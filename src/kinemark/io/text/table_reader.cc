@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/table_header.h"
+#include "kinemark/io/text/internal/table_values.h"
+#include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
@@ -88,6 +90,10 @@ Result<data::Table> parse_table(std::string_view text) {
   table.values.resize(rows * columns);
 
   std::size_t repeated = 0;
+  std::int64_t first_repeated = 0;
+  double resolution_s = std::numeric_limits<double>::infinity();
+  std::vector<std::int64_t> line_of_row;
+  line_of_row.reserve(rows);
   std::string_view line;
   for (std::size_t row = 0; row < rows; ++row) {
     lines.next(line);
@@ -98,17 +104,21 @@ Result<data::Table> parse_table(std::string_view text) {
     double time_s = 0.0;
     if (cells.next(time_s) != Cell::number || !std::isfinite(time_s))
       return bad_cell(lines.number(), 1, "time", cells.text(), "a number");
+    const std::string_view time_text = cells.text();
     if (auto status =
             read_values(cells, lines.number(), *header, table.values.data() + table.time_s.size() * columns);
         !status)
       return std::unexpected(status.error());
     if (!table.time_s.empty() && time_s < table.time_s.back())
-      return fail(Code::bad_input, fmt::format("line {}: time runs backwards from {} to {} s", lines.number(),
-                                               table.time_s.back(), time_s));
-    if (!table.time_s.empty() && time_s == table.time_s.back())
-      ++repeated;
-    else
+      return fail(Code::bad_input, fmt::format("line {} (row {}): time runs backwards from {} to {} s",
+                                               lines.number(), row + 1, table.time_s.back(), time_s));
+    if (!table.time_s.empty() && time_s == table.time_s.back()) {
+      if (repeated++ == 0) first_repeated = lines.number();
+    } else {
+      if (time_s != 0.0) resolution_s = std::min(resolution_s, internal::resolution_of(time_text));
       table.time_s.push_back(time_s);
+      line_of_row.push_back(lines.number());
+    }
   }
   table.values.resize(table.time_s.size() * columns);
   table.columns = std::move(header->columns_named);
@@ -116,9 +126,22 @@ Result<data::Table> parse_table(std::string_view text) {
   if (header->rows && *header->rows != static_cast<double>(rows))
     table.warnings.push_back(
         fmt::format("header says {} rows, {} are there; the rows are used", *header->rows, rows));
+  if (repeated > table.time_s.size())
+    return fail(
+        Code::bad_input,
+        fmt::format("line {}: time stands still here and in {} of {} rows in all; times must increase",
+                    first_repeated, repeated, rows));
   if (repeated > 0)
     table.warnings.push_back(
         fmt::format("{} rows repeat the time of the row before and are left out", repeated));
+  internal::note_jump(
+      {.time_s = table.time_s,
+       .resolution_s = std::isfinite(resolution_s) ? resolution_s : 0.0,
+       .stated = {},
+       .most_frames = 0,
+       .place = [&](std::size_t row) { return fmt::format("line {} (row {})", line_of_row[row], row + 1); }},
+      table.warnings);
+  internal::note_absurd_values(table, line_of_row, table.warnings);
   while (lines.next(line)) {
     if (internal::is_blank(line)) continue;
     table.warnings.push_back(
@@ -137,7 +160,7 @@ Result<data::Table> parse_table(std::string_view text, std::string_view name) {
 }
 
 Result<data::Table> read_table(const std::filesystem::path& path) {
-  const auto text = read_text(path);
+  const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_table(*text, path.string());
 }

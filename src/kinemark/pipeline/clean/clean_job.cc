@@ -8,6 +8,7 @@
 
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
@@ -94,7 +95,7 @@ std::vector<ResultFile> list_files(const CleanFiles& files, internal::CleanOutpu
                                                             : staging.path_of(files.derivatives));
                   }});
   list.push_back(
-      text_file(files.summary, [&] { return report::clean_summary_json(outcome.report).dump(2) + "\n"; }));
+      text_file(files.summary, [&] { return json_text(report::clean_summary_json(outcome.report)) + "\n"; }));
   if (!files.page.empty())
     list.push_back(text_file(files.page, [&] { return report::clean_report_html(outcome.report); }));
   return list;

@@ -11,6 +11,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -206,7 +207,7 @@ std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& ou
   std::vector<ResultFile> files;
   for (const auto& target : targets)
     files.push_back(target.extension() == ".json"
-                        ? text_file(target, [&] { return joints_json(job, outcome).dump(2) + "\n"; })
+                        ? text_file(target, [&] { return json_text(joints_json(job, outcome)) + "\n"; })
                     : target.extension() == ".toml"
                         ? text_file(target, [&] { return segments_text(outcome.layout, outcome.markers); })
                         : marker_file(target, centres));

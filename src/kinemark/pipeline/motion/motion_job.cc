@@ -10,6 +10,7 @@
 
 #include "kinemark/core/version.h"
 #include "kinemark/pipeline/files/file_hash.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
@@ -163,7 +164,7 @@ std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMoti
   if (!motion.tau_sd.empty()) add(beside(output, "_tau_sd.sto"), torque_deviations_table);
   add(beside(output, "_marker_errors.sto"), marker_errors_table);
   files.push_back(text_file(beside(output, "_report.json"),
-                            [&summary] { return report::summary_json(summary).dump(2) + "\n"; }));
+                            [&summary] { return json_text(report::summary_json(summary)) + "\n"; }));
   return files;
 }
 

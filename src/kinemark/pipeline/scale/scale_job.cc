@@ -11,6 +11,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/scale/scale_json.h"
@@ -167,7 +168,7 @@ class ScaleRun {
     auto written =
         write_results(*staging,
                       {model_file(job_.output, out_.model),
-                       text_file(report, [this] { return scale_json(job_, out_).dump(2) + "\n"; })},
+                       text_file(report, [this] { return json_text(scale_json(job_, out_)) + "\n"; })},
                       {}, "scaling");
     if (!written) return std::unexpected(written.error());
     out_.written = std::move(*written);
