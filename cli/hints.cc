@@ -8,13 +8,10 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "cli/console.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
 
@@ -107,20 +104,6 @@ std::string unknown_option(const CLI::App& at, const std::string& word) {
                      did_you_mean(nearest_names(name, option_names(at)), "--"));
 }
 
-std::string unknown_command(const CLI::App& at, const std::string& word) {
-  const bool outermost = at.get_parent() == nullptr;
-  const std::string wrong = outermost ? fmt::format("there is no command '{}'", word)
-                                      : fmt::format("'{}' has no '{}'", at.get_name(), word);
-  const auto habit =
-      std::ranges::find(kHabits, lower(word), &std::pair<std::string_view, std::string_view>::first);
-  if (outermost && habit != kHabits.end())
-    return fmt::format("{}; 'kinemark {}' does that", wrong, habit->second);
-  std::error_code ignored;
-  if (outermost && std::filesystem::exists(word, ignored))
-    return fmt::format("{}; 'kinemark info {}' tells what that file holds", wrong, word);
-  return wrong + did_you_mean(nearest_names(word, command_names(at)), "");
-}
-
 /// The word with one dash that names a long option, or an empty one.
 std::string one_dash(const CLI::App& at, std::span<const std::string> words) {
   const auto names = option_names(at);
@@ -129,27 +112,6 @@ std::string one_dash(const CLI::App& at, std::span<const std::string> words) {
            std::ranges::find(names, word.substr(1, word.find('=') - 1)) != names.end();
   });
   return found == words.end() ? std::string() : *found;
-}
-
-const CLI::App* find_command(const CLI::App& app, const std::string& name) {
-  const auto commands =
-      app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
-  return commands.empty() ? nullptr : commands.front();
-}
-
-int print_help(const CLI::App& app, std::span<const std::string> words) {
-  const CLI::App* at = &app;
-  std::string path = "kinemark";
-  for (const auto& word : words) {
-    const CLI::App* next = find_command(*at, word);
-    if (next == nullptr)
-      return report_error(
-          {Code::usage, fmt::format("{}; see '{} --help'", unknown_command(*at, word), path)});
-    at = next;
-    path += " " + word;
-  }
-  fmt::print("{}", at->help(at->get_parent() == nullptr ? "" : path));
-  return 0;
 }
 
 }  // namespace
@@ -177,11 +139,18 @@ std::string explain_usage(const CLI::App& app, const CLI::ParseError& error,
   return error.what();
 }
 
-void add_help(CLI::App& app, std::function<int()>& run) {
-  auto* command = app.add_subcommand("help", "What a command does and takes: the same as COMMAND --help");
-  const auto words = std::make_shared<std::vector<std::string>>();
-  command->add_option("COMMAND", *words, "Command, and what it is of: simulate rig");
-  command->callback([&app, &run, words] { run = [&app, words] { return print_help(app, *words); }; });
+std::string unknown_command(const CLI::App& at, const std::string& word) {
+  const bool outermost = at.get_parent() == nullptr;
+  const std::string wrong = outermost ? fmt::format("there is no command '{}'", word)
+                                      : fmt::format("'{}' has no '{}'", at.get_name(), word);
+  const auto habit =
+      std::ranges::find(kHabits, lower(word), &std::pair<std::string_view, std::string_view>::first);
+  if (outermost && habit != kHabits.end())
+    return fmt::format("{}; 'kinemark {}' does that", wrong, habit->second);
+  std::error_code ignored;
+  if (outermost && std::filesystem::exists(word, ignored))
+    return fmt::format("{}; 'kinemark info {}' tells what that file holds", wrong, word);
+  return wrong + did_you_mean(nearest_names(word, command_names(at)), "");
 }
 
 }  // namespace kinemark::cli

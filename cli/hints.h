@@ -19,7 +19,7 @@ namespace kinemark::cli {
 /// The command that was reached, the innermost one: of `simulate rig` that of `rig`.
 [[nodiscard]] const CLI::App& reached(const CLI::App& app);
 
-/// Adds `help [COMMAND...]`, which prints what `COMMAND... --help` prints.
-void add_help(CLI::App& app, std::function<int()>& run);
+/// The sentence about `word` where a command of `at` was expected.
+[[nodiscard]] std::string unknown_command(const CLI::App& at, const std::string& word);
 
 }  // namespace kinemark::cli

@@ -84,7 +84,8 @@ int run_program(int argc, char** argv) {
   kinemark::cli::add_convert(app, common, run);
   kinemark::cli::add_validate(app, common, run);
   kinemark::cli::add_recover(app, common, run);
-  kinemark::cli::add_help(app, run);
+  kinemark::cli::add_help(app, common, run);
+  kinemark::cli::add_completion(app, common, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
