@@ -12,7 +12,7 @@ namespace kinemark::cli {
 namespace {
 
 /// Text between single quotes of a POSIX shell.
-std::string quoted(std::string_view text) {
+std::string shell_quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
     if (c == '\'')
@@ -53,8 +53,8 @@ std::string steps(const CommandText& top) {
   for (const auto* command : all_commands(top)) {
     if (command->words.empty()) continue;
     const std::vector<std::string> above(command->words.begin(), command->words.end() - 1);
-    out += fmt::format("      {}) path={} ;;\n", quoted(join(above, " ") + "/" + command->words.back()),
-                       quoted(path_of(*command)));
+    out += fmt::format("      {}) path={} ;;\n", shell_quoted(join(above, " ") + "/" + command->words.back()),
+                       shell_quoted(path_of(*command)));
   }
   return out;
 }
@@ -64,9 +64,9 @@ std::string steps(const CommandText& top) {
 std::string bash_completion(const CommandText& top) {
   std::string cases;
   for (const auto* command : all_commands(top))
-    cases +=
-        fmt::format("    {}) commands={} options={} ;;\n", quoted(path_of(*command)),
-                    quoted(join(names_below(*command), " ")), quoted(join(names_of_options(*command), " ")));
+    cases += fmt::format("    {}) commands={} options={} ;;\n", shell_quoted(path_of(*command)),
+                         shell_quoted(join(names_below(*command), " ")),
+                         shell_quoted(join(names_of_options(*command), " ")));
   return fmt::format(R"(# Completion of kinemark for bash: source it, or put it where bash-completion looks.
 _kinemark() {{
   local word path='' commands='' options='' current="${{COMP_WORDS[COMP_CWORD]}}"
@@ -93,12 +93,12 @@ std::string zsh_completion(const CommandText& top) {
   for (const auto* command : all_commands(top)) {
     std::string commands, options;
     for (const auto& below : command->commands)
-      commands += " " + quoted(below.words.back() + ":" + short_description(below.description));
+      commands += " " + shell_quoted(below.words.back() + ":" + short_description(below.description));
     for (const auto& option : command->options)
       for (const auto& name : option.names)
-        options += " " + quoted(name + ":" + short_description(option.description));
-    cases += fmt::format("    {}) commands=({} ) options=({} ) ;;\n", quoted(path_of(*command)), commands,
-                         options);
+        options += " " + shell_quoted(name + ":" + short_description(option.description));
+    cases += fmt::format("    {}) commands=({} ) options=({} ) ;;\n", shell_quoted(path_of(*command)),
+                         commands, options);
   }
   return fmt::format(R"(#compdef kinemark
 # Completion of kinemark for zsh: put it as _kinemark into a folder of $fpath, or source it after compinit.
@@ -140,14 +140,15 @@ std::string fish_completion(const CommandText& top) {
                    ? ""
                    : fmt::format("; and not __fish_seen_subcommand_from {}", below.words.back());
     for (const auto& below : command->commands)
-      out += fmt::format("complete -c kinemark -n {} -f -a {} -d {}\n", quoted(where), below.words.back(),
-                         quoted(short_description(below.description)));
+      out += fmt::format("complete -c kinemark -n {} -f -a {} -d {}\n", shell_quoted(where),
+                         below.words.back(), shell_quoted(short_description(below.description)));
     for (const auto& option : command->options) {
       std::string names;
       for (const auto& name : option.names)
         names += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      out += fmt::format("complete -c kinemark -n {}{}{} -d {}\n", quoted(where), names,
-                         option.value.empty() ? "" : " -r", quoted(short_description(option.description)));
+      out +=
+          fmt::format("complete -c kinemark -n {}{}{} -d {}\n", shell_quoted(where), names,
+                      option.value.empty() ? "" : " -r", shell_quoted(short_description(option.description)));
     }
   }
   return out;

@@ -7,10 +7,10 @@ import subprocess
 
 SEGMENTS = """[[segment]]
 name = "upper_arm"
-markers = ["s1m0", "s1m1", "s1m2", "s1m3"]
+markers = ["s0m0", "s0m1", "s0m2", "s0m3"]
 [[segment]]
 name = "forearm"
-markers = ["s2m0", "s2m1", "s2m2", "s2m3"]
+markers = ["s1m0", "s1m1", "s1m2", "s1m3"]
 [[joint]]
 name = "elbow"
 parent = "upper_arm"
@@ -82,7 +82,7 @@ COMMANDS = (
     Command(("track", "-m", "model.osim", "-t", "markers.c3d", "-o", "out.mot"), ("model.osim", "markers.c3d"), "out.mot"),
     Command(("report", "q.mot", "-o", "out.html"), ("q.mot", "q_report.json", "q_sd.sto", "q_marker_errors.sto"), "out.html"),
     Command(("simulate", "subject", "-m", "model.osim", "-o", "out", "--duration", "0.1"), ("model.osim",), "out"),
-    Command(("simulate", "rig", "markers", "-t", "markers.trc", "-o", "out"), ("markers.trc",), "out"),
+    Command(("simulate", "rig", "markers", "-t", "markers.trc", "-o", "out", "--marker", "LFHD", "--marker", "RFHD"), ("markers.trc",), "out"),
     Command(
         ("calibrate", "tree.mcap", "grid_A.mcap", "grid_B.mcap", "--nominal", "nominal.toml", "--align"),
         ("tree.mcap", "grid_A.mcap", "nominal.toml"),

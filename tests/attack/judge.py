@@ -56,8 +56,9 @@ def leftovers(folder):
     return [f"'{name}' is left over" for name in folder if ".kinemark-" in name]
 
 
-def of_refusal(ran, named):
-    """Of a run that ended with 2, 3 or 4: one sentence, which names `named` if bad input was found, and nothing written."""
+def of_refusal(ran, named, answers):
+    """Of a run that ended with 2, 3 or 4: one sentence, which names `named` if bad input was found, and nothing written;
+    `answers`: what is wrong is the answer, and may stand on standard output, too."""
     lines = ran.err.decode(errors="replace").splitlines()
     sentences = [line for line in lines if line.startswith("kinemark: ")]
     problems = []
@@ -65,15 +66,16 @@ def of_refusal(ran, named):
         problems.append(f"{len(sentences)} sentences, where one at the end was expected")
     elif ran.status == 3 and named is not None and named not in sentences[0]:
         problems.append(f"the sentence does not name {named}")
-    if ran.out:
+    if ran.out and not answers:
         problems.append("something on standard output although it failed")
     if ran.after != ran.before:
         problems.append("the folder is not as it was although it failed")
     return problems
 
 
-def findings(ran, named=None, as_json=False, statuses=STATUSES):
-    """Everything that is wrong with a run; `named`: a word that must stand in the sentence about bad input."""
+def findings(ran, named=None, as_json=False, statuses=STATUSES, answers=False):
+    """Everything that is wrong with a run; `named`: a word that must stand in the sentence about bad input; `answers`: the
+    command answers the question whether its input is bad, on standard output."""
     if ran.status is None:
         return ["does not end"]
     problems = of_sanitizers(ran.err)
@@ -81,7 +83,7 @@ def findings(ran, named=None, as_json=False, statuses=STATUSES):
         problems.append(f"ended by signal {-ran.status}" if ran.status < 0 else f"exit status {ran.status}")
     problems += of_text("standard error", ran.err) + of_text("standard output", ran.out) + leftovers(ran.after)
     if ran.status in (2, 3, 4):
-        problems += of_refusal(ran, named)
-    elif ran.status in (0, 1) and as_json:
+        problems += of_refusal(ran, named, answers)
+    if as_json and (ran.status in (0, 1) or (answers and ran.out)):
         problems += of_json(ran.out)
     return problems
