@@ -129,23 +129,25 @@ def small_disk(scene, random):
     return f"{' '.join(words)} with files of at most {size} bytes", problems
 
 
-def is_whole(name, content, made):
-    """Whether a result is complete: JSON that can be read (it holds times), or as long as the complete one."""
-    if content is None or name.endswith(".json"):
-        return content is None or not judge.of_json(content)
-    return len(content) == len(made[name])
+def is_whole(scene, name, content, made):
+    """Whether a result is complete: one that holds times can be read, any other is as long as the complete one."""
+    if name.endswith(".json"):
+        return not judge.of_json(content)
+    if name.endswith(".nwb"):
+        return scene.run("validate", name).status in (0, 1)
+    return content is None or len(content) == len(made[name])
 
 
-def torn(after, before, made):
+def torn(scene, after, before, made):
     """Sentences on files that are neither as they were nor as they were to become (`made`)."""
     changed = {name: content for name, content in after.items() if name in made and content != before.get(name)}
-    return [f"'{name}' is half-written" for name, content in changed.items() if not is_whole(name, content, made)]
+    return [f"'{name}' is half-written" for name, content in changed.items() if not is_whole(scene, name, content, made)]
 
 
 def after_death(scene, command, before, made):
     """What is wrong in the folder after a program died, and once another one ran there."""
     after = listing(scene.folder)
-    problems = torn(after, before, made)
+    problems = torn(scene, after, before, made)
     missing = [name for name in before if name not in after]
     problems += [f"'{name}' is gone" for name in missing if name not in made]
     again = scene.run(*command.words, "--force")
@@ -208,7 +210,7 @@ def told_to_end(scene, random):
         process.wait(timeout=random.uniform(0, 1.1 * took))
     process.send_signal(number)
     ran = scene.end(process, before)
-    problems = judge.leftovers(ran.after) + torn(ran.after, before, made)
+    problems = judge.leftovers(ran.after) + torn(scene, ran.after, before, made)
     if ran.status is None:
         problems.append("does not end")
     elif ran.status not in (0, 1, 128 + number, -number):
