@@ -91,7 +91,6 @@ Result<data::Table> parse_table(std::string_view text) {
 
   std::size_t repeated = 0;
   std::int64_t first_repeated = 0;
-  double resolution_s = std::numeric_limits<double>::infinity();
   std::vector<std::int64_t> line_of_row;
   line_of_row.reserve(rows);
   std::string_view line;
@@ -104,7 +103,6 @@ Result<data::Table> parse_table(std::string_view text) {
     double time_s = 0.0;
     if (cells.next(time_s) != Cell::number || !std::isfinite(time_s))
       return bad_cell(lines.number(), 1, "time", cells.text(), "a number");
-    const std::string_view time_text = cells.text();
     if (auto status =
             read_values(cells, lines.number(), *header, table.values.data() + table.time_s.size() * columns);
         !status)
@@ -115,7 +113,6 @@ Result<data::Table> parse_table(std::string_view text) {
     if (!table.time_s.empty() && time_s == table.time_s.back()) {
       if (repeated++ == 0) first_repeated = lines.number();
     } else {
-      if (time_s != 0.0) resolution_s = std::min(resolution_s, internal::resolution_of(time_text));
       table.time_s.push_back(time_s);
       line_of_row.push_back(lines.number());
     }
@@ -136,7 +133,7 @@ Result<data::Table> parse_table(std::string_view text) {
         fmt::format("{} rows repeat the time of the row before and are left out", repeated));
   internal::note_jump(
       {.time_s = table.time_s,
-       .resolution_s = std::isfinite(resolution_s) ? resolution_s : 0.0,
+       .resolution_s = 0.0,
        .stated = {},
        .most_frames = 0,
        .place = [&](std::size_t row) { return fmt::format("line {} (row {})", line_of_row[row], row + 1); }},

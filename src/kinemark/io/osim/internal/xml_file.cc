@@ -12,6 +12,7 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/number.h"
+#include "kinemark/io/osim/internal/shift_jis.h"
 
 namespace kinemark::io::osim {
 namespace {
@@ -126,7 +127,11 @@ Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
   const bool utf16 = is_utf16(xml);
   if (auto s = check_size(xml, file.name_); !s) return std::unexpected(s.error());
   const bool as_it_is = utf16 || is_utf8(xml);
-  const std::string converted = as_it_is ? std::string() : as_utf8(xml);
+  std::string converted;
+  if (!as_it_is) {
+    auto declared = from_shift_jis(xml);
+    converted = declared ? std::move(*declared) : as_utf8(xml);
+  }
   const std::string_view text = as_it_is ? xml : std::string_view(converted);
   const auto encoding = utf16 ? pugi::encoding_auto : pugi::encoding_utf8;
   const auto options = pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype;

@@ -20,6 +20,7 @@ constexpr double kMaxRoundingFrames = 0.35;  ///< more is not rounding: a lost f
 constexpr double kSameRate = 1e-5;           ///< relative; headers round 59.94006 to 59.94
 
 constexpr double kHole = 1.5;            ///< frame intervals between rows from which frames are missing
+constexpr double kEvenStep = 0.2;        ///< share of the median by which steps of a table may differ
 constexpr double kWholeMultiple = 0.25;  ///< frame intervals by which a hole may differ from a whole number
 
 double time_of(std::size_t row, double rate_hz) { return static_cast<double>(row) / rate_hz; }
@@ -266,11 +267,11 @@ void note_jump(const TimeColumn& column, std::vector<std::string>& warnings) {
   std::size_t even = 0, worst = 1;
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double step_s = t[i] - t[i - 1];
-    even += std::abs(step_s - median_s) <= 0.05 * median_s + column.resolution_s;
+    even += std::abs(step_s - median_s) <= kEvenStep * median_s;
     if (step_s > t[worst] - t[worst - 1]) worst = i;
   }
   const bool is_even = even + 2 >= t.size() || 10 * even >= 9 * (t.size() - 1);
-  if (!is_even || t[worst] - t[worst - 1] < kHole * median_s + column.resolution_s) return;
+  if (!is_even || t[worst] - t[worst - 1] < kHole * median_s) return;
   warnings.push_back(fmt::format("{}: time jumps from {:.9g} to {:.9g} s, elsewhere in steps of {:.6g} s",
                                  column.place(worst), t[worst - 1], t[worst], median_s));
 }

@@ -50,7 +50,7 @@ struct EvenClock {
 /// column nor the header gives a rate. O(rows).
 [[nodiscard]] Result<EvenClock> even_clock(const TimeColumn& column, std::vector<std::string>& warnings);
 
-/// Adds a warning where a column that is even otherwise jumps: nine steps in ten, or all but one, within 5 %
+/// Adds a warning where a column that is even otherwise jumps: nine steps in ten, or all but one, within 20 %
 /// of their median, one of 1.5 medians or more. For tables, which need no even clock.
 void note_jump(const TimeColumn& column, std::vector<std::string>& warnings);
 
