@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 
@@ -61,7 +62,6 @@ struct Sample {
   std::uint8_t method;
   std::array<double, 3> x;
   double offset_s;
-  std::array<double, 6> covariance;
 };
 
 /// Time of a frame by its first line, and the one that differs most from it.
@@ -109,7 +109,8 @@ class Parser {
     s.x = {number_in(x), number_in(y), number_in(z)};
     s.offset_s = number_in(offset);
     const double sd[] = {number_in(sd_x), number_in(sd_y), number_in(sd_z)};
-    s.covariance = {sd[0] * sd[0], number_in(xy), number_in(xz), sd[1] * sd[1], number_in(yz), sd[2] * sd[2]};
+    const std::array<double, 6> covariance = {sd[0] * sd[0], number_in(xy), number_in(xz),
+                                              sd[1] * sd[1], number_in(yz), sd[2] * sd[2]};
     if (error_) return wrong(*error_);
     if (frame_number != std::floor(frame_number) || std::abs(frame_number) > kMaxFrame)
       return wrong(fmt::format("frame {} is not a whole number", frame_number));
@@ -129,6 +130,7 @@ class Parser {
       of_frame.other_line = number;
     }
     samples_.push_back(s);
+    if (is_uncertain()) covariances_.push_back(covariance);
     return {};
   }
 
@@ -150,6 +152,7 @@ class Parser {
     return kNaN;
   }
 
+  [[nodiscard]] bool is_uncertain() const { return column_[sd_x] && column_[sd_y] && column_[sd_z]; }
   /// As many frames as the lines may stand for.
   [[nodiscard]] std::int64_t most_frames() const {
     return static_cast<std::int64_t>((4 * samples_.size() + 1'000'000) / markers_.size());
@@ -192,7 +195,9 @@ class Parser {
   std::map<std::string, std::int32_t, std::less<>> markers_;
   std::map<std::int64_t, FrameTime> times_;  ///< of each frame
   std::vector<std::int64_t> clock_frame_;  ///< frame of the clock for each from the first on; empty: the same
-  std::vector<Sample> samples_;
+  // Lists that grow without being copied: most of the memory that reading takes.
+  std::deque<Sample> samples_;
+  std::deque<std::array<double, 6>> covariances_;  ///< of each sample, where the file has deviations
 };
 
 /// Lines of one frame agree on its time to half a frame.
@@ -260,9 +265,9 @@ Status Parser::finish() {
   t.state.assign(numbers, SampleState::missing);
   if (!t.methods.empty()) t.method.assign(numbers, 0);
   if (column_[offset]) t.sample_offset_s.assign(numbers, 0.0);
-  const bool uncertain = column_[sd_x] && column_[sd_y] && column_[sd_z];
-  if (uncertain) t.covariance.assign(6 * numbers, kNaN);
+  if (is_uncertain()) t.covariance.assign(6 * numbers, kNaN);
   std::vector<bool> seen(numbers, false);
+  auto covariance = covariances_.begin();
   for (const Sample& s : samples_) {
     const std::int64_t frame = clock_frame_.empty() ? s.frame - first : clock_frame_[at(s.frame - first)];
     const std::size_t i = t.index(frame, s.marker);
@@ -274,8 +279,8 @@ Status Parser::finish() {
     t.state[i] = s.state;
     if (!t.method.empty()) t.method[i] = s.method;
     if (!t.sample_offset_s.empty() && std::isfinite(s.offset_s)) t.sample_offset_s[i] = s.offset_s;
-    if (!uncertain) continue;
-    std::ranges::copy(s.covariance, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
+    if (!is_uncertain()) continue;
+    std::ranges::copy(*covariance++, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
     // Standard deviations alone: axes that do not depend on each other.
     for (const auto& [k, kind] : {std::pair{1, xy}, {2, xz}, {4, yz}})
       if (!column_[kind]) t.covariance[6 * i + static_cast<std::size_t>(k)] = 0.0;
