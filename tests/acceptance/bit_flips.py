@@ -109,9 +109,9 @@ def main(arguments):
                 path.unlink(missing_ok=True)
     for line in absurd[:20]:
         print(line)
-    told = f"{len(absurd)}; {counts[0]} good, {counts[1]} odd, {counts[3]} refused"
+    summary = f"{len(absurd)}; {counts[0]} good, {counts[1]} odd, {counts[3]} refused"
     for bad, check, measured in (
-        (absurd, f"{flips} single-bit flips in C3D, TRC, CSV, MOT: absurd values called good", told),
+        (absurd, f"{flips} single-bit flips in C3D, TRC, CSV, MOT: absurd values called good", summary),
         (ended, f"{flips} single-bit flips: ended otherwise than by 0, 1 or 3", f"{len(ended)} {' '.join(ended[:5])}"),
     ):
         print(f"{'FAIL' if bad else 'PASS'} | {check} | 0 | {measured}", flush=True)

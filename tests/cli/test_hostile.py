@@ -268,7 +268,7 @@ class TooMuch(CommandTest):
         self.write("dots.toml", "a." * 50_000 + "a = 1\n")
         self.refused(3, ["dots.toml", "a key has more than 16 parts"], "joints", self.c3d, "--segments", "dots.toml", "-o", "j.csv")
 
-    def test_an_impossible_rig_is_told_by_its_key(self):
+    def test_an_impossible_rig_is_named_by_its_key(self):
         self.good("simulate", "rig", "wheel", "-o", "w", "--duration", 0.2)
         rig = next((self.folder / "w").glob("*.toml"))
         text = rig.read_text()

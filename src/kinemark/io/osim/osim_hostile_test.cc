@@ -123,7 +123,8 @@ TEST(OsimHostile, NamesComeInTheEncodingThatIsDeclaredOrInLatin1) {
               "肩");
   EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>", "肩"), "肩")
       << "it is UTF-8 all the same";
-  EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>", "\xE9 l"), "é l") << "it is no Shift-JIS";
+  EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>", "\xE9 l"), "é l")
+      << "it is no Shift-JIS";
 }
 
 TEST(OsimHostile, NumbersAndFlags) {

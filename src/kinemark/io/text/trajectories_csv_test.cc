@@ -162,7 +162,8 @@ TEST(TrajectoriesCsv, BadFilesGetOneSentenceWithTheLine) {
   EXPECT_THAT(message(header + "1,0,A,1,,3,measured\n"), HasSubstr("line 2: is measured but has not three"));
   EXPECT_THAT(message(header + "1,0,\"A,1,2,3,\n"), HasSubstr("line 2: a quote is not closed"));
   EXPECT_THAT(message(header + "1,0,A,1,2,3,\n1,0,A,1,2,3,\n"), HasSubstr("'A' has two lines for frame 1"));
-  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n2,0,A,1,2,3,\n"), HasSubstr("line 3 (frame 2): time stands still at 0 s"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n2,0,A,1,2,3,\n"),
+              HasSubstr("line 3 (frame 2): time stands still at 0 s"));
   EXPECT_THAT(message(header + "1,0,A,1,2,3,\n900000000000,1,A,1,2,3,\n"), HasSubstr("but only 2 lines"));
 }
 
