@@ -23,20 +23,19 @@ constexpr std::size_t kNamed = 4;
 
 /// Columns that reach so far that one of their values may be absurd.
 std::vector<std::int64_t> wide_columns(const data::Table& table) {
-  const auto columns = static_cast<std::int64_t>(table.columns.size());
-  std::vector<double> low(table.columns.size(), 0.0), high(table.columns.size(), 0.0);
-  for (std::int64_t r = 0; r < table.rows(); ++r)
-    for (std::int64_t c = 0; c < columns; ++c) {
-      const double value = table(r, c);
-      double& least = low[at(c)];
-      double& most = high[at(c)];
-      least = value < least ? value : least;
-      most = value > most ? value : most;
+  const std::size_t columns = table.columns.size();
+  std::vector<double> least(columns, 0.0), most(columns, 0.0);
+  double *low = least.data(), *high = most.data();
+  const double* value = table.values.data();
+  for (std::int64_t r = 0; r < table.rows(); ++r, value += columns)
+    for (std::size_t c = 0; c < columns; ++c) {
+      // NaN is neither less nor more.
+      low[c] = value[c] < low[c] ? value[c] : low[c];
+      high[c] = value[c] > high[c] ? value[c] : high[c];
     }
   std::vector<std::int64_t> out;
-  for (std::int64_t c = 0; c < columns; ++c)
-    if (high[at(c)] - low[at(c)] > kFarStep || high[at(c)] > kBeyondAll || low[at(c)] < -kBeyondAll)
-      out.push_back(c);
+  for (std::size_t c = 0; c < columns; ++c)
+    if (high[c] - low[c] > kFarStep) out.push_back(static_cast<std::int64_t>(c));
   return out;
 }
 
