@@ -64,7 +64,7 @@ class NoReplace(Files):
 
     def test_standard_output_that_is_full(self):
         with Path("/dev/full").open("wb") as full:
-            for command in (["info", self.c3d, "--json"], ["info", self.c3d], ["validate", self.c3d, "--json"], ["--help"]):
+            for command in (["info", self.c3d, "--json"], ["info", self.c3d], ["validate", self.c3d, "--json", "--quiet"], ["--help"]):
                 ran = self.run_in(*command, stdout=full)
                 self.assertEqual((ran.status, ran.err), (4, "kinemark: standard output: cannot be written\n"), command)
             ran = self.run_in(*self.ik(), "--json", "--quiet", stdout=full)
@@ -140,8 +140,12 @@ class InputsStay(Files):
             name,
             "<OpenSimDocument Version='40000'><InverseKinematicsTool name='t'><model_file>model.osim</model_file>"
             f"<marker_file>markers.trc</marker_file><output_motion_file>{output}</output_motion_file>"
-            "</InverseKinematicsTool></OpenSimDocument>",
+            f"<IKTaskSet><objects>{self.tasks()}</objects></IKTaskSet></InverseKinematicsTool></OpenSimDocument>",
         )
+
+    def tasks(self):
+        names = (self.folder / "markers.trc").read_text().splitlines()[3].split("\t")[2:]
+        return "".join(f"<IKMarkerTask name='{name}'><apply>true</apply><weight>1</weight></IKMarkerTask>" for name in names if name)
 
     def test_a_setup_writes_only_below_its_own_folder(self):
         (self.folder / "sub").mkdir()
@@ -245,6 +249,7 @@ class Sets(Files):
 
     def results(self, command):
         for folder, arguments in (("a", self.workshop.commands[command]), ("b", self.workshop.others[command])):
+            shutil.rmtree(self.folder / folder, ignore_errors=True)
             (self.folder / folder).mkdir()
             self.run_there(folder, arguments)
 
@@ -279,8 +284,6 @@ class Sets(Files):
                 self.mixed("a", "b", second)
                 ran = self.good("validate", f"a/{first}", status=1)
                 self.assertIn(f"{second}: was not written together with", ran.err + ran.out)
-                for name in "ab":
-                    shutil.rmtree(self.folder / name)
 
     def test_the_same_work_names_the_same_set(self):
         for threads in (1, 2):
@@ -318,7 +321,7 @@ class Nwb(Files):
         for name in ("crash_1.nwb", "crash_2.nwb", "hang_1.nwb", "hang_2.nwb"):
             for command in (["info"], ["validate"]):
                 path = self.damaged(name)
-                ran = self.run_in(*command, path)
+                ran = self.run_in(*command, path, "--quiet")
                 self.assertEqual(ran.status, 3, ran.err)
                 self.assertEqual(len(ran.err.splitlines()), 1, ran.err)
                 self.assertIn(name, ran.err)

@@ -29,7 +29,7 @@ class Workshop:
         self.inputs.mkdir()
         self._make("simulate", "subject", "-o", "body", "--duration", 0.3)
         self._make("simulate", "subject", "-o", "other", "--duration", 0.3, "--seed", 7)
-        self._make("simulate", "arm", "-o", "arm", "--frames", 60)
+        self._make("simulate", "arm", "-o", "arm", "--frames", 60, "--markers", 4, "--stagger", 15)
         self._make("simulate", "rig", "sign", "-o", "lab", "--duration", 0.1, "--grid")
         body, other, arm, lab = (self.inputs / name for name in ("body", "other", "arm", "lab"))
         self._make("ik", "-m", body / "model.osim", "-t", body / "markers.c3d", "-o", "solved.mot")

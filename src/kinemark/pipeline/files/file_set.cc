@@ -138,7 +138,7 @@ std::vector<std::string> find_strangers(const fs::path& file) {
     if (other.filename() == file.filename() || !fs::is_regular_file(other, ignored)) continue;
     const std::string theirs = set_in(other);
     if (!theirs.empty() && theirs != set)
-      out.push_back(check_same_set({{other, theirs}, {file, set}}).error().message);
+      out.push_back(check_same_set({{file, set}, {other, theirs}}).error().message);
   }
   return out;
 }

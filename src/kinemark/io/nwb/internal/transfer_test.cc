@@ -46,7 +46,7 @@ NwbFile sample() {
 }
 
 TEST(Transfer, EverythingArrives) {
-  for (const std::int64_t frames : {1, 50, 3000}) {  // short of the buffer, and beyond
+  for (const std::int64_t frames : {2, 50, 3000}) {  // short of the buffer, and beyond
     NwbFile file = sample();
     file.trajectories = testing::sample_trajectories(frames);
     file.derivatives = testing::sample_derivatives(file.trajectories);
