@@ -37,6 +37,8 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run);
 void add_joints(CLI::App& app, const CommonOptions& common, Run& run);
 void add_recover(CLI::App& app, const CommonOptions& common, Run& run);
 void add_report(CLI::App& app, const CommonOptions& common, Run& run);
+void add_help(CLI::App& app, const CommonOptions& common, Run& run);
+void add_completion(CLI::App& app, const CommonOptions& common, Run& run);
 void add_scale(CLI::App& app, const CommonOptions& common, Run& run);
 
 }  // namespace kinemark::cli

@@ -8,9 +8,11 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/hints.h"
 #include "kinemark/core/version.h"
 
 namespace {
@@ -49,11 +51,9 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
 
 /// One sentence on the error in the command line and on where the options are explained.
 int report_usage(const CLI::App& app, const std::string& what) {
-  std::string command = "kinemark";
-  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
-    at = at->get_subcommands().front();
-    command += " " + at->get_name();
-  }
+  std::string command;
+  for (const CLI::App* at = &kinemark::cli::reached(app); at != nullptr; at = at->get_parent())
+    command = at->get_name() + (command.empty() ? "" : " ") + command;
   return kinemark::cli::report_error(
       {kinemark::Code::usage, fmt::format("{}; see '{} --help'", what, command)});
 }
@@ -88,6 +88,8 @@ int run_program(int argc, char** argv) {
   kinemark::cli::add_convert(app, common, run);
   kinemark::cli::add_validate(app, common, run);
   kinemark::cli::add_recover(app, common, run);
+  kinemark::cli::add_help(app, common, run);
+  kinemark::cli::add_completion(app, common, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -95,7 +97,8 @@ int run_program(int argc, char** argv) {
       app.exit(error, std::cout, std::cerr);
       return std::cout.flush() ? 0 : report_lost_output();
     }
-    return report_usage(app, error.what());
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    return report_usage(app, kinemark::cli::explain_usage(app, error, words));
   }
   kinemark::cli::watch_signals();
   const int status = run();

@@ -177,10 +177,10 @@ def cli(preset, *modules):
     return stage
 
 
-def build(preset):
+def build(preset, *options):
     def stage(log):
         log.must("cmake", "--preset", preset)
-        log.must("cmake", "--build", "--preset", preset, "--parallel", log.jobs)
+        log.must("cmake", "--build", "--preset", preset, "--parallel", log.jobs, *options)
         return Counts(passed=1)
 
     return stage
@@ -350,13 +350,6 @@ def demo(log):
     return Counts(passed=2)
 
 
-def threads_build(log):
-    """The tests that run several threads, and nothing else."""
-    log.must("cmake", "--preset", "tsan")
-    log.must("cmake", "--build", "--preset", "tsan", "--parallel", log.jobs, "--target", "threads")
-    return Counts(passed=1)
-
-
 # Name: (what it does, its budget in processor minutes from nothing). Fast ones first; what each needs is built by an
 # earlier one. "tests" are those that no sanitizer looks into, "asan-tests" all others. The budgets together stay below
 # BUDGET_MINUTES.
@@ -369,6 +362,7 @@ STAGES = {
     "public-headers": (script(sys.executable, "tools/check_public_headers.py"), 0.1),
     "tools": (tools, 0.5),
     "build": (build("ci"), 25),
+    "hardened": (script("tools/check_hardened", "build/ci/bin/kinemark"), 0.1),
     "tests": (unit_tests("ci"), 1),
     "cli": (cli("ci"), 2),
     "consumer": (consumer, 2),
@@ -387,8 +381,9 @@ STAGES = {
 # Too long for every change; `make accept` names them.
 LONG_STAGES = {
     "release-tests": (unit_tests("release"), 2),
-    "asan-cli": (cli("asan", "test_bad_input"), 1.5),
-    "threads-build": (threads_build, 10),
+    "asan-program": (build("asan", "--target", "kinemark"), 10),
+    "asan-cli": (cli("asan", "test_bad_input", "test_hints"), 1.5),
+    "threads-build": (build("tsan", "--target", "threads"), 10),
     "threads": (unit_tests("tsan", "--label-regex", "threads"), 2),
 }
 

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All commands with their options as plain text, for what is made from it: completion of shells and manual
+// pages.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace kinemark::cli {
+
+struct OptionText {
+  std::vector<std::string> names;  ///< as typed: "-m", "--model"
+  std::string value;               ///< what it takes, "FILE"; empty: nothing
+  std::string group;
+  std::string description;
+};
+
+/// A command; `words` are what is typed to reach it, none for the program itself.
+struct CommandText {
+  std::vector<std::string> words;
+  std::string description;
+  std::string footer;
+  std::string usage;                  ///< the positional arguments as the help shows them
+  std::vector<OptionText> arguments;  ///< positional ones
+  std::vector<OptionText> options;    ///< its own, then those that every command takes
+  std::vector<CommandText> commands;  ///< below it
+};
+
+[[nodiscard]] CommandText command_tree(const CLI::App& app);
+
+/// The tree as a list, each command after the one that it is of.
+[[nodiscard]] std::vector<const CommandText*> all_commands(const CommandText& top);
+
+}  // namespace kinemark::cli

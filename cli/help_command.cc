@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/command_tree.h"
+#include "cli/console.h"
+#include "cli/hints.h"
+#include "cli/manual.h"
+#include "kinemark/io/file.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct HelpArguments {
+  std::vector<std::string> words;
+  bool manual = false;
+  std::string folder;
+};
+
+const CLI::App* find_command(const CLI::App& app, const std::string& name) {
+  const auto found =
+      app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
+int print_help(const CLI::App& app, const HelpArguments& arguments) {
+  const CLI::App* at = &app;
+  std::string path = "kinemark";
+  for (const auto& word : arguments.words) {
+    const CLI::App* next = find_command(*at, word);
+    if (next == nullptr)
+      return report_error(
+          {Code::usage, fmt::format("{}; see '{} --help'", unknown_command(*at, word), path)});
+    at = next;
+    path += " " + word;
+  }
+  if (!arguments.manual) {
+    fmt::print("{}", at->get_formatter()->make_help(at, path, CLI::AppFormatMode::Normal));
+    return 0;
+  }
+  const auto top = command_tree(app);
+  for (const auto* command : all_commands(top))
+    if (command->words == arguments.words) fmt::print("{}", manual_page(*command, top));
+  return 0;
+}
+
+int write_manual(const CLI::App& app, const CommonOptions& common, const std::string& folder) {
+  const auto top = command_tree(app);
+  for (const auto* command : all_commands(top)) {
+    const auto path = std::filesystem::path(folder) / (manual_name(*command) + ".1");
+    if (const auto written = io::write_text(path, manual_page(*command, top), common.force); !written)
+      return report_error(written.error());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_help(CLI::App& app, const CommonOptions& common, Run& run) {
+  auto* command = app.add_subcommand("help", "What a command does and takes: the same as COMMAND --help");
+  const auto arguments = std::make_shared<HelpArguments>();
+  command->add_option("COMMAND", arguments->words, "Command, and what it is of: simulate rig");
+  command->add_flag("--man", arguments->manual, "As a manual page, for 'man -l -'");
+  command->add_option("--man-pages", arguments->folder,
+                      "Write the manual pages of all commands into a folder that exists");
+  command->callback([&app, &common, arguments, &run] {
+    run = [&app, &common, arguments] {
+      return arguments->folder.empty() ? print_help(app, *arguments)
+                                       : write_manual(app, common, arguments->folder);
+    };
+  });
+}
+
+}  // namespace kinemark::cli
