@@ -64,7 +64,7 @@ class NoReplace(Files):
 
     def test_standard_output_that_is_full(self):
         with Path("/dev/full").open("wb") as full:
-            for command in (["info", self.c3d, "--json"], ["info", self.c3d], ["validate", self.c3d, "--json", "--quiet"], ["--help"]):
+            for command in (["info", self.c3d, "--json"], ["info", self.c3d], ["validate", self.c3d, "--json", "--quiet"], ["--help"], ["help", "ik"]):
                 ran = self.run_in(*command, stdout=full)
                 self.assertEqual((ran.status, ran.err), (4, "kinemark: standard output: cannot be written\n"), command)
             ran = self.run_in(*self.ik(), "--json", "--quiet", stdout=full)
