@@ -37,7 +37,7 @@ int run_command(const CommonOptions& common, pipeline::CalibrateJob& job) {
                             found->poses, found->chi2_per_dof, found->warp_degree, 1e3 * found->side_rms_m));
   if (outcome->alignment) say_alignment(common, *outcome->alignment);
   say_written(common, *outcome);
-  if (common.json) fmt::print("{}\n", pipeline::calibrate_json(*outcome).dump(2));
+  if (common.json) print_result(pipeline::calibrate_json(*outcome).dump(2) + "\n");
   return 0;
 }
 

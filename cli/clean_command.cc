@@ -39,7 +39,7 @@ void print_clean_outcome(const CommonOptions& common, const pipeline::CleanOutco
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
   for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", report::clean_summary_json(report).dump(2));
+  if (common.json) print_result(report::clean_summary_json(report).dump(2) + "\n");
 }
 
 Status read_names(CleanArguments& arguments) {

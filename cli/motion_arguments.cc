@@ -21,7 +21,7 @@ void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& ou
     say(common, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", report::summary_json(outcome.summary).dump(2));
+  if (common.json) print_result(report::summary_json(outcome.summary).dump(2) + "\n");
 }
 
 }  // namespace kinemark::cli

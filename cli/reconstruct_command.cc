@@ -20,7 +20,7 @@ int run_command(const CommonOptions& common, pipeline::ReconstructJob& job) {
         fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge", led.name,
                     led.located, led.frames, led.occluded, led.inconsistent, led.near_edge));
   say_written(common, *outcome);
-  if (common.json) fmt::print("{}\n", pipeline::reconstruct_json(*outcome).dump(2));
+  if (common.json) print_result(pipeline::reconstruct_json(*outcome).dump(2) + "\n");
   return outcome->exit_status();
 }
 

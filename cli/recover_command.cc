@@ -26,7 +26,7 @@ void add_recover(CLI::App& app, const CommonOptions& common, Run& run) {
       for (const auto& warning : outcome->warnings)
         say(common, fmt::format("{}: {}", job->in.string(), warning));
       say(common, fmt::format("wrote {}: {} messages", job->out.string(), outcome->messages));
-      if (common.json) fmt::print("{}\n", pipeline::recover_json(*outcome).dump(2));
+      if (common.json) print_result(pipeline::recover_json(*outcome).dump(2) + "\n");
       return outcome->exit_status();
     };
   });

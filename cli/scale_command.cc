@@ -43,7 +43,7 @@ void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& 
   if (outcome.from_motion) print_adapted(common, *outcome.from_motion, "Motion");
   for (const auto& note : outcome.warnings) say(common, fmt::format("attention: {}", note));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", pipeline::scale_json(job, outcome).dump(2));
+  if (common.json) print_result(pipeline::scale_json(job, outcome).dump(2) + "\n");
 }
 
 struct ScaleArguments {

@@ -17,7 +17,7 @@ void print_validate_outcome(const CommonOptions& common, const pipeline::Validat
     for (const auto& warning : checked.warnings) say(common, fmt::format("{}: {}", file, warning));
     if (checked.exit_status() == 0) say(common, fmt::format("{}: good", file));
   }
-  if (common.json) fmt::print("{}\n", pipeline::validate_json(outcome).dump(2));
+  if (common.json) print_result(pipeline::validate_json(outcome).dump(2) + "\n");
 }
 
 int run_command(const CommonOptions& common, pipeline::ValidateJob& job) {

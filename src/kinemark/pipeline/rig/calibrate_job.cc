@@ -14,6 +14,7 @@
 #include "kinemark/io/number.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/scan.h"
 #include "kinemark/stages/calibration/still_poses.h"
@@ -241,6 +242,9 @@ std::string_view method_name(CalibrateJob::Method method) {
 }
 
 Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
+  auto read = job.inputs;
+  read.push_back(job.nominal);
+  if (auto s = check_apart({job.output}, read); !s) return std::unexpected(s.error());
   const auto nominal = io::read_rig(job.nominal);
   if (!nominal) return std::unexpected(nominal.error());
   CalibrateOutcome out;
