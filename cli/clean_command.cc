@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/clean/clean_job.h"
+#include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
 namespace {
@@ -39,7 +40,7 @@ void print_clean_outcome(const CommonOptions& common, const pipeline::CleanOutco
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
   for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
   say_written(common, outcome);
-  if (common.json) print_result(report::clean_summary_json(report).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(report::clean_summary_json(report)) + "\n");
 }
 
 Status read_names(CleanArguments& arguments) {

@@ -11,7 +11,9 @@
 #include <thread>
 #include <utility>
 
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/temporary.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 
 namespace kinemark::cli {
@@ -37,7 +39,7 @@ bool is_ignored(int number) {
 }  // namespace
 
 void say(const CommonOptions& common, std::string_view line) {
-  if (!common.quiet) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+  if (!common.quiet) std::fprintf(stderr, "%s\n", printable_sentence(line).c_str());
 }
 
 void settle(const CommonOptions& common, std::string counts, pipeline::JobSettings& job) {
@@ -55,7 +57,7 @@ void say_written(const CommonOptions& common, const pipeline::JobOutcome& outcom
 void print_written(const CommonOptions& common, const pipeline::JobOutcome& outcome) {
   for (const auto& warning : outcome.warnings) say(common, fmt::format("note: {}", warning));
   say_written(common, outcome);
-  if (common.json) print_result(pipeline::outcome_json(outcome).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(pipeline::outcome_json(outcome)) + "\n");
 }
 
 void print_result(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
@@ -63,7 +65,7 @@ void print_result(std::string_view text) { std::fwrite(text.data(), 1, text.size
 bool output_failed() { return std::fflush(stdout) != 0 || std::ferror(stdout) != 0; }
 
 int report_error(const Error& error) {
-  std::fprintf(stderr, "kinemark: %s\n", error.message.c_str());
+  std::fprintf(stderr, "kinemark: %s\n", printable_sentence(error.message).c_str());
   return exit_status(error.code);
 }
 

@@ -15,7 +15,8 @@
 
 namespace kinemark::cli {
 
-/// Print one line on stderr, except with --quiet.
+/// Print one line on stderr, except with --quiet; printable_sentence() makes it safe, here and in
+/// report_error().
 void say(const CommonOptions& common, std::string_view line);
 
 /// Into the job what every command takes. @param counts  what its progress counts: "frames"

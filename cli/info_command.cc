@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/files/info_json.h"
+#include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
 
@@ -20,7 +21,7 @@ void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
       const auto outcome = pipeline::run_info(*job);
       if (!outcome) return report_error(outcome.error());
       if (common.json)
-        print_result(pipeline::info_json(*outcome).dump(2) + "\n");
+        print_result(pipeline::json_text(pipeline::info_json(*outcome)) + "\n");
       else
         print_result(pipeline::info_text(*outcome));
       return outcome->exit_status();

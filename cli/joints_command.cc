@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 
 namespace kinemark::cli {
@@ -43,7 +44,7 @@ int run_command(const CommonOptions& common, JointsArguments& arguments) {
   for (const auto& warning : skeleton.warnings) say(common, "attention: " + warning);
   for (const auto& note : outcome->warnings) say(common, "note: " + note);
   say_written(common, *outcome);
-  if (common.json) print_result(pipeline::joints_json(job, *outcome).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(pipeline::joints_json(job, *outcome)) + "\n");
   return outcome->exit_status();
 }
 

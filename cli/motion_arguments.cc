@@ -4,6 +4,7 @@
 
 #include "cli/console.h"
 #include "kinemark/io/number.h"
+#include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
 
@@ -21,7 +22,7 @@ void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& ou
     say(common, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
   say_written(common, outcome);
-  if (common.json) print_result(report::summary_json(outcome.summary).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(report::summary_json(outcome.summary)) + "\n");
 }
 
 }  // namespace kinemark::cli

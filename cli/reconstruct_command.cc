@@ -5,6 +5,7 @@
 #include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/rig/reconstruct_json.h"
 
 namespace kinemark::cli {
@@ -20,7 +21,7 @@ int run_command(const CommonOptions& common, pipeline::ReconstructJob& job) {
         fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge", led.name,
                     led.located, led.frames, led.occluded, led.inconsistent, led.near_edge));
   say_written(common, *outcome);
-  if (common.json) print_result(pipeline::reconstruct_json(*outcome).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(pipeline::reconstruct_json(*outcome)) + "\n");
   return outcome->exit_status();
 }
 

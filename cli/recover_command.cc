@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/recover_job.h"
 
@@ -26,7 +27,7 @@ void add_recover(CLI::App& app, const CommonOptions& common, Run& run) {
       for (const auto& warning : outcome->warnings)
         say(common, fmt::format("{}: {}", job->in.string(), warning));
       say(common, fmt::format("wrote {}: {} messages", job->out.string(), outcome->messages));
-      if (common.json) print_result(pipeline::recover_json(*outcome).dump(2) + "\n");
+      if (common.json) print_result(pipeline::json_text(pipeline::recover_json(*outcome)) + "\n");
       return outcome->exit_status();
     };
   });

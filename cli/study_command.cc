@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/io/file.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "studies/common/study_page.h"
 #include "studies/macaque/macaque_figures.h"
@@ -62,7 +63,7 @@ int run_study(const CommonOptions& common, const StudyArguments& arguments, cons
   }
   say(common, studies::study_text(study->table));
   if (file) say(common, "wrote " + arguments.figures);
-  if (common.json) print_result(studies::study_json(study->table).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(studies::study_json(study->table)) + "\n");
   return study->table.pass() ? 0 : 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/validate_job.h"
 
@@ -17,7 +18,7 @@ void print_validate_outcome(const CommonOptions& common, const pipeline::Validat
     for (const auto& warning : checked.warnings) say(common, fmt::format("{}: {}", file, warning));
     if (checked.exit_status() == 0) say(common, fmt::format("{}: good", file));
   }
-  if (common.json) print_result(pipeline::validate_json(outcome).dump(2) + "\n");
+  if (common.json) print_result(pipeline::json_text(pipeline::validate_json(outcome)) + "\n");
 }
 
 int run_command(const CommonOptions& common, pipeline::ValidateJob& job) {

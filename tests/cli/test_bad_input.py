@@ -23,7 +23,7 @@ class MissingAndUnreadable(CommandTest):
 
     def test_a_folder_is_no_file(self):
         (self.folder / "sub.c3d").mkdir()
-        self.refused(4, ["sub.c3d", "not a regular file"], "info", "sub.c3d")
+        self.refused(3, ["sub.c3d", "a folder, not a regular file"], "info", "sub.c3d")
 
     @unittest.skipIf(os.geteuid() == 0, "root may read every file")
     def test_a_file_without_permission(self):

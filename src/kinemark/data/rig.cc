@@ -93,18 +93,27 @@ Status check_table(const Camera& camera) {
   return {};
 }
 
+/// A number of the electronics and where it may lie.
+struct Range {
+  std::string_view key;
+  double value, low, high;
+  bool above_low;  ///< the lower end itself is no value
+};
+
 Status check_electronics(const Electronics& e) {
-  for (const double v :
-       {e.full_scale_a, e.interelectrode_ohm, e.feedback_ohm, e.temperature_k, e.time_constant_s})
-    if (!(v > 0.0) || !std::isfinite(v))
+  // Wide enough for any amplifier and converter that was ever built.
+  for (const Range& r : {Range{"time_constant_s", e.time_constant_s, 0.0, 1.0, true},
+                         Range{"full_scale_a", e.full_scale_a, 0.0, 1.0, true},
+                         Range{"interelectrode_ohm", e.interelectrode_ohm, 0.0, 1e12, true},
+                         Range{"feedback_ohm", e.feedback_ohm, 0.0, 1e12, true},
+                         Range{"temperature_k", e.temperature_k, 0.0, 1000.0, true},
+                         Range{"converter_noise_counts", e.converter_noise_counts, 0.0, 1e5, false},
+                         Range{"amplifier_noise_v_rthz", e.amplifier_noise_v_rthz, 0.0, 1.0, false},
+                         Range{"ambient_a", e.ambient_a, 0.0, 1.0, false}})
+    if (!(r.above_low ? r.value > r.low : r.value >= r.low) || !(r.value <= r.high))
       return fail(Code::bad_input,
-                  fmt::format("electronics: a value of {}; full scale, resistances, temperature "
-                              "and time constant are positive",
-                              v));
-  for (const double v : {e.converter_noise_counts, e.amplifier_noise_v_rthz, e.ambient_a})
-    if (!(v >= 0.0) || !std::isfinite(v))
-      return fail(Code::bad_input,
-                  fmt::format("electronics: a value of {}; noise and ambient light are not negative", v));
+                  fmt::format("electronics: {} is {}; need {} {}, at most {}", r.key, r.value,
+                              r.above_low ? "more than" : "at least", r.low, r.high));
   if (e.bits < 1 || e.bits > 15)
     return fail(Code::bad_input, fmt::format("electronics: a converter of {} bits; need 1 to 15", e.bits));
   return {};

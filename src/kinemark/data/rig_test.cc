@@ -88,8 +88,12 @@ TEST(Rig, EachBrokenRuleIsNamed) {
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].table.nodes = 2; }), HasSubstr("table of 2 nodes"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].table.nodes = 15; }), HasSubstr("need 450"));
   EXPECT_THAT(message([](Rig& r) { r.electronics.bits = 16; }), HasSubstr("16 bits"));
-  EXPECT_THAT(message([](Rig& r) { r.electronics.full_scale_a = 0.0; }), HasSubstr("electronics"));
-  EXPECT_THAT(message([](Rig& r) { r.electronics.ambient_a = -1.0; }), HasSubstr("not negative"));
+  EXPECT_THAT(message([](Rig& r) { r.electronics.full_scale_a = 0.0; }),
+              HasSubstr("electronics: full_scale_a is 0; need more than 0"));
+  EXPECT_THAT(message([](Rig& r) { r.electronics.time_constant_s = 1e30; }),
+              HasSubstr("time_constant_s is 1e+30; need more than 0, at most 1"));
+  EXPECT_THAT(message([](Rig& r) { r.electronics.ambient_a = -1.0; }),
+              HasSubstr("electronics: ambient_a is -1; need at least 0, at most 1"));
   EXPECT_THAT(message([](Rig& r) { r.timing.settle_s = -1e-6; }), HasSubstr("within a slot"));
   EXPECT_THAT(message([](Rig& r) { r.timing.conversion_s = 0.0; }), HasSubstr("no time"));
   EXPECT_THAT(message([](Rig& r) { r.chi2_per_dof = NAN; }), HasSubstr("chi2"));

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "kinemark/io/place.h"
+#include "kinemark/io/regular_file.h"
 
 namespace kinemark::io {
 namespace {
@@ -21,7 +22,9 @@ std::string reason() { return std::generic_category().message(errno); }
 }  // namespace
 
 Result<InputFile> InputFile::open(const std::filesystem::path& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (auto regular = check_regular(path); !regular) return std::unexpected(regular.error());
+  // Not to wait for ever should a pipe take the file's name in between.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return fail(Code::io, fmt::format("{}: cannot be opened ({})", path.string(), reason()));
   struct stat info{};
   if (::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {

@@ -13,8 +13,8 @@
 
 namespace kinemark::io {
 
-/// A file opened for reading at any offset. Missing, unreadable or not a regular file: Code::io and one
-/// sentence that names the file.
+/// A file opened for reading at any offset. Missing or unreadable: Code::io, not a regular file:
+/// Code::bad_input (check_regular()), each with one sentence that names the file.
 class InputFile {
  public:
   /// Open for reading; Code::io with the system's reason when that cannot be done.

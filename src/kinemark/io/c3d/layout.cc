@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "kinemark/io/rate.h"
+
 namespace kinemark::io {
 namespace {
 
@@ -183,12 +185,16 @@ Result<std::size_t> settle_data_block(const C3dHeader& h, const C3dParameters& p
 
 Status settle_rate_and_scale(C3dLayout& out, const C3dHeader& h, const C3dParameters& p, Warnings& warnings) {
   const double rate = p.number("POINT", "RATE").value_or(0.0);
+  // 0 is how programs leave it out; anything else that is no rate is damage.
+  if (rate != 0.0)
+    if (auto s = check_rate(rate, "POINT:RATE"); !s) return s;
   out.rate_hz = usable(rate) ? rate : h.rate_hz;
   if (!usable(out.rate_hz))
     return fail(Code::bad_input,
                 fmt::format("has no frame rate: POINT:RATE is {}, the header's is {}; need a number of Hz "
                             "above 0. Nothing was read.",
                             rate, h.rate_hz));
+  if (auto s = check_rate(out.rate_hz, "the header's frame rate"); !s) return s;
   if (usable(rate) && usable(h.rate_hz) && std::abs(rate - h.rate_hz) > 1e-3 * rate)
     warnings.push_back(
         fmt::format("POINT:RATE is {} Hz, the header says {} Hz; the parameter is used", rate, h.rate_hz));

@@ -8,7 +8,7 @@
 #include <cctype>
 #include <map>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/utf8.h"
 
 namespace kinemark::io {
 namespace {
@@ -27,25 +27,6 @@ bool same_name(std::string_view a, std::string_view b) {
 
 std::string numbered(std::string_view name, int part) {
   return part == 1 ? std::string(name) : fmt::format("{}{}", name, part);
-}
-
-/// Length of the UTF-8 sequence that starts at text[i], or 0 when there is none.
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-  const unsigned lead = byte(i);
-  const std::size_t n = lead < 0x80                   ? 1
-                        : lead >= 0xC2 && lead < 0xE0 ? 2
-                        : lead >= 0xE0 && lead < 0xF0 ? 3
-                        : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                      : 0;
-  for (std::size_t k = 1; k < n; ++k)
-    if ((byte(i + k) & 0xC0U) != 0x80U) return 0;
-  // Overlong forms, surrogates and numbers past the last code point.
-  const unsigned second = byte(i + 1);
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
-      (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90))
-    return 0;
-  return n;
 }
 
 /// Walks the entries of a section.
@@ -197,28 +178,7 @@ class Parser {
 
 }  // namespace
 
-std::string clean_text(std::string_view raw) {
-  std::string out;
-  out.reserve(raw.size());
-  bool utf8 = true;
-  for (std::size_t i = 0; i < raw.size() && utf8;) {
-    const std::size_t n = utf8_length(raw, i);
-    utf8 = n > 0;
-    i += n;
-  }
-  for (const char c : raw) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) {
-      out.push_back(' ');
-    } else if (byte < 0x80 || utf8) {
-      out.push_back(c);
-    } else {
-      out.push_back(static_cast<char>(0xC0U | byte >> 6));
-      out.push_back(static_cast<char>(0x80U | (byte & 0x3FU)));
-    }
-  }
-  return std::string(trim(out));
-}
+std::string clean_text(std::string_view raw) { return name_of_bytes(raw); }
 
 C3dParameters parse_parameters(std::span<const std::byte> section, Processor processor,
                                std::vector<std::string>& warnings) {

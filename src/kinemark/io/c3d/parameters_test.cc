@@ -97,7 +97,7 @@ TEST(C3dParameters, TextIsMadeFitToShow) {
   EXPECT_EQ(clean_text(std::string_view("a\0b\0\0", 5)), "a b");
   EXPECT_EQ(clean_text("caf\xE9"), "café") << "Latin-1";
   EXPECT_EQ(clean_text("café"), "café") << "UTF-8";
-  EXPECT_EQ(clean_text("\xC0\x80"), "À\xC2\x80") << "an overlong form is no UTF-8";
+  EXPECT_EQ(clean_text("\xC0\xBF"), "À¿") << "an overlong form is no UTF-8";
 }
 
 TEST(C3dHeader, EventsSurviveARoundTrip) {

@@ -267,7 +267,7 @@ TEST(C3dReader, WhatIsNoC3dFileIsOneSentence) {
   bytes = Bytes(simulate_trial({}));
   bytes.put_f32(20, 0.0F);
   bytes.put_f32(bytes.find("RATE", 0), -3.0F);
-  EXPECT_THAT(bytes.read().error().message, HasSubstr("has no frame rate"));
+  EXPECT_THAT(bytes.read().error().message, HasSubstr("POINT:RATE is -3; expected a frame rate"));
   bytes = Bytes(simulate_trial({}));
   bytes.put_u16(16, 9000);
   bytes.put_u16(bytes.find("DATA_START", 0), 9001);

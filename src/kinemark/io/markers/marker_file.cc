@@ -16,6 +16,7 @@
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/plausible.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
@@ -64,7 +65,10 @@ Result<data::Trial> read_nwb_trial(const std::filesystem::path& path) {
 
 bool needs_rate(const std::filesystem::path& path) { return lower_extension(path) == ".v3d"; }
 
-Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
+namespace {
+
+/// As the reader of its format reads it.
+Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options) {
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
   std::array<char, 512> begin{};
@@ -91,6 +95,14 @@ Result<data::Trial> read_markers(const std::filesystem::path& path, const Marker
       fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB (.nwb), "
                   "CSV (.csv) and Visual3D text (.v3d)",
                   path.string(), named(extension)));
+}
+
+}  // namespace
+
+Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
+  auto trial = read_as_it_is(path, options);
+  if (trial) reject_implausible(*trial);
+  return trial;
 }
 
 Status check_marker_format(const std::filesystem::path& path) {

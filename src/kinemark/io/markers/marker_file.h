@@ -20,9 +20,10 @@ struct MarkerReadOptions {
 /// where the content is not conclusive the extension decides, so that a damaged file gets the error message
 /// of its format. Of an NWB file a trial holds positions with their provenance; read_nwb() gives the rest,
 /// and
-/// read_v3d() the segment orientations of a Visual3D text. Code::not_supported for any other file, naming
-/// what is supported; Code::usage when a rate is given for a file that stores its own; else as read_c3d(),
-/// read_trc(), read_nwb(), read_trajectories_csv() and read_v3d().
+/// read_v3d() the segment orientations of a Visual3D text. Samples that no marker can have are rejected with
+/// a warning (reject_implausible()). Code::not_supported for any other file, naming what is supported;
+/// Code::usage when a rate is given for a file that stores its own; else as read_c3d(), read_trc(),
+/// read_nwb(), read_trajectories_csv() and read_v3d().
 [[nodiscard]] Result<data::Trial> read_markers(const std::filesystem::path& path,
                                                const MarkerReadOptions& options = {});
 

@@ -86,7 +86,7 @@ TEST(MarkerFile, OtherFilesAreAnsweredWithWhatIsSupported) {
       HasSubstr("a .mot file is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB"));
   EXPECT_THAT(read_markers(scratch / "README").error().message, HasSubstr("a file without an extension"));
   EXPECT_EQ(read_markers(scratch / "absent.trc").error().code, Code::io);
-  EXPECT_EQ(read_markers(scratch.path()).error().code, Code::io);
+  EXPECT_EQ(read_markers(scratch.path()).error().code, Code::bad_input);
   const auto status = write_markers(scratch / "q.xlsx", small(), false);
   EXPECT_EQ(status.error().code, Code::usage);
   EXPECT_THAT(status.error().message, HasSubstr("supported are .c3d, .trc, .nwb and .csv"));

@@ -95,6 +95,36 @@ TEST(OsimHostile, DeepNestingIsRefusedAndWidthIsRead) {
   std::string wide = "<Model>";
   for (int i = 0; i < deep; ++i) wide += "<a/>";
   EXPECT_EQ(refusal(wide + "</Model>"), "");
+  for (int i = 0; i < 1'000'000; ++i) wide += "<a/>";
+  EXPECT_THAT(refusal(wide + "</Model>"), HasSubstr("more than 1000000 tags"));
+  EXPECT_EQ(refusal("<Model><!-- " + std::string(10'000, '<') + " --><a b='" + std::string(300, '<') +
+                    "'/></Model>"),
+            "")
+      << "comments and quotes nest nothing";
+}
+
+TEST(OsimHostile, WhatBeginsAsNoXmlIsNotReadToItsEnd) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_text(scratch / "zeros.osim", "", false));
+  std::filesystem::resize_file(scratch / "zeros.osim", 1ULL << 40);  // a hole: takes no room
+  EXPECT_THAT(read_osim(scratch / "zeros.osim").error().message, HasSubstr("is no XML"));
+}
+
+TEST(OsimHostile, NamesComeInTheEncodingThatIsDeclaredOrInLatin1) {
+  const auto name_of = [](const std::string& declaration, const std::string& name) {
+    const auto model = parse_osim(declaration + "<Model name=\"" + name + "\"/>", "m.osim");
+    return model ? model->name : model.error().message;
+  };
+  EXPECT_EQ(name_of("", "\xE9paule"), "épaule");
+  EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>", "\xE9paule"), "épaule");
+  EXPECT_EQ(name_of("", "肩"), "肩");
+  for (const char* encoding : {"Shift_JIS", "shift-jis", "CP932"})
+    EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"" + std::string(encoding) + "\"?>", "\x8C\xA8"),
+              "肩");
+  EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>", "肩"), "肩")
+      << "it is UTF-8 all the same";
+  EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>", "\xE9 l"), "é l")
+      << "it is no Shift-JIS";
 }
 
 TEST(OsimHostile, NumbersAndFlags) {

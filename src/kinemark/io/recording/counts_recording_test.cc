@@ -222,7 +222,7 @@ TEST(CountsLayout, EveryWrongOneIsOneSentence) {
       {"{" + names + R"("rate_hz":100,"t0_s":0,"highest_code":4095,"conversion_time_s":[0]})",
        "a.mcap: counts: 1 numbers of conversion times; need 4"},
       {"{" + names + R"("rate_hz":-1,"t0_s":0,"highest_code":4095,"conversion_time_s":[0,0,0,0]})",
-       "a.mcap: counts: -1 frames per second from 0 s; need a positive number and a time"},
+       "a.mcap: the layout of the counts: rate_hz is -1; expected a frame rate of 0.001 to 1000000 Hz"},
   };
   for (const auto& [layout, sentence] : cases) {
     const auto read = read_layout(layout);

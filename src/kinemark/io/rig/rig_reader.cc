@@ -8,13 +8,13 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/io/rig/toml_fields.h"
+#include "kinemark/io/rig/toml_text.h"
 
 namespace kinemark::io {
 namespace {
 
 using Need = TomlFields::Need;
 
-constexpr std::size_t kMostBytes = 64UL << 20;
 constexpr std::size_t kMostCameras = 64;
 constexpr int kMostParameters = 4096;
 
@@ -183,18 +183,13 @@ Result<data::Rig> read_table(const toml::table& table, const std::string& name) 
 }  // namespace
 
 Result<data::Rig> parse_rig(std::string_view text, std::string_view name) {
-  try {
-    return read_table(toml::parse(text), std::string(name));
-  } catch (const toml::parse_error& error) {
-    const auto& at = error.source().begin;
-    std::string why(error.description().substr(0, 200));
-    std::ranges::replace_if(why, [](unsigned char c) { return c < ' '; }, ' ');
-    return fail(Code::bad_input, fmt::format("{}: line {}, column {}: {}", name, at.line, at.column, why));
-  }
+  const auto table = parse_toml(text, std::string(name));
+  if (!table) return std::unexpected(table.error());
+  return read_table(*table, std::string(name));
 }
 
 Result<data::Rig> read_rig(const std::filesystem::path& path) {
-  const auto text = read_text(path, kMostBytes);
+  const auto text = read_text(path, kMostTomlBytes);
   if (!text) return std::unexpected(text.error());
   return parse_rig(*text, path.string());
 }

@@ -7,11 +7,12 @@
 #include <map>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/io/file.h"
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/keypoints_csv.h"
+#include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
@@ -40,11 +41,12 @@ class KeypointsParser {
     if (width < 2) return fail(Code::bad_input, "names no point");
     std::map<std::string, std::size_t, std::less<>> index;
     for (std::size_t c = 1; c < width; ++c) {
-      if (names[c].empty()) return wrong(lines, fmt::format("column {} belongs to no point", c + 1));
+      if (name_of_bytes(names[c]).empty())
+        return wrong(lines, fmt::format("column {} belongs to no point", c + 1));
       const auto [at, is_new] = index.try_emplace(names[c], columns_.size());
       if (is_new) {
         columns_.emplace_back();
-        out_.names.push_back(names[c]);
+        out_.names.push_back(name_of_bytes(names[c]));
       }
       auto& point = columns_[at->second];
       std::size_t* const column = cells_[c] == "x"            ? &point.x
@@ -58,6 +60,11 @@ class KeypointsParser {
         return wrong(lines, fmt::format("point '{}' has two columns {}", excerpt(names[c]), cells_[c]));
       *column = c;
     }
+    // Two spellings may become one name in UTF-8.
+    auto sorted = out_.names;
+    std::ranges::sort(sorted);
+    if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+      return wrong(lines, fmt::format("point '{}' occurs twice", excerpt(*twice)));
     for (std::size_t m = 0; m < columns_.size(); ++m)
       if (columns_[m].x == 0 || columns_[m].y == 0)
         return wrong(lines, fmt::format("point '{}' has no column {}", excerpt(out_.names[m]),
@@ -158,7 +165,7 @@ Result<Keypoints> parse_keypoints_csv(std::string_view text, const std::string& 
 }
 
 Result<Keypoints> read_keypoints_csv(const std::filesystem::path& path, const KeypointsOptions& options) {
-  const auto text = read_text(path);
+  const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_keypoints_csv(*text, path.string(), options);
 }

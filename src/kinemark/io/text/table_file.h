@@ -16,13 +16,13 @@ namespace kinemark::io {
 ///
 /// Values are as written; blank and NaN cells are NaN. Where the header's counts differ from the labels and
 /// rows, the labels and rows are used (warning). A row that repeats the time of the row before is left out
-/// (warning). A blank
+/// (warning). Jumps of an even time column and values that nothing measured can be are warnings. A blank
 /// line ends the data. The first column is time, in any case of letters.
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a row with too few or too many
-/// cells, time that runs backwards, a label that occurs twice, no 'endheader'; Code::not_supported for
-/// DataType Quaternion, SpatialVec and others. Code::io when it cannot be read. O(bytes); memory at most 10
-/// times the text + 250 MB, also for hostile input; files full of numbers about twice.
+/// cells, time that runs backwards or stands still, a label that occurs twice, no 'endheader';
+/// Code::not_supported for DataType Quaternion, SpatialVec and others. Code::io when it cannot be read.
+/// O(bytes); memory at most 10 times the text + 250 MB, also for hostile input, about twice for good files.
 [[nodiscard]] Result<data::Table> read_table(const std::filesystem::path& path);
 
 /// The same from memory; `name` stands for the file in messages.

@@ -149,7 +149,28 @@ TEST(ParseTable, RepeatedTimesAreLeftOutAndReported) {
   EXPECT_THAT(table.values, ElementsAre(1.0, 3.0, 5.0));
   EXPECT_THAT(table.warnings, ElementsAre(HasSubstr("2 rows repeat the time")));
   EXPECT_THAT(bad(kVersion3 + "time\ta\n0\t1\n-1\t2\n"),
-              HasSubstr("line 8: time runs backwards from 0 to -1 s"));
+              HasSubstr("line 8 (row 2): time runs backwards from 0 to -1 s"));
+}
+
+TEST(ParseTable, TimeThatStandsStillIsRefused) {
+  const std::string head = "t\nnRows=4\nnColumns=2\nendheader\ntime\ta\n";
+  EXPECT_THAT(bad(head + "1\t1\n1\t2\n1\t3\n1\t4\n"),
+              HasSubstr("line 7: time stands still here and in 3 of 4 rows"));
+  const auto jump = parse_table(head + "0\t1\n0.01\t2\n0.02\t3\n0.03\t4\n9.0\t4\n", "t.sto");
+  ASSERT_TRUE(jump);
+  EXPECT_THAT(jump->warnings, testing::Contains(HasSubstr("line 10 (row 5): time jumps from 0.03 to 9 s")));
+}
+
+TEST(ParseTable, NamesMayBeInLatin1) {
+  const auto table = parse_table(
+      "t\xE9te\nauteur=L\xE9"
+      "a\nendheader\ntime\tcoude_fl\xE9"
+      "chi\n0\t1\n",
+      "t.sto");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->name, "téte");
+  EXPECT_THAT(table->columns, testing::ElementsAre("coude_fléchi"));
+  EXPECT_EQ(table->header.front().second, "Léa");
 }
 
 TEST(ParseTable, ABlankLineEndsTheData) {

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/table_header.h"
+#include "kinemark/io/text/internal/table_values.h"
+#include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
@@ -88,6 +90,9 @@ Result<data::Table> parse_table(std::string_view text) {
   table.values.resize(rows * columns);
 
   std::size_t repeated = 0;
+  std::int64_t first_repeated = 0;
+  std::vector<std::int64_t> line_of_row;
+  line_of_row.reserve(rows);
   std::string_view line;
   for (std::size_t row = 0; row < rows; ++row) {
     lines.next(line);
@@ -103,12 +108,14 @@ Result<data::Table> parse_table(std::string_view text) {
         !status)
       return std::unexpected(status.error());
     if (!table.time_s.empty() && time_s < table.time_s.back())
-      return fail(Code::bad_input, fmt::format("line {}: time runs backwards from {} to {} s", lines.number(),
-                                               table.time_s.back(), time_s));
-    if (!table.time_s.empty() && time_s == table.time_s.back())
-      ++repeated;
-    else
+      return fail(Code::bad_input, fmt::format("line {} (row {}): time runs backwards from {} to {} s",
+                                               lines.number(), row + 1, table.time_s.back(), time_s));
+    if (!table.time_s.empty() && time_s == table.time_s.back()) {
+      if (repeated++ == 0) first_repeated = lines.number();
+    } else {
       table.time_s.push_back(time_s);
+      line_of_row.push_back(lines.number());
+    }
   }
   table.values.resize(table.time_s.size() * columns);
   table.columns = std::move(header->columns_named);
@@ -116,9 +123,22 @@ Result<data::Table> parse_table(std::string_view text) {
   if (header->rows && *header->rows != static_cast<double>(rows))
     table.warnings.push_back(
         fmt::format("header says {} rows, {} are there; the rows are used", *header->rows, rows));
+  if (repeated > table.time_s.size())
+    return fail(
+        Code::bad_input,
+        fmt::format("line {}: time stands still here and in {} of {} rows in all; times must increase",
+                    first_repeated, repeated, rows));
   if (repeated > 0)
     table.warnings.push_back(
         fmt::format("{} rows repeat the time of the row before and are left out", repeated));
+  internal::note_jump(
+      {.time_s = table.time_s,
+       .resolution_s = 0.0,
+       .stated = {},
+       .most_frames = 0,
+       .place = [&](std::size_t row) { return fmt::format("line {} (row {})", line_of_row[row], row + 1); }},
+      table.warnings);
+  internal::note_absurd_values(table, line_of_row, table.warnings);
   while (lines.next(line)) {
     if (internal::is_blank(line)) continue;
     table.warnings.push_back(
@@ -137,7 +157,7 @@ Result<data::Table> parse_table(std::string_view text, std::string_view name) {
 }
 
 Result<data::Table> read_table(const std::filesystem::path& path) {
-  const auto text = read_text(path);
+  const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_table(*text, path.string());
 }

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
-#include "kinemark/io/file.h"
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/trajectories_csv.h"
+#include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
@@ -59,7 +62,14 @@ struct Sample {
   std::uint8_t method;
   std::array<double, 3> x;
   double offset_s;
-  std::array<double, 6> covariance;
+};
+
+/// Time of a frame by its first line, and the one that differs most from it.
+struct FrameTime {
+  double time_s;
+  std::int64_t line;
+  double other_s;
+  std::int64_t other_line;
 };
 
 class Parser {
@@ -99,7 +109,8 @@ class Parser {
     s.x = {number_in(x), number_in(y), number_in(z)};
     s.offset_s = number_in(offset);
     const double sd[] = {number_in(sd_x), number_in(sd_y), number_in(sd_z)};
-    s.covariance = {sd[0] * sd[0], number_in(xy), number_in(xz), sd[1] * sd[1], number_in(yz), sd[2] * sd[2]};
+    const std::array<double, 6> covariance = {sd[0] * sd[0], number_in(xy), number_in(xz),
+                                              sd[1] * sd[1], number_in(yz), sd[2] * sd[2]};
     if (error_) return wrong(*error_);
     if (frame_number != std::floor(frame_number) || std::abs(frame_number) > kMaxFrame)
       return wrong(fmt::format("frame {} is not a whole number", frame_number));
@@ -107,11 +118,19 @@ class Parser {
     if (cells_[*column_[marker]].empty()) return wrong("names no marker");
     const auto [at, is_new] =
         markers_.try_emplace(cells_[*column_[marker]], static_cast<std::int32_t>(markers_.size()));
-    if (is_new) trial_.markers.names.push_back(at->first);
+    if (is_new) {
+      trial_.markers.names.push_back(name_of_bytes(at->first));
+      if (trial_.markers.names.back().empty()) return wrong("names no marker");
+    }
     s.marker = at->second;
     if (auto status = provenance(s); !status) return status;
-    times_.try_emplace(s.frame, time);
+    auto& of_frame = times_.try_emplace(s.frame, FrameTime{time, number, time, number}).first->second;
+    if (std::abs(time - of_frame.time_s) > std::abs(of_frame.other_s - of_frame.time_s)) {
+      of_frame.other_s = time;
+      of_frame.other_line = number;
+    }
     samples_.push_back(s);
+    if (is_uncertain()) covariances_.push_back(covariance);
     return {};
   }
 
@@ -133,6 +152,14 @@ class Parser {
     return kNaN;
   }
 
+  [[nodiscard]] bool is_uncertain() const { return column_[sd_x] && column_[sd_y] && column_[sd_z]; }
+  /// As many frames as the lines may stand for.
+  [[nodiscard]] std::int64_t most_frames() const {
+    return static_cast<std::int64_t>((4 * samples_.size() + 1'000'000) / markers_.size());
+  }
+  Status settle_time();
+  Status check_times_of_frames(const TimeBase& time) const;
+
   Status provenance(Sample& s) {
     const bool has_x = std::ranges::all_of(s.x, [](double v) { return std::isfinite(v); });
     s.state = has_x ? SampleState::measured : SampleState::missing;
@@ -149,10 +176,11 @@ class Parser {
       return wrong(fmt::format("is {} but has not three coordinates", data::to_string(s.state)));
     if (!column_[method] || cells_[*column_[method]].empty()) return {};
     auto& methods = trial_.markers.methods;
-    auto at = std::ranges::find(methods, cells_[*column_[method]]);
+    const std::string name = name_of_bytes(cells_[*column_[method]]);
+    auto at = std::ranges::find(methods, name);
     if (at == methods.end()) {
       if (methods.size() == 255) return wrong("uses one method more than the 255 that are supported");
-      at = methods.insert(methods.end(), cells_[*column_[method]]);
+      at = methods.insert(methods.end(), name);
     }
     s.method = static_cast<std::uint8_t>(at - methods.begin() + 1);
     return {};
@@ -165,42 +193,71 @@ class Parser {
   std::int64_t line_ = 0;
   std::optional<std::string> error_;
   std::map<std::string, std::int32_t, std::less<>> markers_;
-  std::map<std::int64_t, double> times_;  ///< of each frame
-  std::vector<Sample> samples_;
+  std::map<std::int64_t, FrameTime> times_;  ///< of each frame
+  std::vector<std::int64_t> clock_frame_;  ///< frame of the clock for each from the first on; empty: the same
+  // Lists that grow without being copied: most of the memory that reading takes.
+  std::deque<Sample> samples_;
+  std::deque<std::array<double, 6>> covariances_;  ///< of each sample, where the file has deviations
 };
+
+/// Lines of one frame agree on its time to half a frame.
+Status Parser::check_times_of_frames(const TimeBase& time) const {
+  for (const auto& [number, at] : times_)
+    if (std::abs(at.other_s - at.time_s) > 0.5 / time.rate_hz)
+      return fail(Code::bad_input, fmt::format("line {}: frame {} is at {:.9g} s, in line {} at {:.9g} s",
+                                               at.other_line, number, at.other_s, at.line, at.time_s));
+  return {};
+}
+
+/// The clock of the frames. Frames without a line lie evenly between their neighbours.
+Status Parser::settle_time() {
+  const std::int64_t first = times_.begin()->first;
+  data::Trajectories& t = trial_.markers;
+  if (times_.size() == 1) {
+    t.time = {.rate_hz = 1.0, .t0_s = times_.begin()->second.time_s, .frames = 1};
+    trial_.warnings.emplace_back("a single frame does not determine a rate; 1 Hz is assumed");
+    return check_times_of_frames(t.time);
+  }
+  std::vector<double> time_column;
+  std::vector<std::int64_t> line;
+  for (auto at = times_.begin(); at != times_.end(); ++at) {
+    const auto next = std::next(at);
+    const double steps = next == times_.end() ? 1.0 : static_cast<double>(next->first - at->first);
+    for (double k = 0.0; k < steps; k += 1.0) {
+      const double to_next_s = k == 0.0 ? 0.0 : next->second.time_s - at->second.time_s;
+      time_column.push_back(at->second.time_s + k / steps * to_next_s);
+      line.push_back(at->second.line);
+    }
+  }
+  std::vector<std::string> notes;
+  const auto place = [&](std::size_t row) {
+    return fmt::format("line {} (frame {})", line[row], first + static_cast<std::int64_t>(row));
+  };
+  const auto clock = internal::even_clock({.time_s = time_column,
+                                           .resolution_s = 0.0,
+                                           .stated = {},
+                                           .most_frames = most_frames(),
+                                           .place = place},
+                                          notes);
+  if (!clock) return std::unexpected(clock.error());
+  t.time = clock->time;
+  clock_frame_ = clock->frame;
+  // A CSV never states a rate; only what its clock does is worth a warning.
+  for (std::string& warning : notes)
+    if (!warning.starts_with("header gives no rate")) trial_.warnings.push_back(std::move(warning));
+  return check_times_of_frames(t.time);
+}
 
 Status Parser::finish() {
   if (samples_.empty()) return fail(Code::bad_input, "has a header but no samples");
   const std::int64_t first = times_.begin()->first;
-  const std::int64_t frames = times_.rbegin()->first - first + 1;
-  const auto rows = static_cast<std::int64_t>(samples_.size());
   const auto markers = static_cast<std::int64_t>(markers_.size());
-  if (frames > (4 * rows + 1'000'000) / markers)
+  if (const auto stated = times_.rbegin()->first - first + 1; stated > most_frames())
     return fail(Code::bad_input, fmt::format("has frames from {} to {} and {} markers, but only {} lines",
-                                             first, first + frames - 1, markers, rows));
-  // Frames without a line lie evenly between their neighbours.
-  std::vector<double> time_column;
-  for (auto at = times_.begin(); at != times_.end(); ++at) {
-    time_column.push_back(at->second);
-    const auto next = std::next(at);
-    if (next == times_.end()) break;
-    const auto steps = static_cast<double>(next->first - at->first);
-    for (double k = 1.0; k < steps; k += 1.0)
-      time_column.push_back(at->second + k / steps * (next->second - at->second));
-  }
+                                             first, first + stated - 1, markers, samples_.size()));
+  if (auto s = settle_time(); !s) return s;
   data::Trajectories& t = trial_.markers;
-  if (time_column.size() == 1) {
-    t.time = {.rate_hz = 1.0, .t0_s = time_column[0], .frames = 1};
-    trial_.warnings.emplace_back("a single frame does not determine a rate; 1 Hz is assumed");
-  } else {
-    std::vector<std::string> notes;
-    auto time = internal::even_time(time_column, 0.0, {}, notes);
-    if (!time) return fail(Code::bad_input, "the column time_s does not increase from frame to frame");
-    t.time = *time;
-    // A CSV never states a rate; only an uneven clock is worth a warning.
-    for (std::string& warning : notes)
-      if (warning.find("uneven") != std::string::npos) trial_.warnings.push_back(std::move(warning));
-  }
+  const std::int64_t frames = t.time.frames;
 
   trial_.first_frame = first;
   const auto numbers = static_cast<std::size_t>(frames * markers);
@@ -208,11 +265,12 @@ Status Parser::finish() {
   t.state.assign(numbers, SampleState::missing);
   if (!t.methods.empty()) t.method.assign(numbers, 0);
   if (column_[offset]) t.sample_offset_s.assign(numbers, 0.0);
-  const bool uncertain = column_[sd_x] && column_[sd_y] && column_[sd_z];
-  if (uncertain) t.covariance.assign(6 * numbers, kNaN);
+  if (is_uncertain()) t.covariance.assign(6 * numbers, kNaN);
   std::vector<bool> seen(numbers, false);
+  auto covariance = covariances_.begin();
   for (const Sample& s : samples_) {
-    const std::size_t i = t.index(s.frame - first, s.marker);
+    const std::int64_t frame = clock_frame_.empty() ? s.frame - first : clock_frame_[at(s.frame - first)];
+    const std::size_t i = t.index(frame, s.marker);
     if (seen[i])
       return fail(Code::bad_input, fmt::format("marker '{}' has two lines for frame {}",
                                                t.names[static_cast<std::size_t>(s.marker)], s.frame));
@@ -221,8 +279,8 @@ Status Parser::finish() {
     t.state[i] = s.state;
     if (!t.method.empty()) t.method[i] = s.method;
     if (!t.sample_offset_s.empty() && std::isfinite(s.offset_s)) t.sample_offset_s[i] = s.offset_s;
-    if (!uncertain) continue;
-    std::ranges::copy(s.covariance, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
+    if (!is_uncertain()) continue;
+    std::ranges::copy(*covariance++, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
     // Standard deviations alone: axes that do not depend on each other.
     for (const auto& [k, kind] : {std::pair{1, xy}, {2, xz}, {4, yz}})
       if (!column_[kind]) t.covariance[6 * i + static_cast<std::size_t>(k)] = 0.0;
@@ -252,7 +310,7 @@ Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::str
 }
 
 Result<data::Trial> read_trajectories_csv(const std::filesystem::path& path) {
-  const auto text = read_text(path);
+  const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_trajectories_csv(*text, path.string());
 }

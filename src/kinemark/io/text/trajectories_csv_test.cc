@@ -93,6 +93,45 @@ TEST(TrajectoriesCsv, AnyOrderOfColumnsAndLinesAndNoStates) {
   EXPECT_THAT(trial->warnings, ElementsAre(HasSubstr("column 'colour' is not known")));
 }
 
+TEST(TrajectoriesCsv, TimeThatLiesIsRefused) {
+  const auto with_times = [](const std::vector<std::pair<int, double>>& frames) {
+    std::string text = "frame,time_s,marker,x_m,y_m,z_m\n";
+    for (const auto& [frame, time_s] : frames)
+      text += std::to_string(frame) + "," + std::to_string(time_s) + ",A,1,2,3\n";
+    return parse_trajectories_csv(text, "a.csv");
+  };
+  EXPECT_THAT(with_times({{1, 0.2}, {2, 0.1}}).error().message,
+              HasSubstr("a.csv: line 3 (frame 2): time goes back from 0.2 to 0.1 s"));
+  EXPECT_THAT(with_times({{1, 0.2}, {2, 0.2}}).error().message,
+              HasSubstr("line 3 (frame 2): time stands still"));
+  EXPECT_THAT(with_times({{1, 0.0}, {2, 0.1}, {3, 0.2}, {2, 0.4}}).error().message,
+              HasSubstr("line 5: frame 2 is at 0.4 s, in line 3 at 0.1 s"));
+  EXPECT_THAT(with_times({{1, 0.0}, {2, 0.1}, {3, 0.2}, {4, 0.3}, {5, 0.95}, {6, 1.05}}).error().message,
+              HasSubstr("line 6 (frame 5): time jumps from 0.3 to 0.95 s, 6.5 frame intervals"));
+  // Frames that the numbers leave out, and frames that the times leave out, are missing alike.
+  const auto by_number = with_times({{1, 0.0}, {2, 0.1}, {3, 0.2}, {7, 0.6}});
+  const auto by_time = with_times({{1, 0.0}, {2, 0.1}, {3, 0.2}, {4, 0.6}});
+  ASSERT_TRUE(by_number && by_time);
+  EXPECT_TRUE(by_number->warnings.empty());
+  EXPECT_THAT(by_time->warnings, ElementsAre(HasSubstr("1 hole, the first at line 5 (frame 4)")));
+  for (const auto& trial : {*by_number, *by_time}) {
+    EXPECT_EQ(trial.markers.frames(), 7);
+    EXPECT_EQ(trial.markers.count_missing(), 3);
+    EXPECT_TRUE(trial.markers.present(6, 0));
+  }
+}
+
+TEST(TrajectoriesCsv, NamesMayBeInLatin1) {
+  const auto trial = parse_trajectories_csv(
+      "frame,time_s,marker,x_m,y_m,z_m,state,method\n1,0,Fu\xDF,1,2,3,interpolated,f\xFCr\n", "a.csv");
+  ASSERT_TRUE(trial) << trial.error().message;
+  EXPECT_THAT(trial->markers.names, ElementsAre("Fuß"));
+  EXPECT_THAT(trial->markers.methods, ElementsAre("für"));
+  EXPECT_FALSE(
+      parse_trajectories_csv("frame,time_s,marker,x_m,y_m,z_m\n1,0,A\x01,1,2,3\n1,0,A\x02,1,2,3\n", "a"))
+      << "two spellings of one name";
+}
+
 TEST(TrajectoriesCsv, ASingleFrameHasNoRate) {
   const auto trial =
       parse_trajectories_csv("frame,time_s,marker,x_m,y_m,z_m\n1,2.5,A,1,2,3\n", "a.csv").value();
@@ -123,7 +162,8 @@ TEST(TrajectoriesCsv, BadFilesGetOneSentenceWithTheLine) {
   EXPECT_THAT(message(header + "1,0,A,1,,3,measured\n"), HasSubstr("line 2: is measured but has not three"));
   EXPECT_THAT(message(header + "1,0,\"A,1,2,3,\n"), HasSubstr("line 2: a quote is not closed"));
   EXPECT_THAT(message(header + "1,0,A,1,2,3,\n1,0,A,1,2,3,\n"), HasSubstr("'A' has two lines for frame 1"));
-  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n2,0,A,1,2,3,\n"), HasSubstr("time_s does not increase"));
+  EXPECT_THAT(message(header + "1,0,A,1,2,3,\n2,0,A,1,2,3,\n"),
+              HasSubstr("line 3 (frame 2): time stands still at 0 s"));
   EXPECT_THAT(message(header + "1,0,A,1,2,3,\n900000000000,1,A,1,2,3,\n"), HasSubstr("but only 2 lines"));
 }
 

@@ -26,9 +26,9 @@ namespace kinemark::io {
 /// rows and names; the rows and names are then used. A blank line ends the data.
 ///
 /// Code::bad_input, with line and column, for text where a number belongs, a marker name that occurs twice,
-/// an unknown unit, a file that ends inside its header or holds no row. Code::io when it cannot be read.
-/// O(bytes); memory at most 16 times the text + 125 MB, also for hostile input; files full of numbers about
-/// twice.
+/// an unknown unit, time that lies (docs/formats/what-is-believed.md), no row, half a header. Code::io when
+/// it cannot be read. O(bytes); memory at most 16 times the text + 125 MB, also for hostile input; files full
+/// of numbers about twice.
 [[nodiscard]] Result<data::Trial> read_trc(const std::filesystem::path& path);
 
 /// The same from memory; `name` stands for the file in messages and in Trial::source.

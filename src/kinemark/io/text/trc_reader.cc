@@ -6,14 +6,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
-#include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/internal/trc_header.h"
 #include "kinemark/io/text/trc.h"
+#include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
@@ -210,6 +211,39 @@ void judge_rows(data::Trial& trial, const TrcHeader& header, const Tally& tally,
   if (tally.infinite > 0) warn(fmt::format("{} samples are infinite, taken as not seen", tally.infinite));
 }
 
+/// Rows as the frames that they are; frames without a row are missing.
+void spread_rows(data::Trajectories& markers, const internal::EvenClock& clock) {
+  const data::Trajectories rows =
+      std::exchange(markers, data::Trajectories::all_missing(markers.names, clock.time));
+  const auto row_samples = static_cast<std::ptrdiff_t>(rows.names.size());
+  for (std::size_t row = 0; row < clock.frame.size(); ++row) {
+    const auto from = static_cast<std::ptrdiff_t>(row) * row_samples;
+    const auto to = static_cast<std::ptrdiff_t>(clock.frame[row]) * row_samples;
+    std::copy_n(rows.x_in_world.begin() + 3 * from, 3 * row_samples, markers.x_in_world.begin() + 3 * to);
+    std::copy_n(rows.state.begin() + from, row_samples, markers.state.begin() + to);
+  }
+}
+
+/// The clock of the rows, the first of which stands in line `first_line`.
+Status settle_time(const TrcHeader& header, const Tally& tally, std::int64_t first_line,
+                   std::int64_t most_frames, data::Trial& trial) {
+  const auto place = [&](std::size_t row) {
+    const auto i = static_cast<std::int64_t>(row);
+    return fmt::format("line {} (frame {})", first_line + i, trial.first_frame + i);
+  };
+  const auto clock =
+      internal::even_clock({.time_s = tally.time_s,
+                            .resolution_s = std::isfinite(tally.resolution_s) ? tally.resolution_s : 0.0,
+                            .stated = header.rates_hz,
+                            .most_frames = most_frames,
+                            .place = place},
+                           trial.warnings);
+  if (!clock) return std::unexpected(clock.error());
+  trial.markers.time = clock->time;
+  if (!clock->frame.empty()) spread_rows(trial.markers, *clock);
+  return {};
+}
+
 Result<data::Trial> parse(std::string_view text) {
   Lines lines(text);
   auto header = internal::parse_trc_header(lines);
@@ -219,7 +253,8 @@ Result<data::Trial> parse(std::string_view text) {
   if (rows == 0)
     return fail(Code::bad_input,
                 fmt::format("line {}: the file ends before the first row of data", lines.number() + 1));
-  if (rows > (text.size() / kSamplesPerByte + kSamplesAlways) / markers)
+  const std::size_t most_frames = (text.size() / kSamplesPerByte + kSamplesAlways) / markers;
+  if (rows > most_frames)
     return fail(Code::bad_input,
                 fmt::format("line {}: {} rows for {} markers do not fit into the {} bytes of this file",
                             lines.number() + 1, rows, markers, text.size()));
@@ -248,15 +283,14 @@ Result<data::Trial> parse(std::string_view text) {
         !status)
       return std::unexpected(status.error());
   }
+  const std::int64_t first_line = lines.number() + 1 - static_cast<std::int64_t>(rows);
   const std::int64_t next_text_line = lines.skip_blank();
 
   trial.markers.names = std::move(header->names);
   trial.markers.time.frames = static_cast<std::int64_t>(rows);
   judge_rows(trial, *header, tally, next_text_line);
-  const double resolution_s = std::isfinite(tally.resolution_s) ? tally.resolution_s : 0.0;
-  auto time = internal::even_time(tally.time_s, resolution_s, header->rates_hz, trial.warnings);
-  if (!time) return std::unexpected(time.error());
-  trial.markers.time = *time;
+  if (auto s = settle_time(*header, tally, first_line, static_cast<std::int64_t>(most_frames), trial); !s)
+    return std::unexpected(s.error());
   judge_markers(trial, tally);
   return trial;
 }
@@ -271,7 +305,7 @@ Result<data::Trial> parse_trc(std::string_view text, std::string_view name) {
 }
 
 Result<data::Trial> read_trc(const std::filesystem::path& path) {
-  const auto text = read_text(path);
+  const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_trc(*text, path.string());
 }

@@ -203,6 +203,42 @@ TEST(ParseTrc, RateAndTimeAreChecked) {
   EXPECT_EQ(good(text_with("7\t0.25\t1\t2\t3\t4\t5\t6\n")).markers.time, (TimeBase{100.0, 0.25, 1}));
 }
 
+TEST(ParseTrc, TimeThatLiesIsRefused) {
+  EXPECT_THAT(bad(text_with("1\t0.02\t1\t2\t3\t4\t5\t6\n2\t0.01\t7\t8\t9\t1\t2\t3\n")),
+              HasSubstr("t.trc: line 8 (frame 2): time goes back from 0.02 to 0.01 s"));
+  EXPECT_THAT(bad(text_with("5\t1.5\t1\t2\t3\t4\t5\t6\n6\t1.5\t7\t8\t9\t1\t2\t3\n")),
+              HasSubstr("line 8 (frame 6): time stands still at 1.5 s"));
+  for (const char* rate : {"-100", "nan", "inf", "1e+30", "1e-09"})
+    EXPECT_THAT(bad(text_with(kRows, "A\t\t\tB", std::string(rate) + "\t100\t2\t2\tmm")),
+                HasSubstr("line 3: DataRate is " + std::string(rate)));
+  EXPECT_THAT(bad(text_with(kRows, "A\t\t\tB", "100\t-100\t2\t2\tmm")), HasSubstr("CameraRate is -100"));
+}
+
+TEST(ParseTrc, AHoleInTimeIsMissingFrames) {
+  std::string rows;
+  for (int i = 0; i < 20; ++i)
+    rows += std::to_string(i + 1) + "\t" + std::to_string(0.01 * (i < 12 ? i : i + 500)) + "\t" +
+            std::to_string(i) + "\t2\t3\t4\t5\t6\n";
+  const auto trial = good(text_with(rows, "A\t\t\tB", "100\t100\t20\t2\tmm"));
+  EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 520}));
+  EXPECT_THAT(trial.warnings, ElementsAre(HasSubstr("1 hole, the first at line 19 (frame 13)")));
+  EXPECT_EQ(trial.markers.count_missing(), 2 * 500);
+  EXPECT_EQ(trial.markers.x(11, 0).x(), 0.011);
+  EXPECT_FALSE(trial.markers.present(12, 0));
+  EXPECT_FALSE(trial.markers.present(511, 1));
+  EXPECT_EQ(trial.markers.x(512, 0).x(), 0.012);
+  EXPECT_EQ(trial.markers.x(519, 1).z(), 0.006);
+}
+
+TEST(ParseTrc, NamesMayBeInLatin1AndHoldAnything) {
+  EXPECT_THAT(good(text_with(kRows, "\xE9paule\t\t\tB\x1B[2J\t\t")).markers.names,
+              ElementsAre("épaule", "B [2J"));
+  EXPECT_THAT(good(text_with(kRows, "épaule\t\t\t肩\t\t")).markers.names, ElementsAre("épaule", "肩"));
+  EXPECT_THAT(bad(text_with(kRows, "A\x01\t\t\tA\x02\t\t")), HasSubstr("'A' occurs twice"));
+  const std::string longest(100'000, 'M');
+  EXPECT_THAT(good(text_with(kRows, longest + "\t\t\tB\t\t")).markers.names, ElementsAre(longest, "B"));
+}
+
 TEST(ParseTrc, SaysLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(bad(text_with("1\t0.00\t1\t2\tx7\t4\t5\t6\n")),
             "t.trc: line 7, column 5: z of marker 'A' is 'x7'; expected a number");

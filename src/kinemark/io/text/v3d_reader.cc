@@ -8,10 +8,10 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/units.h"
-#include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/v3d_header.h"
 #include "kinemark/io/text/v3d.h"
+#include "kinemark/io/text_input.h"
 #include "kinemark/math/euler.h"
 
 namespace kinemark::io {
@@ -187,7 +187,7 @@ Result<V3dFile> parse_v3d(std::string_view text, std::string_view name, const V3
 }
 
 Result<V3dFile> read_v3d(const std::filesystem::path& path, const V3dReadOptions& options) {
-  const auto text = read_text(path);
+  const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_v3d(*text, path.string(), options);
 }

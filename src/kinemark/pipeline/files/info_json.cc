@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "kinemark/core/utf8.h"
+
 namespace kinemark::pipeline {
 namespace {
 
@@ -91,13 +93,15 @@ std::string info_text(const InfoOutcome& outcome) {
   const auto json = info_json(outcome);
   for (const auto& [key, value] : json.items()) {
     if (key == "warnings") {
-      for (const auto& warning : outcome.warnings) text += fmt::format("warning           {}\n", warning);
+      for (const auto& warning : outcome.warnings)
+        text += fmt::format("warning           {}\n", printable_sentence(warning));
     } else if (value.is_array()) {
       std::string list;
-      for (const auto& item : value) list += (list.empty() ? "" : " ") + item.get<std::string>();
+      for (const auto& item : value) list += (list.empty() ? "" : " ") + printable(item.get<std::string>());
       text += fmt::format("{:<17} {}\n", key, list);
     } else {
-      text += fmt::format("{:<17} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+      text += fmt::format("{:<17} {}\n", key,
+                          value.is_string() ? printable(value.get<std::string>()) : value.dump());
     }
   }
   return text;

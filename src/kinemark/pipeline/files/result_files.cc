@@ -12,6 +12,7 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::pipeline {
 
@@ -39,7 +40,7 @@ ResultFile json_file(fs::path target, std::function<nlohmann::ordered_json()> ma
               named.update(json);
               json = std::move(named);
             }
-            return io::write_text(staged, json.dump(2) + "\n", false);
+            return io::write_text(staged, json_text(json) + "\n", false);
           }};
 }
 

@@ -3,13 +3,13 @@
 #include "kinemark/pipeline/joints/segments_file.h"
 
 #include <fmt/core.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 
 #include "kinemark/data/name_index.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/rig/toml_fields.h"
+#include "kinemark/io/rig/toml_text.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -82,13 +82,9 @@ std::string toml_string(std::string_view text) {
 
 Result<data::SegmentLayout> parse_segments(std::string_view text, const std::string& name,
                                            const std::vector<std::string>& markers) {
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    return fail(Code::bad_input,
-                fmt::format("{}: line {}: {}", name, error.source().begin.line, error.description()));
-  }
+  const auto parsed = io::parse_toml(text, name);
+  if (!parsed) return std::unexpected(parsed.error());
+  const toml::table& root = *parsed;
   for (const auto& [key, value] : root)
     if ((key.str() != "segment" && key.str() != "joint") || !value.is_array_of_tables())
       return fail(Code::bad_input,

@@ -85,7 +85,8 @@ TEST(StillPoses, TreeFromItsSides) {
 TEST(StillPoses, LeavesAPoseOutThatWasCutOff) {
   const auto rig = ts::ideal_rig();
   const auto counts = recording(rig);
-  const auto whole = still_poses(counts, rig, test_tree(), 10), cut = still_poses(counts, rig, test_tree(), 7);
+  const auto whole = still_poses(counts, rig, test_tree(), 10),
+             cut = still_poses(counts, rig, test_tree(), 7);
   ASSERT_TRUE(whole && cut);
   EXPECT_EQ(whole->poses(), 5);
   EXPECT_EQ(whole->frames_left_over, 0);

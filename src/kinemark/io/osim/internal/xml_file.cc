@@ -7,32 +7,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <span>
 
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/number.h"
+#include "kinemark/io/osim/internal/shift_jis.h"
 
 namespace kinemark::io::osim {
 namespace {
 
-constexpr std::size_t kMaxBytes = 256UL << 20;  // the largest public model has 6 MB
-constexpr int kMaxDepth = 200;                  // real ones stay below 20
+constexpr std::size_t kMaxBytes = 64UL << 20;  // the largest public model has 6 MB
+constexpr int kMaxDepth = 200;                 // real ones stay below 20
+constexpr std::size_t kMaxTags = 1'000'000;    // real ones have below 100,000
+constexpr std::size_t kJudged = 1UL << 20;     // bytes by which a file is judged
 constexpr int kMaxFiles = 64;
-
-/// Length of the UTF-8 sequence at `i`, or 0 if there is none.
-std::size_t utf8_length(std::string_view s, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(s[k]); };
-  const unsigned char lead = byte(i);
-  const std::size_t n = lead < 0x80   ? 1
-                        : lead < 0xC2 ? 0
-                        : lead < 0xE0 ? 2
-                        : lead < 0xF0 ? 3
-                        : lead < 0xF5 ? 4
-                                      : 0;
-  if (n == 0 || i + n > s.size()) return 0;
-  for (std::size_t k = 1; k < n; ++k)
-    if ((byte(i + k) & 0xC0) != 0x80) return 0;
-  return n;
-}
 
 /// Bytes that are not UTF-8 become the Latin-1 characters that they are.
 std::string as_utf8(std::string_view s) {
@@ -52,6 +41,64 @@ std::string as_utf8(std::string_view s) {
 }
 
 bool is_utf16(std::string_view s) { return s.starts_with("\xFF\xFE") || s.starts_with("\xFE\xFF"); }
+
+/// One tag, from its '<' on, as far as size is concerned.
+struct Tag {
+  std::size_t end = 0;  ///< behind it
+  int deeper = 0;       ///< 1 opens an element, -1 closes one, 0 neither
+};
+
+Tag next_tag(std::string_view xml, std::size_t begin) {
+  const auto until = [&](std::string_view closing) {
+    const std::size_t at = xml.find(closing, begin);
+    return Tag{.end = at == std::string_view::npos ? xml.size() : at + closing.size(), .deeper = 0};
+  };
+  const std::string_view rest = xml.substr(begin, 9);
+  if (rest.starts_with("<!--")) return until("-->");
+  if (rest.starts_with("<![CDATA[")) return until("]]>");
+  if (rest.starts_with("<?")) return until("?>");
+  std::size_t end = xml.find_first_of(">\"'", begin);
+  while (end != std::string_view::npos && xml[end] != '>') {
+    end = xml.find(xml[end], end + 1);  // the quote that closes
+    if (end != std::string_view::npos) end = xml.find_first_of(">\"'", end + 1);
+  }
+  if (end == std::string_view::npos) return {.end = xml.size(), .deeper = 0};
+  const bool neither = rest.starts_with("<!") || xml[end - 1] == '/';
+  return {.end = end + 1, .deeper = neither ? 0 : rest.starts_with("</") ? -1 : 1};
+}
+
+/// Refuses what would cost a multiple of its size as a tree, before there is one. Of UTF-16 tags are only
+/// counted.
+Status check_size(std::string_view xml, const std::string& name) {
+  if (is_utf16(xml)) {
+    if (static_cast<std::size_t>(std::ranges::count(xml, '<')) <= kMaxTags) return {};
+    return fail(Code::bad_input,
+                fmt::format("{}: more than {} tags; no OpenSim file has so many", name, kMaxTags));
+  }
+  std::size_t tags = 0;
+  int depth = 0;
+  for (std::size_t at = xml.find('<'); at != std::string_view::npos;) {
+    const Tag tag = next_tag(xml, at);
+    depth += tag.deeper;
+    if (depth > kMaxDepth)
+      return fail(Code::bad_input,
+                  fmt::format("{}: byte {}: elements are nested deeper than {}; no OpenSim file is", name,
+                              at + 1, kMaxDepth));
+    if (++tags > kMaxTags)
+      return fail(Code::bad_input, fmt::format("{}: byte {}: more than {} tags; no OpenSim file has so many",
+                                               name, at + 1, kMaxTags));
+    at = tag.end < xml.size() ? xml.find('<', tag.end) : std::string_view::npos;
+  }
+  return {};
+}
+
+/// A file that can be XML begins with a tag, behind blanks and a byte-order mark.
+bool begins_as_xml(std::string_view begin) {
+  if (is_utf16(begin)) return true;
+  if (begin.starts_with("\xEF\xBB\xBF")) begin.remove_prefix(3);
+  const auto first = begin.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && begin[first] == '<';
+}
 
 class DepthMeter : public pugi::xml_tree_walker {
  public:
@@ -78,7 +125,14 @@ Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
     return fail(Code::bad_input, fmt::format("{}: has {} bytes; at most {} are read as OpenSim XML",
                                              file.name_, xml.size(), kMaxBytes));
   const bool utf16 = is_utf16(xml);
-  const std::string text = utf16 ? std::string(xml) : as_utf8(xml);
+  if (auto s = check_size(xml, file.name_); !s) return std::unexpected(s.error());
+  const bool as_it_is = utf16 || is_utf8(xml);
+  std::string converted;
+  if (!as_it_is) {
+    auto declared = from_shift_jis(xml);
+    converted = declared ? std::move(*declared) : as_utf8(xml);
+  }
+  const std::string_view text = as_it_is ? xml : std::string_view(converted);
   const auto encoding = utf16 ? pugi::encoding_auto : pugi::encoding_utf8;
   const auto options = pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype;
   auto outcome = file.tree_.load_buffer(text.data(), text.size(), options, encoding);
@@ -102,6 +156,15 @@ Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
 }
 
 Result<XmlFile> XmlFile::read(const std::filesystem::path& path) {
+  const auto file = InputFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  std::string begin(std::min(file->size(), kJudged), '\0');
+  const auto n = file->read_at(0, std::as_writable_bytes(std::span(begin)));
+  if (!n) return std::unexpected(n.error());
+  if (file->size() > kJudged && !begins_as_xml(begin))
+    return fail(
+        Code::bad_input,
+        fmt::format("{}: is no XML: it does not begin with a tag. Nothing more was read.", path.string()));
   const auto text = read_text(path, kMaxBytes);
   if (!text) return std::unexpected(text.error());
   return parse(*text, path.string());

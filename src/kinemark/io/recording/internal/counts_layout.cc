@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemark/io/number.h"
+#include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -93,6 +94,8 @@ Result<data::Counts> counts_like(const RecordingChannel& channel) {
   if (!cameras) return std::unexpected(cameras.error());
   const auto rate_hz = number(layout, "rate_hz");
   if (!rate_hz) return std::unexpected(rate_hz.error());
+  if (auto s = check_rate(*rate_hz, "the layout of the counts: rate_hz"); !s)
+    return std::unexpected(s.error());
   const auto t0_s = number(layout, "t0_s");
   if (!t0_s) return std::unexpected(t0_s.error());
   const auto highest = number(layout, "highest_code");

@@ -8,6 +8,7 @@
 #include <array>
 #include <unordered_map>
 
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
 
 namespace kinemark::io::internal {
@@ -59,9 +60,9 @@ Status read_data_type(std::string_view value, std::int64_t line, TableHeader& he
 Status read_pair(std::string_view line, std::int64_t number, TableHeader& header) {
   const auto [key, value] = split_pair(line);
   const std::string word = lower(key);
-  header.pairs.emplace_back(key, value);
+  header.pairs.emplace_back(name_of_bytes(key), name_of_bytes(value));
   if (word == "name") {
-    header.name = value;
+    header.name = name_of_bytes(value);
   } else if (word == "nrows" || word == "datarows") {
     header.rows = parse_number(value);
   } else if (word == "ncolumns" || word == "datacolumns") {
@@ -116,7 +117,7 @@ Status read_pairs(Lines& lines, TableHeader& header, std::string_view& labels) {
       return {};
     }
     if (first && split_pair(text).first.empty())
-      header.name = text;
+      header.name = name_of_bytes(text);
     else if (!first && is_numbers_only(text))
       return fail(Code::bad_input,
                   fmt::format("line {}: numbers stand before the line 'endheader' of a MOT or STO table",
@@ -135,8 +136,8 @@ Status read_labels(std::string_view line, std::int64_t number, TableHeader& head
   if (auto status = check_header_line(line, number); !status) return status;
   if (line.find('\t') == std::string_view::npos) header.separator = Separator::blanks;
   Cells cells(line, header.separator);
-  std::vector<std::string_view> labels;
-  for (std::string_view label; cells.next_text(label);) labels.push_back(label);
+  std::vector<std::string> labels;
+  for (std::string_view label; cells.next_text(label);) labels.push_back(name_of_bytes(label));
   while (!labels.empty() && labels.back().empty()) labels.pop_back();
   if (labels.empty() || lower(labels[0]) != "time")
     return fail(Code::bad_input, fmt::format("line {}: the first column is '{}'; expected 'time'", number,

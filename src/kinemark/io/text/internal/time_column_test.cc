@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 namespace kinemark::io::internal {
@@ -27,13 +29,37 @@ std::vector<double> clock(int rows, double rate_hz, double resolution_s, double 
 struct Outcome {
   TimeBase time;
   std::vector<std::string> warnings;
+  std::vector<std::int64_t> frame;
 };
+
+Result<EvenClock> clock_of(const std::vector<double>& time_s, double resolution_s,
+                           const std::vector<double>& stated, std::vector<std::string>& warnings,
+                           std::int64_t most_frames = 1'000'000) {
+  return even_clock(
+      {.time_s = time_s,
+       .resolution_s = resolution_s,
+       .stated = stated,
+       .most_frames = most_frames,
+       .place = [](std::size_t row) { return fmt::format("line {} (frame {})", row + 7, row + 1); }},
+      warnings);
+}
+
+std::string refusal(const std::vector<double>& time_s, const std::vector<double>& stated,
+                    double resolution_s = 0.0, std::int64_t most_frames = 1'000'000) {
+  std::vector<std::string> warnings;
+  const auto clock = clock_of(time_s, resolution_s, stated, warnings, most_frames);
+  if (clock) return "taken";
+  EXPECT_EQ(clock.error().code, Code::bad_input);
+  return clock.error().message;
+}
 
 Outcome fit(const std::vector<double>& time_s, double resolution_s, std::vector<double> stated) {
   Outcome out;
-  const auto time = even_time(time_s, resolution_s, stated, out.warnings);
-  EXPECT_TRUE(time) << time.error().message;
-  out.time = time.value_or(TimeBase{});
+  const auto clock = clock_of(time_s, resolution_s, stated, out.warnings);
+  EXPECT_TRUE(clock) << clock.error().message;
+  if (!clock) return out;
+  out.time = clock->time;
+  out.frame = clock->frame;
   return out;
 }
 
@@ -95,43 +121,107 @@ TEST(EvenTime, TellsTheLargestDeviationOfAnUnevenColumn) {
   EXPECT_EQ(odd_end.time.rate_hz, 25.0);
   EXPECT_THAT(odd_end.warnings, ElementsAre(testing::AllOf(HasSubstr("row 126 is at 4.992 s, 0.008 s off"),
                                                            HasSubstr("250 Hz"))));
+}
 
-  // Ten frames lost in the middle: the header still has the right rate.
+TEST(EvenTime, FramesMissingFromTheColumnAreCounted) {
+  // Ten frames lost in the middle: the header's rate is right, and without one the steps tell it.
   auto gap = clock(100, 100.0, 0.0);
   for (std::size_t i = 50; i < gap.size(); ++i) gap[i] += 0.1;
-  const auto lost = fit(gap, 0.01, {100.0});
-  EXPECT_EQ(lost.time.rate_hz, 100.0);
-  EXPECT_THAT(lost.warnings, ElementsAre(HasSubstr("0.1 s off an even 100 Hz")));
+  for (const std::vector<double>& stated : {std::vector<double>{100.0}, std::vector<double>{}}) {
+    const auto lost = fit(gap, 0.01, stated);
+    EXPECT_EQ(lost.time, (TimeBase{100.0, 0.0, 110}));
+    EXPECT_THAT(lost.warnings,
+                ElementsAre(HasSubstr("1 hole, the first at line 57 (frame 51) (0.49 to 0.6 s): 10 "
+                                      "frames are missing there")));
+    ASSERT_EQ(lost.frame.size(), 100U);
+    EXPECT_EQ(lost.frame[49], 49);
+    EXPECT_EQ(lost.frame[50], 60);
+    EXPECT_EQ(lost.frame.back(), 109);
+  }
 }
 
 TEST(EvenTime, OneLostFrameIsSeenAtAnyRounding) {
   for (const double resolution_s : {0.0, 0.001, 0.01}) {
     auto time_s = clock(100, 100.0, 0.0);
     for (std::size_t i = 50; i < time_s.size(); ++i) time_s[i] += 0.01;
-    EXPECT_THAT(fit(time_s, resolution_s, {100.0}).warnings, ElementsAre(HasSubstr("uneven")))
-        << resolution_s;
+    const auto out = fit(time_s, resolution_s, {100.0});
+    EXPECT_THAT(out.warnings, ElementsAre(HasSubstr("1 frame is missing"))) << resolution_s;
+    EXPECT_EQ(out.time.frames, 101);
   }
 }
 
-TEST(EvenTime, SurvivesTimesThatStandStillOrRunBackwards) {
-  for (const std::vector<double>& times :
-       {std::vector<double>{0.0, 0.0, 0.0}, {3.0, 2.0, 1.0}, {0.0, 1e300}}) {
-    std::vector<std::string> warnings;
-    const auto with_rate = even_time(times, 0.0, std::vector<double>{50.0}, warnings);
-    ASSERT_TRUE(with_rate);
-    EXPECT_GT(with_rate->rate_hz, 0.0);
-    EXPECT_TRUE(std::isfinite(with_rate->rate_hz));
-    EXPECT_FALSE(warnings.empty());
+TEST(EvenTime, HolesAreFoundInAColumnRoundedToMilliseconds) {
+  auto time_s = clock(400, 120.0, 0.001);
+  for (std::size_t i = 150; i < time_s.size(); ++i)
+    time_s[i] = std::round((static_cast<double>(i) + 37.0) / 120.0 * 1000.0) / 1000.0;
+  for (const std::vector<double>& stated : {std::vector<double>{120.0}, std::vector<double>{}}) {
+    const auto out = fit(time_s, 0.001, stated);
+    EXPECT_EQ(out.time.frames, 437);
+    EXPECT_NEAR(out.time.rate_hz, 120.0, 0.05);
+    EXPECT_EQ(out.frame[150], 187);
   }
-  std::vector<std::string> warnings;
-  EXPECT_THAT(even_time(std::vector<double>{0.0, 0.0}, 0.0, {}, warnings).error().message,
-              HasSubstr("does not increase"));
+}
+
+TEST(EvenTime, TimeThatGoesBackOrStandsStillIsRefused) {
+  const std::vector<double> rate{50.0};
+  EXPECT_THAT(refusal({0.0, 0.02, 0.01}, rate),
+              HasSubstr("line 9 (frame 3): time goes back from 0.02 to 0.01 s; times must increase"));
+  EXPECT_THAT(refusal({1.5, 1.5, 1.5}, rate), HasSubstr("line 8 (frame 2): time stands still at 1.5 s"));
+  EXPECT_THAT(refusal({3.0, 2.0, 1.0}, {}), HasSubstr("goes back"));
+  EXPECT_THAT(refusal(std::vector<double>(100, 1.5), {100.0}, 0.1), HasSubstr("stands still"));
+  // One bad time in the middle of a good column.
+  auto time_s = clock(100, 100.0, 0.0);
+  time_s[40] = 0.2;
+  EXPECT_THAT(refusal(time_s, {100.0}), HasSubstr("line 47 (frame 41): time goes back"));
+}
+
+TEST(EvenTime, RoundingMayRepeatATime) {
+  // Written to hundredths: at 150 Hz every third time occurs twice, at 90 Hz each tenth is left out.
+  for (const double rate_hz : {150.0, 240.0, 90.0}) {
+    const auto out = fit(clock(300, rate_hz, 0.01), 0.01, {rate_hz});
+    EXPECT_EQ(out.time, (TimeBase{rate_hz, 0.0, 300}));
+    EXPECT_THAT(out.frame, IsEmpty()) << rate_hz << " Hz: nothing is missing";
+  }
+}
+
+TEST(EvenTime, ImpossibleSteps) {
+  EXPECT_THAT(refusal({0.0, 1e300}, {50.0}), HasSubstr("no camera takes frames at such a rate"));
+  EXPECT_THAT(refusal({0.0, 1e-9, 2e-9}, {}), HasSubstr("no camera takes frames"));
+  auto half = clock(100, 100.0, 0.0);
+  for (std::size_t i = 50; i < half.size(); ++i) half[i] += 0.045;
+  EXPECT_THAT(refusal(half, {100.0}),
+              HasSubstr("line 57 (frame 51): time jumps from 0.49 to 0.545 s, 5.5 frame"));
+  auto far = clock(100, 100.0, 0.0);
+  far.back() = 900.0;
+  EXPECT_THAT(refusal(far, {100.0}, 0.0, 50'000), HasSubstr("too long for the 100 rows"));
+  EXPECT_EQ(refusal(far, {100.0}, 0.0, 100'000), "taken");
+}
+
+TEST(NoteJump, OnlyWhereTheRestIsEven) {
+  const auto notes = [](const std::vector<double>& time_s) {
+    std::vector<std::string> warnings;
+    note_jump({.time_s = time_s,
+               .resolution_s = 0.0,
+               .stated = {},
+               .most_frames = 0,
+               .place = [](std::size_t row) { return fmt::format("row {}", row + 1); }},
+              warnings);
+    return warnings;
+  };
+  auto time_s = clock(100, 100.0, 0.0);
+  EXPECT_THAT(notes(time_s), IsEmpty());
+  for (std::size_t i = 60; i < time_s.size(); ++i) time_s[i] += 2.0;
+  EXPECT_THAT(notes(time_s), ElementsAre(HasSubstr("row 61: time jumps from 0.59 to 2.6 s")));
+  // An integrator's own steps are no clock.
+  std::vector<double> growing{0.0};
+  for (int i = 1; i < 60; ++i) growing.push_back(growing.back() + 0.001 * std::pow(1.1, i));
+  EXPECT_THAT(notes(growing), IsEmpty());
 }
 
 TEST(EvenTime, ASingleRowNeedsTheHeader) {
   EXPECT_EQ(fit({2.5}, 0.1, {60.0}).time, (TimeBase{60.0, 2.5, 1}));
   std::vector<std::string> warnings;
-  EXPECT_EQ(even_time(std::vector<double>{2.5}, 0.1, {}, warnings).error().code, Code::bad_input);
+  EXPECT_EQ(clock_of({2.5}, 0.1, {}, warnings).error().code, Code::bad_input);
 }
 
 }  // namespace

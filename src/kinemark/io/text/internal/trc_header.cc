@@ -9,7 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
+#include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -84,8 +86,13 @@ Status read_values(Lines& lines, TrcHeader& header) {
                                                  lines.number(), i + 1, keys[i], excerpt(values[i])));
     }
   }
-  for (const auto& rate : rates)
-    if (rate) header.rates_hz.push_back(*rate);
+  // Programs write 0 for a rate that they do not know.
+  for (std::size_t k = 0; k < rates.size(); ++k) {
+    if (!rates[k] || *rates[k] == 0.0) continue;
+    constexpr std::array<std::string_view, 3> kKeys{"DataRate", "CameraRate", "OrigDataRate"};
+    if (auto s = check_rate(*rates[k], fmt::format("line {}: {}", lines.number(), kKeys[k])); !s) return s;
+    header.rates_hz.push_back(*rates[k]);
+  }
   if (header.units.empty()) {
     header.warnings.push_back("header names no unit; millimetres are assumed");
     return {};
@@ -116,23 +123,28 @@ Status read_names(Lines& lines, TrcHeader& header) {
   // Cell numbers of the names. Each third cell: a name stands above its x column, and a gap is an unnamed
   // marker. Anything else (packed, or shifted by a tab) gives the order only.
   std::vector<std::size_t> name_cells;
-  for (std::size_t c = 2; c < cells.size(); ++c)
-    if (!cells[c].empty()) name_cells.push_back(c);
+  std::vector<std::string> names;
+  for (std::size_t c = 2; c < cells.size(); ++c) {
+    auto name = name_of_bytes(cells[c]);
+    if (name.empty()) continue;
+    name_cells.push_back(c);
+    names.push_back(std::move(name));
+  }
   if (name_cells.empty())
     return fail(Code::bad_input, fmt::format("line {}: names no marker", lines.number()));
   const bool above = std::ranges::all_of(name_cells, [](std::size_t c) { return c % 3 == 2; });
   std::unordered_map<std::string_view, std::size_t> seen;
   for (std::size_t i = 0; i < name_cells.size(); ++i) {
     const std::size_t slot = above ? (name_cells[i] - 2) / 3 : i;
-    const std::string_view name = cells[name_cells[i]];
+    const std::string_view name = names[i];
     if (const auto [it, is_new] = seen.emplace(name, slot); !is_new)
       return fail(Code::bad_input,
                   fmt::format("line {}: marker name '{}' occurs twice (columns {} and {}); names must differ",
                               lines.number(), excerpt(name), 3 + 3 * it->second, 3 + 3 * slot));
     header.marker.resize(slot + 1, -1);
     header.marker[slot] = static_cast<std::int32_t>(i);
-    header.names.emplace_back(name);
   }
+  header.names = std::move(names);
   if (header.marker.size() > header.names.size())
     header.warnings.push_back(fmt::format("{} markers between the named ones have no name and are not read",
                                           header.marker.size() - header.names.size()));

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "kinemark/core/utf8.h"
+
 namespace kinemark::io::internal {
 namespace {
 
@@ -77,14 +79,14 @@ class Gatherer {
       const auto axis = lower(cell(component));
       if (axis.size() != 1 || axis < "x" || axis > "z")
         return at(component, column, fmt::format("component '{}'; expected X, Y or Z", excerpt(axis)));
-      if (cell(signal).empty()) return at(signal, column, "the signal has no name");
+      if (name_of_bytes(cell(signal)).empty()) return at(signal, column, "the signal has no name");
       slot.axis = axis.front() - 'x';
       auto& names = slot.kind == Slot::Kind::point ? header_.points : header_.angles;
       auto& components = components_[static_cast<std::size_t>(slot.kind)];
       const auto [known, is_new] =
           indices_.try_emplace({slot.kind, cell(signal)}, static_cast<std::int32_t>(names.size()));
       if (is_new) {
-        names.push_back(to_utf8(cell(signal)));
+        names.push_back(name_of_bytes(cell(signal)));
         components.push_back(0);
       }
       slot.signal = known->second;
@@ -140,50 +142,14 @@ class Gatherer {
   int warnings_left_ = 8;
 };
 
-/// Length of the UTF-8 sequence that `bytes` begins with, or 0.
-std::size_t sequence(std::string_view bytes) {
-  const auto first = static_cast<unsigned char>(bytes.front());
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  if (length == 0 || length > bytes.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((static_cast<unsigned char>(bytes[i]) & 0xC0U) != 0x80U) return 0;
-  return length;
-}
-
 }  // namespace
-
-std::string to_utf8(std::string_view bytes) {
-  bool is_utf8 = true;
-  for (std::string_view rest = bytes; is_utf8 && !rest.empty();) {
-    const auto length = sequence(rest);
-    is_utf8 = length > 0;
-    rest.remove_prefix(length);
-  }
-  if (is_utf8) return std::string(bytes);
-  std::string out;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xC0U | (byte >> 6U));
-      out += static_cast<char>(0x80U | (byte & 0x3FU));
-    }
-  }
-  return out;
-}
 
 Result<V3dHeader> parse_v3d_header(Lines& lines) {
   const auto rows = split(lines);
   if (!rows) return std::unexpected(rows.error());
   V3dHeader header;
   const auto columns = (*rows)[component].cells.size();
-  if (columns > 0) header.recorded_as = to_utf8((*rows)[source].cells.front());
+  if (columns > 0) header.recorded_as = name_of_bytes((*rows)[source].cells.front());
   Gatherer gatherer(header);
   for (std::size_t c = 0; c < columns; ++c)
     if (auto status = gatherer.add(*rows, c); !status) return std::unexpected(status.error());

@@ -29,7 +29,4 @@ struct V3dHeader {
 /// Errors carry the line, not the file.
 [[nodiscard]] Result<V3dHeader> parse_v3d_header(Lines& lines);
 
-/// Bytes that are not UTF-8 read as ISO-8859-1, in UTF-8.
-[[nodiscard]] std::string to_utf8(std::string_view bytes);
-
 }  // namespace kinemark::io::internal
