@@ -73,13 +73,16 @@ def kills(workshop, scratch, count):
         first = next(str(part) for part in old if str(part).startswith("x."))
         killed = half = mixed = unnoticed = left = 0
         with empty_folder(scratch) as folder:
-            seconds = max(seconds_of([*old, "--force"], folder) for _ in range(3))
+            seconds = min(seconds_of([*old, "--force"], folder) for _ in range(3))
             wanted = {}
             for command in (old, new):
                 run(*command, "--force", cwd=folder)
                 for path, content in visible(folder).items():
                     wanted.setdefault(path, []).append(without_times(path, content))
-            for i in range(-(-count // len(names))):
+            wished = -(-count // len(names))
+            for i in range(10 * wished):
+                if killed == wished:
+                    break
                 # The last moments are those in which files get their names.
                 moment = draw.uniform(0.8, 1.05) if i % 2 else draw.uniform(0.0, 1.0)
                 run(*old, "--force", cwd=folder)
@@ -93,7 +96,7 @@ def kills(workshop, scratch, count):
                 unnoticed += is_mixed != (set_of(folder, first) == "mixed") and is_mixed
                 run(*old, "--force", cwd=folder)
                 left += len(hidden(folder))
-        row(half == 0, f"{name}, killed {killed} times: files half-written", "0", str(half))
+        row(half == 0 and killed == wished, f"{name}, killed {wished} times: files half-written", "0", f"{half} in {killed}")
         row(unnoticed == 0, f"{name}: mixtures of old and new that were not noticed", "0", f"{unnoticed} of {mixed}")
         row(left == 0, f"{name}: hidden files after the next run", "0", str(left))
 
