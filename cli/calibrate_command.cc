@@ -38,7 +38,7 @@ int run_command(const CommonOptions& common, pipeline::CalibrateJob& job) {
                             found->poses, found->chi2_per_dof, found->warp_degree, 1e3 * found->side_rms_m));
   if (outcome->alignment) say_alignment(common, *outcome->alignment);
   say_written(common, *outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::calibrate_json(*outcome)));
+  if (common.json) print_result(pipeline::json_text(pipeline::calibrate_json(*outcome)) + "\n");
   return 0;
 }
 

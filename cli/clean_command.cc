@@ -40,7 +40,7 @@ void print_clean_outcome(const CommonOptions& common, const pipeline::CleanOutco
         fmt::format("{}: {}", finding.level == report::Verdict::good ? "note" : "attention", finding.text));
   for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(report::clean_summary_json(report)));
+  if (common.json) print_result(pipeline::json_text(report::clean_summary_json(report)) + "\n");
 }
 
 Status read_names(CleanArguments& arguments) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/console.h"
 
 namespace kinemark::cli {
 
@@ -21,9 +22,9 @@ void add_completion(CLI::App& app, const CommonOptions&, Run& run) {
   command->callback([&app, shell, &run] {
     run = [&app, shell] {
       const auto top = command_tree(app);
-      fmt::print("{}", *shell == "bash"  ? bash_completion(top)
-                       : *shell == "zsh" ? zsh_completion(top)
-                                         : fish_completion(top));
+      print_result(*shell == "bash"  ? bash_completion(top)
+                   : *shell == "zsh" ? zsh_completion(top)
+                                     : fish_completion(top));
       return 0;
     };
   });

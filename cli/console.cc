@@ -4,25 +4,36 @@
 
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "kinemark/core/utf8.h"
+#include "kinemark/io/temporary.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 
 namespace kinemark::cli {
 namespace {
 
-volatile std::sig_atomic_t signal_seen = 0;
+/// Wait for one of the signals, which every thread has blocked, and end the program. Files that get their
+/// names in this moment get all of them.
+[[noreturn]] void end_by_signal(sigset_t signals) {
+  int number = 0;
+  while (sigwait(&signals, &number) != 0) continue;
+  std::fprintf(stderr, "kinemark: the command was stopped (%s)\n",
+               number == SIGINT    ? "SIGINT"
+               : number == SIGTERM ? "SIGTERM"
+                                   : "SIGHUP");
+  io::end_process(128 + number);
+}
 
-extern "C" void note_signal(int number) {
-  signal_seen = number;
-  std::signal(number, SIG_DFL);  // a second one kills
+bool is_ignored(int number) {
+  struct sigaction action{};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
@@ -46,12 +57,15 @@ void say_written(const CommonOptions& common, const pipeline::JobOutcome& outcom
 void print_written(const CommonOptions& common, const pipeline::JobOutcome& outcome) {
   for (const auto& warning : outcome.warnings) say(common, fmt::format("note: {}", warning));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::outcome_json(outcome)));
+  if (common.json) print_result(pipeline::json_text(pipeline::outcome_json(outcome)) + "\n");
 }
+
+void print_result(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+bool output_failed() { return std::fflush(stdout) != 0 || std::ferror(stdout) != 0; }
 
 int report_error(const Error& error) {
   std::fprintf(stderr, "kinemark: %s\n", printable_sentence(error.message).c_str());
-  if (error.code == Code::cancelled && caught_signal() != 0) return 128 + caught_signal();
   return exit_status(error.code);
 }
 
@@ -63,7 +77,6 @@ Progress show_progress(const CommonOptions& common, std::string what) {
   const auto state = std::make_shared<State>();
   const bool quiet = common.quiet, terminal = isatty(STDERR_FILENO) != 0;
   return [quiet, terminal, state, what = std::move(what)](std::int64_t done, std::int64_t total) {
-    if (caught_signal() != 0) return false;
     const auto now = Clock::now();
     if (quiet || now < state->next) return true;
     state->next = now + (terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(1000));
@@ -82,12 +95,16 @@ Progress show_progress(const CommonOptions& common, std::string what) {
   };
 }
 
-void install_signal_handlers() {
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
+void watch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  if (!is_ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread(end_by_signal, signals).detach();
 }
-
-int caught_signal() { return signal_seen; }
 
 }  // namespace kinemark::cli

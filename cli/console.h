@@ -28,6 +28,11 @@ void say_written(const CommonOptions& common, const pipeline::JobOutcome& outcom
 /// What was written, after notes on it: lines for people, or {"written": [...], "warnings": [...]} on stdout.
 void print_written(const CommonOptions& common, const pipeline::JobOutcome& outcome);
 
+/// Text on standard output; whether all of it got there is asked once, by output_failed().
+void print_result(std::string_view text);
+/// Whether something of what was printed on standard output is lost.
+[[nodiscard]] bool output_failed();
+
 /// The sentence of a failure on stderr, and its exit status.
 [[nodiscard]] int report_error(const Error& error);
 
@@ -43,12 +48,13 @@ template <class Job, class RunJob, class Print>
 }
 
 /// Progress of long work on stderr: a line that is rewritten on a terminal, a line a second elsewhere, with
-/// rate and time left; silent for the first second and with --quiet. Stops the work after SIGINT or SIGTERM.
+/// rate and time left; silent for the first second and with --quiet.
 [[nodiscard]] Progress show_progress(const CommonOptions& common, std::string what);
 
-/// Signal that asked to stop (SIGINT or SIGTERM), or 0. install_signal_handlers() makes them be noted instead
-/// of killing, and a file that grows beyond the limit (ulimit -f) be a failure to write it.
-void install_signal_handlers();
-[[nodiscard]] int caught_signal();
+/// From here on SIGINT, SIGTERM and SIGHUP (unless it is ignored, as under nohup) end the program at once,
+/// whatever it does or waits for: a thread of their own removes what is half-written, says one sentence, and
+/// ends with 128 + the signal's number. A reader of standard output that went away (SIGPIPE) and a file that
+/// grows beyond the limit (ulimit -f) are failures to write. To be called before any other thread is made.
+void watch_signals();
 
 }  // namespace kinemark::cli

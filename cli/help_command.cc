@@ -36,12 +36,12 @@ int print_help(const CLI::App& app, const HelpArguments& arguments) {
     path += " " + word;
   }
   if (!arguments.manual) {
-    fmt::print("{}", at->get_formatter()->make_help(at, path, CLI::AppFormatMode::Normal));
+    print_result(at->get_formatter()->make_help(at, path, CLI::AppFormatMode::Normal));
     return 0;
   }
   const auto top = command_tree(app);
   for (const auto* command : all_commands(top))
-    if (command->words == arguments.words) fmt::print("{}", manual_page(*command, top));
+    if (command->words == arguments.words) print_result(manual_page(*command, top));
   return 0;
 }
 

@@ -21,9 +21,9 @@ void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
       const auto outcome = pipeline::run_info(*job);
       if (!outcome) return report_error(outcome.error());
       if (common.json)
-        fmt::print("{}\n", pipeline::json_text(pipeline::info_json(*outcome)));
+        print_result(pipeline::json_text(pipeline::info_json(*outcome)) + "\n");
       else
-        fmt::print("{}", pipeline::info_text(*outcome));
+        print_result(pipeline::info_text(*outcome));
       return outcome->exit_status();
     };
   });

@@ -44,7 +44,7 @@ int run_command(const CommonOptions& common, JointsArguments& arguments) {
   for (const auto& warning : skeleton.warnings) say(common, "attention: " + warning);
   for (const auto& note : outcome->warnings) say(common, "note: " + note);
   say_written(common, *outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::joints_json(job, *outcome)));
+  if (common.json) print_result(pipeline::json_text(pipeline::joints_json(job, *outcome)) + "\n");
   return outcome->exit_status();
 }
 

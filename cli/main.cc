@@ -22,7 +22,7 @@ using kinemark::cli::Run;
 
 constexpr const char* kFooter =
     "Exit status: 0 good, 1 ran but missed a quality gate, 2 usage, 3 bad input, 4 I/O, 5 device,\n"
-    "130 and 143 stopped by a signal. 'kinemark COMMAND --help' lists a command's options, 'kinemark "
+    "129, 130 and 143 stopped by a signal. 'kinemark COMMAND --help' lists a command's options, 'kinemark "
     "--help'\n"
     "those that every command takes.";
 
@@ -58,6 +58,10 @@ int report_usage(const CLI::App& app, const std::string& what) {
       {kinemark::Code::usage, fmt::format("{}; see '{} --help'", what, command)});
 }
 
+int report_lost_output() {
+  return kinemark::cli::report_error({kinemark::Code::io, "standard output: cannot be written"});
+}
+
 int run_program(int argc, char** argv) {
   CommonOptions common;
   for (int i = 0; i < argc; ++i)
@@ -89,15 +93,16 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
+    if (error.get_exit_code() == 0) {
+      app.exit(error, std::cout, std::cerr);
+      return std::cout.flush() ? 0 : report_lost_output();
+    }
     const std::vector<std::string> words(argv + 1, argv + argc);
     return report_usage(app, kinemark::cli::explain_usage(app, error, words));
   }
-  kinemark::cli::install_signal_handlers();
+  kinemark::cli::watch_signals();
   const int status = run();
-  if (std::fflush(stdout) != 0)
-    return kinemark::cli::report_error({kinemark::Code::io, "standard output: cannot be written"});
-  return status;
+  return kinemark::cli::output_failed() ? report_lost_output() : status;
 }
 
 }  // namespace

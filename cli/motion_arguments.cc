@@ -22,7 +22,7 @@ void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& ou
     say(common, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(report::summary_json(outcome.summary)));
+  if (common.json) print_result(pipeline::json_text(report::summary_json(outcome.summary)) + "\n");
 }
 
 }  // namespace kinemark::cli

@@ -21,7 +21,7 @@ int run_command(const CommonOptions& common, pipeline::ReconstructJob& job) {
         fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge", led.name,
                     led.located, led.frames, led.occluded, led.inconsistent, led.near_edge));
   say_written(common, *outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::reconstruct_json(*outcome)));
+  if (common.json) print_result(pipeline::json_text(pipeline::reconstruct_json(*outcome)) + "\n");
   return outcome->exit_status();
 }
 

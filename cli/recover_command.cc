@@ -27,7 +27,7 @@ void add_recover(CLI::App& app, const CommonOptions& common, Run& run) {
       for (const auto& warning : outcome->warnings)
         say(common, fmt::format("{}: {}", job->in.string(), warning));
       say(common, fmt::format("wrote {}: {} messages", job->out.string(), outcome->messages));
-      if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::recover_json(*outcome)));
+      if (common.json) print_result(pipeline::json_text(pipeline::recover_json(*outcome)) + "\n");
       return outcome->exit_status();
     };
   });

@@ -44,7 +44,7 @@ void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& 
   if (outcome.from_motion) print_adapted(common, *outcome.from_motion, "Motion");
   for (const auto& note : outcome.warnings) say(common, fmt::format("attention: {}", note));
   say_written(common, outcome);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::scale_json(job, outcome)));
+  if (common.json) print_result(pipeline::json_text(pipeline::scale_json(job, outcome)) + "\n");
 }
 
 struct ScaleArguments {

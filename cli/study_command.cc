@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "studies/common/study_page.h"
 #include "studies/macaque/macaque_figures.h"
 #include "studies/macaque/study_macaque_job.h"
@@ -62,7 +63,7 @@ int run_study(const CommonOptions& common, const StudyArguments& arguments, cons
   }
   say(common, studies::study_text(study->table));
   if (file) say(common, "wrote " + arguments.figures);
-  if (common.json) fmt::print("{}\n", pipeline::json_text(studies::study_json(study->table)));
+  if (common.json) print_result(pipeline::json_text(studies::study_json(study->table)) + "\n");
   return study->table.pass() ? 0 : 1;
 }
 
@@ -119,6 +120,8 @@ struct TaiChiArguments : StudyArguments {
 int run_tai_chi(const CommonOptions& common, const TaiChiArguments& arguments) {
   if (!arguments.seeds.empty() && !arguments.files.data.empty())
     return report_error({Code::usage, "--seeds draws simulated subjects; it does not go with --data"});
+  if (auto s = pipeline::check_apart({arguments.figures}, {arguments.files.data}); !s)
+    return report_error(s.error());
   return run_study(
       common, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {

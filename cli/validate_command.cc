@@ -18,7 +18,7 @@ void print_validate_outcome(const CommonOptions& common, const pipeline::Validat
     for (const auto& warning : checked.warnings) say(common, fmt::format("{}: {}", file, warning));
     if (checked.exit_status() == 0) say(common, fmt::format("{}: good", file));
   }
-  if (common.json) fmt::print("{}\n", pipeline::json_text(pipeline::validate_json(outcome)));
+  if (common.json) print_result(pipeline::json_text(pipeline::validate_json(outcome)) + "\n");
 }
 
 int run_command(const CommonOptions& common, pipeline::ValidateJob& job) {

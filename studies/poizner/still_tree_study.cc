@@ -46,12 +46,16 @@ Matrix3d covariance_of(const data::Trajectories& points, std::int64_t f, std::in
   return math::unpack_symmetric3(points.covariance.data() + 6 * points.index(f, led));
 }
 
-void add_distances(const Cloud& cloud, StillMeasures& to) {
-  const auto sides = simulation::tree_sides_m();
-  for (std::size_t s = 0; s < kSides.size(); ++s) {
-    const auto a = static_cast<std::size_t>(kSides[s][0]), b = static_cast<std::size_t>(kSides[s][1]);
-    to.distance_error_m.push_back((cloud.mean[a] - cloud.mean[b]).norm() - sides[s]);
-  }
+double distance_error(const Cloud& cloud, std::size_t side) {
+  const auto a = static_cast<std::size_t>(kSides[side][0]), b = static_cast<std::size_t>(kSides[side][1]);
+  return (cloud.mean[a] - cloud.mean[b]).norm() - simulation::tree_sides_m()[side];
+}
+
+/// Whether an LED was located in every frame, and in none flagged at the edge of a detector.
+bool in_the_field(const reconstruction::Reconstruction& seen, std::int64_t led) {
+  for (std::int64_t f = 0; f < seen.points.frames(); ++f)
+    if (!seen.points.present(f, led) || seen.near_edge[seen.points.index(f, led)] != 0) return false;
+  return true;
 }
 
 /// Standard deviation of a distance between mean positions: the rig's covariance propagated to both ends, and
@@ -117,8 +121,6 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
     if (!bare) return std::unexpected(bare.error());
 
     const Cloud classic_cloud(classic->points), our_cloud(ours->points);
-    add_distances(classic_cloud, out.classic);
-    add_distances(our_cloud, out.ours);
     double classic_scatter = 0.0, our_scatter = 0.0, bound = 0.0;
     std::vector<Matrix3d> frame_noise;
     for (std::size_t led = 0; led < 3; ++led) {
@@ -158,8 +160,14 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
     out.classic.over_cramer_rao += std::sqrt(classic_scatter / bound) / static_cast<double>(poses.size());
     out.ours.over_cramer_rao += std::sqrt(our_scatter / bound) / static_cast<double>(poses.size());
     for (std::size_t s = 0; s < kSides.size(); ++s) {
+      if (!in_the_field(*ours, kSides[s][0]) || !in_the_field(*ours, kSides[s][1])) {
+        ++out.distances_left_out;
+        continue;
+      }
       const double sd = predict(rig.bundle.rig, counts, our_cloud, frame_noise, kSides[s]);
-      const double error = out.ours.distance_error_m[3 * k + s];
+      const double error = distance_error(our_cloud, s);
+      out.ours.distance_error_m.push_back(error);
+      out.classic.distance_error_m.push_back(distance_error(classic_cloud, s));
       out.predicted_sd_m.push_back(sd);
       out.distances.add(error, sd);
       squares += error * error / (sd * sd);

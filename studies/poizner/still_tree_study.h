@@ -16,7 +16,7 @@ namespace kinemark::studies {
 struct StillMeasures {
   Eigen::Vector3d sd_m = Eigen::Vector3d::Zero();  ///< median over poses and LEDs, per axis
   double over_cramer_rao = 0.0;                    ///< scatter over the bound, mean over poses
-  std::vector<double> distance_error_m;            ///< 10 poses x 3 sides, of mean positions
+  std::vector<double> distance_error_m;  ///< of mean positions, 10 poses x 3 sides less those left out
 
   [[nodiscard]] double mean_error_m() const;
   [[nodiscard]] double max_error_m() const;
@@ -28,6 +28,7 @@ struct StillOutcome {
       Eigen::Vector3d::Zero();         ///< median over poses and LEDs, per axis of our world
   std::vector<double> predicted_sd_m;  ///< of each distance: calibration and noise
   double error_over_predicted = 0.0;   ///< root mean square
+  int distances_left_out = 0;  ///< an end of them was unseen in some frame, or flagged at the detector's edge
   Coverage points, distances;
 };
 

@@ -7,6 +7,7 @@ import json
 import unicodedata
 
 STATUSES = (0, 1, 2, 3, 4)
+UNPRINTABLE = ("Cc", "Cf", "Cs", "Co", "Cn")  # categories of characters that a terminal does not show as a letter
 LONGEST_LINE = 2000  # letters that a person may be asked to read in one line
 
 
@@ -22,18 +23,14 @@ class Ran:
     after: dict
 
 
-def unprintable(text):
-    """The first character of a text that a terminal would not show as a letter, or None."""
-    return next((c for c in text if c not in "\n\t" and unicodedata.category(c) in ("Cc", "Cf", "Cs", "Co", "Cn")), None)
-
-
-def of_text(name, raw):
-    """Of what was written to the terminal."""
+def of_text(name, raw, allowed=()):
+    """Of what was written to the terminal; `allowed` are categories of characters that need not be letters."""
     try:
         text = raw.decode()
     except UnicodeDecodeError as error:
         return [f"{name} is no UTF-8 (byte {error.start})"]
-    found = unprintable(text)
+    wrong = set(UNPRINTABLE) - set(allowed)
+    found = next((c for c in text if c not in "\n\t" and unicodedata.category(c) in wrong), None)
     problems = [] if found is None else [f"{name} has the control character U+{ord(found):04X}"]
     if any(len(line) > LONGEST_LINE for line in text.splitlines()):
         problems.append(f"{name} has a line of more than {LONGEST_LINE} letters")
@@ -81,7 +78,9 @@ def findings(ran, named=None, as_json=False, statuses=STATUSES, answers=False):
     problems = of_sanitizers(ran.err)
     if ran.status not in statuses:
         problems.append(f"ended by signal {-ran.status}" if ran.status < 0 else f"exit status {ran.status}")
-    problems += of_text("standard error", ran.err) + of_text("standard output", ran.out) + leftovers(ran.after)
+    # JSON is for programs: it carries names as they are, as long as they are text.
+    problems += of_text("standard error", ran.err) + of_text("standard output", ran.out, ("Cf", "Co", "Cn") if as_json else ())
+    problems += leftovers(ran.after)
     if ran.status in (2, 3, 4):
         problems += of_refusal(ran, named, answers)
     if as_json and (ran.status in (0, 1) or (answers and ran.out)):

@@ -67,16 +67,18 @@ class Scene:
             preexec_fn=limited(file_bytes, self.memory_bytes),
         )
 
-    def end(self, process, before):
-        """Waits for a run and gives what it did; one that does not end is killed."""
+    def wait(self, process):
+        """(exit status, standard output, standard error) of a run; one that does not end is killed and has no status."""
         try:
             out, err = process.communicate(timeout=self.seconds)
-            status = process.returncode
+            return process.returncode, out, err
         except subprocess.TimeoutExpired:
             process.kill()
-            out, err = process.communicate()
-            status = None
-        return judge.Ran(status, out, err, before, listing(self.folder))
+            return None, *process.communicate()
+
+    def end(self, process, before):
+        """Waits for a run and gives what it did."""
+        return judge.Ran(*self.wait(process), before, listing(self.folder))
 
     def run(self, *words, **options):
         before = listing(self.folder)
@@ -223,9 +225,8 @@ def told_to_end(scene, random):
 def two_writers(scene, random):
     """Two programs write the same output without --force: one wins, the other says so."""
     command = random.choice(WRITERS)
-    before = listing(scene.folder)
     first, second = scene.start(command.words), scene.start(command.words)
-    statuses = sorted(str(ran.status) for ran in (scene.end(first, before), scene.end(second, before)))
+    statuses = sorted(str(scene.wait(process)[0]) for process in (first, second))
     good = [status for status in statuses if status in ("0", "1")]
     problems = [] if len(good) == 1 and "4" in statuses else [f"exit statuses {' and '.join(statuses)}"]
     return f"twice at once: {' '.join(command.words)}", problems + judge.leftovers(listing(scene.folder))
@@ -244,7 +245,7 @@ def hostile_name(scene, random):
     problems = judge.findings(ran, None, as_json, answers=command.name == "validate")
     if ran.status not in (0, 1) and inner is None:
         problems.append(f"exit status {ran.status} for a sound file")
-    return f"{' '.join(words)!r}", problems
+    return f"{' '.join(words)!r}{' --json' if as_json else ''}", problems
 
 
 # Kind: its share of the trials.

@@ -51,7 +51,7 @@ class Signals(CommandTest):
         for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             returned, said = self.interrupt(number, self.folder, *job, "--quiet")
             self.assertEqual(returned, status, said)
-            self.assertRegex(said, r"^kinemark: .*was stopped\n$")
+            self.assertRegex(said, r"^kinemark: the command was stopped \(SIG(INT|TERM)\)\n$")
             self.assertEqual(listing(self.folder), before)
 
     def test_a_simulation_stops_and_leaves_no_folder(self):
@@ -60,7 +60,7 @@ class Signals(CommandTest):
             signal.SIGINT, self.folder / "new", "simulate", "subject", "-o", "new", "--duration", 100
         )
         self.assertEqual(returned, 130, said)
-        self.assertIn("the simulation was stopped", said)
+        self.assertIn("the command was stopped (SIGINT)", said)
         self.assertEqual(list(listing(self.folder)), ["new"])
 
 

@@ -87,11 +87,10 @@ class Markers(CommandTest):
             self.good("convert", self.c3d, f"X.{ending.upper()}")
             self.assertEqual(self.facts(f"X.{ending.upper()}"), self.facts(self.c3d))
 
-    def test_a_file_becomes_itself_only_with_force(self):
+    def test_a_file_does_not_become_itself(self):
         self.write("a.trc", self.trc.read_bytes())
-        self.refused(4, ["a.trc", "exists already", "--force"], "convert", "a.trc", "a.trc")
-        self.good("convert", "a.trc", "a.trc", "--force")
-        self.assertEqual(self.facts("a.trc"), self.facts(self.trc))
+        for force in ([], ["--force"]):
+            self.refused(2, ["a.trc", "is the file that is read", "another output"], "convert", "a.trc", "a.trc", *force)
 
     def test_validate_calls_what_we_write_good(self):
         for ending in MARKER_FORMATS:

@@ -98,7 +98,9 @@ class Joints(CommandTest):
         self.assertEqual(skeleton["joints"][0]["name"], "elbow")
         self.assertEqual(sum(skeleton["joints"][0]["frames"].values()), 120)
         self.refused(4, "--force", "joints", "arm.csv", "--segments", "segments.toml", "-o", "out")
-        self.good("joints", "arm.csv", "--segments", "out/segments.toml", "-o", "out", "--force")
+        self.refused(2, "out/segments.toml: is the file that is read", "joints", "arm.csv", "--segments", "out/segments.toml", "-o", "out", "--force")
+        self.good("joints", "arm.csv", "--segments", "out/segments.toml", "-o", "again")
+        self.good("joints", "arm.csv", "--segments", "segments.toml", "-o", "out", "--force")
 
     def test_segments_from_the_data(self):
         printed = json.loads(self.good("joints", "arm.csv", "--method", "score", "--json", "-o", "centres.csv").out)

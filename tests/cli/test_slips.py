@@ -51,7 +51,6 @@ TRC_ODDITIES = (
     (9, 3, "inf", "1 samples are infinite, taken as not seen"),
     (9, 3, "NaN", "1 samples have one or two blank coordinates, taken as not seen"),
     (9, 3, "", "1 samples have one or two blank coordinates, taken as not seen"),
-    (11, 2, "0", "time column is uneven: row 5 is at 0 s, 0.04 s off an even 100 Hz; frames are taken as even"),
     (11, 1, "77", "frame numbers jump 2 times"),
     (3, 1, "50", "header says 50 Hz, but the time column runs at 100 Hz and is used"),
     (3, 3, "200", "header says 200 frames, 100 rows are there; the rows are used"),

@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
+#include "kinemark/io/place.h"
 #include "kinemark/io/regular_file.h"
 
 namespace kinemark::io {
@@ -73,41 +73,24 @@ Result<std::string> read_text(const std::filesystem::path& path, std::size_t max
   return text;
 }
 
-OutputFile::OutputFile(int fd, std::filesystem::path target, std::filesystem::path temporary)
-    : fd_(fd), target_(std::move(target)), temporary_(std::move(temporary)) {}
-
-OutputFile::OutputFile(OutputFile&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)),
-      target_(std::move(other.target_)),
-      temporary_(std::move(other.temporary_)) {}
+OutputFile::OutputFile(std::filesystem::path name, std::filesystem::path target, bool force,
+                       Temporary temporary)
+    : name_(std::move(name)), target_(std::move(target)), force_(force), temporary_(std::move(temporary)) {}
 
 Result<OutputFile> OutputFile::create(const std::filesystem::path& path, bool force) {
-  std::error_code ignored;
-  if (!force && std::filesystem::exists(path, ignored))
-    return fail(Code::io, fmt::format("{}: exists already; use --force to replace it", path.string()));
-  if (std::filesystem::is_directory(path, ignored))
-    return fail(Code::io, fmt::format("{}: is a folder; need a file name", path.string()));
-  std::string pattern = path.string() + ".part-XXXXXX";
-  const int fd = ::mkostemp(pattern.data(), O_CLOEXEC);
-  if (fd < 0) return fail(Code::io, fmt::format("{}: cannot be written ({})", path.string(), reason()));
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(fd, 0666 & ~mask);
-  return OutputFile(fd, path, pattern);
-}
-
-OutputFile::~OutputFile() {
-  if (fd_ < 0) return;
-  ::close(fd_);
-  ::unlink(temporary_.c_str());
+  auto target = find_target(path, force);
+  if (!target) return std::unexpected(target.error());
+  auto temporary = Temporary::file_for(*target);
+  if (!temporary) return std::unexpected(temporary.error());
+  return OutputFile(path, std::move(*target), force, std::move(*temporary));
 }
 
 Status OutputFile::write(std::span<const std::byte> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t n = ::write(fd_, bytes.data() + done, bytes.size() - done);
+    const ssize_t n = ::write(temporary_.fd(), bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return fail(Code::io, fmt::format("{}: cannot be written ({})", target_.string(), reason()));
+    if (n < 0) return fail(Code::io, fmt::format("{}: cannot be written ({})", name_.string(), reason()));
     done += static_cast<std::size_t>(n);
   }
   return {};
@@ -116,15 +99,15 @@ Status OutputFile::write(std::span<const std::byte> bytes) {
 Status OutputFile::write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
 
 Status OutputFile::commit() {
-  if (::fsync(fd_) != 0)
-    return fail(Code::io, fmt::format("{}: cannot be written ({})", target_.string(), reason()));
-  const int closed = ::close(std::exchange(fd_, -1));
-  if (closed != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    const std::string why = reason();
-    ::unlink(temporary_.c_str());
-    return fail(Code::io, fmt::format("{}: cannot be written ({})", target_.string(), why));
+  if (::fsync(temporary_.fd()) != 0)
+    return fail(Code::io, fmt::format("{}: cannot be written ({})", name_.string(), reason()));
+  {
+    const auto held = hold_end();
+    const auto placed = place_file(temporary_.path(), target_, force_);
+    if (!placed) return std::unexpected(placed.error());
+    temporary_.release();
   }
-  return {};
+  return is_temporary(target_.parent_path()) ? Status() : sync_folder(target_.parent_path());
 }
 
 Status write_text(const std::filesystem::path& path, std::string_view text, bool force) {

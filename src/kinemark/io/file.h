@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kinemark/core/result.h"
+#include "kinemark/io/temporary.h"
 
 namespace kinemark::io {
 
@@ -39,16 +40,15 @@ class InputFile {
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path,
                                             std::size_t max_bytes = 4UL << 30);
 
-/// A file that appears whole or not at all: bytes go to a temporary file in the same folder; commit() syncs
-/// it and renames it over the target. Without commit() the temporary file is removed. A target that exists is
-/// refused (Code::io) unless `force` is set.
+/// A file that appears whole or not at all: bytes go to a hidden file in the same folder (Temporary);
+/// commit() forces it to the disk, gives it its name and forces that to the disk. Without commit() nothing
+/// stays. A target that exists is refused (Code::io) unless `force` is set, also one that came while this one
+/// was written: of two writers one wins. With `force` a symbolic link is followed, not replaced.
 class OutputFile {
  public:
-  /// Begin a file. Code::io when it exists and `force` is false, or the folder cannot be written.
+  /// Begin a file. Code::io when it exists and `force` is false, is not a regular file, or the folder cannot
+  /// be written.
   static Result<OutputFile> create(const std::filesystem::path& path, bool force);
-  OutputFile(OutputFile&& other) noexcept;  ///< takes the open file over
-  OutputFile& operator=(OutputFile&&) = delete;
-  ~OutputFile();
 
   /// Append bytes. A full disk is reported here or by commit().
   [[nodiscard]] Status write(std::span<const std::byte> bytes);
@@ -58,13 +58,14 @@ class OutputFile {
   [[nodiscard]] Status commit();
   /// The file as it is called until commit(), for libraries that must open it by name. They may change its
   /// content, not replace it.
-  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_.path(); }
 
  private:
-  OutputFile(int fd, std::filesystem::path target, std::filesystem::path temporary);
-  int fd_ = -1;
-  std::filesystem::path target_;
-  std::filesystem::path temporary_;
+  OutputFile(std::filesystem::path name, std::filesystem::path target, bool force, Temporary temporary);
+  std::filesystem::path name_;    ///< as given, for messages
+  std::filesystem::path target_;  ///< with links followed
+  bool force_ = false;
+  Temporary temporary_;
 };
 
 /// create(), write() and commit() in one call.

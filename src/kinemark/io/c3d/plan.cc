@@ -9,6 +9,7 @@
 
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/c3d/provenance.h"
+#include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {
 namespace {
@@ -265,6 +266,10 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   if (!fits) add_trial_group(plan, first, last);
   add_text(plan.parameters.group("MANUFACTURER"), "SOFTWARE", options.software);
   add_provenance(trial.markers, plan.parameters);
+  if (const std::string mark = set_mark(options.set); !mark.empty())
+    plan.parameters.group(kProvenanceGroup)
+        .parameters.push_back(
+            {.name = "SET", .type = C3dType::text, .dims = {static_cast<int>(mark.size())}, .texts = {mark}});
   return plan;
 }
 

@@ -124,7 +124,10 @@ void add_provenance(const data::Trajectories& t, C3dParameters& parameters) {
 }
 
 void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
-  if (!parameters.has_group(kProvenanceGroup)) return;
+  // The group may hold the set's name alone.
+  if (parameters.find(kProvenanceGroup, "FRAMES") == nullptr &&
+      parameters.find(kProvenanceGroup, "RUNS") == nullptr)
+    return;
   data::Trajectories& t = trial.markers;
   const auto word = [](double v) { return static_cast<std::int64_t>(v) & 0xFFFF; };
   const std::vector<double> frames = parameters.numbers(kProvenanceGroup, "FRAMES");

@@ -14,6 +14,7 @@ namespace kinemark::io {
 /// Options of write_c3d().
 struct C3dWriteOptions {
   bool force = false;                      ///< replace a file that exists
+  std::string set;                         ///< of files that it belongs to (set_mark()); empty: none
   std::string software = "kinemark";       ///< MANUFACTURER:SOFTWARE
   std::string units = "mm";                ///< length unit in the file: "mm", "cm", "m", ...
   Processor processor = Processor::intel;  ///< how numbers are stored

@@ -114,13 +114,15 @@ Status check_marker_format(const std::filesystem::path& path) {
                           path.string(), named(extension)));
 }
 
-Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force) {
+Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
+                     const std::string& set) {
   if (auto s = check_marker_format(path); !s) return s;
   const std::string extension = lower_extension(path);
-  if (extension == ".c3d") return write_c3d(path, trial, {.force = force});
-  if (extension == ".trc") return write_trc(path, trial, {.force = force});
+  if (extension == ".c3d") return write_c3d(path, trial, {.force = force, .set = set});
+  if (extension == ".trc") return write_trc(path, trial, {.force = force, .set = set});
   if (extension == ".csv") return write_trajectories_csv(path, trial, force);
   NwbMetadata metadata;
+  metadata.set = set;
   if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
   return write_nwb(path, trial.markers, nullptr, metadata, {.force = force});
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
@@ -35,6 +36,8 @@ struct MarkerReadOptions {
 /// Write a trial in the format of the extension: .c3d, .trc (millimetres), .nwb (positions with their
 /// provenance; write_nwb() takes more) or .csv (write_trajectories_csv()). Code::usage for any other; else as
 /// the writer of that format. An existing file is replaced only with `force`.
-[[nodiscard]] Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force);
+/// @param set  of files that it belongs to (set_mark()); empty: none. A CSV cannot name one.
+[[nodiscard]] Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
+                                   const std::string& set = {});
 
 }  // namespace kinemark::io

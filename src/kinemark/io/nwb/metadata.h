@@ -34,6 +34,7 @@ struct NwbMetadata {
   std::string command;                                       ///< what made the file, as it was typed
   std::vector<NwbSource> sources;                            ///< files that went in
   std::vector<std::pair<std::string, std::string>> options;  ///< name and value, as they were used
+  std::string set;                                           ///< of files that it belongs to; empty: none
   std::optional<std::uint64_t> seed;                         ///< of random numbers, where any were drawn
 };
 

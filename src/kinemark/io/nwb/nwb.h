@@ -33,6 +33,14 @@ struct NwbFile {
 /// timestamps become sample_offset_s; NaN, infinite and zero-confidence samples are missing. Time and memory
 /// are bounded by the size of the file. Not an NWB file, or no positions: Code::bad_input; units that are no
 /// lengths: Code::not_supported; cannot be opened: Code::io.
+///
+/// HDF5 does not survive every damaged file. It reads in a process of its own, the program kinemark-nwb, with
+/// at most 5 s of processor time and 2 s more for each MB of the file, 1 GB of memory and 256 times the
+/// file's size more; what ends that process is one sentence here (Code::bad_input). The program is looked for
+/// beside the one that runs, in
+/// ../libexec/kinemark from there, and where the environment says KINEMARK_NWB_READER; Code::not_supported
+/// where it is not. Our own files carry a digest of their content: one that does not fit is Code::bad_input,
+/// none a warning.
 [[nodiscard]] Result<NwbFile> read_nwb(const std::filesystem::path& path);
 
 /// Options of write_nwb() and NwbWriter.
@@ -85,8 +93,9 @@ class NwbWriter {
   /// ContractError); its clock is not looked at. Pieces of whole multiples of 4096 frames are fastest.
   [[nodiscard]] Status write(const data::Trajectories& piece, const data::Derivatives* derivatives = nullptr,
                              std::int64_t first_frame = 0);
-  /// Write names of methods and filters, close, sync, and put the file into its place.
-  [[nodiscard]] Status commit();
+  /// Write names of methods and filters and the digest of all that is there, close, sync, and put the file
+  /// into its place. @param set  of files that it belongs to, in place of the metadata's; empty: as there
+  [[nodiscard]] Status commit(const std::string& set = {});
 
  private:
   struct Open;

@@ -47,6 +47,6 @@ Status NwbWriter::write(const data::Trajectories& /*piece*/, const data::Derivat
   return absent("NWB");
 }
 
-Status NwbWriter::commit() { return absent("NWB"); }
+Status NwbWriter::commit(const std::string& /*set*/) { return absent("NWB"); }
 
 }  // namespace kinemark::io

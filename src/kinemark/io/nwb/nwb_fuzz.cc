@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "kinemark/io/file.h"
-#include "kinemark/io/nwb/internal/input.h"
+#include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/nwb/testing/sample.h"
 #include "support/scratch.h"
 
@@ -198,7 +198,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FuzzedDataProvider bytes(data, size);
   static const testing_support::ScratchFolder scratch;
   write_edited(scratch / "edited.nwb", start, bytes);
-  const auto file = io::read_nwb(scratch / "edited.nwb");
+  const auto file = io::internal::read_nwb_here(scratch / "edited.nwb");
   if (!file) {
     if (file.error().message.find('\n') != std::string::npos) std::abort();
     if (file.error().code != Code::bad_input && file.error().code != Code::not_supported) std::abort();

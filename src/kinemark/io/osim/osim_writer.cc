@@ -13,6 +13,7 @@
 #include "kinemark/io/osim/internal/format_xml.h"
 #include "kinemark/io/osim/internal/function_xml.h"
 #include "kinemark/io/osim/internal/joint_writer.h"
+#include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {
 namespace {
@@ -156,7 +157,12 @@ Status write_osim(const std::filesystem::path& path, const ModelDescription& des
                   const WriteOsimOptions& options) {
   const auto text = format_osim(description);
   if (!text) return fail_at(path.string(), text.error());
-  return write_text(path, *text, options.force);
+  if (options.set.empty()) return write_text(path, *text, options.force);
+  const std::size_t declaration = text->find("?>") + 2;
+  return write_text(path,
+                    fmt::format("{}\n<!-- {} -->{}", text->substr(0, declaration), set_mark(options.set),
+                                text->substr(declaration)),
+                    options.force);
 }
 
 }  // namespace kinemark::io

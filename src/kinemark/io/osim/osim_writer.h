@@ -27,6 +27,7 @@ namespace kinemark::io {
 /// Options of write_osim().
 struct WriteOsimOptions {
   bool force = false;  ///< replace a file that exists
+  std::string set;     ///< of files that it belongs to (set_mark()), as a comment; empty: none
 };
 
 /// Write format_osim() to `path`, whole or not at all.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "kinemark/core/result.h"
@@ -39,6 +40,7 @@ enum class LengthUnit : std::uint8_t { millimetre, metre };
 /// Options of write_trc().
 struct TrcWriteOptions {
   bool force = false;                         ///< replace a file that exists
+  std::string set;                            ///< of files that it belongs to (set_mark()); empty: none
   LengthUnit units = LengthUnit::millimetre;  ///< of the coordinates
   int decimals =
       -1;  ///< digits after the point of coordinates, 0 to 17; -1: the shortest that read back exactly

@@ -7,6 +7,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/trc.h"
 
 namespace kinemark::io {
@@ -15,15 +16,17 @@ namespace {
 constexpr std::size_t kFlushBytes = 1 << 20;
 
 /// Lines 1 to 6, the blank one included.
-std::string header_text(const std::filesystem::path& path, const data::Trial& trial, LengthUnit units) {
+std::string header_text(const std::filesystem::path& path, const data::Trial& trial,
+                        const TrcWriteOptions& options) {
   const data::Trajectories& markers = trial.markers;
   std::string out = fmt::format(
-      "PathFileType\t4\t(X/Y/Z)\t{}\n"
+      "PathFileType\t4\t(X/Y/Z)\t{}{}\n"
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n"
       "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n"
       "Frame#\tTime",
-      path.filename().string(), markers.time.rate_hz, markers.time.rate_hz, markers.frames(),
-      markers.markers(), units == LengthUnit::metre ? "m" : "mm", markers.time.rate_hz, trial.first_frame,
+      path.filename().string(), options.set.empty() ? "" : "\t" + set_mark(options.set), markers.time.rate_hz,
+      markers.time.rate_hz, markers.frames(), markers.markers(),
+      options.units == LengthUnit::metre ? "m" : "mm", markers.time.rate_hz, trial.first_frame,
       markers.frames());
   // Three cells per name; the last two tabs of the last one would be trailing.
   for (std::size_t m = 0; m < markers.names.size(); ++m) out += (m == 0 ? "\t" : "\t\t\t") + markers.names[m];
@@ -51,7 +54,7 @@ Status write_trc(const std::filesystem::path& path, const data::Trial& trial,
 
   auto file = OutputFile::create(path, options.force);
   if (!file) return std::unexpected(file.error());
-  if (auto status = file->write(header_text(path, trial, options.units)); !status) return status;
+  if (auto status = file->write(header_text(path, trial, options)); !status) return status;
   const double scale = options.units == LengthUnit::metre ? 1.0 : 1000.0;
   fmt::memory_buffer out;
   const auto end = std::back_inserter(out);

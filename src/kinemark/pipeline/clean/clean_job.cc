@@ -4,11 +4,12 @@
 
 #include <chrono>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
-#include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
@@ -89,13 +90,12 @@ Status fill_trial(const CleanJob& job, data::Trial& trial, report::CleanReport& 
 std::vector<ResultFile> list_files(const CleanFiles& files, internal::CleanOutput& output,
                                    CleanOutcome& outcome, const Staging& staging) {
   std::vector<ResultFile> list;
-  list.push_back({files.recording, [&](const fs::path&) {
-                    return output.finish(outcome.trial, files.derivatives.empty()
-                                                            ? fs::path()
-                                                            : staging.path_of(files.derivatives));
+  list.push_back({files.recording, [&](const fs::path&, const std::string& set) {
+                    return output.finish(
+                        outcome.trial,
+                        files.derivatives.empty() ? fs::path() : staging.path_of(files.derivatives), set);
                   }});
-  list.push_back(
-      text_file(files.summary, [&] { return json_text(report::clean_summary_json(outcome.report)) + "\n"; }));
+  list.push_back(json_file(files.summary, [&] { return report::clean_summary_json(outcome.report); }));
   if (!files.page.empty())
     list.push_back(text_file(files.page, [&] { return report::clean_report_html(outcome.report); }));
   return list;
@@ -107,7 +107,7 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   // Prepare: where results go, markers, and what the recorder did to them.
   if (auto s = job.gaps.check(); !s) return std::unexpected(s.error());
   const CleanFiles files(job);
-  auto staging = Staging::create(files.all(), job.force);
+  auto staging = Staging::create(files.all(), job.force, {job.input});
   if (!staging) return std::unexpected(staging.error());
   auto input = read_marker_input({.path = job.input, .needs_samples = true, .record = true});
   if (!input) return std::unexpected(input.error());
@@ -128,7 +128,13 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
     return s.error().code == Code::io ? staging->failure(s.error()) : fail_at(job.input.string(), s.error());
   report.run.clean_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Write.
-  auto written = write_results(*staging, list_files(files, *output, outcome, *staging), {}, "cleaning");
+  const std::string set = SetDigest()
+                              .add(report.run.version)
+                              .add(report.run.inputs)
+                              .add(report.run.options)
+                              .add(output->cleaned())
+                              .hex();
+  auto written = write_results(*staging, list_files(files, *output, outcome, *staging), {}, "cleaning", set);
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   return outcome;

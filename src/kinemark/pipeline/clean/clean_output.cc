@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
+#include "kinemark/pipeline/files/result_files.h"
 
 namespace kinemark::pipeline::internal {
 namespace {
@@ -154,10 +154,12 @@ Status CleanOutput::take(MarkerPiece piece, std::int64_t marker) {
   return nwb_->write(piece.markers, &piece.derivatives, 0);
 }
 
-Status CleanOutput::finish(data::Trial& trial, const std::filesystem::path& derivatives) {
+Status CleanOutput::finish(data::Trial& trial, const std::filesystem::path& derivatives,
+                           const std::string& set) {
   trial.markers = std::move(cleaned_);
-  if (auto s = nwb_ ? nwb_->commit() : io::write_markers(file_, trial, false); !s) return s;
-  return table_ ? io::write_table(derivatives, table_->table(), {}) : Status{};
+  if (auto s = nwb_ ? nwb_->commit(set) : io::write_markers(file_, trial, false, set); !s) return s;
+  return table_ ? table_file(derivatives, [this] { return table_->table(); }).write(derivatives, set)
+                : Status{};
 }
 
 }  // namespace kinemark::pipeline::internal

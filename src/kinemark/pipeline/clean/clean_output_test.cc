@@ -109,7 +109,7 @@ TEST_F(CleanOutputTest, MarkersInAnyOrderBecomeOneRecording) {
   auto out = output(scratch_ / "a.csv", true);
   take_both(out);
   data::Trial trial = trial_;
-  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto"));
+  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", ""));
   EXPECT_EQ(trial.markers.count_missing(), 0);
   EXPECT_EQ(trial.markers.made_by(1, 1), "kalman");
   EXPECT_EQ(trial.markers.covariance.at(6 * trial.markers.index(2, 0)), 1e-6);
@@ -122,9 +122,9 @@ TEST_F(CleanOutputTest, WithoutDerivativesThereIsNoTable) {
   auto out = output(scratch_ / "a.trc", false);
   take_both(out);
   data::Trial trial = trial_;
-  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto"));
+  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", ""));
   EXPECT_TRUE(fs::exists(scratch_ / "a.trc"));
-  EXPECT_FALSE(fs::exists(scratch_ / "a.sto"));
+  EXPECT_FALSE(fs::exists(scratch_ / "a.sto", ""));
 }
 
 TEST_F(CleanOutputTest, AnNwbIsWrittenMarkerByMarkerAndSeenAtTheEnd) {
@@ -134,7 +134,7 @@ TEST_F(CleanOutputTest, AnNwbIsWrittenMarkerByMarkerAndSeenAtTheEnd) {
   take_both(out);
   EXPECT_FALSE(fs::exists(file));
   data::Trial trial = trial_;
-  ASSERT_TRUE(out.finish(trial, {}));
+  ASSERT_TRUE(out.finish(trial, {}, ""));
   const auto back = io::read_nwb(file);
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->trajectories.made_by(2, 1), "cubic");

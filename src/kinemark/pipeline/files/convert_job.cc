@@ -13,6 +13,7 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -68,6 +69,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
     return fail(Code::usage,
                 fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
                             job.in.string(), job.out.string()));
+  if (auto s = check_apart({job.out}, {job.in}); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   switch (kind_of(from)) {
     case Kind::model:

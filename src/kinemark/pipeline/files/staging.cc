@@ -5,77 +5,68 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/io/place.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/internal/new_folder.h"
 
 namespace kinemark::pipeline {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-fs::path parent_of(const fs::path& target) {
-  return target.has_parent_path() ? target.parent_path() : fs::path(".");
-}
-
-}  // namespace
-
-Result<Staging> Staging::create(std::vector<fs::path> targets, bool force) {
+Status Staging::find_targets() {
   std::error_code ignored;
   std::set<fs::path> seen;
-  for (const auto& target : targets) {
-    if (fs::is_directory(target, ignored))
-      return fail(Code::io, fmt::format("{}: is a folder; need a file name", target.string()));
-    if (!force && fs::exists(target, ignored))
-      return fail(Code::io, fmt::format("{}: exists already; use --force to replace it", target.string()));
-    if (!seen.insert(fs::absolute(target, ignored).lexically_normal()).second)
+  for (const auto& target : targets_) {
+    auto resolved = io::find_target(target, force_);
+    if (!resolved) return std::unexpected(resolved.error());
+    if (!seen.insert(fs::absolute(*resolved, ignored).lexically_normal()).second)
       return fail(Code::usage, fmt::format("{}: would be written twice; name another file", target.string()));
+    resolved_.push_back(std::move(*resolved));
   }
+  return {};
+}
+
+Result<Staging> Staging::create(std::vector<fs::path> targets, bool force,
+                                const std::vector<fs::path>& inputs) {
+  if (auto s = check_apart(targets, inputs); !s) return std::unexpected(s.error());
   Staging staging;
-  for (const auto& target : targets) {
-    const fs::path parent = parent_of(target);
-    if (staging.folders_.contains(parent)) continue;
-    std::string pattern = (parent / ".kinemark-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-      return fail(Code::io, fmt::format("{}: cannot be written ({})", target.string(),
-                                        std::generic_category().message(errno)));
-    staging.folders_[parent] = pattern;
-  }
+  staging.force_ = force;
   staging.targets_ = std::move(targets);
+  if (auto s = staging.find_targets(); !s) return std::unexpected(s.error());
+  for (std::size_t i = 0; i < staging.resolved_.size(); ++i) {
+    const auto& target = staging.resolved_[i];
+    if (staging.folders_.contains(target.parent_path())) continue;
+    auto folder = io::Temporary::folder_for(target);
+    if (!folder) return std::unexpected(folder.error());
+    staging.folders_.emplace(target.parent_path(), std::move(*folder));
+  }
   return staging;
 }
 
-Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names,
-                                   bool force) {
+Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names, bool force,
+                                   const std::vector<fs::path>& inputs) {
   auto made = std::make_unique<NewFolder>(folder);
   if (made->error())
     return fail(Code::io, fmt::format("{}: cannot be made ({})", folder.string(), made->error().message()));
   std::vector<fs::path> targets;
   for (const auto& name : names) targets.push_back(folder / name);
-  auto staging = create(std::move(targets), force);
+  auto staging = create(std::move(targets), force, inputs);
   if (staging) staging->made_ = std::move(made);
   return staging;
 }
 
 Staging::Staging() = default;
-
-Staging::Staging(Staging&& other) noexcept
-    : made_(std::move(other.made_)),
-      folders_(std::exchange(other.folders_, {})),
-      targets_(std::move(other.targets_)) {}
-
-Staging::~Staging() {
-  std::error_code ignored;
-  for (const auto& [parent, folder] : folders_) fs::remove_all(folder, ignored);
-}
+Staging::Staging(Staging&& other) noexcept = default;
+Staging::~Staging() = default;
 
 fs::path Staging::path(std::size_t i) const {
-  return folders_.at(parent_of(targets_.at(i))) / fmt::format("{}-{}", i, targets_.at(i).filename().string());
+  return folders_.at(resolved_.at(i).parent_path()).path() /
+         fmt::format("{}-{}", i, targets_[i].filename().string());
 }
 
 fs::path Staging::path_of(const fs::path& target) const {
@@ -100,14 +91,27 @@ std::unexpected<Error> Staging::failure(Error error) const {
   return std::unexpected(std::move(error));
 }
 
-Status Staging::commit() {
+Status Staging::place_all() {
+  std::vector<std::pair<std::size_t, io::Replaced>> done;
+  const auto held = io::hold_end();
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    std::error_code error;
     if (!fs::exists(path(i))) continue;
-    fs::rename(path(i), targets_[i], error);
-    if (error)
-      return fail(Code::io, fmt::format("{}: cannot be written ({})", targets_[i].string(), error.message()));
+    const auto placed = io::place_file(path(i), resolved_[i], force_, true);
+    if (placed) {
+      done.emplace_back(i, *placed);
+      continue;
+    }
+    for (auto back = done.rbegin(); back != done.rend(); ++back)
+      io::unplace_file(path(back->first), resolved_[back->first], back->second);
+    return std::unexpected(placed.error());
   }
+  return {};
+}
+
+Status Staging::commit() {
+  if (auto s = place_all(); !s) return s;
+  for (const auto& [parent, hidden] : folders_)
+    if (auto s = io::sync_folder(parent); !s) return s;
   return {};
 }
 

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/io/temporary.h"
 
 namespace kinemark::pipeline {
 
@@ -17,12 +19,15 @@ class NewFolder;
 /// (one per folder) and moved into place by commit(). Without commit() nothing stays.
 class Staging {
  public:
-  /// Fails when a target exists (unless `force`), is given twice, or its folder cannot be written.
-  static Result<Staging> create(std::vector<std::filesystem::path> targets, bool force);
+  /// Fails when a target exists (unless `force`), is one of the inputs (in any case), is given twice, or its
+  /// folder cannot be written.
+  /// @param inputs  all files that the job reads
+  static Result<Staging> create(std::vector<std::filesystem::path> targets, bool force,
+                                const std::vector<std::filesystem::path>& inputs);
   /// The same for files of one folder, which is made when absent, and goes again when no file came.
   /// @param names  of the files in it
   static Result<Staging> create_in(const std::filesystem::path& folder, const std::vector<std::string>& names,
-                                   bool force);
+                                   bool force, const std::vector<std::filesystem::path>& inputs);
   Staging(Staging&& other) noexcept;  ///< takes the targets over
   Staging& operator=(Staging&&) = delete;
   ~Staging();
@@ -37,14 +42,22 @@ class Staging {
   [[nodiscard]] std::vector<std::filesystem::path> written() const;
   /// A failure of writing path(i), told of targets[i].
   [[nodiscard]] std::unexpected<Error> failure(Error error) const;
-  /// Move every file that was written into place.
+  /// Move every file that was written into place, one directly after the other, as all of them are on the
+  /// disk by then. Without force a target that came in the meantime is a failure. After a failure all is as
+  /// it was before, where the file system can exchange files.
   [[nodiscard]] Status commit();
 
  private:
   Staging();
-  std::unique_ptr<NewFolder> made_;                                 ///< goes last
-  std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< hidden one in each parent folder
-  std::vector<std::filesystem::path> targets_;
+  /// Targets that exist, are folders, or come twice; where those go that are left.
+  [[nodiscard]] Status find_targets();
+  [[nodiscard]] Status place_all();
+
+  bool force_ = false;
+  std::unique_ptr<NewFolder> made_;                         ///< goes last
+  std::map<std::filesystem::path, io::Temporary> folders_;  ///< hidden one in each parent folder
+  std::vector<std::filesystem::path> targets_;              ///< as given
+  std::vector<std::filesystem::path> resolved_;             ///< with links followed
 };
 
 }  // namespace kinemark::pipeline

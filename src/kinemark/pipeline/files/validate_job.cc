@@ -3,8 +3,10 @@
 #include "kinemark/pipeline/files/validate_job.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/info_job.h"
 
 namespace kinemark::pipeline {
@@ -29,10 +31,12 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
     auto facts = run_info(info);
     CheckedFile& checked = out.files.emplace_back();
     checked.file = file;
-    if (facts)
+    if (facts) {
       checked.warnings = std::move(facts->warnings);
-    else
+      std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
+    } else {
       checked.error = std::move(facts.error());
+    }
     if (job.progress && !job.progress(static_cast<std::int64_t>(out.files.size()), total))
       return fail(Code::cancelled, "the validation was stopped");
   }

@@ -6,29 +6,34 @@
 #include <system_error>
 #include <vector>
 
+#include "kinemark/io/temporary.h"
+
 namespace kinemark::pipeline {
 
-/// Creates a folder and its parents; those that were created are removed again if they stay empty.
+/// Creates a folder and its parents; those that were created are removed again if they stay empty, also where
+/// a signal ends the program.
 class NewFolder {
  public:
   explicit NewFolder(std::filesystem::path folder) {
     std::error_code ignored;
+    std::vector<std::filesystem::path> missing;  // innermost first
     for (folder = std::filesystem::absolute(folder, ignored).lexically_normal();
          folder.has_relative_path() && !std::filesystem::exists(folder, ignored);
          folder = folder.parent_path())
-      made_.push_back(folder);
-    if (!made_.empty()) std::filesystem::create_directories(made_.front(), error_);
+      missing.push_back(folder);
+    for (auto outer = missing.rbegin(); outer != missing.rend(); ++outer)
+      made_.push_back(io::Temporary::watch_folder(*outer));
+    if (!missing.empty()) std::filesystem::create_directories(missing.front(), error_);
   }
   ~NewFolder() {
-    std::error_code ignored;
-    for (const auto& folder : made_) std::filesystem::remove(folder, ignored);
+    while (!made_.empty()) made_.pop_back();
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
   [[nodiscard]] const std::error_code& error() const { return error_; }
 
  private:
-  std::vector<std::filesystem::path> made_;  ///< innermost first
+  std::vector<io::Temporary> made_;  ///< outermost first
   std::error_code error_;
 };
 

@@ -11,7 +11,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -196,10 +196,12 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
 
 Result<Staging> stage(const JointsJob& job) {
   const auto& output = job.output;
-  if (output.empty()) return Staging::create({}, job.force);
-  if (!into_folder(output)) return Staging::create({output, beside(output, "_skeleton.json")}, job.force);
+  if (output.empty()) return Staging::create({}, job.force, {});
+  const std::vector<fs::path> inputs{job.input, job.segments};
+  if (!into_folder(output))
+    return Staging::create({output, beside(output, "_skeleton.json")}, job.force, inputs);
   return Staging::create_in(output, {"centres.csv", "skeleton.json", "centres.c3d", "segments.toml"},
-                            job.force);
+                            job.force, inputs);
 }
 
 std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& outcome,
@@ -207,11 +209,19 @@ std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& ou
   std::vector<ResultFile> files;
   for (const auto& target : targets)
     files.push_back(target.extension() == ".json"
-                        ? text_file(target, [&] { return json_text(joints_json(job, outcome)) + "\n"; })
+                        ? json_file(target, [&] { return joints_json(job, outcome); })
                     : target.extension() == ".toml"
-                        ? text_file(target, [&] { return segments_text(outcome.layout, outcome.markers); })
+                        ? toml_file(target, [&] { return segments_text(outcome.layout, outcome.markers); })
                         : marker_file(target, centres));
   return files;
+}
+
+std::string name_set(const JointsJob& job, const JointsOutcome& outcome, const data::Trial& centres) {
+  SetDigest digest;
+  digest.add("joints").add(std::vector{outcome.input}).add(job.method).add(centres.markers);
+  return digest.add(std::span<const double>(centres.markers.covariance))
+      .add(segments_text(outcome.layout, outcome.markers))
+      .hex();
 }
 
 }  // namespace
@@ -243,7 +253,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   centres.first_frame = trial.first_frame;
   centres.markers = centre_trajectories(outcome.skeleton);
   auto written = write_results(*staging, list_files(job, outcome, centres, staging->targets()), {},
-                               "the search for joints");
+                               "the search for joints", name_set(job, outcome, centres));
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   return outcome;

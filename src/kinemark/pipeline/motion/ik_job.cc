@@ -150,7 +150,8 @@ Result<Staging> stage_files(const IkJob& job) {
   if (!job.report.empty()) further.push_back(job.report);
   if (job.torques) further.push_back(beside(job.output, "_tau.sto"));
   if (job.torques && job.options.error_bars) further.push_back(beside(job.output, "_tau_sd.sto"));
-  return internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further);
+  return internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further,
+                         {job.setup, job.tasks, job.coordinates});
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ Result<IkOutcome> run_ik(IkJob job) {
     files.push_back(text_file(job.report, [&] {
       return report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &solved});
     }));
-  if (auto s = internal::write(job, *staging, files, "inverse kinematics", outcome); !s)
+  if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
   return outcome;
 }

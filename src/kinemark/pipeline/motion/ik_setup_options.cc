@@ -10,6 +10,7 @@
 #include "kinemark/core/units.h"
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -102,7 +103,11 @@ Status apply_setup(IkJob& job) {
   if (!setup) return std::unexpected(setup.error());
   if (job.model.empty()) job.model = setup->model_file;
   if (job.markers.empty()) job.markers = setup->marker_file;
-  if (job.output.empty()) job.output = setup->output_motion_file;
+  job.coordinates = setup->coordinate_file;
+  if (job.output.empty() && !setup->output_motion_file.empty()) {
+    if (auto s = check_below(job.setup, setup->output_motion_file, "output_motion_file"); !s) return s;
+    job.output = setup->output_motion_file;
+  }
   if (job.options.first_time_s < -1e299) job.options.first_time_s = std::max(-1e300, setup->time_begin_s);
   if (job.options.last_time_s > 1e299) job.options.last_time_s = std::min(1e300, setup->time_end_s);
   return {};

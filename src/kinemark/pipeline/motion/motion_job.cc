@@ -5,15 +5,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "kinemark/core/version.h"
 #include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 
 namespace kinemark::pipeline::internal {
@@ -133,11 +136,14 @@ void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m,
 }
 
 Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,
-                      const std::vector<fs::path>& further) {
+                      const std::vector<fs::path>& further, const std::vector<fs::path>& also_read) {
   std::vector<fs::path> targets{job.output};
   for (const auto& suffix : suffixes) targets.push_back(beside(job.output, suffix));
   targets.insert(targets.end(), further.begin(), further.end());
-  return Staging::create(std::move(targets), job.force);
+  std::vector<fs::path> inputs{job.model, job.markers, job.forces, job.images.rig};
+  for (const auto& camera : job.images.cameras) inputs.push_back(camera.points);
+  inputs.insert(inputs.end(), also_read.begin(), also_read.end());
+  return Staging::create(std::move(targets), job.force, inputs);
 }
 
 Status judge(report::IkRun run, const data::JointMotion& motion, const data::Trajectories* markers,
@@ -163,18 +169,32 @@ std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMoti
   if (!motion.tau.empty()) add(beside(output, "_tau.sto"), torques_table);
   if (!motion.tau_sd.empty()) add(beside(output, "_tau_sd.sto"), torque_deviations_table);
   add(beside(output, "_marker_errors.sto"), marker_errors_table);
-  files.push_back(text_file(beside(output, "_report.json"),
-                            [&summary] { return json_text(report::summary_json(summary)) + "\n"; }));
+  files.push_back(
+      json_file(beside(output, "_report.json"), [&summary] { return report::summary_json(summary); }));
   return files;
 }
 
+std::string name_set(const data::JointMotion& motion, const report::IkRun& run) {
+  SetDigest digest;
+  digest.add(run.method).add(run.version).add(run.inputs).add(run.options).add(coordinates_table(motion));
+  for (const auto* values :
+       {&motion.q_sd, &motion.q_bound, &motion.tau, &motion.tau_sd, &motion.marker_error})
+    digest.add(std::span<const double>(*values));
+  for (const auto& gate : run.gates) digest.add(gate.name).add(std::array{gate.value, gate.bound});
+  return digest.hex();
+}
+
 Status write(const MotionJob& job, Staging& staging, const std::vector<ResultFile>& files,
-             std::string_view what, MotionOutcome& outcome) {
+             std::string_view what, const data::JointMotion& motion, MotionOutcome& outcome) {
+  // Some files are known to be inputs only now: those that others name.
+  std::vector<fs::path> read;
+  for (const auto& input : outcome.summary.run.inputs) read.emplace_back(input.path);
+  if (auto s = check_apart(staging.targets(), read); !s) return s;
   const auto frames = outcome.summary.time.frames;
   const auto go_on = [&](std::int64_t, std::int64_t) {
     return !job.progress || job.progress(frames, frames);
   };
-  auto written = write_results(staging, files, go_on, what);
+  auto written = write_results(staging, files, go_on, what, name_set(motion, outcome.summary.run));
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   return {};

@@ -136,7 +136,7 @@ TEST(MotionRun, StoppedInTheLastMomentNothingAppears) {
   {
     auto staging = internal::stage(job, {"_marker_errors.sto", "_report.json"}).value();
     const auto stopped = internal::write(job, staging, internal::motion_files(job, motion, outcome.summary),
-                                         "the work", outcome);
+                                         "the work", motion, outcome);
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().code, Code::cancelled);
     EXPECT_EQ(stopped.error().message, "the work was stopped");
@@ -147,7 +147,7 @@ TEST(MotionRun, StoppedInTheLastMomentNothingAppears) {
   job.progress = {};
   auto staging = internal::stage(job, {"_marker_errors.sto", "_report.json", "_sd.sto"}).value();
   ASSERT_TRUE(internal::write(job, staging, internal::motion_files(job, motion, outcome.summary), "the work",
-                              outcome));
+                              motion, outcome));
   EXPECT_EQ(outcome.written.size(), 3U) << "the deviations were not there to write";
   EXPECT_EQ(folder.count_files(), 3);
 }

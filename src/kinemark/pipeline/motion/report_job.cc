@@ -10,9 +10,12 @@
 #include <utility>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -62,6 +65,16 @@ std::optional<data::Trajectories> recorded_states(const report::IkRun& run, cons
   return std::nullopt;
 }
 
+std::string set_of(const Json& json) {
+  const auto set = json.find(std::string(io::kSetKey));
+  return set != json.end() && set->is_string() ? set->get<std::string>() : "";
+}
+
+std::string set_of(const data::Table& table) {
+  const auto line = std::ranges::find(table.header, io::kSetKey, [](const auto& pair) { return pair.first; });
+  return line == table.header.end() ? "" : line->second;
+}
+
 }  // namespace
 
 Result<ReportOutcome> run_report(const ReportJob& job) {
@@ -78,6 +91,14 @@ Result<ReportOutcome> run_report(const ReportJob& job) {
   if (!deviations && fs::exists(beside(base, "_sd.sto"))) return std::unexpected(deviations.error());
   const auto errors = io::read_table(beside(base, "_marker_errors.sto"));
   if (!errors) return std::unexpected(errors.error());
+  std::vector<SetMember> members{{beside(base, "_report.json"), set_of(*json)}, {base, set_of(*coordinates)}};
+  if (deviations) members.push_back({beside(base, "_sd.sto"), set_of(*deviations)});
+  members.push_back({beside(base, "_marker_errors.sto"), set_of(*errors)});
+  if (auto s = check_same_set(members); !s) return std::unexpected(s.error());
+  std::vector<fs::path> inputs{base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
+                               beside(base, "_report.json")};
+  for (const auto& input : run->inputs) inputs.emplace_back(input.path);
+  if (auto s = check_apart({job.page}, inputs); !s) return std::unexpected(s.error());
   const auto motion =
       motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(*json));
   if (!motion) return fail_at(base.string(), motion.error());

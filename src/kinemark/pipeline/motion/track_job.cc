@@ -149,7 +149,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
   // Write.
   auto files = internal::motion_files(job, motion, outcome.summary);
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
-  if (auto s = internal::write(job, *staging, files, "direct marker control", outcome); !s)
+  if (auto s = internal::write(job, *staging, files, "direct marker control", motion, outcome); !s)
     return std::unexpected(s.error());
   return outcome;
 }

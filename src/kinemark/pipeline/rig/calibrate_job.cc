@@ -14,6 +14,7 @@
 #include "kinemark/io/number.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/scan.h"
 #include "kinemark/stages/calibration/still_poses.h"
@@ -142,6 +143,15 @@ Result<calibration::GridObservations> grid_of(
   return grid;
 }
 
+/// A recording that was cut off within a pose says how much of it is not used.
+void tell_left_over(const Known& known, const calibration::StillPoses& poses,
+                    std::vector<std::string>& warnings) {
+  if (poses.frames_left_over > 0)
+    warnings.push_back(
+        fmt::format("{}: the last {} of {} frames are of a pose that was not recorded to its end; not used",
+                    known.path.string(), poses.frames_left_over, known.recording.counts.frames()));
+}
+
 Result<Evidence> read_evidence(const CalibrateJob& job, const data::Rig& nominal,
                                std::vector<std::string>& warnings) {
   Evidence out;
@@ -157,10 +167,12 @@ Result<Evidence> read_evidence(const CalibrateJob& job, const data::Rig& nominal
                (known->kind().empty() && !job.sides_m.empty() && job.frames_per_pose > 0)) {
       auto poses = tree_of(*known, nominal, job);
       if (!poses) return std::unexpected(poses.error());
+      tell_left_over(*known, *poses, warnings);
       out.tree = std::move(*poses);
     } else if (known->kind() == "scan") {
       auto positions = scan_of(*known, nominal);
       if (!positions) return std::unexpected(positions.error());
+      tell_left_over(*known, *positions, warnings);
       out.scan = std::move(*positions);
     } else {
       return fail(Code::bad_input,
@@ -230,6 +242,9 @@ std::string_view method_name(CalibrateJob::Method method) {
 }
 
 Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
+  auto read = job.inputs;
+  read.push_back(job.nominal);
+  if (auto s = check_apart({job.output}, read); !s) return std::unexpected(s.error());
   const auto nominal = io::read_rig(job.nominal);
   if (!nominal) return std::unexpected(nominal.error());
   CalibrateOutcome out;

@@ -8,6 +8,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
+#include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
 
@@ -17,6 +18,7 @@ std::string_view method_name(ReconstructJob::Method method) {
 }
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
+  if (auto s = check_apart({job.output}, {job.recording, job.rig}); !s) return std::unexpected(s.error());
   const auto rig = io::read_rig(job.rig);
   if (!rig) return std::unexpected(rig.error());
   auto recording = io::read_counts(job.recording);

@@ -5,14 +5,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
-#include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/scale/scale_json.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
@@ -39,7 +43,10 @@ class ScaleRun {
     if (!setup) return std::unexpected(setup.error());
     setup_ = std::move(*setup);
     if (job_.model.empty()) job_.model = setup_->model_file;
-    if (job_.output.empty()) job_.output = setup_->output_model_file;
+    if (job_.output.empty() && !setup_->output_model_file.empty()) {
+      if (auto s = check_below(job_.setup, setup_->output_model_file, "output_model_file"); !s) return s;
+      job_.output = setup_->output_model_file;
+    }
     if (job_.mass_kg == 0.0) job_.mass_kg = setup_->recipe.mass_kg;
     return {};
   }
@@ -163,13 +170,14 @@ class ScaleRun {
 
   Result<ScaleOutcome> write() {
     const fs::path report = beside(job_.output, "_report.json");
-    auto staging = Staging::create({job_.output, report}, job_.force);
+    const auto text = io::format_osim(out_.model);
+    if (!text) return fail_at(job_.output.string(), text.error());
+    auto staging = Staging::create({job_.output, report}, job_.force, inputs());
     if (!staging) return std::unexpected(staging.error());
-    auto written =
-        write_results(*staging,
-                      {model_file(job_.output, out_.model),
-                       text_file(report, [this] { return json_text(scale_json(job_, out_)) + "\n"; })},
-                      {}, "scaling");
+    auto written = write_results(
+        *staging,
+        {model_file(job_.output, out_.model), json_file(report, [this] { return scale_json(job_, out_); })},
+        {}, "scaling", name_set(*text));
     if (!written) return std::unexpected(written.error());
     out_.written = std::move(*written);
     return std::move(out_);
@@ -177,12 +185,32 @@ class ScaleRun {
 
   /// Checks that the targets can be written before any long computation.
   Status check_targets() const {
-    const auto staging = Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force);
+    const auto staging =
+        Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force, inputs());
     if (!staging) return std::unexpected(staging.error());
     return {};
   }
 
  private:
+  /// Name of the set of files. @param text  of the model
+  std::string name_set(const std::string& text) const {
+    SetDigest digest;
+    digest.add("scale").add(text);
+    for (const auto& gate : out_.gates) digest.add(gate.name).add(std::array{gate.value, gate.bound});
+    for (const auto& factor : out_.factors)
+      digest.add(std::array{factor.factors.x(), factor.factors.y(), factor.factors.z()});
+    return digest.hex();
+  }
+
+  /// Every file that is read.
+  std::vector<fs::path> inputs() const {
+    std::vector<fs::path> files{job_.model, job_.setup, job_.static_trial, job_.markers};
+    if (setup_)
+      files.insert(files.end(),
+                   {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file});
+    return files;
+  }
+
   /// --static takes precedence over the file named by the setup.
   Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
                     bool by_setup = false) const {

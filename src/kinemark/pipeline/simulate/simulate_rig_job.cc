@@ -183,8 +183,8 @@ io::RecordingMetadata about(const SimulateRigJob& job, std::string scene) {
 }
 
 ResultFile counts_file(fs::path target, data::Counts counts, std::vector<io::RecordingMetadata> metadata) {
-  return {std::move(target),
-          [counts = std::move(counts), metadata = std::move(metadata)](const fs::path& path) {
+  return {std::move(target), [counts = std::move(counts), metadata = std::move(metadata)](
+                                 const fs::path& path, const std::string&) {
             return io::write_counts(path, counts, metadata, false);
           }};
 }
@@ -257,8 +257,9 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   truth.markers = recorded->truth;
   const fs::path& folder = job.folder;
   const auto rig_file = [&](const char* name, const data::Rig& which) {
-    return ResultFile{folder / name,
-                      [&which](const fs::path& path) { return io::write_rig(path, which, false); }};
+    return ResultFile{folder / name, [&which](const fs::path& path, const std::string&) {
+                        return io::write_rig(path, which, false);
+                      }};
   };
   std::vector<ResultFile> files;
   files.push_back(counts_file(folder / "recording.mcap", recorded->counts, {about(job, scene)}));
@@ -270,7 +271,7 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   if (auto s = add_calibration(job, *rig, files); !s) return std::unexpected(s.error());
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.target.filename().string());
-  auto staging = Staging::create_in(folder, names, job.force);
+  auto staging = Staging::create_in(folder, names, job.force, {job.markers});
   if (!staging) return std::unexpected(staging.error());
   auto written = write_results(*staging, files, job.progress, "the simulation");
   if (!written) return std::unexpected(written.error());

@@ -22,7 +22,10 @@ using internal::BundleProblem;
 using internal::BundleState;
 
 constexpr int kManyLeds = 12;  // with so many points one pose of the object determines the cameras
-constexpr double kLargestSideError = 0.06;  // of a side, with the cameras at their nominal poses
+// Largest error of a side with the nominal cameras, whose detectors warp what they see, of that side. One
+// pose shows each side at one place only, where the warp may be large: then all sides are judged together.
+constexpr double kLargestSideError = 0.06;
+constexpr std::size_t kFewSightings = 4;
 
 /// Positions of the LEDs of one pose by intersection of rays; NaN where fewer than two cameras see one.
 std::vector<Eigen::Vector3d> positions(const data::Rig& rig, const StillPoses& tree, int pose) {
@@ -73,17 +76,22 @@ Start start_poses(const data::Rig& rig, const StillPoses& tree) {
 /// Triangulated sides beside those of the tree, for sides of half the longest or more.
 struct Sides {
   double rms_m = 0.0;
-  double worst_share = 0.0;  // median error of the worst side, of that side
-  std::string sentence;
+  double worst_share = 0.0;  // median error of the worst side that was seen often, of that side
+  double scale = 1.0;        // median of found over given, of all
+  std::string sentence;      // on the worst side, or where none was seen often on the scale
+
+  [[nodiscard]] bool match() const {
+    return worst_share <= kLargestSideError && std::abs(scale - 1.0) <= kLargestSideError;
+  }
 };
 
 Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vector<int>& poses) {
   Sides out;
   std::vector<std::vector<double>> found(static_cast<std::size_t>(tree.leds() * tree.leds()));
+  std::vector<double> ratios;
   double squares = 0.0, longest = 0.0;
   for (const auto& a : tree.tree)
     for (const auto& b : tree.tree) longest = std::max(longest, (a - b).norm());
-  int count = 0;
   for (const int pose : poses) {
     const auto at = positions(rig, tree, pose);
     for (int a = 0; a < tree.leds(); ++a)
@@ -93,14 +101,17 @@ Sides compare_sides(const data::Rig& rig, const StillPoses& tree, const std::vec
         if (!std::isfinite(side) || given < 0.5 * longest) continue;
         found[static_cast<std::size_t>(a * tree.leds() + b)].push_back(side);
         squares += (side - given) * (side - given);
-        ++count;
+        ratios.push_back(side / given);
       }
   }
-  out.rms_m = std::sqrt(squares / std::max(count, 1));
+  if (ratios.empty()) return out;
+  out.rms_m = std::sqrt(squares / static_cast<double>(ratios.size()));
+  out.scale = math::upper_median(ratios);
+  out.sentence = fmt::format("its distances are {:.0f} % of those given", 100.0 * out.scale);
   for (int a = 0; a < tree.leds(); ++a)
     for (int b = a + 1; b < tree.leds(); ++b) {
       const auto& sides = found[static_cast<std::size_t>(a * tree.leds() + b)];
-      if (sides.empty()) continue;
+      if (sides.size() < kFewSightings) continue;
       const double side = math::upper_median(sides);
       const double given =
           (tree.tree[static_cast<std::size_t>(a)] - tree.tree[static_cast<std::size_t>(b)]).norm();
@@ -206,7 +217,7 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
         Code::bad_input,
         fmt::format("{} of {} poses were seen by two cameras with three LEDs; {} or more were expected",
                     first.usable.size(), tree.poses(), fewest));
-  if (const auto sides = compare_sides(flat, tree, first.usable); sides.worst_share > kLargestSideError)
+  if (const auto sides = compare_sides(flat, tree, first.usable); !sides.match())
     return fail(Code::bad_input, "the tree's sides do not match the recording: " + sides.sentence);
 
   BundleProblem problem(flat, tree, grids, options);

@@ -18,11 +18,19 @@ Result<StillPoses> scan_observations(const data::Counts& counts, const data::Rig
   if (count < kFewest || count > kMost || !positions.x_in_stage.allFinite())
     return fail(Code::bad_input, fmt::format("a scan of {} positions; {} to {} finite ones were expected",
                                              count, kFewest, kMost));
-  if (positions.frames_per_position < 1 || counts.frames() != count * positions.frames_per_position)
+  if (positions.frames_per_position < 1 || counts.frames() > count * positions.frames_per_position)
     return fail(Code::bad_input, fmt::format("{} frames do not fit {} positions of {} frames",
                                              counts.frames(), count, positions.frames_per_position));
-  StillPoses out{.tree = {}, .cameras = rig.camera_count(), .observations = {}};
-  for (Eigen::Index position = 0; position < count; ++position) {
+  const Eigen::Index visited = counts.frames() / positions.frames_per_position;
+  if (visited < kFewest)
+    return fail(Code::bad_input,
+                fmt::format("{} frames hold {} whole positions of {} frames; {} or more were expected",
+                            counts.frames(), visited, positions.frames_per_position, kFewest));
+  StillPoses out{.tree = {},
+                 .cameras = rig.camera_count(),
+                 .observations = {},
+                 .frames_left_over = counts.frames() % positions.frames_per_position};
+  for (Eigen::Index position = 0; position < visited; ++position) {
     out.tree.emplace_back(positions.x_in_stage.col(position));
     for (int c = 0; c < out.cameras; ++c)
       out.observations.push_back(still_observation(

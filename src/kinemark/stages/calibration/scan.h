@@ -22,7 +22,8 @@ struct ScanPositions {
 /// The positions as one rigid object with as many LEDs in a single pose, the input of calibrate_bundle().
 /// Positions that a camera did not see, or where the LED moved, are left out for that camera. Fails when the
 /// recording has more
-/// than one LED, or its frames do not fit the positions.
+/// than one LED, more frames than the positions, or fewer than twelve whole positions; positions that were
+/// not visited any more are left out.
 [[nodiscard]] Result<StillPoses> scan_observations(const data::Counts& counts, const data::Rig& rig,
                                                    const ScanPositions& positions,
                                                    const StillOptions& options = {});

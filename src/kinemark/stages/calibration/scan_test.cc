@@ -62,13 +62,46 @@ TEST(Scan, CalibratesFromOneLedInKnownPositions) {
   EXPECT_LT(result->report.side_rms_m, 2e-3);
 }
 
+TEST(Scan, UsesThePositionsThatWereVisitedBeforeItWasCutOff) {
+  const auto rig = ts::ideal_rig();
+  Scan scan(rig);
+  auto positions = scan.positions;
+  positions.x_in_stage.conservativeResize(3, 120);
+  positions.x_in_stage.rightCols(20).setConstant(0.5);
+  positions.frames_per_position = 7;  // 42 of them, and 6 frames of the next
+  const auto seen = scan_observations(scan.counts, rig, positions);
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_EQ(seen->leds(), 42);
+  EXPECT_EQ(seen->frames_left_over, 6);
+  EXPECT_EQ(seen->observations.size(), 84U);
+}
+
+TEST(Scan, PositionsThatAreNotThoseOfTheRecordingAreRefused) {
+  const auto truth = ts::real_rig(12);
+  const Scan scan(truth);
+  auto other = scan.positions;
+  other.x_in_stage *= 1.1;
+  EXPECT_THAT(calibrate_scan(ts::ideal_rig(), scan.counts, other, small()).error().message,
+              HasSubstr("do not match the recording: its distances are"));
+  other = scan.positions;
+  other.x_in_stage.row(0).reverseInPlace();
+  EXPECT_FALSE(calibrate_scan(ts::ideal_rig(), scan.counts, other, small()));
+  other = scan.positions;
+  other.x_in_stage.rightCols(50).row(1).array() += 0.02;  // it slipped half-way
+  EXPECT_THAT(calibrate_scan(ts::ideal_rig(), scan.counts, other, small()).error().message,
+              HasSubstr("calibration refused"));
+}
+
 TEST(Scan, RefusesWhatDoesNotFit) {
   const auto rig = ts::ideal_rig();
   Scan scan(rig);
   auto positions = scan.positions;
-  positions.frames_per_position = 4;
+  positions.frames_per_position = 2;
   EXPECT_THAT(scan_observations(scan.counts, rig, positions).error().message,
               HasSubstr("300 frames do not fit 100 positions"));
+  positions.frames_per_position = 30;
+  EXPECT_THAT(scan_observations(scan.counts, rig, positions).error().message,
+              HasSubstr("300 frames hold 10 whole positions"));
   positions.x_in_stage = positions.x_in_stage.leftCols(5).eval();
   EXPECT_THAT(scan_observations(scan.counts, rig, positions).error().message,
               HasSubstr("a scan of 5 positions"));

@@ -76,11 +76,14 @@ Result<StillPoses> still_poses(const data::Counts& counts, const data::Rig& rig,
     return fail(Code::bad_input,
                 fmt::format("the recording has {} LEDs and the tree {}; they must be the same",
                             counts.led_count(), tree.size()));
-  if (frames_per_pose < 1 || counts.frames() % frames_per_pose != 0 || counts.frames() == 0)
-    return fail(Code::bad_input, fmt::format("{} frames do not divide into poses of {} frames",
-                                             counts.frames(), frames_per_pose));
-  StillPoses out{.tree = std::move(tree), .cameras = rig.camera_count(), .observations = {}};
-  for (std::int64_t first = 0; first < counts.frames(); first += frames_per_pose)
+  if (frames_per_pose < 1 || counts.frames() < frames_per_pose)
+    return fail(Code::bad_input,
+                fmt::format("{} frames hold no whole pose of {} frames", counts.frames(), frames_per_pose));
+  StillPoses out{.tree = std::move(tree),
+                 .cameras = rig.camera_count(),
+                 .observations = {},
+                 .frames_left_over = counts.frames() % frames_per_pose};
+  for (std::int64_t first = 0; first + frames_per_pose <= counts.frames(); first += frames_per_pose)
     for (int led = 0; led < out.leds(); ++led)
       for (int c = 0; c < out.cameras; ++c)
         out.observations.push_back(

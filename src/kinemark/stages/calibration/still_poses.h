@@ -26,6 +26,7 @@ struct StillPoses {
   std::vector<Eigen::Vector3d> tree;           ///< L positions of its LEDs in its own frame, m
   int cameras = 0;                             ///< C
   std::vector<StillObservation> observations;  ///< P x L x C
+  std::int64_t frames_left_over = 0;  ///< at the end, of a pose that was not recorded to its end; not used
 
   [[nodiscard]] int leds() const { return static_cast<int>(tree.size()); }  ///< L
   /// P
@@ -78,7 +79,7 @@ struct FrameRange {
 /// Means over runs of `frames_per_pose` frames, by still_observation().
 ///
 /// Fails when the LEDs of tree and recording, or the cameras of rig and recording, are not equal in number,
-/// and when the frames do not divide into poses.
+/// and when there is no whole pose; frames of a last pose that was cut off are left over.
 [[nodiscard]] Result<StillPoses> still_poses(const data::Counts& counts, const data::Rig& rig,
                                              std::vector<Eigen::Vector3d> tree, int frames_per_pose,
                                              const StillOptions& options = {});

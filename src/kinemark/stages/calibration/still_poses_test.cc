@@ -82,12 +82,25 @@ TEST(StillPoses, TreeFromItsSides) {
   EXPECT_THAT(tree_from_sides({1.0}).error().message, HasSubstr("three were expected"));
 }
 
+TEST(StillPoses, LeavesAPoseOutThatWasCutOff) {
+  const auto rig = ts::ideal_rig();
+  const auto counts = recording(rig);
+  const auto whole = still_poses(counts, rig, test_tree(), 10),
+             cut = still_poses(counts, rig, test_tree(), 7);
+  ASSERT_TRUE(whole && cut);
+  EXPECT_EQ(whole->poses(), 5);
+  EXPECT_EQ(whole->frames_left_over, 0);
+  EXPECT_EQ(cut->poses(), 7);
+  EXPECT_EQ(cut->frames_left_over, 1);
+}
+
 TEST(StillPoses, RefusesWhatDoesNotFit) {
   const auto rig = ts::ideal_rig();
   auto counts = recording(rig);
   EXPECT_THAT(still_poses(counts, rig, {Vector3d::Zero()}, 10).error().message,
               HasSubstr("3 LEDs and the tree 1"));
-  EXPECT_THAT(still_poses(counts, rig, test_tree(), 7).error().message, HasSubstr("50 frames do not divide"));
+  EXPECT_THAT(still_poses(counts, rig, test_tree(), 60).error().message,
+              HasSubstr("50 frames hold no whole pose of 60 frames"));
   auto one = rig;
   one.cameras.pop_back();
   EXPECT_THAT(still_poses(counts, one, test_tree(), 10).error().message,

@@ -37,6 +37,8 @@ class Handle {
 class Quiet {
  public:
   Quiet() {
+    // At the end of the program HDF5 would flush what it could not write, and crash on a full disk.
+    H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

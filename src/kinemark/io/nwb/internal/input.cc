@@ -3,6 +3,7 @@
 #include "kinemark/io/nwb/internal/input.h"
 
 #include <fmt/core.h>
+#include <xxhash.h>
 
 #include <algorithm>
 
@@ -94,6 +95,13 @@ hid_t native<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
+std::string path_of(hid_t object) {
+  std::string path(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(object, nullptr, 0))) + 1, '\0');
+  H5Iget_name(object, path.data(), path.size());
+  path.pop_back();
+  return path;
+}
+
 }  // namespace
 
 Input::Input(Handle file, Handle link_access, std::string name, std::size_t size)
@@ -120,6 +128,12 @@ Result<Input> Input::open(std::span<const std::byte> image, const std::string& n
   Handle file(image.empty() ? H5I_INVALID_HID : H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file) return not_hdf5(name);
   return Input(std::move(file), {H5Pcreate(H5P_LINK_ACCESS), H5Pclose}, name, image.size());
+}
+
+Input Input::of(hid_t file) {
+  H5Iinc_ref(file);
+  constexpr std::size_t kOurOwn = std::size_t{1} << 50;  // of no use: what we write is as large as it is
+  return {Handle(file, H5Fclose), {H5Pcreate(H5P_LINK_ACCESS), H5Pclose}, "", kOurOwn};
 }
 
 Handle Input::object(hid_t from, const std::string& path) const {
@@ -210,21 +224,63 @@ std::optional<Array<T>> Input::numbers(hid_t dataset) {
   if (!afford(count, sizeof(T))) return std::nullopt;
   Array<T> out(count, T{});
   if (count > 0 && !read(dataset, native<T>(), out.data())) return std::nullopt;
+  if ((sizeof(T) == 1) == holds_bytes(dataset))
+    digests_[path_of(dataset)] = XXH3_64bits(out.data(), out.size() * sizeof(T));
   return out;
 }
 template std::optional<Array<double>> Input::numbers(hid_t);
 template std::optional<Array<std::uint8_t>> Input::numbers(hid_t);
 
-std::optional<std::string> Input::text_attribute(hid_t object, const char* name) const {
+std::optional<std::uint64_t> Input::digest_of(hid_t dataset) const {
+  const auto known = digests_.find(path_of(dataset));
+  return known == digests_.end() ? std::nullopt : std::optional(known->second);
+}
+
+bool Input::holds_bytes(hid_t dataset) const {
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  return H5Tget_class(type.id()) == H5T_INTEGER && H5Tget_size(type.id()) == 1;
+}
+
+bool Input::read_rows(hid_t dataset, const std::vector<std::int64_t>& shape, std::int64_t first,
+                      std::int64_t count, void* out) const {
+  const hid_t memory_type = holds_bytes(dataset) ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
+  if (shape.empty()) return read(dataset, memory_type, out);
+  std::vector<hsize_t> start(shape.size(), 0), size(shape.begin(), shape.end());
+  start[0] = static_cast<hsize_t>(first);
+  size[0] = static_cast<hsize_t>(count);
+  const Handle in_file(H5Dget_space(dataset), H5Sclose);
+  const Handle in_memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+  return H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) >=
+             0 &&
+         H5Dread(dataset, memory_type, in_memory.id(), in_file.id(), H5P_DEFAULT, out) >= 0;
+}
+
+std::optional<std::string> Input::soft_link(hid_t group, const std::string& name) const {
+  H5L_info_t info{};
+  if (H5Lget_info(group, name.c_str(), &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_SOFT ||
+      info.u.val_size == 0 || info.u.val_size > kMaxTextBytes)
+    return std::nullopt;
+  std::string target(info.u.val_size, '\0');
+  if (H5Lget_val(group, name.c_str(), target.data(), target.size(), H5P_DEFAULT) < 0) return std::nullopt;
+  target.pop_back();  // its zero
+  return target;
+}
+
+std::optional<std::vector<std::string>> Input::text_attributes(hid_t object, const char* name) const {
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   if (!attribute) return std::nullopt;
   const Handle type(H5Aget_type(attribute.id()), H5Tclose);
   const Handle space(H5Aget_space(attribute.id()), H5Sclose);
-  if (!type || !is_text(type.id()) || H5Sget_simple_extent_npoints(space.id()) != 1) return std::nullopt;
-  const auto texts = read_texts(type.id(), space.id(), 1, [&](hid_t memory_type, void* out) {
-    return H5Aread(attribute.id(), memory_type, out);
-  });
-  return texts ? std::optional(texts->front()) : std::nullopt;
+  const hssize_t count = H5Sget_simple_extent_npoints(space.id());
+  if (!type || !is_text(type.id()) || count < 0 || static_cast<std::size_t>(count) > kMaxChildren)
+    return std::nullopt;
+  return read_texts(type.id(), space.id(), static_cast<std::size_t>(count),
+                    [&](hid_t memory_type, void* out) { return H5Aread(attribute.id(), memory_type, out); });
+}
+
+std::optional<std::string> Input::text_attribute(hid_t object, const char* name) const {
+  const auto texts = text_attributes(object, name);
+  return texts && texts->size() == 1 ? std::optional(texts->front()) : std::nullopt;
 }
 
 std::optional<double> Input::number_attribute(hid_t object, const char* name) const {

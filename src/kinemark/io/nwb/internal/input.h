@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ class Input {
   static Result<Input> open(const std::filesystem::path& path);
   /// A file as bytes in memory; HDF5 copies them.
   static Result<Input> open(std::span<const std::byte> image, const std::string& name);
+  /// A file of ours that is open for writing; it stays open.
+  static Input of(hid_t file);
 
   /// A group or dataset by its path from `from` (file or group), or an empty handle. Links to other files are
   /// not followed.
@@ -46,6 +49,18 @@ class Input {
   template <class T>
   [[nodiscard]] std::optional<Array<T>> numbers(hid_t dataset);
 
+  /// All texts of an attribute; nothing where it holds none.
+  [[nodiscard]] std::optional<std::vector<std::string>> text_attributes(hid_t object, const char* name) const;
+  /// Where a soft link of a group leads; nothing for other links.
+  [[nodiscard]] std::optional<std::string> soft_link(hid_t group, const std::string& name) const;
+  /// XXH3 of all numbers of a dataset, as they lie in memory, where numbers() has read them; else nothing.
+  [[nodiscard]] std::optional<std::uint64_t> digest_of(hid_t dataset) const;
+  /// Whether numbers of a dataset are read as bytes: those that are stored as bytes. Others are doubles.
+  [[nodiscard]] bool holds_bytes(hid_t dataset) const;
+  /// Rows [first, first + count) of numbers of that shape into `out`, bytes or doubles.
+  [[nodiscard]] bool read_rows(hid_t dataset, const std::vector<std::int64_t>& shape, std::int64_t first,
+                               std::int64_t count, void* out) const;
+
   /// Reserve `bytes` of the memory that the file's size justifies; false when they exceed it.
   [[nodiscard]] bool afford(std::size_t count, std::size_t bytes_each);
 
@@ -60,6 +75,7 @@ class Input {
   Handle file_, link_access_;
   std::string name_;
   std::size_t bytes_left_ = 0;
+  std::map<std::string, std::uint64_t> digests_;  ///< of what was read, by its path
 };
 
 }  // namespace kinemark::io::internal

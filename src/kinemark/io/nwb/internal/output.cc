@@ -37,6 +37,8 @@ Output::Output(const std::string& path, std::string_view identity) : identity_(h
   // The format of HDF5 1.10 checks its own structures with checksums; the older ones do not.
   const Handle access = keep(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   note(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110));
+  // The file is locked already, by the one who made it.
+  note(H5Pset_file_locking(access.id(), false, true));
   const Handle create = keep(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   note(H5Pset_obj_track_times(create.id(), false));
   note(H5Pset_link_phase_change(create.id(), 65535, 0));

@@ -52,6 +52,8 @@ class Output {
 
   [[nodiscard]] hid_t file() const { return file_.id(); }
   [[nodiscard]] bool failed() const { return failed_; }
+  /// A failure of the caller's when false.
+  void require(bool good) { failed_ = failed_ || !good; }
   /// Flush and close the file; false when that or anything before failed.
   bool close();
 

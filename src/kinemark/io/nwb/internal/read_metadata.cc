@@ -6,6 +6,7 @@
 
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/reader.h"
+#include "kinemark/io/set_mark.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -85,6 +86,9 @@ NwbMetadata read_metadata(Input& in) {
   const auto software = in.texts(generated.id());
   out.software = software && !software->empty() ? software->front() : "";
   out.version = software && software->size() > 1 ? (*software)[1] : "";
+  if (const auto mark = in.text_attribute(in.file(), std::string(kSetKey).c_str()))
+    if (mark->size() > kSetKey.size() && mark->starts_with(kSetKey))
+      out.set = mark->substr(kSetKey.size() + 1);
   read_provenance(in, out);
   read_sources(in, out);
   return out;

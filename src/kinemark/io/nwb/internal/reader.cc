@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/series.h"
 
@@ -198,23 +199,37 @@ Result<NwbFile> read(Input& in) {
   return out;
 }
 
+/// Our own files say what is in them.
+Status check_content(Input& in, NwbFile& file) {
+  const auto written = in.text_attribute(in.file(), kDigestAttribute);
+  if (!written) {
+    if (file.metadata.software == NwbMetadata{}.software)
+      file.warnings.emplace_back(
+          "holds no digest of its content, as files of older versions do and damaged ones may: whether it is "
+          "as it was "
+          "written is not known");
+    return {};
+  }
+  if (content_digest(in) == *written) return {};
+  return fail(
+      Code::bad_input,
+      "its content is not what was written: the digest does not fit; the file is damaged. Nothing was read.");
+}
+
 }  // namespace
 
 Result<NwbFile> read_nwb(Input& in) {
   auto out = read(in);
   if (!out) return fail_at(in.name(), out.error());
+  if (auto status = check_content(in, *out); !status) return fail_at(in.name(), status.error());
   return out;
 }
 
-}  // namespace kinemark::io::internal
-
-namespace kinemark::io {
-
-Result<NwbFile> read_nwb(const std::filesystem::path& path) {
-  const internal::Quiet quiet;
-  auto in = internal::Input::open(path);
+Result<NwbFile> read_nwb_here(const std::filesystem::path& path) {
+  const Quiet quiet;
+  auto in = Input::open(path);
   if (!in) return std::unexpected(in.error());
-  return internal::read_nwb(*in);
+  return read_nwb(*in);
 }
 
-}  // namespace kinemark::io
+}  // namespace kinemark::io::internal

@@ -44,8 +44,11 @@ class CleanOutput {
   /// Each marker once, in any order.
   [[nodiscard]] Status take(MarkerPiece piece, std::int64_t marker);
   /// Write the recording, with all else that `trial` holds, and the table if there is one. `trial` gets the
-  /// cleaned markers.
-  [[nodiscard]] Status finish(data::Trial& trial, const std::filesystem::path& derivatives);
+  /// cleaned markers. @param set  that both name
+  [[nodiscard]] Status finish(data::Trial& trial, const std::filesystem::path& derivatives,
+                              const std::string& set);
+  /// The cleaned markers, before finish().
+  [[nodiscard]] const data::Trajectories& cleaned() const { return cleaned_; }
 
  private:
   CleanOutput(const CleanJob& job, std::filesystem::path file, const data::Trajectories& smoothed);

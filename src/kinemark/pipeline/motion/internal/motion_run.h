@@ -50,9 +50,12 @@ void add_gate(report::IkRun& run, std::string name, double value, double bound, 
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m);
 
-/// The job's output, files beside it by their suffixes, and further ones: refused where they exist.
+/// The job's output, files beside it by their suffixes, and further ones: refused where they exist, and where
+/// they are files that the job reads.
+/// @param also_read  besides those that every MotionJob names
 [[nodiscard]] Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,
-                                    const std::vector<std::filesystem::path>& further = {});
+                                    const std::vector<std::filesystem::path>& further = {},
+                                    const std::vector<std::filesystem::path>& also_read = {});
 /// Summary, gates and warnings of the outcome. @param markers  as for report::summarize()
 [[nodiscard]] Status judge(report::IkRun run, const data::JointMotion& motion,
                            const data::Trajectories* markers, MotionOutcome& outcome);
@@ -60,8 +63,11 @@ void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m,
 /// written.
 [[nodiscard]] std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
                                                    const report::IkSummary& summary);
-/// Write the files and let them appear, unless the caller stops `what` in the last moment.
+/// Name of the set of files of a motion.
+[[nodiscard]] std::string name_set(const data::JointMotion& motion, const report::IkRun& run);
+/// Write the files and let them appear, unless the caller stops `what` in the last moment. Refused where one
+/// of them is a file that was read.
 [[nodiscard]] Status write(const MotionJob& job, Staging& staging, const std::vector<ResultFile>& files,
-                           std::string_view what, MotionOutcome& outcome);
+                           std::string_view what, const data::JointMotion& motion, MotionOutcome& outcome);
 
 }  // namespace kinemark::pipeline::internal

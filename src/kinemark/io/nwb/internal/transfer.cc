@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/nwb/internal/transfer.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/io/nwb/internal/names.h"
+
+namespace kinemark::io::internal {
+namespace {
+
+constexpr std::uint64_t kBegin = 0x315042574E4D4BULL, kEnd = 0x444E4542574E4D4BULL;
+constexpr std::size_t kBuffer = 1 << 16;
+
+/// Bytes out, gathered into large pieces.
+class Sink {
+ public:
+  explicit Sink(int fd) : fd_(fd) {}
+
+  void bytes(const void* from, std::size_t size) {
+    if (size < kBuffer) {
+      buffer_.append(static_cast<const char*>(from), size);
+      if (buffer_.size() >= kBuffer) flush();
+    } else {
+      flush();
+      put(static_cast<const char*>(from), size);
+    }
+  }
+  bool flush() {
+    put(buffer_.data(), buffer_.size());
+    buffer_.clear();
+    return good_;
+  }
+
+ private:
+  void put(const char* from, std::size_t size) {
+    while (good_ && size > 0) {
+      const ssize_t n = ::write(fd_, from, size);
+      if (n < 0 && errno == EINTR) continue;
+      good_ = n > 0;
+      from += n;
+      size -= static_cast<std::size_t>(n);
+    }
+  }
+
+  int fd_;
+  bool good_ = true;
+  std::string buffer_;
+};
+
+/// Bytes in, at most so many. After a failure everything reads as zero.
+class Source {
+ public:
+  Source(int fd, std::size_t most_bytes) : fd_(fd), left_(most_bytes), buffer_(kBuffer) {}
+
+  void bytes(void* out, std::size_t size) {
+    auto* to = static_cast<char*>(out);
+    while (good_ && size > 0) {
+      if (at_ < filled_) {
+        const std::size_t n = std::min(size, filled_ - at_);
+        std::copy_n(buffer_.data() + at_, n, to);
+        at_ += n;
+        to += n;
+        size -= n;
+      } else if (size >= kBuffer) {
+        const std::size_t n = get(to, size);
+        to += n;
+        size -= n;
+      } else {
+        filled_ = get(buffer_.data(), kBuffer);
+        at_ = 0;
+      }
+    }
+    std::fill_n(to, size, '\0');
+  }
+  /// A number of elements of that size, no more than may still come.
+  std::size_t count(std::size_t element_bytes) {
+    std::uint64_t n = 0;
+    bytes(&n, sizeof n);
+    if (n > left_ / element_bytes) good_ = false;
+    if (!good_) return 0;
+    left_ -= n * element_bytes;
+    return n;
+  }
+  [[nodiscard]] bool good() const { return good_; }
+
+ private:
+  std::size_t get(char* to, std::size_t size) {
+    while (true) {
+      const ssize_t n = ::read(fd_, to, size);
+      if (n < 0 && errno == EINTR) continue;
+      good_ = n > 0;
+      return n > 0 ? static_cast<std::size_t>(n) : 0;
+    }
+  }
+
+  int fd_;
+  std::size_t left_;
+  bool good_ = true;
+  std::vector<char> buffer_;
+  std::size_t at_ = 0, filled_ = 0;
+};
+
+/// The order of everything is written once: `pass` is the same code for both directions.
+void pass(Sink& out, const std::string& text) {
+  const std::uint64_t size = text.size();
+  out.bytes(&size, sizeof size);
+  out.bytes(text.data(), text.size());
+}
+void pass(Source& in, std::string& text) {
+  text.resize(in.count(1));
+  in.bytes(text.data(), text.size());
+}
+
+template <class T>
+concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+template <Plain T>
+void pass(Sink& out, const T& value) {
+  out.bytes(&value, sizeof value);
+}
+template <Plain T>
+void pass(Source& in, T& value) {
+  in.bytes(&value, sizeof value);
+}
+
+template <Plain T>
+void pass(Sink& out, const Array<T>& values) {
+  const std::uint64_t size = values.size();
+  out.bytes(&size, sizeof size);
+  out.bytes(values.data(), size * sizeof(T));
+}
+template <Plain T>
+void pass(Source& in, Array<T>& values) {
+  values.resize(in.count(sizeof(T)));
+  in.bytes(values.data(), values.size() * sizeof(T));
+}
+
+template <class Pipe, class List, class Each>
+void pass_each(Pipe& pipe, List& list, const Each& each) {
+  if constexpr (std::is_same_v<Pipe, Sink>) {
+    const std::uint64_t size = list.size();
+    pipe.bytes(&size, sizeof size);
+    for (auto& element : list) each(element);
+  } else {
+    for (std::size_t left = pipe.count(1); left > 0 && pipe.good(); --left) each(list.emplace_back());
+  }
+}
+
+template <class Pipe, class Texts>
+void pass_texts(Pipe& pipe, Texts& texts) {
+  pass_each(pipe, texts, [&](auto& text) { pass(pipe, text); });
+}
+
+template <class Pipe, class Trajectories>
+void pass_trajectories(Pipe& pipe, Trajectories& t) {
+  pass_texts(pipe, t.names);
+  pass(pipe, t.time.rate_hz);
+  pass(pipe, t.time.t0_s);
+  pass(pipe, t.time.frames);
+  pass(pipe, t.x_in_world);
+  pass(pipe, t.state);
+  pass(pipe, t.covariance);
+  pass(pipe, t.sample_offset_s);
+  pass_texts(pipe, t.methods);
+  pass(pipe, t.method);
+}
+
+template <class Pipe, class Derivatives>
+void pass_derivatives(Pipe& pipe, Derivatives& d) {
+  for (const Rate& rate : kRates) pass(pipe, d.*rate.values);
+  pass_each(pipe, d.filters, [&](auto& filter) {
+    pass(pipe, filter.method);
+    pass(pipe, filter.order);
+    pass(pipe, filter.cutoff_hz);
+    pass(pipe, filter.noise_sd_m);
+  });
+}
+
+template <class Pipe, class Metadata>
+void pass_metadata(Pipe& pipe, Metadata& m) {
+  for (auto* text : {&m.identifier, &m.session_description, &m.session_start, &m.created, &m.reference_frame,
+                     &m.subject_id, &m.species, &m.sex, &m.age, &m.software, &m.version, &m.command, &m.set})
+    pass(pipe, *text);
+  pass_each(pipe, m.sources, [&](auto& source) {
+    pass(pipe, source.file);
+    pass(pipe, source.bytes);
+    pass(pipe, source.xxh3);
+  });
+  pass_each(pipe, m.options, [&](auto& option) {
+    pass(pipe, option.first);
+    pass(pipe, option.second);
+  });
+}
+
+template <class Pipe, class File>
+void pass_file(Pipe& pipe, File& file) {
+  pass_trajectories(pipe, file.trajectories);
+  pass_metadata(pipe, file.metadata);
+  pass_texts(pipe, file.warnings);
+}
+
+/// Arrays of the sizes that names and clock promise, as every file of read_nwb() has them.
+bool is_sound(const NwbFile& file) {
+  const auto& t = file.trajectories;
+  if (t.time.frames < 0 || static_cast<std::size_t>(t.time.frames) > t.x_in_world.size()) return false;
+  return t.validate() && (!file.derivatives || file.derivatives->validate(file.trajectories));
+}
+
+}  // namespace
+
+bool send(int fd, const Result<NwbFile>& file) {
+  Sink out(fd);
+  pass(out, kBegin);
+  pass(out, file.has_value());
+  if (file) {
+    pass(out, file->derivatives.has_value());
+    pass(out, file->metadata.seed.has_value());
+    pass_file(out, *file);
+    if (file->derivatives) pass_derivatives(out, *file->derivatives);
+    if (file->metadata.seed) pass(out, *file->metadata.seed);
+  } else {
+    pass(out, file.error().code);
+    pass(out, file.error().message);
+  }
+  pass(out, kEnd);
+  return out.flush();
+}
+
+std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
+  Source in(fd, most_bytes);
+  std::uint64_t begin = 0, end = 0;
+  std::uint8_t there = 0;
+  pass(in, begin);
+  pass(in, there);
+  if (begin != kBegin || there > 1) return std::nullopt;
+  if (there == 0) {
+    Error error;
+    pass(in, error.code);
+    pass(in, error.message);
+    pass(in, end);
+    if (!in.good() || end != kEnd || error.code > Code::cancelled) return std::nullopt;
+    return std::unexpected(std::move(error));
+  }
+  NwbFile file;
+  std::uint8_t derivatives = 0, seed = 0;
+  pass(in, derivatives);
+  pass(in, seed);
+  pass_file(in, file);
+  if (derivatives == 1) pass_derivatives(in, file.derivatives.emplace());
+  if (seed == 1) pass(in, file.metadata.seed.emplace());
+  pass(in, end);
+  if (!in.good() || end != kEnd || derivatives > 1 || seed > 1 || !is_sound(file)) return std::nullopt;
+  return file;
+}
+
+}  // namespace kinemark::io::internal

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What was read of an NWB file, through a pipe from the process that read it to the one that asked.
+#pragma once
+
+#include <optional>
+
+#include "kinemark/io/nwb/nwb.h"
+
+namespace kinemark::io::internal {
+
+/// Write a file, or why there is none, to a descriptor; false when that is closed on the other side.
+[[nodiscard]] bool send(int fd, const Result<NwbFile>& file);
+
+/// The same from a descriptor, to its end. Whatever comes is checked: nothing where it is not what send()
+/// writes, or claims more than `most_bytes`.
+[[nodiscard]] std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes);
+
+}  // namespace kinemark::io::internal

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/nwb/internal/transfer.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <string>
+
+#include "kinemark/core/random.h"
+#include "kinemark/io/nwb/internal/names.h"
+#include "kinemark/io/nwb/testing/sample.h"
+
+namespace kinemark::io::internal {
+namespace {
+
+constexpr std::size_t kMost = 64UL << 20;
+
+/// What send() writes.
+std::string bytes_of(const Result<NwbFile>& file) {
+  const int fd = ::memfd_create("sent", 0);
+  EXPECT_TRUE(send(fd, file));
+  std::string out(static_cast<std::size_t>(::lseek(fd, 0, SEEK_CUR)), '\0');
+  EXPECT_EQ(::pread(fd, out.data(), out.size(), 0), static_cast<ssize_t>(out.size()));
+  ::close(fd);
+  return out;
+}
+
+std::optional<Result<NwbFile>> receive_bytes(const std::string& bytes, std::size_t most = kMost) {
+  const int fd = ::memfd_create("received", 0);
+  EXPECT_EQ(::write(fd, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  ::lseek(fd, 0, SEEK_SET);
+  auto out = receive(fd, most);
+  ::close(fd);
+  return out;
+}
+
+NwbFile sample() {
+  NwbFile file{.trajectories = testing::sample_trajectories(), .metadata = testing::sample_metadata()};
+  file.derivatives = testing::sample_derivatives(file.trajectories);
+  file.metadata.set = "0123456789abcdef";
+  file.warnings = {"one", "", "three"};
+  return file;
+}
+
+TEST(Transfer, EverythingArrives) {
+  for (const std::int64_t frames : {2, 50, 3000}) {  // short of the buffer, and beyond
+    NwbFile file = sample();
+    file.trajectories = testing::sample_trajectories(frames);
+    file.derivatives = testing::sample_derivatives(file.trajectories);
+    const auto back = receive_bytes(bytes_of(file));
+    ASSERT_TRUE(back && *back);
+    const NwbFile& got = **back;
+    EXPECT_EQ(got.trajectories.names, file.trajectories.names);
+    EXPECT_EQ(got.trajectories.time, file.trajectories.time);
+    EXPECT_TRUE(testing::same_bits(got.trajectories.x_in_world, file.trajectories.x_in_world));
+    EXPECT_EQ(got.trajectories.state, file.trajectories.state);
+    EXPECT_TRUE(testing::same_bits(got.trajectories.covariance, file.trajectories.covariance));
+    EXPECT_TRUE(testing::same_bits(got.trajectories.sample_offset_s, file.trajectories.sample_offset_s));
+    EXPECT_EQ(got.trajectories.methods, file.trajectories.methods);
+    EXPECT_EQ(got.trajectories.method, file.trajectories.method);
+    for (const Rate& rate : kRates)
+      EXPECT_TRUE(testing::same_bits((*got.derivatives).*rate.values, (*file.derivatives).*rate.values));
+    EXPECT_EQ(got.derivatives->filters.size(), file.derivatives->filters.size());
+    EXPECT_EQ(got.metadata.sources[0].bytes, file.metadata.sources[0].bytes);
+    EXPECT_EQ(got.metadata.options, file.metadata.options);
+    EXPECT_EQ(got.metadata.seed, file.metadata.seed);
+    EXPECT_EQ(got.metadata.set, file.metadata.set);
+    EXPECT_EQ(got.metadata.command, file.metadata.command);
+    EXPECT_EQ(got.warnings, file.warnings);
+  }
+}
+
+TEST(Transfer, AFailureArrives) {
+  const auto back = receive_bytes(bytes_of(fail(Code::not_supported, "x.nwb: is in 'pixels'")));
+  ASSERT_TRUE(back);
+  ASSERT_FALSE(*back);
+  EXPECT_EQ(back->error().code, Code::not_supported);
+  EXPECT_EQ(back->error().message, "x.nwb: is in 'pixels'");
+}
+
+TEST(Transfer, WhatIsCutIsNothing) {
+  const std::string whole = bytes_of(sample());
+  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 7)
+    EXPECT_FALSE(receive_bytes(whole.substr(0, size))) << size;
+}
+
+TEST(Transfer, ClaimsBeyondTheLimitAreNothing) {
+  const std::string whole = bytes_of(sample());
+  EXPECT_TRUE(receive_bytes(whole, whole.size()));
+  EXPECT_FALSE(receive_bytes(whole, whole.size() / 2));
+}
+
+TEST(Transfer, ChangedBytesAreNothingOrAValidRecording) {
+  const std::string whole = bytes_of(sample());
+  Random random(3, 0);
+  for (int k = 0; k < 300; ++k) {
+    std::string changed = whole;
+    // Half of them near the beginning, where sizes and flags stand.
+    const double share = random.uniform() * (k % 2 == 0 ? 1.0 : 0.01);
+    auto& byte = changed[static_cast<std::size_t>(share * static_cast<double>(whole.size()))];
+    byte = static_cast<char>(byte ^ (1 << (k % 8)));
+    const auto back = receive_bytes(changed);
+    if (back && *back) {
+      EXPECT_TRUE((*back)->trajectories.validate());
+    }
+  }
+}
+
+TEST(Transfer, AReaderThatWentAwayIsNoticed) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ::close(ends[0]);
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  EXPECT_FALSE(send(ends[1], sample()));
+  std::signal(SIGPIPE, before);
+  ::close(ends[1]);
+}
+
+}  // namespace
+}  // namespace kinemark::io::internal

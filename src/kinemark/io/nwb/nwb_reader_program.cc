@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// kinemark-nwb FILE SECONDS BYTES: reads an NWB file for read_nwb(), which is at the other end of standard
+// output. A process of its own, because HDF5 crashes on some damaged files and never returns from others.
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "kinemark/io/nwb/internal/reader.h"
+#include "kinemark/io/nwb/internal/transfer.h"
+
+namespace {
+
+using namespace kinemark;
+
+std::optional<rlim_t> number(const char* text) {
+  rlim_t value = 0;
+  const char* end = text + std::strlen(text);
+  return std::from_chars(text, end, value).ptr == end && end != text ? std::optional(value) : std::nullopt;
+}
+
+/// At most `most`, or what is allowed already.
+void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
+  struct rlimit now{};
+  getrlimit(what, &now);
+  now.rlim_cur = std::min(most, now.rlim_max);
+  setrlimit(what, &now);
+}
+
+void set_limits(rlim_t seconds, rlim_t bytes) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody reads what it would send
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, seconds);
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(KINEMARK_SANITIZE_ADDRESS)  // which needs terabytes of addresses
+  limit(RLIMIT_AS, bytes);
+#else
+  static_cast<void>(bytes);
+#endif
+}
+
+Result<io::NwbFile> read(const char* path) {
+  try {
+    return io::internal::read_nwb_here(path);
+  } catch (const std::bad_alloc&) {
+    return fail(Code::bad_input,
+                std::string(path) + ": needs far more memory than its size explains. Nothing was read.");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto seconds = argc == 4 ? number(argv[2]) : std::nullopt;
+  const auto bytes = argc == 4 ? number(argv[3]) : std::nullopt;
+  if (!seconds || !bytes) return 2;
+  set_limits(*seconds, *bytes);
+  const bool sent = io::internal::send(STDOUT_FILENO, read(argv[1]));
+  _exit(sent ? 0 : 4);  // HDF5 has nothing left to do
+}

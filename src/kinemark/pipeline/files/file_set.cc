@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/file_set.h"
+
+#include <fmt/core.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <system_error>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/set_mark.h"
+#include "kinemark/pipeline/files/job_settings.h"
+
+namespace kinemark::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kDigits = 16;
+constexpr std::size_t kBlock = 1UL << 20;
+/// All formats but NWB name their set near the beginning.
+constexpr std::size_t kSearched = 4UL << 20;
+
+/// What follows the stem of a result's first file.
+constexpr std::array<std::string_view, 11> kEndings = {
+    "_tau_sd.sto",        "_sd.sto",   "_bound.sto",   "_tau.sto",
+    "_marker_errors.sto", "_rank.sto", "_report.json", "_derivatives.sto",
+    "_skeleton.json",     ".mot",      ".osim"};
+/// A result of `joints` in a folder.
+constexpr std::array<std::string_view, 3> kJointFiles = {"centres.c3d", "segments.toml", "skeleton.json"};
+
+/// The set that stands in a text, or empty.
+std::string find_mark(std::string_view text) {
+  for (auto at = text.find(io::kSetKey); at != std::string_view::npos; at = text.find(io::kSetKey, at + 1)) {
+    auto digits = text.substr(at + io::kSetKey.size(), kDigits + 4);
+    digits.remove_prefix(std::min(digits.size(), digits.find_first_not_of("=\": ")));
+    digits = digits.substr(0, kDigits);
+    if (digits.size() == kDigits &&
+        std::ranges::all_of(digits, [](unsigned char c) { return std::isxdigit(c) != 0; }))
+      return std::string(digits);
+  }
+  return {};
+}
+
+/// The stem of the result that a file belongs to.
+std::string stem_of_result(const fs::path& file) {
+  const std::string name = file.filename().string();
+  for (const auto ending : kEndings)
+    if (name.size() > ending.size() && name.ends_with(ending))
+      return name.substr(0, name.size() - ending.size());
+  return file.stem().string();
+}
+
+}  // namespace
+
+SetDigest::SetDigest() : state_(XXH3_createState()) { XXH3_64bits_reset(state_.get()); }
+
+void SetDigest::Free::operator()(XXH3_state_s* state) const { XXH3_freeState(state); }
+
+SetDigest& SetDigest::add(std::string_view text) {
+  const std::uint64_t size = text.size();
+  XXH3_64bits_update(state_.get(), &size, sizeof size);
+  XXH3_64bits_update(state_.get(), text.data(), text.size());
+  return *this;
+}
+
+SetDigest& SetDigest::add(std::span<const double> numbers) {
+  return add(std::string_view(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()));
+}
+
+SetDigest& SetDigest::add(const data::Table& table) {
+  add(table.name);
+  for (const auto& column : table.columns) add(column);
+  return add(std::span<const double>(table.time_s)).add(std::span<const double>(table.values));
+}
+
+SetDigest& SetDigest::add(const data::Trajectories& markers) {
+  for (const auto& name : markers.names) add(name);
+  const std::array clock{markers.time.rate_hz, markers.time.t0_s, static_cast<double>(markers.time.frames)};
+  return add(std::span<const double>(clock))
+      .add(std::span<const double>(markers.x_in_world))
+      .add(std::string_view(reinterpret_cast<const char*>(markers.state.data()), markers.state.size()));
+}
+
+SetDigest& SetDigest::add(const std::vector<data::InputFile>& inputs) {
+  for (const auto& input : inputs) add(input.role).add(input.hash);
+  return *this;
+}
+
+SetDigest& SetDigest::add(const std::vector<std::pair<std::string, std::string>>& options) {
+  for (const auto& [name, value] : options) add(name).add(value);
+  return *this;
+}
+
+std::string SetDigest::hex() const { return fmt::format("{:016x}", XXH3_64bits_digest(state_.get())); }
+
+std::string set_in(const fs::path& path) {
+  const auto file = io::InputFile::open(path);
+  if (!file) return {};
+  const std::size_t size = ending_of(path) == ".nwb" ? file->size() : std::min(file->size(), kSearched);
+  std::string block(kBlock, '\0');
+  // Blocks overlap, so that no mark is cut.
+  for (std::size_t at = 0; at < size; at += kBlock - 64) {
+    const auto n = file->read_at(at, std::as_writable_bytes(std::span(block)));
+    if (!n) return {};
+    if (auto set = find_mark(std::string_view(block).substr(0, *n)); !set.empty()) return set;
+  }
+  return {};
+}
+
+Status check_same_set(const std::vector<SetMember>& members) {
+  for (const auto& member : members)
+    if (member.set != members.front().set)
+      return fail(
+          Code::bad_input,
+          fmt::format(
+              "{}: was not written together with {}: a run was interrupted while it replaced them, or "
+              "one of them comes from elsewhere; make them anew",
+              member.file.string(), members.front().file.string()));
+  return {};
+}
+
+std::vector<std::string> find_strangers(const fs::path& file) {
+  std::vector<std::string> out;
+  const std::string set = set_in(file);
+  if (set.empty()) return out;
+  std::vector<fs::path> beside_it;
+  const std::string stem = stem_of_result(file), name = file.filename().string();
+  for (const auto ending : kEndings) beside_it.push_back(file.parent_path() / (stem + std::string(ending)));
+  if (std::ranges::find(kJointFiles, name) != kJointFiles.end())
+    for (const auto other : kJointFiles) beside_it.push_back(file.parent_path() / other);
+  std::error_code ignored;
+  for (const auto& other : beside_it) {
+    if (other.filename() == file.filename() || !fs::is_regular_file(other, ignored)) continue;
+    const std::string theirs = set_in(other);
+    if (!theirs.empty() && theirs != set)
+      out.push_back(check_same_set({{file, set}, {other, theirs}}).error().message);
+  }
+  return out;
+}
+
+}  // namespace kinemark::pipeline

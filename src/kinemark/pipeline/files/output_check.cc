@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/output_check.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "kinemark/io/place.h"
+
+namespace kinemark::pipeline {
+
+namespace fs = std::filesystem;
+
+Status check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+  std::error_code absent;
+  for (const auto& output : outputs)
+    for (const auto& input : inputs)
+      if (fs::equivalent(output, input, absent))
+        return fail(Code::usage, fmt::format("{}: is the file that is read as {}; name another output",
+                                             output.string(), input.string()));
+  return {};
+}
+
+Status check_below(const fs::path& setup, const fs::path& output, std::string_view element) {
+  std::error_code ignored;
+  const auto folder = fs::weakly_canonical(fs::absolute(setup, ignored).parent_path(), ignored);
+  // With force a link as output is followed; it may not lead elsewhere either.
+  const auto target = io::find_target(output, true).value_or(output);
+  const auto file = fs::weakly_canonical(fs::absolute(target, ignored), ignored);
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end()) return {};
+  return fail(Code::usage,
+              fmt::format("{}: <{}> is {}, which lies outside the setup's own folder; give --output",
+                          setup.string(), element, output.string()));
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Where results must not go.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::pipeline {
+
+/// Code::usage, naming the output, when one of the outputs is one of the inputs: the same file, under
+/// whatever name and through whatever link. Names that are empty or of nothing that is there do not count.
+[[nodiscard]] Status check_apart(const std::vector<std::filesystem::path>& outputs,
+                                 const std::vector<std::filesystem::path>& inputs);
+
+/// A setup may come from anywhere, so what it names as output must lie in its own folder or below:
+/// Code::usage otherwise. Links are followed. @param element  of the setup that names `output`:
+/// "output_motion_file"
+[[nodiscard]] Status check_below(const std::filesystem::path& setup, const std::filesystem::path& output,
+                                 std::string_view element);
+
+}  // namespace kinemark::pipeline
