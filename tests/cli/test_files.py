@@ -345,7 +345,8 @@ class Nwb(Files):
                     self.good("convert", f"{name}.nwb", f"{name}.csv", "--force")
                 self.assertEqual((self.folder / "x.csv").read_bytes(), (self.folder / "y.csv").read_bytes(), f"bit {bit}")
             else:
-                self.assertEqual(len(ran.err.splitlines()), 1, ran.err)
+                said = [line for line in ran.err.splitlines() if not line.startswith("files: ")]  # progress, where it takes a second
+                self.assertEqual(len(said), 1, ran.err)
 
     def test_a_full_disk_is_no_crash(self):
         for size in (0, 4096, 32768, 65536):

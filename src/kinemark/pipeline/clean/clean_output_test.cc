@@ -124,7 +124,7 @@ TEST_F(CleanOutputTest, WithoutDerivativesThereIsNoTable) {
   data::Trial trial = trial_;
   ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", ""));
   EXPECT_TRUE(fs::exists(scratch_ / "a.trc"));
-  EXPECT_FALSE(fs::exists(scratch_ / "a.sto", ""));
+  EXPECT_FALSE(fs::exists(scratch_ / "a.sto"));
 }
 
 TEST_F(CleanOutputTest, AnNwbIsWrittenMarkerByMarkerAndSeenAtTheEnd) {
