@@ -31,7 +31,7 @@ struct Sum {
   void add(double error) {
     square += error * error;
     count += 1.0;
-    most = !(std::abs(error) <= most) ? std::abs(error) : most;  // keeps what is not a number
+    if (!std::isnan(most) && !(std::abs(error) <= most)) most = std::abs(error);  // keeps what is no number
   }
   [[nodiscard]] double rms() const {
     return count > 0.0 ? std::sqrt(square / count) : std::numeric_limits<double>::quiet_NaN();

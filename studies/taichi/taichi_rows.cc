@@ -21,7 +21,7 @@ double worst(const Subjects& subjects, double unit, const Get& get) {
   double out = -1e300;
   for (const auto& subject : subjects) {
     const double value = unit * get(subject);
-    if (!(value <= out)) out = value;
+    if (!std::isnan(out) && !(value <= out)) out = value;
   }
   return out;
 }

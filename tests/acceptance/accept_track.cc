@@ -237,7 +237,7 @@ void bounds(int seeds) {
     const double share = static_cast<double>(sum.bounded) / static_cast<double>(sum.all);
     print_row(
         sum.bounded > 0 && sum.held == sum.bounded && share >= c.share_low && share <= c.share_high,
-        "bound of equation 16, " + c.what,
+        "bound of the error by equation 15 and 5 SD of the goals' noise, " + c.what,
         c.share_low > 0.0 ? "holds in 100 % of the frames" : "holds where given, most not determined",
         fmt::format(
             "holds for {} of {} values ({:.1f} % of all but {} frames at each end), rank {} to {}; median "
