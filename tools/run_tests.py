@@ -362,7 +362,7 @@ STAGES = {
     "public-headers": (script(sys.executable, "tools/check_public_headers.py"), 0.1),
     "tools": (tools, 0.5),
     "build": (build("ci"), 25),
-    "hardened": (script("tools/check_hardened", "build/ci/bin/kinemark"), 0.1),
+    "hardened": (script("tools/check_hardened", "build/ci/bin/kinemark", "build/ci/bin/kinemark-nwb"), 0.1),
     "tests": (unit_tests("ci"), 1),
     "cli": (cli("ci"), 2),
     "consumer": (consumer, 2),

@@ -76,8 +76,8 @@ def main(arguments):
                 if poses != whole:
                     print(f"of {whole} whole poses: {poses}")
             row(used == cuts, f"recordings of a tree cut at {cuts} places: all whole poses used", f"{cuts}", f"{used}")
-            told = sum(said for _, _, said in found)
-            row(told == cuts, "the frames of a pose that was cut are told, and only then", f"{cuts}", f"{told}")
+            reported = sum(said for _, _, said in found)
+            row(reported == cuts, "the frames of a pose that was cut are told, and only then", f"{cuts}", f"{reported}")
     return 1 if failed else 0
 
 

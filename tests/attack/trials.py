@@ -198,7 +198,7 @@ def killed_between_renames(scene, random):
     return f"{' '.join(new)} killed at rename {number} (status {ran.status})", problems
 
 
-def told_to_end(scene, random):
+def asked_to_end(scene, random):
     """SIGINT, SIGTERM, SIGHUP at any moment: nothing is left, or everything is there."""
     command = random.choice(WRITERS)
     began = time.monotonic()
@@ -255,6 +255,6 @@ KINDS = {
     small_disk: 8,
     two_writers: 7,
     killed: 6,
-    told_to_end: 6,
+    asked_to_end: 6,
     killed_between_renames: 3,
 }

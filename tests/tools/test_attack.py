@@ -28,7 +28,7 @@ class Judge(unittest.TestCase):
         self.assertEqual(judge.findings(ran(0, out=b'{"a": 1}'), as_json=True), [])
         self.assertEqual(judge.findings(ran(3, b"note: one\nkinemark: a.trc: line 3: bad\n"), named="a.trc"), [])
 
-    def test_each_fault_is_told(self):
+    def test_each_fault_is_found(self):
         for words, found in {
             "does not end": judge.findings(ran(None)),
             "ended by signal 11": judge.findings(ran(-11)),

@@ -36,7 +36,7 @@ class MissingGuards(unittest.TestCase):
                 self.assertIn(words, found[0])
 
     @unittest.skipUnless(shutil.which("gcc"), "no compiler here")
-    def test_a_program_without_guards_is_told_from_its_bytes(self):
+    def test_a_program_without_guards_is_known_by_its_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
             source, program = Path(folder) / "bare.c", Path(folder) / "bare"
             source.write_text("int main(void) { return 0; }\n")
