@@ -67,7 +67,7 @@ TEST(HostileNwb, NotAnNwbFileAtAll) {
   }
   EXPECT_THAT(read_nwb(scratch / "plain.h5").error().message, HasSubstr("is HDF5 but not an NWB file"));
   EXPECT_EQ(read_nwb(scratch / "absent.nwb").error().code, Code::io);
-  EXPECT_EQ(read_nwb(scratch.path()).error().code, Code::io);
+  EXPECT_EQ(read_nwb(scratch.path()).error().code, Code::bad_input);
 }
 
 TEST(HostileNwb, HDF5IsSilentAndStaysAsItWas) {
