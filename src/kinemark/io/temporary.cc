@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <ranges>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -177,7 +178,7 @@ std::unique_lock<std::mutex> hold_end() { return std::unique_lock(of_process().m
 void end_process(int status) {
   auto& all = of_process();
   all.mutex.lock();  // for good: nothing is made any more
-  for (auto path = all.paths.rbegin(); path != all.paths.rend(); ++path) remove_path(*path);
+  for (const auto& path : std::views::reverse(all.paths)) remove_path(path);
   ::_exit(status);
 }
 

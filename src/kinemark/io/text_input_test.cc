@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 
 #include "kinemark/io/file.h"
 #include "support/scratch.h"
@@ -28,7 +27,7 @@ TEST(TextInput, ReadsWhatIsText) {
 
 TEST(TextInput, JudgesHugeFilesByTheirFirstMegabyte) {
   const testing_support::ScratchFolder scratch;
-  std::ofstream(scratch / "zeros.trc");
+  ASSERT_TRUE(write_text(scratch / "zeros.trc", "", false));
   std::filesystem::resize_file(scratch / "zeros.trc", 1ULL << 40);  // a hole: takes no room
   const auto zeros = read_lines_of_text(scratch / "zeros.trc");
   EXPECT_EQ(zeros.error().code, Code::bad_input);

@@ -35,7 +35,7 @@ herr_t collect(hid_t, const char* name, const H5A_info_t*, void* out) {
 /// One walk over a file. Every member is false where something cannot be read.
 class Walk {
  public:
-  explicit Walk(Input& in) : in_(in), state_(make_state()) {}
+  explicit Walk(Input& in) : in_(in), left_(in.bytes_explained()), state_(make_state()) {}
 
   bool object(const std::string& path, int depth) {
     const Handle object = in_.object(in_.file(), path.empty() ? "/" : path);
@@ -111,6 +111,9 @@ class Walk {
     for (std::size_t d = 1; d < shape.size(); ++d) width *= shape[d];
     const State own = make_state();
     const bool bytes = in_.holds_bytes(dataset);
+    const auto size = static_cast<std::size_t>(rows * width) * (bytes ? 1 : sizeof(double));
+    if (size > left_) return false;  // rows without end that are nowhere in the file
+    left_ -= size;
     const std::int64_t most = std::max<std::int64_t>(1, kBlockNumbers / std::max<std::int64_t>(1, width));
     std::vector<double> block(static_cast<std::size_t>(std::min(rows, most) * width));
     for (std::int64_t first = 0; first < rows && width > 0; first += most) {
@@ -124,6 +127,7 @@ class Walk {
   }
 
   Input& in_;
+  std::size_t left_;  ///< bytes that the file's size can still explain
   State state_;
 };
 

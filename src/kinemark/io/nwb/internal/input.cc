@@ -108,7 +108,8 @@ Input::Input(Handle file, Handle link_access, std::string name, std::size_t size
     : file_(std::move(file)),
       link_access_(std::move(link_access)),
       name_(std::move(name)),
-      bytes_left_(kFreeBytes + kMaxExpansion * size) {
+      bytes_explained_(kFreeBytes + kMaxExpansion * size),
+      bytes_left_(bytes_explained_) {
   H5Pset_elink_cb(link_access_.id(), refuse_link, nullptr);
 }
 

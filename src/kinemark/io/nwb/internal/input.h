@@ -63,6 +63,8 @@ class Input {
 
   /// Reserve `bytes` of the memory that the file's size justifies; false when they exceed it.
   [[nodiscard]] bool afford(std::size_t count, std::size_t bytes_each);
+  /// How many bytes of content the file's size can explain, whatever was reserved.
+  [[nodiscard]] std::size_t bytes_explained() const { return bytes_explained_; }
 
   [[nodiscard]] hid_t file() const { return file_.id(); }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -74,7 +76,7 @@ class Input {
 
   Handle file_, link_access_;
   std::string name_;
-  std::size_t bytes_left_ = 0;
+  std::size_t bytes_explained_ = 0, bytes_left_ = 0;
   std::map<std::string, std::uint64_t> digests_;  ///< of what was read, by its path
 };
 

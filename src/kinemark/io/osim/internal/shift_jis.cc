@@ -26,7 +26,7 @@ bool declares_shift_jis(std::string_view xml) {
 
 std::optional<std::string> from_shift_jis(std::string_view xml) {
   if (!declares_shift_jis(xml)) return std::nullopt;
-  const iconv_t converter = ::iconv_open("UTF-8", "CP932");
+  iconv_t converter = ::iconv_open("UTF-8", "CP932");
   if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
   std::string in(xml);
   std::string out(3 * in.size(), '\0');  // a byte becomes three at most
