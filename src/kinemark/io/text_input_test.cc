@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-
 #include "kinemark/io/file.h"
 #include "support/scratch.h"
 
