@@ -29,14 +29,14 @@ def main(arguments):
     )
     failed = ran.returncode not in (0, 1)
     for line in ran.stdout.splitlines():
-        kind = re.fullmatch(r"attack: (\w+): (\d+) trials, (\d+) findings", line)
+        kind = re.fullmatch(r"attack: (\w+): (\d+) trials, (\d+) findings(.*)", line)
         if kind is None:
             print(line, flush=True)
             continue
         name, trials, findings = kind.group(1), int(kind.group(2)), int(kind.group(3))
         passed = trials > 0 and findings == 0
         failed = failed or not passed
-        print(f"{'PASS' if passed else 'FAIL'} | {name.replace('_', ' ')}: findings | 0 | {findings} of {trials}", flush=True)
+        print(f"{'PASS' if passed else 'FAIL'} | {name.replace('_', ' ')}: findings | 0 | {findings} of {trials}{kind.group(4)}", flush=True)
     return 1 if failed else 0
 
 

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""Files that are written stay whole, whatever the disk, a kill, a second writer or a flipped bit does.
+"""Files that are written stay whole, whatever the disk, a kill or a flipped bit does. (Second writers: attack.py.)
 
     files_kept.py full_disk LEVELS        each command that writes, its disk full at so many levels
     files_kept.py kills KILLS             each command that writes a set, killed at so many moments in all
-    files_kept.py writers PAIRS           pairs of programs that write one output
     files_kept.py flips COUNT             so many single-bit flips in NWB files of ours
 
 Prints rows "PASS|FAIL | check | asked | measured".
@@ -23,7 +22,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 
 from support import PROGRAM, listing, run
-from writing import Workshop, empty_folder, flips, hidden, kill_at, of_two_writers, on_full_disks, seconds_of, visible
+from writing import Workshop, empty_folder, flips, hidden, kill_at, on_full_disks, seconds_of, visible
 
 failed = False
 
@@ -101,38 +100,6 @@ def kills(workshop, scratch, count):
         row(left == 0, f"{name}: hidden files after the next run", "0", str(left))
 
 
-def between_renames(workshop, scratch, count):
-    """Every mixture that a kill between two renames can leave, made from two whole results."""
-    for name in workshop.others:
-        first = next(str(part) for part in workshop.commands[name] if str(part).startswith("x."))
-        with empty_folder(scratch, "old") as old, empty_folder(scratch, "new") as new:
-            run(*workshop.commands[name], cwd=old)
-            run(*workshop.others[name], cwd=new)
-            files = sorted(path.name for path in old.iterdir() if path.suffix not in (".html", ".csv"))
-            draw = random.Random(5)
-            noticed = tried = 0
-            for _ in range(-(-count // len(workshop.others))):
-                draw.shuffle(files)
-                cut = draw.randrange(1, len(files))
-                with empty_folder(scratch, "mixture") as folder:
-                    for i, file in enumerate(files):
-                        (folder / file).write_bytes(((new if i < cut else old) / file).read_bytes())
-                    tried += 1
-                    noticed += set_of(folder, first) == "mixed"
-        row(noticed == tried, f"{name}: mixtures of two results, as a kill between renames leaves them, noticed", str(tried), str(noticed))
-
-
-def writers(workshop, scratch, pairs):
-    for name in ("convert to C3D", "convert to NWB", "simulate arm"):
-        ended, left = {}, 0
-        for _ in range(-(-pairs // 3)):
-            statuses, hidden_files = of_two_writers(workshop.commands[name], scratch)
-            ended[tuple(statuses)] = ended.get(tuple(statuses), 0) + 1
-            left += len(hidden_files)
-        row(set(ended) == {(0, 4)} and left == 0, f"{name}: of two writers exactly one wins", "0 and 4, nothing left",
-            ", ".join(f"{n} x {a} and {b}" for (a, b), n in ended.items()) + f"; {left} left")
-
-
 def read_flipped(arguments):
     """How a reader takes a file with one flipped bit: (exit status, whether it said one clean line, its JSON)."""
     folder, number, changed = arguments
@@ -189,9 +156,6 @@ def main():
             full_disk(workshop, scratch, count)
         elif kind == "kills":
             kills(workshop, scratch, count)
-            between_renames(workshop, scratch, max(4, count // 4))
-        elif kind == "writers":
-            writers(workshop, scratch, count)
         else:
             flipped(workshop, scratch, count)
         row(listing(workshop.inputs) == inputs, "inputs as they were", "all", "all" if listing(workshop.inputs) == inputs else "changed")

@@ -45,7 +45,7 @@ def chosen_kinds(names):
 
 
 def attack(number, options, sound, kinds):
-    """One trial: (number, name of its kind, what was done, what is wrong)."""
+    """One trial: (number, name of its kind, what was done, what is wrong, what it came upon)."""
     dice = random.Random(f"{options.seed}/{number}")
     kind = dice.choices(list(kinds), weights=list(kinds.values()))[0]
     with tempfile.TemporaryDirectory(prefix="kinemark-attack-") as scratch:
@@ -59,7 +59,7 @@ def attack(number, options, sound, kinds):
             kept = options.keep / f"{kind.__name__}-{options.seed}-{number}"
             shutil.rmtree(kept, ignore_errors=True)
             shutil.copytree(folder, kept, symlinks=True)
-    return number, kind.__name__, done, problems
+    return number, kind.__name__, done, problems, scene.seen
 
 
 def numbers(options):
@@ -111,17 +111,19 @@ def main(arguments):
     if not can_trace():
         kinds = {kind: share for kind, share in kinds.items() if kind.__name__ != "killed_between_renames"}
         print("attack: strace may not watch programs here: nothing is killed between two renames", file=sys.stderr)
-    tried, found = collections.Counter(), collections.Counter()
+    tried, found, seen = collections.Counter(), collections.Counter(), collections.defaultdict(collections.Counter)
     with tempfile.TemporaryDirectory(prefix="kinemark-attack-") as scratch:
         sound = Path(scratch)
         make_sound_files(options.program, sound)
-        for number, kind, done, problems in run_trials(options, sound, kinds):
+        for number, kind, done, problems, came_upon in run_trials(options, sound, kinds):
             tried[kind] += 1
             found[kind] += bool(problems)
+            seen[kind] += came_upon
             for problem in problems:
                 print(f"attack: FOUND {kind}, trial {number}: {printable(done)}: {printable(problem)}", flush=True)
     for kind in kinds:
-        print(f"attack: {kind.__name__}: {tried[kind.__name__]} trials, {found[kind.__name__]} findings")
+        more = "".join(f", {count} {what}" for what, count in seen[kind.__name__].items())
+        print(f"attack: {kind.__name__}: {tried[kind.__name__]} trials, {found[kind.__name__]} findings{more}")
     print(f"attack: {tried.total()} trials, {found.total()} findings" + (f"; their folders: {options.keep}" if found.total() else ""))
     return 1 if found.total() or not tried.total() else 0
 

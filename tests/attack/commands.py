@@ -44,11 +44,13 @@ SCALE_SETUP = """<OpenSimDocument Version="30000"><ScaleTool name="person"><mass
 
 @dataclasses.dataclass(frozen=True)
 class Command:
-    """What is typed; words that are in `inputs` are the names of sound files. `writes` is the name of the output, if any."""
+    """What is typed; words that are in `inputs` are the names of sound files. `writes` is the name of the output, if any;
+    `other` are more words, with which a set of files of other content is written."""
 
     words: tuple[str, ...]
     inputs: tuple[str, ...]
     writes: str | None = None
+    other: tuple[str, ...] = ()
 
     @property
     def name(self):
@@ -73,13 +75,14 @@ COMMANDS = (
     ),
     one("clean", "markers.c3d", "out.csv", "--gaps", "auto", writes="out.csv"),
     one("clean", "markers.trc", "out.nwb", "--derivatives", writes="out.nwb"),
+    Command(("clean", "markers.c3d", "out.c3d", "--derivatives"), ("markers.c3d",), "out.c3d", ("--cutoff", "6")),
     Command(("joints", "arm.c3d", "--segments", "segments.toml", "-o", "out"), ("arm.c3d", "segments.toml"), "out"),
-    Command(("scale", "-m", "model.osim", "-t", "markers.trc", "-o", "out.osim", "--frames", "5"), ("model.osim", "markers.trc"), "out.osim"),
+    Command(("scale", "-m", "model.osim", "-t", "markers.trc", "-o", "out.osim", "--frames", "5"), ("model.osim", "markers.trc"), "out.osim", ("--end", "0.05")),
     Command(("scale", "--setup", "scale.xml", "-o", "out.osim"), ("scale.xml",), "out.osim"),
-    Command(("ik", "-m", "model.osim", "-t", "markers.trc", "-o", "out.mot"), ("model.osim", "markers.trc"), "out.mot"),
+    Command(("ik", "-m", "model.osim", "-t", "markers.trc", "-o", "out.mot"), ("model.osim", "markers.trc"), "out.mot", ("--end", "0.05")),
     Command(("ik", "-m", "model.osim", "-t", "markers.c3d", "-o", "out.mot", "--tasks", "tasks.xml"), ("tasks.xml",), "out.mot"),
     Command(("ik", "--setup", "ik.xml", "-o", "out.mot"), ("ik.xml",), "out.mot"),
-    Command(("track", "-m", "model.osim", "-t", "markers.c3d", "-o", "out.mot"), ("model.osim", "markers.c3d"), "out.mot"),
+    Command(("track", "-m", "model.osim", "-t", "markers.c3d", "-o", "out.mot"), ("model.osim", "markers.c3d"), "out.mot", ("--end", "0.05")),
     Command(("report", "q.mot", "-o", "out.html"), ("q.mot", "q_report.json", "q_sd.sto", "q_marker_errors.sto"), "out.html"),
     Command(("simulate", "subject", "-m", "model.osim", "-o", "out", "--duration", "0.1"), ("model.osim",), "out"),
     Command(("simulate", "rig", "markers", "-t", "markers.trc", "-o", "out", "--marker", "LFHD", "--marker", "RFHD"), ("markers.trc",), "out"),

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The kinds of attack. Each takes a Scene and a Random, and gives (what was done, what is wrong with what happened)."""
 
+import collections
 import contextlib
 import os
 import resource
@@ -55,6 +56,7 @@ class Scene:
     def __init__(self, program, sound, folder, seconds=60, memory_bytes=None):
         self.program, self.sound, self.folder = program, sound, folder
         self.seconds, self.memory_bytes = seconds, memory_bytes
+        self.seen = collections.Counter()  # what a trial came upon, where that is not certain
         shutil.copytree(sound, folder, dirs_exist_ok=True)
 
     def start(self, words, file_bytes=None, wrapper=()):
@@ -176,26 +178,27 @@ def killed(scene, random):
 
 
 def killed_between_renames(scene, random):
-    """kill -9 before the n-th rename of a set of files; a report of a set that is half old and half new is refused."""
-    command = next(c for c in COMMANDS if c.name == "ik" and "--tasks" not in c.words and "--setup" not in c.words)
-    old, new = [*command.words, "--end", "0.05"], [*command.words, "--force"]
+    """kill -9 before the n-th rename of a set of files: a set that is half old and half new is told by `validate`."""
+    command = random.choice([command for command in WRITERS if command.other])
+    new = [*command.words, "--force"]
     scene.run(*new)
     made = listing(scene.folder)
-    scene.run(*old, "--force")
+    scene.run(*new, *command.other)
     before = listing(scene.folder)
-    number = random.randint(1, 5)
-    ran = scene.run(*new, wrapper=("strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={RENAMES}", "-e", f"inject={RENAMES}:signal=KILL:when={number}"))
+    number = random.randint(2, 4)  # the first one leaves all as it was
+    inject = f"inject={RENAMES}:signal=KILL:when={number}"
+    scene.run(*new, wrapper=("strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={RENAMES}", "-e", inject))
     after = listing(scene.folder)
     changed = [name for name in made if made[name] != before.get(name) and ".kinemark-" not in name]
     fresh = [name for name in changed if after.get(name) == made[name]]
     stale = [name for name in changed if after.get(name) == before.get(name)]
     problems = []
     if fresh and stale:
-        page = scene.run("report", "out.mot", "-o", "page.html")
-        if page.status == 0:
-            problems.append(f"a report of old ({', '.join(stale)}) and new files ({', '.join(fresh)}) was written")
-    problems += after_death(scene, command, before, made)
-    return f"{' '.join(new)} killed at rename {number} (status {ran.status})", problems
+        scene.seen["mixtures"] += 1
+        judged = scene.run("validate", command.writes)
+        if b"was not written together with" not in judged.err:
+            problems.append(f"old ({', '.join(stale)}) beside new files ({', '.join(fresh)}) and no word of it")
+    return f"{' '.join(new)} killed at rename {number}", problems + after_death(scene, command, before, made)
 
 
 def asked_to_end(scene, random):
