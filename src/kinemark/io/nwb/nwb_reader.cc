@@ -51,7 +51,10 @@ fs::path find_program() {
     return named;
   std::error_code absent;
   const fs::path own = fs::read_symlink("/proc/self/exe", absent).parent_path();
-  for (const fs::path& path : {own / kProgram, own.parent_path() / "libexec/kinemark" / kProgram})
+  // Beside the program that runs, where both were installed, or where ours are installed and another program
+  // runs.
+  for (const fs::path& path : {own / kProgram, own.parent_path() / "libexec/kinemark" / kProgram,
+                               fs::path(KINEMARK_LIBEXEC) / kProgram})
     if (fs::is_regular_file(path, absent)) return path;
   return {};
 }
@@ -103,6 +106,13 @@ std::unexpected<Error> describe_end(const std::string& name, int status, const L
   const auto damaged = [&](const std::string& what) {
     return fail(Code::bad_input, fmt::format("{}: {}; the file is damaged. Nothing was read.", name, what));
   };
+  // It came to its end, or was ended because of what it sent.
+  if (status == 0 || (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM))
+    return fail(
+        Code::bad_input,
+        fmt::format("{}: {} does not answer as expected: it is of another version, or the file misled "
+                    "it. Nothing was read.",
+                    name, kProgram));
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
     return damaged(fmt::format("HDF5 did not come to an end with it in {} s", limits.seconds));
   if (WIFSIGNALED(status)) return damaged(fmt::format("HDF5 crashed on it (signal {})", WTERMSIG(status)));

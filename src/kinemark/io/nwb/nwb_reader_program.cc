@@ -39,8 +39,7 @@ void set_limits(rlim_t seconds, rlim_t bytes) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody reads what it would send
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(KINEMARK_SANITIZE_ADDRESS)  // which needs terabytes of addresses
+#ifndef KINEMARK_SANITIZE_ADDRESS  // which needs terabytes of addresses
   limit(RLIMIT_AS, bytes);
 #else
   static_cast<void>(bytes);

@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A program that does that, in place of the one that reads.
 Result<NwbFile> read_by(const std::string& shell) {
@@ -50,9 +51,15 @@ TEST(NwbReader, TimeThatRunsOutIsOneSentence) {
   expect_damaged("kill -XCPU $$", "HDF5 did not come to an end with it in 5 s");
 }
 
-TEST(NwbReader, NonsenseIsOneSentence) {
-  for (const char* shell : {"exit 0", "exit 3", "echo nonsense", "head -c 100000 /dev/zero", "yes"})
-    expect_damaged(shell, "HDF5");
+TEST(NwbReader, AnAnswerOfAnotherKindIsNotCalledDamage) {
+  for (const char* shell : {"exit 0", "echo nonsense", "head -c 100000 /dev/zero", "yes"}) {
+    const auto file = read_by(shell);
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code, Code::bad_input);
+    EXPECT_THAT(file.error().message, HasSubstr("kinemark-nwb does not answer as expected"));
+    EXPECT_THAT(file.error().message, Not(HasSubstr("HDF5")));
+  }
+  expect_damaged("exit 3", "HDF5 could not read it");
 }
 
 TEST(NwbReader, WhatItSaysOnStandardErrorIsNotSeen) {

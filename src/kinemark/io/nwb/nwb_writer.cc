@@ -14,7 +14,6 @@
 #include "kinemark/io/nwb/internal/output.h"
 #include "kinemark/io/nwb/internal/root.h"
 #include "kinemark/io/nwb/nwb.h"
-#include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {
 namespace {
@@ -84,8 +83,6 @@ struct NwbWriter::Open {
   void put_times(const data::Trajectories& piece, const std::vector<std::size_t>& columns,
                  std::int64_t first_frame);
   void write_tables();
-  /// The set, and the digest of everything.
-  void seal(const std::string& set);
 
   OutputFile file;
   std::string path;
@@ -273,16 +270,6 @@ void NwbWriter::Open::write_tables() {
               {{.name = "method", .description = "name of the method", .texts = methods}});
 }
 
-void NwbWriter::Open::seal(const std::string& set) {
-  if (const std::string mark = set_mark(set.empty() ? metadata.set : set); !mark.empty())
-    out.attribute(out.file(), std::string(kSetKey).c_str(), mark);
-  if (out.failed()) return;
-  auto written = internal::Input::of(out.file());
-  const auto digest = internal::content_digest(written);
-  out.require(digest.has_value());
-  if (digest) out.attribute(out.file(), internal::kDigestAttribute, *digest);
-}
-
 NwbWriter::NwbWriter(std::unique_ptr<Open> open) : open_(std::move(open)) {}
 NwbWriter::NwbWriter(NwbWriter&& other) noexcept = default;
 NwbWriter& NwbWriter::operator=(NwbWriter&& other) noexcept = default;
@@ -381,7 +368,7 @@ Status NwbWriter::commit(const std::string& set) {
        {&open->position, &open->state, &open->method, &open->covariance, &open->offset, &open->stamps})
     series->of_marker.clear();
   open->rates.clear();
-  open->seal(set);
+  internal::seal(open->out, set.empty() ? open->metadata.set : set);
   if (!open->out.close())
     return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open->path));
   return open->file.commit();

@@ -10,6 +10,8 @@
 #include <memory>
 #include <string_view>
 
+#include "kinemark/io/set_mark.h"
+
 namespace kinemark::io::internal {
 namespace {
 
@@ -137,6 +139,15 @@ std::optional<std::string> content_digest(Input& in) {
   Walk walk(in);
   if (!walk.object("", 0)) return std::nullopt;
   return walk.digest();
+}
+
+void seal(Output& out, const std::string& set) {
+  if (!set.empty()) out.attribute(out.file(), std::string(kSetKey).c_str(), set_mark(set));
+  if (out.failed()) return;
+  auto written = Input::of(out.file());
+  const auto digest = content_digest(written);
+  out.require(digest.has_value());
+  if (digest) out.attribute(out.file(), kDigestAttribute, *digest);
 }
 
 }  // namespace kinemark::io::internal

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kinemark/io/nwb/internal/input.h"
+#include "kinemark/io/nwb/internal/output.h"
 
 namespace kinemark::io::internal {
 
@@ -16,5 +17,8 @@ inline constexpr const char* kDigestAttribute = "kinemark_digest";
 /// and 16 digits. Samples that were read already are not read again (Input::digest_of). Nothing where a part
 /// of the file cannot be read.
 [[nodiscard]] std::optional<std::string> content_digest(Input& in);
+
+/// Write the set that a file belongs to (empty: none) and, last of all, the digest of everything in it.
+void seal(Output& out, const std::string& set);
 
 }  // namespace kinemark::io::internal
