@@ -208,6 +208,13 @@ class Signals(Files):
                 self.assertEqual(self.stopped_by(number, folder, command), (status, f"kinemark: the command was stopped ({number.name})\n"))
                 self.assertEqual(listing(folder), {})
 
+    def test_a_simulation_that_is_stopped_leaves_its_folder_empty(self):
+        with empty_folder(self.folder) as folder:
+            (folder / "new").mkdir()
+            command = ["simulate", "subject", "-o", "new", "--duration", 100, "--quiet"]
+            self.assertEqual(self.stopped_by(signal.SIGINT, folder, command)[0], 130)
+            self.assertEqual(listing(folder), {"new": None})
+
     def test_a_kill_leaves_what_the_next_run_removes(self):
         command = self.long_work()
         with empty_folder(self.folder) as folder:
