@@ -135,6 +135,16 @@ TEST(RigFile, ExistingFilesStayAndInvalidRigsAreNotWritten) {
   EXPECT_EQ(read_rig(scratch / "none.toml").error().code, Code::io);
 }
 
+TEST(RigFile, FailuresAreOneLineWhateverTheFileHolds) {
+  for (const std::string& text : {std::string(R"(format = "a\nb")") + "\nversion = 1",
+                                  spoilt("name = \"A\"", R"(name = "A\nB")"
+                                                         "\nfocl = 1"),
+                                  spoilt("aspect", R"("asp\nct")")}) {
+    EXPECT_THAT(message(text), StartsWith("rig.toml: "));
+    EXPECT_EQ(message(text).find('\n'), std::string::npos) << message(text);
+  }
+}
+
 TEST(RigFile, FailuresNameThePlace) {
   EXPECT_THAT(message("format = \"kinemark-rig\nversion"), StartsWith("rig.toml: line 1, column "));
   EXPECT_THAT(message(""), "rig.toml: format is missing; need text in quotes");

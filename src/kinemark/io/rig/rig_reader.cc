@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/io/rig/toml_fields.h"
@@ -185,7 +186,10 @@ Result<data::Rig> read_table(const toml::table& table, const std::string& name) 
 Result<data::Rig> parse_rig(std::string_view text, std::string_view name) {
   const auto table = parse_toml(text, std::string(name));
   if (!table) return std::unexpected(table.error());
-  return read_table(*table, std::string(name));
+  auto rig = read_table(*table, std::string(name));
+  // Names and keys of the file stand in the sentence, with whatever characters they hold.
+  if (!rig) return fail(rig.error().code, printable_sentence(rig.error().message));
+  return rig;
 }
 
 Result<data::Rig> read_rig(const std::filesystem::path& path) {
