@@ -241,9 +241,17 @@ TEST(ParseTrc, NamesMayBeInLatin1AndHoldAnything) {
   EXPECT_THAT(good(text_with(kRows, "\xE9paule\t\t\tB\x1B[2J\t\t")).markers.names,
               ElementsAre("épaule", "B [2J"));
   EXPECT_THAT(good(text_with(kRows, "épaule\t\t\t肩\t\t")).markers.names, ElementsAre("épaule", "肩"));
-  EXPECT_THAT(bad(text_with(kRows, "A\x01\t\t\tA\x02\t\t")), HasSubstr("'A' occurs twice"));
+  EXPECT_THAT(good(text_with(kRows, "A\x01\t\t\tA\x02\t\t")).markers.names, ElementsAre("A", "A_2"));
   const std::string longest(100'000, 'M');
   EXPECT_THAT(good(text_with(kRows, longest + "\t\t\tB\t\t")).markers.names, ElementsAre(longest, "B"));
+}
+
+TEST(ParseTrc, NamesThatStandTwiceGetANumber) {
+  const auto trial = good(text_with(kRows, "A\t\t\tA\t\t"));
+  EXPECT_THAT(trial.markers.names, ElementsAre("A", "A_2"));
+  EXPECT_THAT(trial.warnings,
+              Contains("line 4 repeats 1 marker names ('A' is the first); a number is added to each"));
+  EXPECT_EQ(trial.markers.x(0, 1), good(text_with(kRows)).markers.x(0, 1));
 }
 
 TEST(ParseTrc, SaysLineAndColumnOfWhatIsWrong) {
@@ -256,8 +264,6 @@ TEST(ParseTrc, SaysLineAndColumnOfWhatIsWrong) {
   EXPECT_THAT(bad(text_with("1.5\t0.00\t1\t2\t3\t4\t5\t6\n")), HasSubstr("line 7, column 1"));
   EXPECT_THAT(bad(text_with("1\tnan\t1\t2\t3\t4\t5\t6\n")), HasSubstr("line 7, column 2"));
   EXPECT_THAT(bad(text_with("1\t0,01\t1,5\t2\t3\t4\t5\t6\n")), HasSubstr("column 2: the time is '0,01'"));
-  EXPECT_EQ(bad(text_with(kRows, "A\t\t\tA")),
-            "t.trc: line 4: marker name 'A' occurs twice (columns 3 and 6); names must differ");
   EXPECT_THAT(bad(text_with(kRows, "\t\t")), HasSubstr("line 4: names no marker"));
   EXPECT_THAT(bad(text_with(kRows, "A\t\t\tB", "fast\t100\t2\t2\tmm")),
               HasSubstr("line 3, column 1 (DataRate): 'fast' is not a number"));

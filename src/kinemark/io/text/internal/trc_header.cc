@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
 #include <utility>
 
+#include "kinemark/core/distinct_names.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
@@ -136,17 +136,15 @@ Status read_names(Lines& lines, TrcHeader& header) {
   if (name_cells.empty())
     return fail(Code::bad_input, fmt::format("line {}: names no marker", lines.number()));
   const bool above = std::ranges::all_of(name_cells, [](std::size_t c) { return c % 3 == 2; });
-  std::unordered_map<std::string_view, std::size_t> seen;
   for (std::size_t i = 0; i < name_cells.size(); ++i) {
     const std::size_t slot = above ? (name_cells[i] - 2) / 3 : i;
-    const std::string_view name = names[i];
-    if (const auto [it, is_new] = seen.emplace(name, slot); !is_new)
-      return fail(Code::bad_input,
-                  fmt::format("line {}: marker name '{}' occurs twice (columns {} and {}); names must differ",
-                              lines.number(), excerpt(name), 3 + 3 * it->second, 3 + 3 * slot));
     header.marker.resize(slot + 1, -1);
     header.marker[slot] = static_cast<std::int32_t>(i);
   }
+  if (const auto repeated = make_distinct(names); repeated.changed > 0)
+    header.warnings.push_back(
+        fmt::format("line {} repeats {} marker names ('{}' is the first); a number is added to each",
+                    lines.number(), repeated.changed, excerpt(repeated.example)));
   header.names = std::move(names);
   if (header.marker.size() > header.names.size())
     header.warnings.push_back(fmt::format("{} markers between the named ones have no name and are not read",
