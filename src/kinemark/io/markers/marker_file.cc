@@ -68,8 +68,9 @@ bool needs_rate(const std::filesystem::path& path) { return lower_extension(path
 
 namespace {
 
-/// As the reader of its format reads it.
-Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options) {
+/// As the reader of its format reads it; `box_m` around its samples where that reader knows it.
+Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options,
+                                  Eigen::AlignedBox3d& box_m) {
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
   std::array<char, 512> begin{};
@@ -89,7 +90,12 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
                 fmt::format("{}: the file stores its own rate; a rate is given only for Visual3D text (.v3d)",
                             path.string()));
   if (maker) return read_maker_text(path, *maker);
-  if (format == ".c3d") return read_c3d(path);
+  if (format == ".c3d") {
+    C3dSeen seen;
+    auto trial = read_c3d(path, {}, &seen);
+    box_m = seen.box_m;
+    return trial;
+  }
   if (format == ".trc") return read_trc(path);
   if (format == ".nwb") return read_nwb_trial(path);
   if (format == ".csv") return read_trajectories_csv(path);
@@ -103,8 +109,9 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
 }  // namespace
 
 Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
-  auto trial = read_as_it_is(path, options);
-  if (trial) reject_implausible(*trial);
+  Eigen::AlignedBox3d box_m;
+  auto trial = read_as_it_is(path, options, box_m);
+  if (trial) reject_implausible(*trial, box_m);
   return trial;
 }
 

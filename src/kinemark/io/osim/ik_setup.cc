@@ -29,7 +29,9 @@ Result<IkSetup> read_ik_setup(const std::filesystem::path& path) {
   if (!tool)
     return fail(Code::bad_input, fmt::format("{}: has no <InverseKinematicsTool>; its first element is <{}>",
                                              path.string(), file->document().name()));
-  IkSetup setup{.name = osim::name_of(tool), .model_file = path_of(tool, "model_file", folder)};
+  IkSetup setup{.name = osim::name_of(tool),
+                .model_file = path_of(tool, "model_file", folder),
+                .parts = file->inlined()};
   if (const auto trials = osim::objects_of(tool, "IKTrialSet"); !trials.empty()) {
     setup.tasks = osim::read_ik_tasks(*file, tool, "IKTaskSet");
     setup.constraint_weight = 20.0;  // what OpenSim takes for these old files

@@ -37,6 +37,7 @@ struct ScaleSetup {
   double place_end_s = std::numeric_limits<double>::infinity();     ///< infinite: to the last frame
   double max_marker_movement_mm = -1.0;                             ///< below 0: any
   std::filesystem::path output_model_file, output_motion_file;      ///< where results go; empty: not said
+  std::vector<std::filesystem::path> parts;  ///< files that elements were taken from: measurements, tasks
 };
 
 /// Read a ScaleTool file. A part that is missing is not applied. Both spellings of old and new files

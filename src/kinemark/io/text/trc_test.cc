@@ -198,7 +198,14 @@ TEST(ParseTrc, RateAndTimeAreChecked) {
   const std::string three = kRows + "3\t0.02\t1\t1\t1\t1\t1\t1\n";
   EXPECT_THAT(good(text_with(three, "A\t\t\tB", "50\t50\t3\t2\tmm\t50\t1\t3")).warnings,
               ElementsAre(HasSubstr("header says 50 Hz, but the time column runs at 100 Hz")));
-  EXPECT_EQ(good(text_with(kRows, "A\t\t\tB", "0\t0\t2\t2\tmm\t0\t1\t2")).markers.time.rate_hz, 100.0);
+  const auto unknown = good(text_with(kRows, "A\t\t\tB", "0\t0\t2\t2\tmm\t0\t1\t2"));
+  EXPECT_EQ(unknown.markers.time.rate_hz, 100.0);
+  EXPECT_THAT(unknown.warnings,
+              ElementsAre("line 3: DataRate is 0, which is taken as not known",
+                          HasSubstr("header gives no rate; 100 Hz is taken from the time column")));
+  const auto stand_in = good(text_with(kRows, "A\t\t\tB", "0\t100\t2\t2\tmm\t0\t1\t2"));
+  EXPECT_THAT(stand_in.warnings, ElementsAre(HasSubstr("DataRate is 0")));
+  EXPECT_THAT(good(text_with(kRows, "A\t\t\tB", "100\t0\t2\t2\tmm\t0\t1\t2")).warnings, ElementsAre());
   EXPECT_EQ(good(text_with(kRows, "A\t\t\tB", "\t\t2\t2\tmm")).markers.time.rate_hz, 100.0);
   EXPECT_EQ(good(text_with("7\t0.25\t1\t2\t3\t4\t5\t6\n")).markers.time, (TimeBase{100.0, 0.25, 1}));
 }

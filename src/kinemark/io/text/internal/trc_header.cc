@@ -86,12 +86,15 @@ Status read_values(Lines& lines, TrcHeader& header) {
                                                  lines.number(), i + 1, keys[i], excerpt(values[i])));
     }
   }
-  // Programs write 0 for a rate that they do not know.
+  // The others only stand in for the first, so nothing is said where they are not known.
+  std::vector<std::string> unsaid;
   for (std::size_t k = 0; k < rates.size(); ++k) {
-    if (!rates[k] || *rates[k] == 0.0) continue;
+    if (!rates[k]) continue;
     constexpr std::array<std::string_view, 3> kKeys{"DataRate", "CameraRate", "OrigDataRate"};
-    if (auto s = check_rate(*rates[k], fmt::format("line {}: {}", lines.number(), kKeys[k])); !s) return s;
-    header.rates_hz.push_back(*rates[k]);
+    const auto stated = states_rate(*rates[k], fmt::format("line {}: {}", lines.number(), kKeys[k]),
+                                    k == 0 ? header.warnings : unsaid);
+    if (!stated) return std::unexpected(stated.error());
+    if (*stated) header.rates_hz.push_back(*rates[k]);
   }
   if (header.units.empty()) {
     header.warnings.push_back("header names no unit; millimetres are assumed");
