@@ -25,8 +25,17 @@ namespace kinemark::io::osim {
 /// reader goes straight on and looks at error() once.
 class XmlFile {
  public:
-  static Result<XmlFile> parse(std::string_view xml, std::string name);
-  static Result<XmlFile> read(const std::filesystem::path& path);
+  /// Whether comments of the file are part of the tree.
+  enum class Comments { left_out, kept };
+
+  static Result<XmlFile> parse(std::string_view xml, std::string name,
+                               Comments comments = Comments::left_out);
+  static Result<XmlFile> read(const std::filesystem::path& path, Comments comments = Comments::left_out);
+
+  /// A tree of its own with the same content.
+  [[nodiscard]] XmlFile copy() const;
+  /// The whole document as UTF-8, with a declaration that says so.
+  [[nodiscard]] std::string text() const;
 
   /// Replace every element `<SomethingSet file="x"/>` by that element as file x, relative to `folder`,
   /// defines it. Without a folder such an element is an error.
