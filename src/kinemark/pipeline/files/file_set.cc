@@ -135,10 +135,13 @@ std::vector<std::string> find_strangers(const fs::path& file) {
   if (set.empty()) return out;
   std::vector<fs::path> beside_it;
   const std::string stem = stem_of_result(file), name = file.filename().string();
-  for (const auto ending : kEndings) beside_it.push_back(file.parent_path() / (stem + std::string(ending)));
+  const auto look_at = [&](const fs::path& other) {
+    if (std::ranges::find(beside_it, other) == beside_it.end()) beside_it.push_back(other);
+  };
+  for (const auto ending : kEndings) look_at(file.parent_path() / (stem + std::string(ending)));
   for (const auto& names : kFolders)
     if (std::ranges::find(names, name) != names.end())
-      for (const auto other : names) beside_it.push_back(file.parent_path() / other);
+      for (const auto other : names) look_at(file.parent_path() / other);
   std::error_code ignored;
   for (const auto& other : beside_it) {
     if (other.filename() == file.filename() || !fs::is_regular_file(other, ignored)) continue;

@@ -74,9 +74,10 @@ TEST(SimulateLimb, SaysWhichMarkersRideWhere) {
   job.macaque.leds_per_segment = 2;
   ASSERT_TRUE(run_simulate_limb(job));
   EXPECT_EQ(io::read_text(scratch / "segments.toml").value(),
-            "[[segment]]\nname = \"upper_arm\"\nmarkers = [\"u0\", \"u1\"]\n\n"
-            "[[segment]]\nname = \"forearm\"\nmarkers = [\"f0\", \"f1\"]\n\n"
-            "[[joint]]\nname = \"elbow\"\nparent = \"upper_arm\"\nchild = \"forearm\"\n");
+            "# kinemark_set=" + set_in(scratch / "segments.toml") +
+                "\n[[segment]]\nname = \"upper_arm\"\nmarkers = [\"u0\", \"u1\"]\n\n"
+                "[[segment]]\nname = \"forearm\"\nmarkers = [\"f0\", \"f1\"]\n\n"
+                "[[joint]]\nname = \"elbow\"\nparent = \"upper_arm\"\nchild = \"forearm\"\n");
   const data::SegmentLayout odd{{{"a\"b", {0}}}, {}};
   EXPECT_THAT(segment_layout_toml(odd, {"c\\d"}), HasSubstr("name = \"a\\\"b\"\nmarkers = [\"c\\\\d\"]"));
 }
