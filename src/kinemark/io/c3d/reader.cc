@@ -172,7 +172,7 @@ Result<C3dSeen> C3dReader::read(std::int64_t first, std::int64_t count, const C3
   return total;
 }
 
-Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options) {
+Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options, C3dSeen* told) {
   data::Trial trial = reader.description();
   const C3dLayout& layout = reader.layout();
   C3dFrames out;
@@ -194,6 +194,7 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   }
   const auto seen = reader.read(0, layout.frames, out, options.threads);
   if (!seen) return std::unexpected(seen.error());
+  if (told != nullptr) *told = *seen;
   if (seen->measured == 0) {
     trial.residual_m = {};
     if (seen->unmeasured > 0 && !reader.parameters().number("POINT", kC3dResidualsParameter)) {
@@ -208,10 +209,11 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   return trial;
 }
 
-Result<data::Trial> read_c3d(const std::filesystem::path& path, const C3dReadOptions& options) {
+Result<data::Trial> read_c3d(const std::filesystem::path& path, const C3dReadOptions& options,
+                             C3dSeen* told) {
   const auto reader = C3dReader::open(path);
   if (!reader) return std::unexpected(reader.error());
-  return read_trial(*reader, options);
+  return read_trial(*reader, options, told);
 }
 
 }  // namespace kinemark::io

@@ -29,7 +29,7 @@ Result<IkSetup> read_ik_setup(const std::filesystem::path& path) {
   if (!tool)
     return fail(Code::bad_input, fmt::format("{}: has no <InverseKinematicsTool>; its first element is <{}>",
                                              path.string(), file->document().name()));
-  IkSetup setup{.name = osim::name_of(tool)};
+  IkSetup setup{.name = osim::name_of(tool), .parts = file->inlined()};
   setup.model_file = osim::input_path_of(*file, tool, "model_file", folder, setup.notes);
   if (const auto trials = osim::objects_of(tool, "IKTrialSet"); !trials.empty()) {
     setup.tasks = osim::read_ik_tasks(*file, tool, "IKTaskSet");

@@ -50,6 +50,7 @@ struct IkSetup {
   std::filesystem::path coordinate_file;     ///< seen from the setup's folder; empty: none
   std::filesystem::path output_motion_file;  ///< seen from the setup's folder; empty: not said
   std::filesystem::path results_directory;   ///< seen from the setup's folder; empty: not said
+  std::vector<std::filesystem::path> parts;  ///< files that elements were taken from: that of its tasks
   double time_begin_s = -std::numeric_limits<double>::infinity();      ///< infinite: from the first frame
   double time_end_s = std::numeric_limits<double>::infinity();         ///< infinite: to the last frame
   double constraint_weight = std::numeric_limits<double>::infinity();  ///< infinite: closed exactly

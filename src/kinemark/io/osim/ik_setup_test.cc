@@ -177,6 +177,17 @@ TEST_F(SmallSetup, ToolsOfBefore23HaveTheirTrialInside) {
   EXPECT_EQ(setup.constraint_weight, 20.0);
 }
 
+TEST_F(SmallSetup, NamesTheFilesItIsPutTogetherFrom) {
+  EXPECT_TRUE(read("<marker_file>w.trc</marker_file>").value().parts.empty());
+  ASSERT_TRUE(write_text(scratch_ / "sub/tasks.xml",
+                         "<OpenSimDocument><IKTaskSet><objects><IKMarkerTask name=\"M\"><weight>3</weight>"
+                         "</IKMarkerTask></objects></IKTaskSet></OpenSimDocument>",
+                         false));
+  const IkSetup setup = read("<IKTaskSet file=\"tasks.xml\"/>").value();
+  ASSERT_EQ(setup.tasks.markers.size(), 1U);
+  EXPECT_EQ(setup.parts, std::vector{scratch_ / "sub/tasks.xml"});
+}
+
 TEST_F(SmallSetup, OneSentenceForEachMistake) {
   EXPECT_THAT(refusal("<time_range>2 1</time_range>"), HasSubstr("<time_range>: '2 1' is not a range"));
   EXPECT_THAT(refusal("<time_range>soon</time_range>"), HasSubstr("is not a range"));

@@ -156,7 +156,7 @@ Result<ScaleSetup> read_scale_setup(const std::filesystem::path& path) {
   if (!tool)
     return fail(Code::bad_input, fmt::format("{}: has no <ScaleTool>; its first element is <{}>",
                                              path.string(), file->document().name()));
-  ScaleSetup setup{.name = name_of(tool)};
+  ScaleSetup setup{.name = name_of(tool), .parts = file->inlined()};
   const double mass = file->number(tool, "mass", -1.0), height = file->number(tool, "height", -1.0);
   if (!std::isfinite(mass)) file->note(tool.child("mass"), "must be finite");
   setup.height_mm = std::isfinite(height) ? std::max(0.0, height) : 0.0;

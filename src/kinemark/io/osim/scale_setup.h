@@ -39,7 +39,8 @@ struct ScaleSetup {
   double max_marker_movement_mm = -1.0;                             ///< below 0: any
   std::filesystem::path output_model_file, output_motion_file;      ///< where results go; empty: not said
 
-  std::vector<std::string> notes;  ///< files found beside the setup, one sentence each
+  std::vector<std::string> notes;            ///< files found beside the setup, one sentence each
+  std::vector<std::filesystem::path> parts;  ///< files that elements were taken from: measurements, tasks
 };
 
 /// Read a ScaleTool file. A part that is missing is not applied. Both spellings of old and new files

@@ -236,9 +236,10 @@ class ScaleRun {
   /// Every file that is read.
   std::vector<fs::path> inputs() const {
     std::vector<fs::path> files{job_.model, job_.setup, job_.static_trial, job_.markers};
-    if (setup_)
-      files.insert(files.end(),
-                   {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file});
+    if (!setup_) return files;
+    files.insert(files.end(), {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file,
+                               setup_->coordinate_file});
+    files.insert(files.end(), setup_->parts.begin(), setup_->parts.end());
     return files;
   }
 

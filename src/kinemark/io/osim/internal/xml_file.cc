@@ -215,6 +215,7 @@ void XmlFile::inline_files(const std::filesystem::path* folder) {
     if (!other) return note(node, other.error().message, other.error().code);
     const pugi::xml_node source = other->find_object({node.name()});
     if (!source) return note(node, fmt::format("the file {} has no <{}>", in_quotes(wanted), node.name()));
+    inlined_.push_back(*folder / wanted);
     pugi::xml_node target = node;
     target.remove_attribute("file");
     for (const pugi::xml_node child : source.children()) target.append_copy(child);

@@ -40,6 +40,8 @@ class XmlFile {
   /// Replace every element `<SomethingSet file="x"/>` by that element as file x, relative to `folder`,
   /// defines it. Without a folder such an element is an error.
   void inline_files(const std::filesystem::path* folder);
+  /// The files that inline_files() took elements from.
+  [[nodiscard]] const std::vector<std::filesystem::path>& inlined() const { return inlined_; }
 
   /// The first element below the document element whose tag is one of `tags`, or that element itself.
   [[nodiscard]] pugi::xml_node find_object(std::initializer_list<const char*> tags) const;
@@ -64,6 +66,7 @@ class XmlFile {
   std::string name_;
   pugi::xml_document tree_;
   std::optional<Error> error_;
+  std::vector<std::filesystem::path> inlined_;
 };
 
 /// The text of an element, without blanks at both ends. Comments inside it do not count.
