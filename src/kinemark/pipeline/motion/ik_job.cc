@@ -178,6 +178,7 @@ Result<IkOutcome> run_ik(IkJob job) {
   const data::Trajectories solved = solved_markers(trial.markers, outcome.result);
   auto run = describe_run(job, *inputs, outcome.result, estimate->torques);
   if (!run) return std::unexpected(run.error());
+  run->warnings.insert(run->warnings.begin(), job.setup_notes.begin(), job.setup_notes.end());
   if (auto s = internal::judge(std::move(*run), motion, &solved, outcome); !s)
     return std::unexpected(s.error());
   // Write.

@@ -43,6 +43,7 @@ class ScaleRun {
     auto setup = io::read_scale_setup(job_.setup);
     if (!setup) return std::unexpected(setup.error());
     setup_ = std::move(*setup);
+    out_.warnings = setup_->notes;
     if (job_.model.empty()) job_.model = setup_->model_file;
     if (job_.output.empty() && !setup_->output_model_file.empty()) {
       if (auto s = check_below(job_.setup, setup_->output_model_file, "output_model_file"); !s) return s;
