@@ -11,7 +11,8 @@ namespace kinemark::cli {
 void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("convert", "A file in another format of its kind");
   command->footer(
-      "Markers: .c3d, .trc, .nwb, .csv, and .v3d in. Tables: .mot, .sto. Models: .osim of any version in, "
+      "Markers: .c3d, .trc, .nwb, .csv; .v3d and the texts of QTM, Motive and Vicon in. Tables: .mot, .sto. "
+      "Models: .osim of any version in, "
       "4.0 out.");
   const auto job = std::make_shared<pipeline::ConvertJob>();
   command->add_option("IN", job->in, "File to read")->required();

@@ -12,7 +12,7 @@ namespace kinemark::cli {
 void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("info", "What a marker, motion, model or recording file holds");
   const auto job = std::make_shared<pipeline::InfoJob>();
-  command->add_option("FILE", job->file, ".c3d, .trc, .nwb, .csv, .v3d, .mot, .sto, .osim or .mcap")
+  command->add_option("FILE", job->file, ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim or .mcap")
       ->required();
   command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
   command->callback([&common, job, &run] {

@@ -69,7 +69,8 @@ class WrongContent(CommandTest):
 
     def test_a_marker_name_twice(self):
         self.write("twice.trc", changed_cell(self.trc.read_text(), 4, 6, "LFHD"))
-        self.refused(3, ["twice.trc", "'LFHD' occurs twice"], *self.ik(markers="twice.trc"))
+        said = self.good(*self.ik(markers="twice.trc")).err
+        self.assertIn("line 4 repeats 1 marker names ('LFHD' is the first)", said)
         self.write("twice.osim", self.model.read_text().replace('<Marker name="RFHD"', '<Marker name="LFHD"'))
         self.refused(3, ["twice.osim", "'LFHD' occurs twice"], *self.ik(model="twice.osim"))
 

@@ -234,7 +234,12 @@ class Signals(Files):
     def stopped_by(self, number, folder, command):
         """The program, stopped by a signal while its hidden folder is there."""
         program = subprocess.Popen(
-            [PROGRAM, *map(str, command)], cwd=folder, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, restore_signals=True
+            [PROGRAM, *map(str, command)],
+            cwd=folder,
+            stderr=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
+            # Below nohup the signal is ignored, and the program leaves it so.
+            preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
         )
         try:
             while program.poll() is None and not hidden(folder):

@@ -29,9 +29,9 @@ struct ArticulatedOptions {
   /// one. Markers on loose skin then count less, and covariances know of them.
   bool soft_tissue = false;
   int max_fit_frames = 1500;  ///< 20 or more; frames, spread over the recording, for the geometry
-  /// A geometry that is worse than this at first is not refined further, but returned as it is: noise of a
-  /// marker, and distance of a joint from the nearest marker of one of its segments; > 0.
+  /// > 0; a first geometry with more noise of a marker is not refined further, but returned as it is.
   double most_noise_m = std::numeric_limits<double>::infinity();
+  /// > 0; the same for one with a joint farther from the nearest marker of one of its segments.
   double most_reach_m = std::numeric_limits<double>::infinity();
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
