@@ -90,5 +90,27 @@ TEST(InfoText, OneFactALineAndEveryWarning) {
   EXPECT_THAT(text, HasSubstr("warning           first oddity\nwarning           second oddity\n"));
 }
 
+TEST(InfoText, ManyNamesTakeSeveralLines) {
+  InfoOutcome outcome;
+  outcome.file = "a.c3d";
+  MarkerFileFacts facts;
+  for (int i = 0; i < 100; ++i) facts.labels.push_back("subject:marker" + std::to_string(i));
+  facts.labels.emplace_back(5000, 'M');
+  outcome.facts = facts;
+  const auto text = info_text(outcome);
+  std::size_t longest = 0, names = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    longest = std::max(longest, end - begin);
+    begin = end + 1;
+  }
+  for (std::size_t at = text.find("subject:"); at != std::string::npos; at = text.find("subject:", at + 1))
+    ++names;
+  EXPECT_EQ(names, 100U);
+  EXPECT_LT(longest, 400U);
+  EXPECT_THAT(text, HasSubstr("labels            subject:marker0 subject:marker1 "));
+  EXPECT_THAT(text, HasSubstr("\n                  subject:marker"));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -4,12 +4,38 @@
 
 #include <fmt/core.h>
 
+#include <string>
+#include <string_view>
+
 #include "kinemark/core/utf8.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLineLetters = 120;  // beside the key
+constexpr std::size_t kNameLetters = 300;
+constexpr std::string_view kBesideKey = "\n                  ";
+
+/// Names one after another, in as many lines as it takes.
+std::string in_lines(const Json& names) {
+  std::string text;
+  std::size_t begin = 0;
+  for (const auto& name : names) {
+    const std::string word = printable(name.get<std::string>(), kNameLetters);
+    if (text.size() > begin) {
+      if (text.size() - begin + 1 + word.size() > kLineLetters) {
+        text += kBesideKey;
+        begin = text.size();
+      } else {
+        text += ' ';
+      }
+    }
+    text += word;
+  }
+  return text;
+}
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
@@ -96,9 +122,7 @@ std::string info_text(const InfoOutcome& outcome) {
       for (const auto& warning : outcome.warnings)
         text += fmt::format("warning           {}\n", printable_sentence(warning));
     } else if (value.is_array()) {
-      std::string list;
-      for (const auto& item : value) list += (list.empty() ? "" : " ") + printable(item.get<std::string>());
-      text += fmt::format("{:<17} {}\n", key, list);
+      text += fmt::format("{:<17} {}\n", key, in_lines(value));
     } else {
       text += fmt::format("{:<17} {}\n", key,
                           value.is_string() ? printable(value.get<std::string>()) : value.dump());
