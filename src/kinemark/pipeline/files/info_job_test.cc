@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <string>
+
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/testing/test_files.h"
