@@ -12,8 +12,7 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("convert", "A file in another format of its kind");
   command->footer(
       "Markers: .c3d, .trc, .nwb, .csv; .v3d and the texts of QTM, Motive and Vicon in. Tables: .mot, .sto. "
-      "Models: .osim of any version in, "
-      "4.0 out.");
+      "Models: .osim, in their own version from 2.0 on, older ones as 4.0.");
   const auto job = std::make_shared<pipeline::ConvertJob>();
   command->add_option("IN", job->in, "File to read")->required();
   command->add_option("OUT", job->out, "File to write; its ending names the format")->required();

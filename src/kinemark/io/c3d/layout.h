@@ -48,7 +48,4 @@ struct C3dLayout {
                                               Processor processor, std::size_t file_bytes,
                                               std::vector<std::string>& warnings);
 
-/// Metres per unit of length ("mm", "m", "cm", "in", "feet", ... in any case); nothing when unknown.
-[[nodiscard]] std::optional<double> metres_per_unit(std::string_view unit);
-
 }  // namespace kinemark::io

@@ -10,6 +10,7 @@
 
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/c3d/provenance.h"
+#include "kinemark/io/length_unit.h"
 #include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {

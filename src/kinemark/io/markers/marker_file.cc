@@ -18,10 +18,10 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/plausible.h"
 #include "kinemark/io/nwb/nwb.h"
-#include "kinemark/io/text/camera_makers.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
+#include "kinemark/io/text/vendor_exports.h"
 
 namespace kinemark::io {
 namespace {
@@ -76,7 +76,7 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
   std::array<char, 512> begin{};
   const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
   if (!size) return std::unexpected(size.error());
-  const auto maker = maker_text_of({begin.data(), *size});
+  const auto vendor = vendor_export_of({begin.data(), *size});
   std::string format(format_of({begin.data(), *size}));
   const std::string extension = lower_extension(path);
   if (format.empty()) format = extension;
@@ -89,7 +89,7 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
     return fail(Code::usage,
                 fmt::format("{}: the file stores its own rate; a rate is given only for Visual3D text (.v3d)",
                             path.string()));
-  if (maker) return read_maker_text(path, *maker);
+  if (vendor) return read_vendor_export(path, *vendor);
   if (format == ".c3d") {
     C3dSeen seen;
     auto trial = read_c3d(path, {}, &seen);

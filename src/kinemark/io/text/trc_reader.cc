@@ -20,6 +20,7 @@
 namespace kinemark::io {
 namespace {
 
+using internal::bad_cell;
 using internal::Cell;
 using internal::Cells;
 using internal::excerpt;
@@ -43,15 +44,6 @@ struct Tally {
   std::vector<std::int64_t> zeros;    ///< M, samples that are exactly (0, 0, 0)
   std::vector<std::int64_t> present;  ///< M, samples with coordinates, zeros included
 };
-
-std::unexpected<Error> bad_cell(std::int64_t line, std::int64_t column, std::string_view what,
-                                std::string_view cell) {
-  return fail(Code::bad_input,
-              cell.empty()
-                  ? fmt::format("line {}, column {}: {} is blank; expected a number", line, column, what)
-                  : fmt::format("line {}, column {}: {} is '{}'; expected a number", line, column, what,
-                                excerpt(cell)));
-}
 
 /// Frame# and Time.
 Status read_row_start(Cells& cells, std::int64_t line, data::Trial& trial, Tally& tally,
@@ -186,19 +178,6 @@ void judge_rows(data::Trial& trial, const TrcHeader& header, const Tally& tally,
   if (tally.infinite > 0) warn(fmt::format("{} samples are infinite, taken as not seen", tally.infinite));
 }
 
-/// Rows as the frames that they are; frames without a row are missing.
-void spread_rows(data::Trajectories& markers, const internal::EvenClock& clock) {
-  const data::Trajectories rows =
-      std::exchange(markers, data::Trajectories::all_missing(markers.names, clock.time));
-  const auto row_samples = static_cast<std::ptrdiff_t>(rows.names.size());
-  for (std::size_t row = 0; row < clock.frame.size(); ++row) {
-    const auto from = static_cast<std::ptrdiff_t>(row) * row_samples;
-    const auto to = static_cast<std::ptrdiff_t>(clock.frame[row]) * row_samples;
-    std::copy_n(rows.x_in_world.begin() + 3 * from, 3 * row_samples, markers.x_in_world.begin() + 3 * to);
-    std::copy_n(rows.state.begin() + from, row_samples, markers.state.begin() + to);
-  }
-}
-
 /// The clock of the rows, the first of which stands in line `first_line`.
 Status settle_time(const TrcHeader& header, const Tally& tally, std::int64_t first_line,
                    std::int64_t most_frames, data::Trial& trial) {
@@ -214,8 +193,7 @@ Status settle_time(const TrcHeader& header, const Tally& tally, std::int64_t fir
                             .place = place},
                            trial.warnings);
   if (!clock) return std::unexpected(clock.error());
-  trial.markers.time = clock->time;
-  if (!clock->frame.empty()) spread_rows(trial.markers, *clock);
+  internal::spread_rows(trial.markers, *clock);
   return {};
 }
 

@@ -58,13 +58,7 @@ ResultFile marker_file(fs::path target, const data::Trial& trial) {
           }};
 }
 
-ResultFile model_file(fs::path target, const data::ModelDescription& model) {
-  return {std::move(target), [&model](const fs::path& staged, const std::string& set) {
-            return io::write_osim(staged, model, {.set = set});
-          }};
-}
-
-ResultFile model_text_file(fs::path target, const std::string& text) {
+ResultFile model_file(fs::path target, const std::string& text) {
   return {std::move(target), [&text](const fs::path& staged, const std::string& set) {
             return io::write_osim_text(staged, text, {.set = set});
           }};

@@ -12,7 +12,6 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
-#include "kinemark/data/model_description.h"
 #include "kinemark/data/table.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/staging.h"
@@ -37,10 +36,8 @@ struct ResultFile {
 [[nodiscard]] ResultFile table_file(std::filesystem::path target, std::function<data::Table()> make);
 /// Markers in the format of the ending, or an .osim. The object must live until the file is written.
 [[nodiscard]] ResultFile marker_file(std::filesystem::path target, const data::Trial& trial);
-/// An .osim. The object must live until the file is written.
-[[nodiscard]] ResultFile model_file(std::filesystem::path target, const data::ModelDescription& model);
-/// An .osim whose text is there already, with its set as a comment.
-[[nodiscard]] ResultFile model_text_file(std::filesystem::path target, const std::string& text);
+/// An .osim of this text, its set named in a comment. The text must live until the file is written.
+[[nodiscard]] ResultFile model_file(std::filesystem::path target, const std::string& text);
 
 /// Write the files and let them appear together. On a failure, which names the target, none appears.
 ///

@@ -198,10 +198,10 @@ class ScaleRun {
     out_.lost = text->lost;
     auto staging = Staging::create({job_.output, report}, job_.force, inputs());
     if (!staging) return std::unexpected(staging.error());
-    auto written = write_results(*staging,
-                                 {model_text_file(job_.output, text->text),
-                                  json_file(report, [this] { return scale_json(job_, out_); })},
-                                 {}, "scaling", name_set(text->text));
+    auto written = write_results(
+        *staging,
+        {model_file(job_.output, text->text), json_file(report, [this] { return scale_json(job_, out_); })},
+        {}, "scaling", name_set(text->text));
     if (!written) return std::unexpected(written.error());
     out_.written = std::move(*written);
     return std::move(out_);

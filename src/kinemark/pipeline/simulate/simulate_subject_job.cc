@@ -44,7 +44,7 @@ Result<SimulateSubjectOutcome> run_simulate_subject(const SimulateSubjectJob& jo
                               .hex();
   auto written = write_results(*staging,
                                {marker_file(targets[0], recorded), marker_file(targets[1], recorded),
-                                model_file(targets[2], *description),
+                                model_file(targets[2], *model_text),
                                 table_file(targets[3], [&] { return coordinates_table(subject->truth); }),
                                 marker_file(targets[4], truth)},
                                job.progress, "the simulation", set);

@@ -11,7 +11,6 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
-#include "kinemark/io/text/internal/time_column.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -41,18 +40,13 @@ std::string_view with_tabs(std::string_view line, char separator, std::string& b
   return buffer;
 }
 
-Status bad_cell(std::int64_t line, std::size_t column, std::string_view what, std::string_view cell) {
-  return fail(Code::bad_input,
-              fmt::format("line {}, column {}: {} is {}; expected a number", line, column + 1, what,
-                          cell.empty() ? "blank" : "'" + excerpt(cell) + "'"));
-}
-
 Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& columns, double* x,
                 Rows& rows) {
   Cells cells(text, Separator::tab);
   bool ended = false;
-  for (std::size_t c = 0; c < columns.columns.size(); ++c) {
-    const auto& column = columns.columns[c];
+  std::int64_t place = 0;
+  for (const auto& column : columns.columns) {
+    ++place;
     double number = kNaN;
     const Cell kind = cells.next(number);
     ended |= kind == Cell::none;
@@ -61,18 +55,18 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
         break;
       case Kind::frame:
         if (kind != Cell::number || !(std::abs(number) < kLargestFrame) || number != std::floor(number))
-          return bad_cell(line, c, "the frame number", cells.text());
+          return bad_cell(line, place, "the frame number", cells.text());
         rows.number.push_back(static_cast<std::int64_t>(number));
         break;
       case Kind::time:
         if (kind != Cell::number || !std::isfinite(number))
-          return bad_cell(line, c, "the time", cells.text());
+          return bad_cell(line, place, "the time", cells.text());
         rows.time_s.push_back(number);
         if (number != 0.0) rows.resolution_s = std::min(rows.resolution_s, resolution_of(cells.text()));
         break;
       case Kind::coordinate:
         if (kind == Cell::text && lower(cells.text()) != "null")
-          return bad_cell(line, c,
+          return bad_cell(line, place,
                           fmt::format("{} of marker '{}'", "xyz"[column.axis],
                                       excerpt(columns.names[static_cast<std::size_t>(column.marker)])),
                           cells.text());
@@ -105,18 +99,6 @@ void settle_samples(data::Trajectories& markers, Rows& rows) {
       rows.infinite += blank == 0;
       markers.set_missing(f, m);
     }
-}
-
-/// Rows as the frames that they are; frames without a row are missing.
-void spread(data::Trajectories& markers, const EvenClock& clock) {
-  const data::Trajectories rows =
-      std::exchange(markers, data::Trajectories::all_missing(markers.names, clock.time));
-  const auto M = std::ssize(rows.names);
-  for (std::int64_t row = 0; row < std::ssize(clock.frame); ++row) {
-    const auto frame = clock.frame[static_cast<std::size_t>(row)];
-    std::copy_n(rows.x_in_world.begin() + 3 * row * M, 3 * M, markers.x_in_world.begin() + 3 * frame * M);
-    std::copy_n(rows.state.begin() + row * M, M, markers.state.begin() + frame * M);
-  }
 }
 
 /// Where each row stands, for messages.
@@ -169,8 +151,7 @@ Status settle_time(const MarkerColumns& columns, const Rows& rows, std::int64_t 
                         .place = place},
                        trial.warnings);
   if (!clock) return std::unexpected(clock.error());
-  markers.time = clock->time;
-  if (!clock->frame.empty()) spread(markers, *clock);
+  spread_rows(markers, *clock);
   return {};
 }
 
@@ -206,6 +187,24 @@ void warn(const MarkerColumns& columns, const Rows& rows, std::int64_t count, da
 }
 
 }  // namespace
+
+Status bad_cell(std::int64_t line, std::int64_t column, std::string_view what, std::string_view cell) {
+  return fail(Code::bad_input, fmt::format("line {}, column {}: {} is {}; expected a number", line, column,
+                                           what, cell.empty() ? "blank" : "'" + excerpt(cell) + "'"));
+}
+
+void spread_rows(data::Trajectories& markers, const EvenClock& clock) {
+  markers.time = clock.time;
+  if (clock.frame.empty()) return;
+  const data::Trajectories rows =
+      std::exchange(markers, data::Trajectories::all_missing(markers.names, clock.time));
+  const auto M = std::ssize(rows.names);
+  for (std::int64_t row = 0; row < std::ssize(clock.frame); ++row) {
+    const auto frame = clock.frame[static_cast<std::size_t>(row)];
+    std::copy_n(rows.x_in_world.begin() + 3 * row * M, 3 * M, markers.x_in_world.begin() + 3 * frame * M);
+    std::copy_n(rows.state.begin() + row * M, M, markers.state.begin() + frame * M);
+  }
+}
 
 std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m) {
   const std::int64_t frames = markers.frames();

@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/time_column.h"
 
 namespace kinemark::io::internal {
 
@@ -34,14 +36,22 @@ struct MarkerColumns {
 
 /// Reads rows up to a blank line or the end of the text into `trial`: markers, their time base, first_frame
 /// and warnings. A sample is missing where one of its three cells is blank, no finite number, or not there.
-/// Times come from the time column, or from frame numbers and the stated rate; one rule for both
-/// (even_clock()). Errors carry line and column, not the file. O(bytes); no more than two samples a byte of
-/// text plus a million.
+/// Times come from the time column (even_clock()), or else from frame numbers, which increase, and the stated
+/// rate. Errors carry line and column, not the file. O(bytes); no more than two samples a byte of text plus a
+/// million.
 [[nodiscard]] Status read_marker_rows(Lines& lines, const MarkerColumns& columns, std::size_t text_bytes,
                                       data::Trial& trial);
 
 /// Samples that are (0, 0, 0) become missing, except where the marker passes through the origin: the samples
 /// before and after the zeros lie within 5 mm of it. How many of marker `m` were turned.
 std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m);
+
+/// Rows that were read one after another, as the frames that they are by the clock; frames without a row are
+/// missing. Where rows and frames are the same nothing changes but the time base.
+void spread_rows(data::Trajectories& markers, const EvenClock& clock);
+
+/// Code::bad_input for a cell that holds no number, or nothing. `column` counts from 1; `what`: "the time".
+[[nodiscard]] Status bad_cell(std::int64_t line, std::int64_t column, std::string_view what,
+                              std::string_view cell);
 
 }  // namespace kinemark::io::internal

@@ -15,7 +15,7 @@
 #include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/text/internal/csv_line.h"
-#include "kinemark/io/text/internal/maker_headers.h"
+#include "kinemark/io/text/internal/vendor_headers.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -150,8 +150,8 @@ void lay_out(const HeaderRows& rows, MarkerColumns& columns, data::Trial& trial)
 
 }  // namespace
 
-Result<MakerHeader> parse_motive_header(Lines& lines, data::Trial& trial) {
-  MakerHeader out;
+Result<VendorHeader> parse_motive_header(Lines& lines, data::Trial& trial) {
+  VendorHeader out;
   std::string_view line;
   if (!lines.next(line)) return fail(Code::bad_input, "the file is empty; expected a CSV file of Motive");
   const auto keys = split(line, lines.number());

@@ -12,7 +12,7 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
-#include "kinemark/io/text/internal/maker_headers.h"
+#include "kinemark/io/text/internal/vendor_headers.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -42,7 +42,6 @@ struct Keywords {
   std::int64_t frames = -1, markers = -1;
   std::int64_t names_line = 0;
   std::vector<std::string> names, types;
-  bool gaps_are_null = false;
 };
 
 Status read_number(const std::vector<std::string_view>& cells, std::int64_t line, double& out) {
@@ -131,7 +130,7 @@ Result<std::size_t> count_lead(Lines& lines, std::size_t names) {
 
 }  // namespace
 
-Result<MakerHeader> parse_qtm_header(Lines& lines, data::Trial& trial) {
+Result<VendorHeader> parse_qtm_header(Lines& lines, data::Trial& trial) {
   Keywords found;
   std::string_view line;
   for (Lines ahead = lines; ahead.next(line); lines = ahead) {
@@ -149,7 +148,7 @@ Result<MakerHeader> parse_qtm_header(Lines& lines, data::Trial& trial) {
   if (found.markers >= 0 && found.markers != std::ssize(found.names))
     trial.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are used",
                                          found.markers, found.names.size()));
-  MakerHeader out;
+  VendorHeader out;
   out.state = states_of(found, trial);
   settle_marker_names(found.names, found.names_line, trial);
   const auto lead = count_lead(lines, found.names.size());

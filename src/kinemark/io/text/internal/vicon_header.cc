@@ -14,7 +14,7 @@
 #include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/text/internal/csv_line.h"
-#include "kinemark/io/text/internal/maker_headers.h"
+#include "kinemark/io/text/internal/vendor_headers.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -118,9 +118,9 @@ Status read_units(Lines& lines, MarkerColumns& columns, data::Trial& trial) {
 
 }  // namespace
 
-Result<MakerHeader> parse_vicon_header(Lines& lines, data::Trial& trial) {
+Result<VendorHeader> parse_vicon_header(Lines& lines, data::Trial& trial) {
   if (auto s = find_trajectories(lines, trial); !s) return std::unexpected(s.error());
-  MakerHeader out;
+  VendorHeader out;
   out.columns.separator = ',';
   const auto rate_row = next_row(lines, "the frame rate");
   if (!rate_row) return std::unexpected(rate_row.error());

@@ -245,7 +245,13 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
       frames = first_poses(drawn, fit.chain, frames.frame, fit.marker_weight, fit.noise_sd_m, 25);
       rounds.fit(frames, round + 1 == count);
     }
-    if (round + 1 == count || is_hopeless(fit, options)) break;
+    if (round + 1 == count) break;
+    if (is_hopeless(fit, options)) {
+      fit.warnings.emplace_back(
+          "The first geometry is so far from what is expected that it was not refined; its error bars are "
+          "rough.");
+      break;
+    }
     if (stopped()) return cancelled();
     PosedFrames next = determined_frames(drawn, fit);
     if (next.size() < 20) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/text/camera_makers.h"
+#include "kinemark/io/text/vendor_exports.h"
 
 #include <fmt/core.h>
 
@@ -9,54 +9,53 @@
 #include <string>
 
 #include "kinemark/io/text/internal/cells.h"
-#include "kinemark/io/text/internal/maker_headers.h"
 #include "kinemark/io/text/internal/marker_rows.h"
+#include "kinemark/io/text/internal/vendor_headers.h"
 #include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
 
 using internal::Lines;
-using internal::MakerHeader;
+using internal::VendorHeader;
 
-std::string_view format_name(MakerText which) {
+std::string_view format_name(VendorExport which) {
   switch (which) {
-    case MakerText::qtm:
+    case VendorExport::qtm:
       return "QTM TSV";
-    case MakerText::motive:
+    case VendorExport::motive:
       return "Motive CSV";
-    case MakerText::vicon:
+    case VendorExport::vicon:
       return "Vicon CSV";
   }
   return "";
 }
 
-Result<MakerHeader> parse_header(Lines& lines, MakerText which, data::Trial& trial) {
+Result<VendorHeader> parse_header(Lines& lines, VendorExport which, data::Trial& trial) {
   switch (which) {
-    case MakerText::qtm:
+    case VendorExport::qtm:
       return internal::parse_qtm_header(lines, trial);
-    case MakerText::motive:
+    case VendorExport::motive:
       return internal::parse_motive_header(lines, trial);
-    case MakerText::vicon:
+    case VendorExport::vicon:
       return internal::parse_vicon_header(lines, trial);
   }
   return fail(Code::usage, "no such text");
 }
 
 /// What follows the rows of trajectories.
-void note_rest(Lines& lines, MakerText which, data::Trial& trial) {
+void note_rest(Lines& lines, VendorExport which, data::Trial& trial) {
   if (const std::int64_t line = lines.skip_blank(); line > 0)
     trial.warnings.push_back(fmt::format("a blank line ends the {}; line {} and what follows is not read",
-                                         which == MakerText::vicon ? "trajectories" : "data", line));
+                                         which == VendorExport::vicon ? "trajectories" : "data", line));
 }
 
-Result<data::Trial> parse(std::string_view text, MakerText which) {
+Result<data::Trial> parse(std::string_view text, VendorExport which) {
   Lines lines(text);
   data::Trial trial;
   trial.format = format_name(which);
   const auto header = parse_header(lines, which, trial);
   if (!header) return std::unexpected(header.error());
-
   if (auto s = internal::read_marker_rows(lines, header->columns, text.size(), trial); !s)
     return std::unexpected(s.error());
   note_rest(lines, which, trial);
@@ -71,30 +70,30 @@ Result<data::Trial> parse(std::string_view text, MakerText which) {
 
 }  // namespace
 
-std::optional<MakerText> maker_text_of(std::string_view begin) {
+std::optional<VendorExport> vendor_export_of(std::string_view begin) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
   for (const std::string_view key : {"NO_OF_FRAMES\t", "FILE_VERSION\t", "NO_OF_CAMERAS\t"})
-    if (begin.starts_with(key)) return MakerText::qtm;
-  if (begin.starts_with("Format Version,")) return MakerText::motive;
+    if (begin.starts_with(key)) return VendorExport::qtm;
+  if (begin.starts_with("Format Version,")) return VendorExport::motive;
   const auto first = internal::lower(begin.substr(0, begin.find_first_of(",\r\n")));
   constexpr std::array<std::string_view, 7> kVicon{"trajectories", "devices", "model outputs", "joints",
                                                    "segments",     "events",  "title"};
-  if (std::ranges::find(kVicon, first) != kVicon.end()) return MakerText::vicon;
+  if (std::ranges::find(kVicon, first) != kVicon.end()) return VendorExport::vicon;
   return std::nullopt;
 }
 
-Result<data::Trial> parse_maker_text(std::string_view text, std::string_view name, MakerText which) {
+Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name, VendorExport which) {
   auto trial = parse(text, which);
   if (!trial) return fail_at(name, trial.error());
   trial->source = name;
   return trial;
 }
 
-Result<data::Trial> read_maker_text(const std::filesystem::path& path, MakerText which) {
+Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which) {
   const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
-  return parse_maker_text(*text, path.string(), which);
+  return parse_vendor_export(*text, path.string(), which);
 }
 
 }  // namespace kinemark::io

@@ -17,7 +17,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-TEST(MakerTextData, QualisysRecordingIsAsInventoried) {
+TEST(VendorExportsData, QualisysRecordingIsAsInventoried) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   const auto trial = read_markers(data / "dfki-hand/recording.tsv");
   ASSERT_TRUE(trial) << trial.error().message;
@@ -30,7 +30,7 @@ TEST(MakerTextData, QualisysRecordingIsAsInventoried) {
 }
 
 // Vicon wrote the same trial as C3D and as text.
-TEST(MakerTextData, ViconTextHoldsWhatItsC3dHolds) {
+TEST(VendorExportsData, ViconTextHoldsWhatItsC3dHolds) {
   KINEMARK_REQUIRE_TEST_DATA(data);
   const auto text = read_markers(data / "pycgm-rom/Sample_Static.csv");
   ASSERT_TRUE(text) << text.error().message;

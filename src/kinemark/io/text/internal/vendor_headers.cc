@@ -1,29 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/text/internal/maker_headers.h"
+#include "kinemark/io/text/internal/vendor_headers.h"
 
 #include <fmt/core.h>
 
-#include <array>
-#include <utility>
-
 #include "kinemark/core/distinct_names.h"
+#include "kinemark/io/length_unit.h"
 
 namespace kinemark::io::internal {
 
 Result<double> units_per_metre(std::string_view unit, std::int64_t line) {
-  static constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{{{"mm", 1000.0},
-                                                                              {"millimeters", 1000.0},
-                                                                              {"cm", 100.0},
-                                                                              {"centimeters", 100.0},
-                                                                              {"m", 1.0},
-                                                                              {"meters", 1.0}}};
-  const std::string word = lower(unit);
-  for (const auto& [name, per_metre] : kUnits)
-    if (word == name) return per_metre;
-  return fail(Code::bad_input, fmt::format("line {}: length unit '{}' is unknown; expected millimetres, "
-                                           "centimetres or metres",
-                                           line, excerpt(unit)));
+  const auto metres = metres_per_unit(unit);
+  if (!metres)
+    return fail(
+        Code::bad_input,
+        fmt::format("line {}: length unit '{}' is unknown; expected millimetres, centimetres or metres", line,
+                    excerpt(unit)));
+  return 1.0 / *metres;
 }
 
 void settle_marker_names(std::vector<std::string>& names, std::int64_t line, data::Trial& trial) {

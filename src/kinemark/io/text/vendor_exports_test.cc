@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/text/camera_makers.h"
+#include "kinemark/io/text/vendor_exports.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,17 +16,17 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-data::Trial good_maker_text(const std::string& text, MakerText which) {
-  EXPECT_EQ(maker_text_of(text), which);
-  const auto trial = parse_maker_text(text, "t", which);
+data::Trial good_export(const std::string& text, VendorExport which) {
+  EXPECT_EQ(vendor_export_of(text), which);
+  const auto trial = parse_vendor_export(text, "t", which);
   EXPECT_TRUE(trial) << trial.error().message;
   if (!trial) return {};
   EXPECT_TRUE(trial->validate()) << trial->validate().error().message;
   return *trial;
 }
 
-std::string bad_maker_text(const std::string& text, MakerText which, Code code = Code::bad_input) {
-  const auto trial = parse_maker_text(text, "t", which);
+std::string bad_export(const std::string& text, VendorExport which, Code code = Code::bad_input) {
+  const auto trial = parse_vendor_export(text, "t", which);
   EXPECT_FALSE(trial) << text;
   if (trial) return "";
   EXPECT_EQ(trial.error().code, code);
@@ -50,7 +50,7 @@ const std::string kQtm = kQtmKeys +
                          "3\t0.02000\t1000\t2\t3\t\t\t\n";
 
 TEST(QtmText, ReadsMarkersTimesAndEvents) {
-  const auto trial = good_maker_text(kQtm, MakerText::qtm);
+  const auto trial = good_export(kQtm, VendorExport::qtm);
   EXPECT_EQ(trial.format, "QTM TSV");
   EXPECT_THAT(trial.markers.names, ElementsAre("A", "B"));
   EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 3}));
@@ -63,7 +63,7 @@ TEST(QtmText, ReadsMarkersTimesAndEvents) {
 }
 
 TEST(QtmText, ZerosAndBlanksAreMissingAndVirtualSamplesAreNotMeasured) {
-  const auto trial = good_maker_text(kQtm, MakerText::qtm);
+  const auto trial = good_export(kQtm, VendorExport::qtm);
   EXPECT_FALSE(trial.markers.present(1, 0));
   EXPECT_FALSE(trial.markers.present(2, 1));
   EXPECT_EQ(trial.markers.state[trial.markers.index(0, 0)], data::SampleState::measured);
@@ -76,28 +76,27 @@ TEST(QtmText, ColumnsOfFramesAndTimesMayBeAbsent) {
   const std::string names = "MARKER_NAMES\tA\tB\n";
   for (const std::string& text :
        {kQtmKeys + names + rows, kQtmKeys + names + "A X\tA Y\tA Z\tB X\tB Y\tB Z\n" + rows}) {
-    const auto trial = good_maker_text(text, MakerText::qtm);
+    const auto trial = good_export(text, VendorExport::qtm);
     EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 3}));
     EXPECT_EQ(trial.markers.x(2, 1), Eigen::Vector3d(0.016, 0.017, 0.018));
     EXPECT_THAT(trial.warnings, IsEmpty());
   }
   const auto numbered =
-      good_maker_text(kQtmKeys + names + "11\t1\t2\t3\t4\t5\t6\n12\t1\t2\t3\t4\t5\t6\n14\t1\t2\t3\t4\t5\t6\n",
-                      MakerText::qtm);
+      good_export(kQtmKeys + names + "11\t1\t2\t3\t4\t5\t6\n12\t1\t2\t3\t4\t5\t6\n14\t1\t2\t3\t4\t5\t6\n",
+                  VendorExport::qtm);
   EXPECT_EQ(numbered.first_frame, 11);
   EXPECT_EQ(numbered.markers.time, (TimeBase{100.0, 0.1, 4}));
   EXPECT_FALSE(numbered.markers.present(2, 0));
 }
 
 TEST(QtmText, MixedTrajectoriesAreSaid) {
-  const auto trial = good_maker_text(with(kQtm, "Measured\tVirtual", "Measured\tMixed"), MakerText::qtm);
+  const auto trial = good_export(with(kQtm, "Measured\tVirtual", "Measured\tMixed"), VendorExport::qtm);
   EXPECT_THAT(trial.warnings, Contains(HasSubstr("cannot be kept apart from measured ones: 'B'")));
-  EXPECT_THAT(good_maker_text(kQtm, MakerText::qtm).warnings,
-              testing::Not(Contains(HasSubstr("kept apart"))));
+  EXPECT_THAT(good_export(kQtm, VendorExport::qtm).warnings, testing::Not(Contains(HasSubstr("kept apart"))));
 }
 
 TEST(QtmText, SaysWhatIsWrong) {
-  const auto bad = [](const std::string& text) { return bad_maker_text(text, MakerText::qtm); };
+  const auto bad = [](const std::string& text) { return bad_export(text, VendorExport::qtm); };
   EXPECT_THAT(bad(with(kQtm, "1000\t2", "1000\tx")),
               "t: line 16, column 4: y of marker 'A' is 'x'; expected a number");
   EXPECT_THAT(bad(with(kQtm, "2\t0.01000", "2\tlate")), HasSubstr("line 15, column 2: the time is 'late'"));
@@ -105,8 +104,8 @@ TEST(QtmText, SaysWhatIsWrong) {
   EXPECT_THAT(bad(with(kQtm, "FREQUENCY\t100", "FREQUENCY\t-1")), HasSubstr("FREQUENCY"));
   EXPECT_THAT(bad(kQtmKeys), HasSubstr("without MARKER_NAMES"));
   EXPECT_THAT(bad(kQtmKeys + "MARKER_NAMES\tA\n"), HasSubstr("before the first row"));
-  EXPECT_THAT(bad_maker_text(with(kQtm, "DATA_INCLUDED\t3D", "DATA_INCLUDED\t6D"), MakerText::qtm,
-                             Code::not_supported),
+  EXPECT_THAT(bad_export(with(kQtm, "DATA_INCLUDED\t3D", "DATA_INCLUDED\t6D"), VendorExport::qtm,
+                         Code::not_supported),
               HasSubstr("holds 6D data"));
 }
 
@@ -122,7 +121,7 @@ const std::string kMotive = kMotiveKeys +
                             "0,0.000000,0.1,0.2,0.3,9,9,,,\n1,0.010000,0.4,0.5,0.6,9,9,1,2,3\n";
 
 TEST(MotiveText, ReadsPositionsOfMarkers) {
-  const auto trial = good_maker_text(kMotive, MakerText::motive);
+  const auto trial = good_export(kMotive, VendorExport::motive);
   EXPECT_EQ(trial.format, "Motive CSV");
   EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:B,b"));
   EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 2}));
@@ -137,24 +136,24 @@ TEST(MotiveText, ReadsPositionsOfMarkers) {
 TEST(MotiveText, RowsAreFoundInEveryVersion) {
   // 1.25 has a row of parents; exports exist whose rows carry no label.
   const auto parent = with(kMotive, ",,Position", ",Parent,,,,,,,,\n,,Position");
-  EXPECT_EQ(good_maker_text(parent, MakerText::motive).markers.x(1, 0), Eigen::Vector3d(0.4, 0.5, 0.6));
+  EXPECT_EQ(good_export(parent, VendorExport::motive).markers.x(1, 0), Eigen::Vector3d(0.4, 0.5, 0.6));
   const auto bare = with(with(kMotive, ",Type", ","), ",Name", ",");
-  EXPECT_THAT(good_maker_text(bare, MakerText::motive).markers.names, ElementsAre("s:A", "s:B,b"));
+  EXPECT_THAT(good_export(bare, VendorExport::motive).markers.names, ElementsAre("s:A", "s:B,b"));
   const auto mm =
-      good_maker_text(with(kMotive, "Length Units,Meters", "Length Units,Millimeters"), MakerText::motive);
+      good_export(with(kMotive, "Length Units,Meters", "Length Units,Millimeters"), VendorExport::motive);
   EXPECT_EQ(mm.markers.x(1, 1), Eigen::Vector3d(0.001, 0.002, 0.003));
 }
 
 TEST(MotiveText, NamesThatStandTwiceAreTwoMarkers) {
   const auto trial =
-      good_maker_text(with(kMotive, "\"s:B,b\",\"s:B,b\",\"s:B,b\"", "s:A,s:A,s:A"), MakerText::motive);
+      good_export(with(kMotive, "\"s:B,b\",\"s:B,b\",\"s:B,b\"", "s:A,s:A,s:A"), VendorExport::motive);
   EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:A_2"));
   EXPECT_EQ(trial.markers.x(1, 0), Eigen::Vector3d(0.4, 0.5, 0.6));
   EXPECT_EQ(trial.markers.x(1, 1), Eigen::Vector3d(1, 2, 3));
 }
 
 TEST(MotiveText, SaysWhatIsWrong) {
-  const auto bad = [](const std::string& text) { return bad_maker_text(text, MakerText::motive); };
+  const auto bad = [](const std::string& text) { return bad_export(text, VendorExport::motive); };
   EXPECT_THAT(bad(with(kMotive, "0.4,0.5", "0.4,up")),
               HasSubstr("line 9, column 4: y of marker 's:A' is 'up'"));
   EXPECT_THAT(bad(with(kMotive, "Meters", "Furlongs")),
@@ -173,7 +172,7 @@ const std::string kNexus =
     "5,0,1,2,3,4,5,6\n6,0,7,8,9,,,\n\nModel Outputs\n100\n";
 
 TEST(ViconText, ReadsTheSectionOfTrajectories) {
-  const auto trial = good_maker_text(kNexus, MakerText::vicon);
+  const auto trial = good_export(kNexus, VendorExport::vicon);
   EXPECT_EQ(trial.format, "Vicon CSV");
   EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:B"));
   EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.04, 2}));
@@ -184,16 +183,16 @@ TEST(ViconText, ReadsTheSectionOfTrajectories) {
 }
 
 TEST(ViconText, SectionsBeforeItArePassedOver) {
-  const auto trial = good_maker_text("Devices\n1000\n,,Force\n1,0,2\n\n" + kNexus, MakerText::vicon);
+  const auto trial = good_export("Devices\n1000\n,,Force\n1,0,2\n\n" + kNexus, VendorExport::vicon);
   EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:B"));
   EXPECT_THAT(trial.warnings, Contains("sections that are not read: devices"));
-  const auto rates = good_maker_text(with(kNexus, "X,Y,Z,X,Y,Z", "X,Y,Z,X',Y',Z'"), MakerText::vicon);
+  const auto rates = good_export(with(kNexus, "X,Y,Z,X,Y,Z", "X,Y,Z,X',Y',Z'"), VendorExport::vicon);
   EXPECT_FALSE(rates.markers.present(0, 1));
   EXPECT_THAT(rates.warnings, Contains(HasSubstr("3 columns of trajectories are not X, Y or Z")));
 }
 
 TEST(ViconText, FramesWithoutARowAreMissing) {
-  const auto trial = good_maker_text(with(kNexus, "6,0,7", "8,0,7"), MakerText::vicon);
+  const auto trial = good_export(with(kNexus, "6,0,7", "8,0,7"), VendorExport::vicon);
   EXPECT_THAT(trial.warnings, Contains("2 frames between the rows have no row and are missing"));
   ASSERT_EQ(trial.markers.time, (TimeBase{100.0, 0.04, 4}));
   EXPECT_FALSE(trial.markers.present(1, 0));
@@ -201,13 +200,13 @@ TEST(ViconText, FramesWithoutARowAreMissing) {
 }
 
 TEST(ViconText, NamesThatAreNoneAreMade) {
-  const auto trial = good_maker_text(with(kNexus, "s:B", "\x83"), MakerText::vicon);
+  const auto trial = good_export(with(kNexus, "s:B", "\x83"), VendorExport::vicon);
   EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "point 2"));
   EXPECT_THAT(trial.warnings, Contains("line 3 names 1 of 2 markers; the others are called 'point n'"));
 }
 
 TEST(ViconText, SaysWhatIsWrong) {
-  const auto bad = [](const std::string& text) { return bad_maker_text(text, MakerText::vicon); };
+  const auto bad = [](const std::string& text) { return bad_export(text, VendorExport::vicon); };
   EXPECT_THAT(bad("Trajectories\nfast\n"), HasSubstr("line 2: the frame rate is 'fast'"));
   EXPECT_THAT(bad("Trajectories\n100\n"), HasSubstr("line 3: the file ends where the row of marker names"));
   EXPECT_THAT(bad("Devices\n100\n"), HasSubstr("without a section of trajectories; it has devices"));
@@ -218,10 +217,10 @@ TEST(ViconText, SaysWhatIsWrong) {
               HasSubstr("line 7, column 1: the frame number is 'half'"));
 }
 
-TEST(MakerText, OthersAreNotTakenForOne) {
+TEST(VendorExport, OthersAreNotTakenForOne) {
   for (const std::string_view begin : {"", "frame,time_s,marker,x_m,y_m,z_m\n", "PathFileType\t4\n",
                                        "Format of mine,1\n", "NO_OF_FRAMES 5\n", "Trajectoriesof,1\n"})
-    EXPECT_FALSE(maker_text_of(begin)) << begin;
+    EXPECT_FALSE(vendor_export_of(begin)) << begin;
 }
 
 }  // namespace

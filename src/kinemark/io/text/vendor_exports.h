@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Text exports of the makers of camera systems: Qualisys, OptiTrack, Vicon.
+// Text exports of camera systems, each in the form of its vendor: Qualisys, OptiTrack, Vicon.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@
 
 namespace kinemark::io {
 
-/// A text export that read_maker_text() knows.
-enum class MakerText : std::uint8_t {
+/// A text export that read_vendor_export() knows.
+enum class VendorExport : std::uint8_t {
   qtm,     ///< Qualisys Track Manager, TSV: 3D data with header
   motive,  ///< OptiTrack Motive, CSV, format versions 1.0 to 1.25
   vicon,   ///< Vicon Nexus or Workstation, CSV with a section of trajectories
 };
 
 /// Which of them a text is that begins like this (512 bytes are enough); none: another text.
-[[nodiscard]] std::optional<MakerText> maker_text_of(std::string_view begin);
+[[nodiscard]] std::optional<VendorExport> vendor_export_of(std::string_view begin);
 
 /// Read the markers of such an export, in metres.
 ///
@@ -41,10 +41,10 @@ enum class MakerText : std::uint8_t {
 /// numbers give first_frame; times come from the time column, else from frame numbers and the stated rate.
 /// Axes stay as they are. Code::bad_input, with line and column, for what does not fit; Code::io when it
 /// cannot be read. O(bytes); memory at most 16 times the text + 125 MB.
-[[nodiscard]] Result<data::Trial> read_maker_text(const std::filesystem::path& path, MakerText which);
+[[nodiscard]] Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which);
 
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
-[[nodiscard]] Result<data::Trial> parse_maker_text(std::string_view text, std::string_view name,
-                                                   MakerText which);
+[[nodiscard]] Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name,
+                                                      VendorExport which);
 
 }  // namespace kinemark::io

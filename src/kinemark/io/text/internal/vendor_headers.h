@@ -13,18 +13,18 @@
 namespace kinemark::io::internal {
 
 /// What stands above the rows of an export; events, software and warnings go into the trial at once.
-struct MakerHeader {
+struct VendorHeader {
   MarkerColumns columns;
   /// State of each marker's samples; empty: all measured.
   std::vector<data::SampleState> state;
 };
 
 /// Each reads up to the last line before the rows. Errors carry the line, not the file.
-[[nodiscard]] Result<MakerHeader> parse_qtm_header(Lines& lines, data::Trial& trial);
-[[nodiscard]] Result<MakerHeader> parse_motive_header(Lines& lines, data::Trial& trial);
-[[nodiscard]] Result<MakerHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
+[[nodiscard]] Result<VendorHeader> parse_qtm_header(Lines& lines, data::Trial& trial);
+[[nodiscard]] Result<VendorHeader> parse_motive_header(Lines& lines, data::Trial& trial);
+[[nodiscard]] Result<VendorHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
 
-/// Metres per unit of "mm", "Meters", ... the other way round: 1000 for millimetres. Code::bad_input, naming
+/// 1000 for "mm" or "Millimeters". Code::bad_input, naming
 /// the line, for any other word.
 [[nodiscard]] Result<double> units_per_metre(std::string_view unit, std::int64_t line);
 

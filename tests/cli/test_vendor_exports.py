@@ -18,7 +18,7 @@ def rows_of(path):
     return rows
 
 
-class Makers(CommandTest):
+class VendorExports(CommandTest):
     def setUp(self):
         super().setUp()
         self.good("convert", self.c3d, "known.csv", "--force")
