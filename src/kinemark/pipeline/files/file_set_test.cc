@@ -10,6 +10,7 @@
 
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -46,8 +47,7 @@ void put(const ResultFile& file, const std::string& set) { ASSERT_TRUE(file.writ
 TEST(FileSet, EveryFormatButCsvNamesItsSet) {
   const testing_support::ScratchFolder scratch;
   const auto trial = small_trial();
-  data::ModelDescription model;
-  model.name = "m";
+  const std::string model = io::format_osim({.name = "m"}).value();
   put(table_file(scratch / "q.mot", small_table), kSet);
   put(json_file(scratch / "q.json", [] { return nlohmann::ordered_json{{"format", "x"}}; }), kSet);
   put(toml_file(scratch / "q.toml", [] { return std::string("a = 1\n"); }), kSet);
@@ -119,8 +119,7 @@ TEST(FileSet, StrangersAreFoundByTheNamesOfAFolder) {
   put(marker_file(scratch / "markers.c3d", trial), kSet);
   put(marker_file(scratch / "markers.trc", trial), kSet);
   put(table_file(scratch / "truth.mot", small_table), kSet);
-  data::ModelDescription scaled;
-  scaled.name = "scaled";
+  const std::string scaled = io::format_osim({.name = "scaled"}).value();
   put(model_file(scratch / "model.osim", scaled), kOther);
   EXPECT_THAT(find_strangers(scratch / "markers.c3d"), ElementsAre())
       << "a model is replaced by its scaled one";

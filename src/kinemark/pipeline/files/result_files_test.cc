@@ -7,6 +7,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "support/scratch.h"
@@ -39,6 +40,7 @@ class WriteResults : public ::testing::Test {
 TEST_F(WriteResults, EveryKindReadsBack) {
   const auto trial = one_marker();
   const auto model = human_model().value();
+  const std::string model_text = io::format_osim(model).value();
   data::Table table;
   table.columns = {"a"};
   table.time_s = {0.0, 0.1};
@@ -47,7 +49,7 @@ TEST_F(WriteResults, EveryKindReadsBack) {
   const auto written =
       write_results(staging,
                     {text(at("t.txt"), "words"), table_file(at("t.sto"), [&] { return table; }),
-                     marker_file(at("t.trc"), trial), model_file(at("t.osim"), model)},
+                     marker_file(at("t.trc"), trial), model_file(at("t.osim"), model_text)},
                     {}, "work");
   ASSERT_TRUE(written) << written.error().message;
   EXPECT_EQ(*written, staging.targets());
