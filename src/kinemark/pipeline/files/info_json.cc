@@ -29,6 +29,13 @@ void add(const MarkerFileFacts& facts, Json& to) {
   to["events"] = facts.events;
   to["software"] = facts.software;
   to["labels"] = facts.labels;
+  to["unlabelled"] = facts.unlabelled;
+  to["channels"] = Json::array();
+  for (const ChannelFacts& channel : facts.channels)
+    to["channels"].push_back({{"name", channel.name},
+                              {"kind", channel.kind},
+                              {"unit", channel.unit},
+                              {"rate_hz", channel.rate_hz}});
 }
 
 void add(const TableFacts& facts, Json& to) {
@@ -78,6 +85,13 @@ void add(const RecordingFacts& facts, Json& to) {
   if (facts.counts) add(*facts.counts, to);
 }
 
+/// "LKneeAngles (angle, deg)"
+std::string channel_text(const Json& channel) {
+  const auto of = [&](const char* key) { return printable(channel[key].get<std::string>()); };
+  const std::string unit = of("unit");
+  return fmt::format("{} ({}{}{})", of("name"), of("kind"), unit.empty() ? "" : ", ", unit);
+}
+
 }  // namespace
 
 Json info_json(const InfoOutcome& outcome) {
@@ -97,7 +111,9 @@ std::string info_text(const InfoOutcome& outcome) {
         text += fmt::format("warning           {}\n", printable_sentence(warning));
     } else if (value.is_array()) {
       std::string list;
-      for (const auto& item : value) list += (list.empty() ? "" : " ") + printable(item.get<std::string>());
+      for (const auto& item : value)
+        list += (list.empty() ? "" : " ") +
+                (item.is_object() ? channel_text(item) : printable(item.get<std::string>()));
       text += fmt::format("{:<17} {}\n", key, list);
     } else {
       text += fmt::format("{:<17} {}\n", key,
