@@ -79,14 +79,14 @@ TEST(C3dPointTypes, ListsGoOnInNumberedParametersAndSubjectsMayBeLeftOut) {
 
 TEST(C3dPointTypes, TypeGroupsMayNameListsOfTheirOwn) {
   const Sorted s =
-      sort({"LASI", "Depth"}, {texts("DEPTHS", {5, 1}, {"Depth"}), texts("DEPTH_UNITS", {2}, {"cm"}),
-                               texts("TYPE_GROUPS", {6, 2, 1}, {"DEPTHS", "DEPTH"})});
+      sort_labels({"LASI", "Depth"}, {texts("DEPTHS", {5, 1}, {"Depth"}), texts("DEPTH_UNITS", {2}, {"cm"}),
+                                      texts("TYPE_GROUPS", {6, 2, 1}, {"DEPTHS", "DEPTH"})});
   EXPECT_THAT(s.trial.channels.kinds, ElementsAre(ChannelKind::other));
   EXPECT_THAT(s.trial.channels.units, ElementsAre("cm"));
 }
 
 TEST(C3dPointTypes, TypeGroupsThatNameTheLabelsThemselvesLeaveMarkersAlone) {
-  const Sorted s = sort(
+  const Sorted s = sort_labels(
       {"LASI"}, {texts("LABELS", {4, 1}, {"LASI"}), texts("TYPE_GROUPS", {6, 2, 1}, {"LABELS", "LABEL"})});
   EXPECT_THAT(s.trial.markers.names, ElementsAre("LASI"));
 }
