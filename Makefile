@@ -29,7 +29,7 @@ test:  ## everything that CI runs
 
 accept: release  ## everything that CI runs within its budget, the acceptance table with its slow rows, clang-tidy on all
 	python3 tools/run_tests.py --jobs $(JOBS) --check-budget
-	python3 tools/run_tests.py --jobs $(JOBS) --only release-tests,asan-program,asan-cli,threads-build,threads
+	python3 tools/run_tests.py --jobs $(JOBS) --only release-tests,fuzz-hunt,asan-program,asan-cli,threads-build,threads
 	python3 tests/acceptance/run.py
 	cmake --install build/release --prefix build/release/prefix
 	cmake -S tests/consumer/headers -B build/release/headers -G Ninja -DEACH=ON -DCMAKE_PREFIX_PATH=$(CURDIR)/build/release/prefix

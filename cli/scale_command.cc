@@ -43,6 +43,7 @@ void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& 
                             outcome.placed->markers.size(), 1e3 * outcome.placed->rms_m));
   if (outcome.from_motion) print_adapted(common, *outcome.from_motion, "Motion");
   for (const auto& note : outcome.warnings) say(common, fmt::format("attention: {}", note));
+  for (const auto& note : outcome.lost) say(common, fmt::format("attention: {}", note));
   say_written(common, outcome);
   if (common.json) print_result(pipeline::json_text(pipeline::scale_json(job, outcome)) + "\n");
 }

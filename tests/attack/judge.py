@@ -8,6 +8,7 @@ import unicodedata
 
 STATUSES = (0, 1, 2, 3, 4)
 UNPRINTABLE = ("Cc", "Cf", "Cs", "Co", "Cn")  # categories of characters that a terminal does not show as a letter
+ALLOWED = "\n\t\u200c\u200d"  # words of some languages need the joiners
 LONGEST_LINE = 2000  # letters that a person may be asked to read in one line
 
 
@@ -30,7 +31,7 @@ def of_text(name, raw, allowed=()):
     except UnicodeDecodeError as error:
         return [f"{name} is no UTF-8 (byte {error.start})"]
     wrong = set(UNPRINTABLE) - set(allowed)
-    found = next((c for c in text if c not in "\n\t" and unicodedata.category(c) in wrong), None)
+    found = next((c for c in text if c not in ALLOWED and unicodedata.category(c) in wrong), None)
     problems = [] if found is None else [f"{name} has the control character U+{ord(found):04X}"]
     if any(len(line) > LONGEST_LINE for line in text.splitlines()):
         problems.append(f"{name} has a line of more than {LONGEST_LINE} letters")

@@ -3,6 +3,7 @@
 """Files that are written: whole or not at all, never over an input or another's file, as sets that belong together,
 whatever the disk, a signal or a second program does. tests/acceptance/files_kept.py does the same many more times."""
 
+import json
 import os
 import random
 import shutil
@@ -119,6 +120,46 @@ class InputsStay(Files):
         self.kept("markers.trc", "ik", "--setup", "setup.xml")
         self.kept("model.osim", "ik", "--setup", "setup.xml", "-o", "model.osim")
 
+    def test_files_that_a_setup_is_put_together_from(self):
+        self.setup_file("setup.xml", "q.mot", tasks_in="tasks.xml")
+        self.kept("tasks.xml", "ik", "--setup", "setup.xml", "-o", "tasks.xml")
+        self.good("ik", "--setup", "setup.xml", "--quiet")
+        read = json.loads((self.folder / "q_report.json").read_text())["inputs"]
+        self.assertIn("tasks.xml", [Path(one["path"]).name for one in read])
+
+    def test_files_that_a_setup_of_scaling_names(self):
+        self.write(
+            "marker_set.xml",
+            "<OpenSimDocument Version='40000'><MarkerSet><objects><Marker name='extra'><socket_parent_frame>/bodyset/pelvis"
+            "</socket_parent_frame><location>0 0 0</location></Marker></objects></MarkerSet></OpenSimDocument>",
+        )
+        self.write("tasks.xml", f"<OpenSimDocument Version='40000'><IKTaskSet><objects>{self.tasks()}</objects></IKTaskSet></OpenSimDocument>")
+        self.write(
+            "scale.xml",
+            "<OpenSimDocument Version='40000'><ScaleTool name='s'><GenericModelMaker><model_file>model.osim</model_file>"
+            "<marker_set_file>marker_set.xml</marker_set_file></GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler>"
+            "<MarkerPlacer><apply>true</apply><IKTaskSet file='tasks.xml'/><marker_file>markers.trc</marker_file>"
+            "<coordinate_file>truth.mot</coordinate_file></MarkerPlacer></ScaleTool></OpenSimDocument>",
+        )
+        for name in ("model.osim", "marker_set.xml", "tasks.xml", "markers.trc", "truth.mot", "scale.xml"):
+            self.kept(name, "scale", "--setup", "scale.xml", "-o", name)
+
+    def test_files_that_loads_name(self):
+        self.write(
+            "loads.xml",
+            "<OpenSimDocument Version='40000'><ExternalLoads name='l'><objects><ExternalForce name='f'><applied_to_body>pelvis"
+            "</applied_to_body><force_expressed_in_body>ground</force_expressed_in_body><point_expressed_in_body>ground"
+            "</point_expressed_in_body><force_identifier>f</force_identifier><point_identifier>p</point_identifier>"
+            "</ExternalForce></objects><datafile>push.sto</datafile></ExternalLoads></OpenSimDocument>",
+        )
+        rows = "".join(f"{0.01 * i:.2f}\t0\t9\t0\t0\t0\t0\n" for i in range(3000))
+        names = "\t".join(["time", "fx", "fy", "fz", "px", "py", "pz"])
+        self.write("push.sto", f"push\nversion=1\nnRows=3000\nnColumns=7\ninDegrees=no\nendheader\n{names}\n{rows}")
+        for command in ("ik", "track"):
+            run = [command, "-m", "model.osim", "-t", "markers.c3d", "--forces", "loads.xml"]
+            self.kept("loads.xml", *run, "-o", "loads.xml")
+            self.kept("push.sto", *run, "-o", "push.sto")
+
     def test_report(self):
         self.good(*self.ik(markers="markers.c3d", model="model.osim"))
         for name in ("q.mot", "q_sd.sto", "q_marker_errors.sto", "q_report.json", "markers.c3d", "model.osim"):
@@ -135,12 +176,16 @@ class InputsStay(Files):
         self.kept("recording.csv", "reconstruct", "recording.csv", "--rig", "rig_true.toml", "-o", "recording.csv")
         self.refused(2, "recording.mcap", "recover", "recording.mcap", "recording.mcap", "--force")
 
-    def setup_file(self, name, output):
+    def setup_file(self, name, output, tasks_in=None):
+        tasks = f"<IKTaskSet><objects>{self.tasks()}</objects></IKTaskSet>"
+        if tasks_in:
+            self.write(tasks_in, f"<OpenSimDocument Version='40000'>{tasks}</OpenSimDocument>")
+            tasks = f"<IKTaskSet file='{tasks_in}'/>"
         self.write(
             name,
             "<OpenSimDocument Version='40000'><InverseKinematicsTool name='t'><model_file>model.osim</model_file>"
             f"<marker_file>markers.trc</marker_file><output_motion_file>{output}</output_motion_file>"
-            f"<IKTaskSet><objects>{self.tasks()}</objects></IKTaskSet></InverseKinematicsTool></OpenSimDocument>",
+            f"{tasks}</InverseKinematicsTool></OpenSimDocument>",
         )
 
     def tasks(self):
@@ -286,6 +331,19 @@ class Sets(Files):
         for command, first, second in (("clean to C3D", "x.c3d", "x_report.json"), ("scale", "x.osim", "x_report.json"), ("track", "x.mot", "x_tau.sto")):
             with self.subTest(command=command):
                 self.results(command)
+                whole = self.run_in("validate", f"a/{first}")
+                self.assertNotIn("together", whole.err + whole.out)
+                self.mixed("a", "b", second)
+                ran = self.good("validate", f"a/{first}", status=1)
+                self.assertIn(f"{second}: was not written together with", ran.err + ran.out)
+
+    def test_validate_knows_the_sets_of_simulations(self):
+        for scene, first, second in (("subject --duration 0.2", "markers.c3d", "truth.mot"), ("rig tree --duration 0.1", "truth.trc", "rig_true.toml")):
+            with self.subTest(scene=scene):
+                shutil.rmtree(self.folder / "a", ignore_errors=True)
+                shutil.rmtree(self.folder / "b", ignore_errors=True)
+                for seed, folder in enumerate("ab", 1):
+                    self.good("simulate", *scene.split(), "--seed", seed, "-o", folder, "--quiet")
                 whole = self.run_in("validate", f"a/{first}")
                 self.assertNotIn("together", whole.err + whole.out)
                 self.mixed("a", "b", second)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
 import unittest
+from pathlib import Path
 
 from support import Tree, load_tool
 
@@ -28,12 +29,36 @@ class FindTargets(unittest.TestCase):
         self.assertIn("tests/fuzz/corpus/gone has no program fuzz_gone", problems[1])
 
 
-class Share(unittest.TestCase):
-    def test_divides_a_time_for_all_and_leaves_none_without(self):
-        self.assertEqual(fuzz.share(240, 12), 20)
-        self.assertEqual(fuzz.share(240, 9), 26)
-        self.assertEqual(fuzz.share(5, 9), 1)
-        self.assertEqual(fuzz.share(240, 0), 240)
+class HowLong(unittest.TestCase):
+    def test_a_fixed_number_of_runs_begins_with_the_kept_inputs_in_the_order_of_their_names(self):
+        with Tree({"corpus/c.c3d": "", "corpus/a.c3d": "", "corpus/b.c3d": "", "work/log": ""}) as root:
+            options = fuzz.how_long("c3d", None, root / "corpus", root / "work")
+            kept = (root / "work" / "kept").read_text().split(",")
+            self.assertFalse((root / "work" / "found").exists())
+        self.assertEqual([Path(name).name for name in kept], ["a.c3d", "b.c3d", "c.c3d"])
+        self.assertEqual(options, [f"-runs={fuzz.RUNS['c3d']}", "-shuffle=0", f"-seed_inputs=@{root / 'work' / 'kept'}"])
+
+    def test_a_hunt_begins_with_all_that_was_ever_found(self):
+        with Tree({"corpus/a": "", "work/log": ""}) as root:
+            options = fuzz.how_long("c3d", 30, root / "corpus", root / "work")
+            self.assertTrue((root / "work" / "found").is_dir())
+        self.assertEqual(options, ["-max_total_time=30", str(root / "work" / "found"), str(root / "corpus")])
+
+    def test_each_target_has_a_number_of_runs(self):
+        kept = sorted(path.name for path in fuzz.CORPORA.iterdir())
+        self.assertEqual(sorted(fuzz.RUNS), kept)
+        self.assertEqual(fuzz.without_runs(kept), [])
+        self.assertEqual(fuzz.without_runs(["c3d", "new"]), ["fuzz_new has no number of runs; give it one in RUNS of tools/fuzz"])
+
+
+class Corpora(unittest.TestCase):
+    def test_are_small_and_many(self):
+        for corpus in fuzz.CORPORA.iterdir():
+            sizes = [path.stat().st_size for path in corpus.iterdir()]
+            with self.subTest(corpus=corpus.name):
+                self.assertGreaterEqual(len(sizes), 50)
+                self.assertLessEqual(max(sizes), 20_000)
+        self.assertLess(sum(path.stat().st_size for path in fuzz.CORPORA.rglob("*") if path.is_file()), 3_000_000)
 
 
 class Summary(unittest.TestCase):

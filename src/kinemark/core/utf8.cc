@@ -23,10 +23,13 @@ char32_t code_point(std::string_view text, std::size_t i, std::size_t length) {
 /// C0, delete, C1.
 bool is_control(char32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
 
-/// Marks, embeddings, overrides and isolates of the direction of writing; line and paragraph separators.
+/// Characters that are not seen themselves: those that direct writing, line and paragraph separators, soft
+/// hyphens, spaces without width, tags. The two joiners are left, as words of some languages need them.
 bool is_layout(char32_t code) {
-  return (code >= 0x200E && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
-         (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+  return code == 0xAD || code == 0x61C || code == 0x180E || code == 0x200B ||
+         (code >= 0x200E && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF || (code >= 0xFFF9 && code <= 0xFFFB) ||
+         (code >= 0xE0001 && code <= 0xE007F);
 }
 
 void append_latin1(std::string& out, unsigned char byte) {

@@ -25,9 +25,8 @@ namespace kinemark {
 [[nodiscard]] std::string name_of_bytes(std::string_view bytes);
 
 /// For people, on one line and safe on a terminal: bytes that are no UTF-8, control characters and those that
-/// turn the direction of writing become U+FFFD; of more than `most` characters (at least 8) the middle
-/// becomes
-/// "...".
+/// are not seen (marks of the direction of writing, soft hyphens) become U+FFFD; of more than `most`
+/// characters (at least 8) the middle becomes "...".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = std::string_view::npos);
 
 /// A sentence for people: printable(), words of more than 300 characters and sentences of more than 4000

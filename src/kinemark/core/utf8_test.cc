@@ -38,6 +38,11 @@ TEST(Utf8, WhatIsPrintedIsValidAndSafe) {
   EXPECT_EQ(printable("a\nb"), std::string("a") + kUnknown + "b");
   EXPECT_EQ(printable("\xC2\x9B"), kUnknown) << "C1";
   EXPECT_EQ(printable("\xE2\x80\xAE"), kUnknown) << "right-to-left override";
+  EXPECT_EQ(printable("\xC2\xAD"), kUnknown) << "soft hyphen";
+  EXPECT_EQ(printable("\xE2\x81\xA3"), kUnknown) << "invisible separator";
+  EXPECT_EQ(printable("\xF3\xA0\x81\x81"), kUnknown) << "tag";
+  EXPECT_EQ(printable("\xD9\x85\xE2\x80\x8C\xD9\x85"), "\xD9\x85\xE2\x80\x8C\xD9\x85")
+      << "a joiner in a word";
   EXPECT_EQ(printable("x\xE9.trc"), std::string("x") + kUnknown + ".trc");
   EXPECT_EQ(printable("plain é"), "plain é");
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/enum_names.h"
@@ -53,8 +54,18 @@ std::int64_t Trajectories::find(std::string_view name) const {
 }
 
 std::int64_t Trajectories::count_missing() const {
-  return std::count_if(state.begin(), state.end(),
-                       [](SampleState s) { return s == SampleState::missing || s == SampleState::rejected; });
+  // In pieces, whose narrow sums let the compiler count many at once.
+  constexpr std::size_t kPiece = 1 << 16;
+  std::int64_t out = 0;
+  for (std::size_t begin = 0; begin < state.size(); begin += kPiece) {
+    const auto piece = std::span(state).subspan(begin, std::min(kPiece, state.size() - begin));
+    std::int32_t count = 0;
+    for (const SampleState s : piece)
+      count += static_cast<std::int32_t>(s == SampleState::missing) |
+               static_cast<std::int32_t>(s == SampleState::rejected);
+    out += count;
+  }
+  return out;
 }
 
 Trajectories Trajectories::all_missing(std::vector<std::string> names, const TimeBase& time) {

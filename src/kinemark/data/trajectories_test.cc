@@ -40,6 +40,19 @@ TEST(Trajectories, SetMissingWritesNanAndTheReason) {
   EXPECT_TRUE(t.validate());
 }
 
+TEST(Trajectories, CountsWhatIsNotThereOfAnyLength) {
+  for (const std::int64_t frames : {1, 65'536, 65'537, 200'001}) {
+    auto t = Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = frames});
+    EXPECT_EQ(t.count_missing(), frames);
+    std::int64_t there = 0;
+    for (std::int64_t f = 0; f < frames; f += 7, ++there)
+      t.state[t.index(f, 0)] = f % 2 == 0 ? SampleState::measured : SampleState::interpolated;
+    t.state.back() = SampleState::rejected;
+    there -= (frames - 1) % 7 == 0;
+    EXPECT_EQ(t.count_missing(), frames - there);
+  }
+}
+
 TEST(Trajectories, ValidateNamesWhatIsWrong) {
   Trajectories t = two_by_two();
   t.names[1] = "A";

@@ -12,4 +12,13 @@ Status check_rate(double rate_hz, std::string_view where) {
                                            rate_hz, kSlowest_hz, kFastest_hz));
 }
 
+Result<bool> states_rate(double rate_hz, std::string_view where, std::vector<std::string>& warnings) {
+  if (rate_hz == 0.0) {
+    warnings.push_back(fmt::format("{} is 0, which is taken as not known", where));
+    return false;
+  }
+  if (auto s = check_rate(rate_hz, where); !s) return std::unexpected(s.error());
+  return true;
+}
+
 }  // namespace kinemark::io

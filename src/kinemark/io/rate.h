@@ -3,7 +3,9 @@
 // Which numbers are frame rates: the same for every file format.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/core/result.h"
 
@@ -19,5 +21,10 @@ inline constexpr double kFastest_hz = 1e6;    ///< faster than any camera or con
 
 /// Code::bad_input for anything that is_rate() does not hold of. `where`: what states it, "POINT:RATE".
 [[nodiscard]] Status check_rate(double rate_hz, std::string_view where);
+
+/// Whether a file states its rate, where it has another way to tell it. Programs write 0 for a rate that they
+/// do not know: false, which is said among the warnings. Anything else as check_rate().
+[[nodiscard]] Result<bool> states_rate(double rate_hz, std::string_view where,
+                                       std::vector<std::string>& warnings);
 
 }  // namespace kinemark::io

@@ -22,5 +22,17 @@ TEST(Rate, KnowsWhatNoClockRunsAt) {
     EXPECT_TRUE(check_rate(good, "x")) << good;
 }
 
+TEST(Rate, ZeroIsNotKnownAndSaid) {
+  std::vector<std::string> warnings;
+  EXPECT_FALSE(states_rate(0.0, "DataRate", warnings).value());
+  EXPECT_FALSE(states_rate(-0.0, "POINT:RATE", warnings).value());
+  EXPECT_THAT(warnings, ::testing::ElementsAre("DataRate is 0, which is taken as not known",
+                                               "POINT:RATE is 0, which is taken as not known"));
+  EXPECT_TRUE(states_rate(100.0, "DataRate", warnings).value());
+  EXPECT_EQ(states_rate(-100.0, "DataRate", warnings).error().code, Code::bad_input);
+  EXPECT_FALSE(states_rate(std::nan(""), "DataRate", warnings));
+  EXPECT_EQ(warnings.size(), 2U);
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -86,6 +86,44 @@ struct IntegerSamples {
   }
 };
 
+/// The box around all samples so far, in the numbers of the file, one for each place in a batch: so the
+/// compiler works on several at once. What stands in the place of missing samples counts, unless it is NaN,
+/// which is neither less nor more: that costs nothing.
+class Boxes {
+ public:
+  Boxes() {
+    for (auto& axis : low_) std::ranges::fill(axis, std::numeric_limits<float>::infinity());
+    for (auto& axis : high_) std::ranges::fill(axis, -std::numeric_limits<float>::infinity());
+  }
+
+  void add(const Batch& in, std::int64_t n) {
+    add(in.x, n, low_[0], high_[0]);
+    add(in.y, n, low_[1], high_[1]);
+    add(in.z, n, low_[2], high_[2]);
+  }
+
+  [[nodiscard]] Eigen::AlignedBox3d metres(double metres_per_step) const {
+    Eigen::AlignedBox3d out;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float low = std::ranges::min(low_[axis]), high = std::ranges::max(high_[axis]);
+      if (low > high) return {};
+      out.min()(axis) = metres_per_step * low;
+      out.max()(axis) = metres_per_step * high;
+    }
+    return out;
+  }
+
+ private:
+  static void add(const float* __restrict x, std::int64_t n, float* __restrict low, float* __restrict high) {
+    for (std::int64_t i = 0; i < n; ++i) {
+      low[i] = x[i] < low[i] ? x[i] : low[i];
+      high[i] = x[i] > high[i] ? x[i] : high[i];
+    }
+  }
+
+  float low_[3][kBatch], high_[3][kBatch];
+};
+
 /// Where the points of a batch go; null where a span is empty.
 struct Cursor {
   double* x;
@@ -101,7 +139,7 @@ struct Steps {
 
 // Free of branches that depend on the data, because gaps cannot be predicted: a missing sample is multiplied
 // by NaN instead.
-C3dSeen finish(const Batch& in, std::int64_t n, const Steps& steps, const Cursor& out) {
+void finish(const Batch& in, std::int64_t n, const Steps& steps, const Cursor& out, C3dSeen& total) {
   static_assert(static_cast<int>(SampleState::missing) == 0 && static_cast<int>(SampleState::measured) == 1 &&
                 static_cast<int>(SampleState::interpolated) == 2);
   float residual[kBatch];
@@ -136,22 +174,22 @@ C3dSeen finish(const Batch& in, std::int64_t n, const Steps& steps, const Cursor
   if (out.residual != nullptr) std::copy_n(residual, n, out.residual);
   if (out.mask != nullptr)
     for (std::int64_t i = 0; i < n; ++i) out.mask[i] = static_cast<std::uint8_t>(in.cameras[i]);
-  return {
-      .measured = measured_count, .unmeasured = there_count - measured_count, .with_cameras = camera_count};
+  total.measured += measured_count;
+  total.unmeasured += there_count - measured_count;
+  total.with_cameras += camera_count;
 }
 
 template <class Samples>
-C3dSeen decode_points(const std::byte* in, std::int64_t points, const Steps& steps, const Cursor& out) {
+void decode_points(const std::byte* in, std::int64_t points, const Steps& steps, const Cursor& out,
+                   Boxes& boxes, C3dSeen& seen) {
   Batch batch;
-  C3dSeen seen;
   const auto at = [](auto* p, std::int64_t i) { return p == nullptr ? nullptr : p + i; };
   for (std::int64_t m = 0; m < points; m += kBatch) {
     const std::int64_t n = std::min(kBatch, points - m);
     Samples::load(in + static_cast<std::size_t>(m) * 4 * Samples::kBytes, n, batch);
-    seen +=
-        finish(batch, n, steps, {at(out.x, 3 * m), at(out.state, m), at(out.residual, m), at(out.mask, m)});
+    if (out.x != nullptr) boxes.add(batch, n);
+    finish(batch, n, steps, {at(out.x, 3 * m), at(out.state, m), at(out.residual, m), at(out.mask, m)}, seen);
   }
-  return seen;
 }
 
 template <class Samples>
@@ -188,6 +226,7 @@ C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames
   const Steps steps{.coordinate_m = layout.metres_per_unit * (layout.is_float ? 1.0 : layout.scale),
                     .residual_m = static_cast<float>(layout.metres_per_unit * layout.scale)};
   C3dSeen seen;
+  Boxes boxes;
   for (std::int64_t f = 0; f < frames; ++f, in += layout.frame_bytes) {
     const auto frame = static_cast<std::size_t>(f);
     const auto at = [&](auto span, std::size_t width) {
@@ -198,9 +237,10 @@ C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames
       const auto from = [&](auto span, std::size_t width) {
         return span.empty() ? nullptr : span.data() + (frame * markers + m) * width;
       };
-      seen += decode_points<Samples>(
+      decode_points<Samples>(
           in + static_cast<std::size_t>(run.first) * 4 * Samples::kBytes, run.count, steps,
-          {from(out.x_in_world, 3), from(out.state, 1), from(out.residual_m, 1), from(out.camera_mask, 1)});
+          {from(out.x_in_world, 3), from(out.state, 1), from(out.residual_m, 1), from(out.camera_mask, 1)},
+          boxes, seen);
       m += static_cast<std::size_t>(run.count);
     }
     if (!out.channels.empty())
@@ -209,6 +249,7 @@ C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames
       decode_analog<Samples>(layout, in + points * 4 * Samples::kBytes,
                              at(out.analog, static_cast<std::size_t>(layout.analog_per_frame())));
   }
+  seen.box_m = boxes.metres(steps.coordinate_m);
   return seen;
 }
 
@@ -218,6 +259,7 @@ C3dSeen& C3dSeen::operator+=(const C3dSeen& other) {
   measured += other.measured;
   unmeasured += other.unmeasured;
   with_cameras += other.with_cameras;
+  box_m.extend(other.box_m);
   return *this;
 }
 

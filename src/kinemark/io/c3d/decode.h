@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,13 +22,16 @@ struct C3dFrames {
   std::span<double> channels;           ///< n x C x 3, numbers of the file; NaN where missing
 };
 
-/// Counts of what was decoded; they add up over pieces of a file.
+/// Counts of what was decoded, and the box around it; they add up over pieces of a file.
 struct C3dSeen {
   std::int64_t measured = 0;      ///< samples with a residual or cameras
   std::int64_t unmeasured = 0;    ///< samples with coordinates and a fourth word of 0
   std::int64_t with_cameras = 0;  ///< samples with a camera mask
+  /// Around all positions that were written and, perhaps, what the file has where they are missing, in world;
+  /// empty: none was, or not known.
+  Eigen::AlignedBox3d box_m;
 
-  C3dSeen& operator+=(const C3dSeen& other);  ///< adds the counts of another piece
+  C3dSeen& operator+=(const C3dSeen& other);  ///< adds another piece
 };
 
 /// Decode `frames` whole frames at `bytes`.

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string_view>
 #include <utility>
 
+#include "kinemark/core/distinct_names.h"
 #include "kinemark/io/c3d/force_plates.h"
 #include "kinemark/io/c3d/internal/count.h"
 
@@ -23,30 +23,19 @@ std::vector<std::string> settle_names(std::vector<std::string> names, std::int64
                                       std::string_view what, std::string_view parameter, Warnings& warnings) {
   const auto n = static_cast<std::size_t>(count);
   names.resize(n);
-  std::set<std::string, std::less<>> used;
   std::size_t unnamed = 0;
-  std::size_t twice = 0;
-  std::string example;
   for (std::size_t i = 0; i < n; ++i) {
-    if (names[i].empty()) {
-      ++unnamed;
-      names[i] = fmt::format("{} {}", what, i + 1);
-    }
-    if (used.insert(names[i]).second) continue;
-    ++twice;
-    if (example.empty()) example = names[i];
-    std::string other;
-    int suffix = 2;
-    do other = fmt::format("{}_{}", names[i], suffix++);
-    while (!used.insert(other).second);
-    names[i] = std::move(other);
+    if (!names[i].empty()) continue;
+    ++unnamed;
+    names[i] = fmt::format("{} {}", what, i + 1);
   }
+  const RepeatedNames repeated = make_distinct(names);
   if (unnamed > 0)
     warnings.push_back(fmt::format("{} names {} of {} {}s; the others are called '{} n'", parameter,
                                    n - unnamed, n, what, what));
-  if (twice > 0)
+  if (repeated.changed > 0)
     warnings.push_back(fmt::format("{} repeats {} names ('{}' is the first); a number is added to each",
-                                   parameter, twice, example));
+                                   parameter, repeated.changed, repeated.example));
   return names;
 }
 

@@ -184,10 +184,11 @@ Result<std::size_t> settle_data_block(const C3dHeader& h, const C3dParameters& p
 }
 
 Status settle_rate_and_scale(C3dLayout& out, const C3dHeader& h, const C3dParameters& p, Warnings& warnings) {
-  const double rate = p.number("POINT", "RATE").value_or(0.0);
-  // 0 is how programs leave it out; anything else that is no rate is damage.
-  if (rate != 0.0)
-    if (auto s = check_rate(rate, "POINT:RATE"); !s) return s;
+  const auto stated = p.number("POINT", "RATE");
+  const double rate = stated.value_or(0.0);
+  if (stated)
+    if (const auto known = states_rate(rate, "POINT:RATE", warnings); !known)
+      return std::unexpected(known.error());
   out.rate_hz = usable(rate) ? rate : h.rate_hz;
   if (!usable(out.rate_hz))
     return fail(Code::bad_input,
@@ -199,7 +200,8 @@ Status settle_rate_and_scale(C3dLayout& out, const C3dHeader& h, const C3dParame
     warnings.push_back(
         fmt::format("POINT:RATE is {} Hz, the header says {} Hz; the parameter is used", rate, h.rate_hz));
   if (!usable(rate) && p.has_group("POINT"))
-    warnings.push_back(fmt::format("POINT:RATE is missing; the header's {} Hz are used", h.rate_hz));
+    warnings.push_back(stated ? fmt::format("the header's rate of {} Hz is used", h.rate_hz)
+                              : fmt::format("POINT:RATE is missing; the header's {} Hz are used", h.rate_hz));
 
   const auto good = [](double s) { return std::isfinite(s) && s != 0.0; };
   const double said = p.number("POINT", "SCALE").value_or(0.0);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/c3d/point_types.h"
@@ -277,7 +278,9 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   if (!plan.integers) scale = std::max(scale, largest(trial.residual_m) / 255.0);
   if (plan.integers) scale = std::max(scale, largest(trial.channels.values) * *metres / kIntegerSteps);
   plan.scale = scale > 0.0 ? static_cast<float>(scale * plan.units_per_metre) : 1.0F;
-  if (!(plan.scale > 0.0) || !std::isfinite(plan.scale))
+  // Coordinates that are next to nothing are written as nothing.
+  plan.scale = std::max(plan.scale, static_cast<decltype(plan.scale)>(std::numeric_limits<float>::min()));
+  if (!std::isfinite(plan.scale))
     return fail(Code::bad_input,
                 fmt::format("has coordinates up to {} m; C3D's single precision cannot hold them",
                             scale * kIntegerSteps));

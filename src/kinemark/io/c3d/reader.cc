@@ -175,7 +175,7 @@ Result<C3dSeen> C3dReader::read(std::int64_t first, std::int64_t count, const C3
   return total;
 }
 
-Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options) {
+Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options, C3dSeen* reported) {
   data::Trial trial = reader.description();
   const C3dLayout& layout = reader.layout();
   C3dFrames out;
@@ -201,6 +201,7 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   }
   const auto seen = reader.read(0, layout.frames, out, options.threads);
   if (!seen) return std::unexpected(seen.error());
+  if (reported != nullptr) *reported = *seen;
   if (seen->measured == 0) {
     trial.residual_m = {};
     if (seen->unmeasured > 0 && !reader.parameters().number("POINT", kC3dResidualsParameter)) {
@@ -215,10 +216,11 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   return trial;
 }
 
-Result<data::Trial> read_c3d(const std::filesystem::path& path, const C3dReadOptions& options) {
+Result<data::Trial> read_c3d(const std::filesystem::path& path, const C3dReadOptions& options,
+                             C3dSeen* reported) {
   const auto reader = C3dReader::open(path);
   if (!reader) return std::unexpected(reader.error());
-  return read_trial(*reader, options);
+  return read_trial(*reader, options, reported);
 }
 
 }  // namespace kinemark::io

@@ -56,11 +56,13 @@ class C3dReader {
 
 /// The whole file, in metres. See decode_frames() for what is missing, measured or interpolated, and
 /// apply_provenance() for what files of kinemark store in addition.
-/// Memory: the trial's arrays and half a megabyte per thread.
-[[nodiscard]] Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options = {});
+/// Memory: the trial's arrays and half a megabyte per thread. What was seen of the samples goes to `reported`
+/// where it is not null.
+[[nodiscard]] Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& options = {},
+                                             C3dSeen* reported = nullptr);
 
 /// open() and read_trial() in one call.
 [[nodiscard]] Result<data::Trial> read_c3d(const std::filesystem::path& path,
-                                           const C3dReadOptions& options = {});
+                                           const C3dReadOptions& options = {}, C3dSeen* reported = nullptr);
 
 }  // namespace kinemark::io

@@ -102,6 +102,33 @@ TEST(C3dReader, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST(C3dReader, TellsTheBoxAroundAllSamples) {
+  for (const bool integers : {false, true}) {
+    const Trial trial = simulate_trial({.markers = 150, .frames = 700});
+    const Bytes bytes(trial, {.integers = integers});
+    const auto reader = bytes.open().value();
+    C3dSeen one, many;
+    const Trial read = read_trial(reader, {.threads = 1}, &one).value();
+    ASSERT_TRUE(read_trial(reader, {.threads = 3}, &many));
+    EXPECT_EQ(one.box_m.min(), many.box_m.min());
+    EXPECT_EQ(one.box_m.max(), many.box_m.max());
+    Eigen::AlignedBox3d needed;
+    for (std::int64_t f = 0; f < read.markers.frames(); ++f)
+      for (std::int64_t m = 0; m < read.markers.markers(); ++m)
+        if (read.markers.present(f, m)) needed.extend(Eigen::Vector3d(read.markers.x(f, m)));
+    EXPECT_TRUE(one.box_m.contains(needed));
+    // What is not there is stored as 0.
+    EXPECT_TRUE(needed.extend(Eigen::Vector3d::Zero()).contains(one.box_m));
+  }
+}
+
+TEST(C3dReader, TellsNoBoxOfWhatIsNotRead) {
+  const Bytes bytes(simulate_trial({.channels = 3}));
+  C3dSeen seen;
+  ASSERT_TRUE(read_trial(bytes.open().value(), {.points = false}, &seen));
+  EXPECT_TRUE(seen.box_m.isEmpty());
+}
+
 TEST(C3dReader, ReadsOnlyWhatIsAskedFor) {
   const Bytes bytes(simulate_trial({.channels = 3}));
   const auto reader = bytes.open().value();
@@ -268,6 +295,13 @@ TEST(C3dReader, WhatIsNoC3dFileIsOneSentence) {
   bytes.put_f32(20, 0.0F);
   bytes.put_f32(bytes.find("RATE", 0), -3.0F);
   EXPECT_THAT(bytes.read().error().message, HasSubstr("POINT:RATE is -3; expected a frame rate"));
+  bytes = Bytes(simulate_trial({}));
+  bytes.put_f32(bytes.find("RATE", 0), 0.0F);
+  EXPECT_THAT(bytes.read().value().warnings,
+              AllOf(Contains("POINT:RATE is 0, which is taken as not known"),
+                    Contains(HasSubstr("the header's rate of 240 Hz is used"))));
+  bytes.put_f32(20, 0.0F);
+  EXPECT_THAT(bytes.read().error().message, HasSubstr("has no frame rate"));
   bytes = Bytes(simulate_trial({}));
   bytes.put_u16(16, 9000);
   bytes.put_u16(bytes.find("DATA_START", 0), 9001);

@@ -97,8 +97,22 @@ TEST(C3dWriter, AMarkerAtTheOriginIsNotLost) {
   trial.markers.x(1, 0).setConstant(1e-300);
   for (const bool integers : {false, true}) {
     const Trial back = round_trip(trial, {.integers = integers});
-    EXPECT_EQ(back.markers.count_missing(), 0);
+    EXPECT_EQ(back.markers.count_missing(), missing);
     EXPECT_LT(back.markers.x(0, 0).norm(), integers ? 1e-4 : 1e-8);
+  }
+}
+
+TEST(C3dWriter, CoordinatesThatAreNextToNothingAreWritten) {
+  Trial trial = simulate_trial({.markers = 2, .frames = 5, .channels = 0});
+  for (double& v : trial.markers.x_in_world)
+    if (std::isfinite(v)) v = 1e-50;
+  const auto missing = trial.markers.count_missing();
+  trial.residual_m.clear();
+  trial.camera_mask.clear();
+  for (const bool integers : {false, true}) {
+    const Trial back = round_trip(trial, {.integers = integers});
+    EXPECT_LT(largest_coordinate(back), 1e-35);
+    EXPECT_EQ(back.markers.count_missing(), missing);
   }
 }
 

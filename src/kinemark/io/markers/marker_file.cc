@@ -18,6 +18,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/plausible.h"
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/text/camera_makers.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
@@ -67,13 +68,15 @@ bool needs_rate(const std::filesystem::path& path) { return lower_extension(path
 
 namespace {
 
-/// As the reader of its format reads it.
-Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options) {
+/// As the reader of its format reads it; `box_m` around its samples where that reader knows it.
+Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options,
+                                  Eigen::AlignedBox3d& box_m) {
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
   std::array<char, 512> begin{};
   const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
   if (!size) return std::unexpected(size.error());
+  const auto maker = maker_text_of({begin.data(), *size});
   std::string format(format_of({begin.data(), *size}));
   const std::string extension = lower_extension(path);
   if (format.empty()) format = extension;
@@ -86,22 +89,29 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
     return fail(Code::usage,
                 fmt::format("{}: the file stores its own rate; a rate is given only for Visual3D text (.v3d)",
                             path.string()));
-  if (format == ".c3d") return read_c3d(path);
+  if (maker) return read_maker_text(path, *maker);
+  if (format == ".c3d") {
+    C3dSeen seen;
+    auto trial = read_c3d(path, {}, &seen);
+    box_m = seen.box_m;
+    return trial;
+  }
   if (format == ".trc") return read_trc(path);
   if (format == ".nwb") return read_nwb_trial(path);
   if (format == ".csv") return read_trajectories_csv(path);
   return fail(
       Code::not_supported,
       fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB (.nwb), "
-                  "CSV (.csv) and Visual3D text (.v3d)",
+                  "CSV (.csv), Visual3D text (.v3d), and text exports of QTM (.tsv), Motive and Vicon (.csv)",
                   path.string(), named(extension)));
 }
 
 }  // namespace
 
 Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
-  auto trial = read_as_it_is(path, options);
-  if (trial) reject_implausible(*trial);
+  Eigen::AlignedBox3d box_m;
+  auto trial = read_as_it_is(path, options, box_m);
+  if (trial) reject_implausible(*trial, box_m);
   return trial;
 }
 

@@ -15,15 +15,14 @@ struct MarkerReadOptions {
   double rate_hz = 0.0;  ///< of the frames, for files that store none (Visual3D text); 0: not given
 };
 
-/// Read a marker file, C3D, TRC, NWB, CSV or Visual3D text (.v3d), in metres. The content decides which (a
-/// C3D has 0x50 in its second byte, a TRC begins with PathFileType, an NWB file with the signature of HDF5);
-/// where the content is not conclusive the extension decides, so that a damaged file gets the error message
-/// of its format. Of an NWB file a trial holds positions with their provenance; read_nwb() gives the rest,
-/// and
-/// read_v3d() the segment orientations of a Visual3D text. Samples that no marker can have are rejected with
-/// a warning (reject_implausible()). Code::not_supported for any other file, naming what is supported;
-/// Code::usage when a rate is given for a file that stores its own; else as read_c3d(), read_trc(),
-/// read_nwb(), read_trajectories_csv() and read_v3d().
+/// Read a marker file, C3D, TRC, NWB, CSV, Visual3D text (.v3d) or a text export of QTM, Motive or Vicon, in
+/// metres. The content decides which (a C3D has 0x50 in its second byte, a TRC begins with PathFileType, an
+/// NWB file with the signature of HDF5); where the content is not conclusive the extension decides, so that a
+/// damaged file gets the error message of its format. Of an NWB file a trial holds positions with their
+/// provenance; read_nwb() gives the rest, and read_v3d() the segment orientations of a Visual3D text. Samples
+/// that no marker can have are rejected with a warning (reject_implausible()). Code::not_supported for any
+/// other file, naming what is supported; Code::usage when a rate is given for a file that stores its own;
+/// else as read_c3d(), read_trc(), read_nwb(), read_trajectories_csv() and read_v3d().
 [[nodiscard]] Result<data::Trial> read_markers(const std::filesystem::path& path,
                                                const MarkerReadOptions& options = {});
 

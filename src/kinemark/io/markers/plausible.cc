@@ -34,8 +34,14 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
+/// Within such a box no sample is 10 m from another, nor from the middle of any, so none is wrong. The margin
+/// is for what rounding does to sums of squares.
+bool is_small(const Eigen::AlignedBox3d& box_m) {
+  return !box_m.isEmpty() && box_m.diagonal().norm() < 0.999 * kFarFromNeighbours_m;
+}
+
 /// No marker leaps from one of its samples to the next, and all are near each other: then no sample is wrong
-/// by the rules here. The one pass that every recording takes.
+/// by the rules here. The one pass that recordings take whose box is not known.
 bool all_near(const Trajectories& markers) {
   constexpr double kLeap_m = kFarFromNeighbours_m / 2.0;  // along one axis; along three at once still no 10 m
   const auto width = 3 * markers.names.size();
@@ -201,10 +207,10 @@ std::string say(const data::Trial& trial, const std::vector<Suspect>& suspects) 
 
 }  // namespace
 
-void reject_implausible(data::Trial& trial) {
+void reject_implausible(data::Trial& trial, const Eigen::AlignedBox3d& box_m) {
   Trajectories& markers = trial.markers;
   if (markers.frames() == 0 || markers.markers() == 0) return;
-  if (note_size(trial) || all_near(markers)) return;
+  if (note_size(trial) || is_small(box_m) || all_near(markers)) return;
 
   std::vector<Habit> habits;
   for (std::int64_t m = 0; m < markers.markers(); ++m)

@@ -3,6 +3,8 @@
 // Positions that cannot be: one flipped bit, a wrong unit.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "kinemark/data/trial.h"
 
 namespace kinemark::io {
@@ -25,7 +27,8 @@ inline constexpr double kLargestBody_m = 100.0;       ///< extent of all markers
 ///
 /// The middle is the median over markers of the median of each. Where the markers of the middle frame span
 /// less than 2 mm or more than 100 m, the unit is in doubt instead: a warning says so, nothing is rejected.
-/// Nothing is said of recordings that hold no such sample. O(F M); usually one pass over the positions.
-void reject_implausible(data::Trial& trial);
+/// Nothing is said of recordings that hold no such sample. O(F M); usually one pass over the positions, and
+/// none where the box around all samples is known (`box_m`; empty: it is not) and below 10 m across.
+void reject_implausible(data::Trial& trial, const Eigen::AlignedBox3d& box_m = {});
 
 }  // namespace kinemark::io

@@ -49,6 +49,45 @@ TEST(RejectImplausible, OneSampleFarFromAll) {
     }
 }
 
+/// The box that a reader would tell of.
+Eigen::AlignedBox3d box_of(const data::Trial& trial) {
+  Eigen::AlignedBox3d out;
+  for (std::int64_t f = 0; f < trial.markers.frames(); ++f)
+    for (std::int64_t m = 0; m < trial.markers.markers(); ++m)
+      if (trial.markers.present(f, m)) out.extend(Eigen::Vector3d(trial.markers.x(f, m)));
+  return out;
+}
+
+TEST(RejectImplausible, AKnownBoxChangesNothing) {
+  for (const double wrong : {0.5, 7.0, 9.0, 9.5, 9.99, 10.01, 11.0, 30.0, 101.0, 1e6})
+    for (const double speed_m_s : {0.0, 1.3, 4.4, 5.0, 40.0}) {
+      auto with = walk(1.0, speed_m_s);
+      with.markers.x(100, 2).x() += wrong;
+      auto without = with;
+      reject_implausible(with, box_of(with));
+      reject_implausible(without);
+      EXPECT_EQ(with.warnings, without.warnings) << wrong << " " << speed_m_s;
+      EXPECT_EQ(with.markers.state, without.markers.state);
+    }
+}
+
+TEST(RejectImplausible, ASmallBoxIsBelieved) {
+  auto trial = walk();
+  trial.markers.x(100, 2).y() = 1e6;
+  const Eigen::AlignedBox3d claimed(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(5.7));
+  reject_implausible(trial, claimed);
+  EXPECT_THAT(trial.warnings, IsEmpty()) << "no pass over the positions";
+  reject_implausible(trial, Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(5.8)));
+  EXPECT_EQ(trial.warnings.size(), 1U) << "10.05 m across: a sample may be wrong";
+}
+
+TEST(RejectImplausible, TheUnitIsDoubtedInASmallBoxToo) {
+  auto trial = walk(0.0005);
+  reject_implausible(trial, box_of(trial));
+  ASSERT_EQ(trial.warnings.size(), 1U);
+  EXPECT_THAT(trial.warnings[0], HasSubstr("so the unit (mm) is probably wrong"));
+}
+
 TEST(RejectImplausible, WhatMovesOnIsLeftAlone) {
   for (auto trial :
        {walk(), walk(1.0, 10.0), walk(1.0, 40.0, 1000), walk(20.0), walk(0.01), walk(1.0, 1.3, 1)}) {

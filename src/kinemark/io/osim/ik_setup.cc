@@ -29,14 +29,15 @@ Result<IkSetup> read_ik_setup(const std::filesystem::path& path) {
   if (!tool)
     return fail(Code::bad_input, fmt::format("{}: has no <InverseKinematicsTool>; its first element is <{}>",
                                              path.string(), file->document().name()));
-  IkSetup setup{.name = osim::name_of(tool), .model_file = path_of(tool, "model_file", folder)};
+  IkSetup setup{.name = osim::name_of(tool), .parts = file->inlined()};
+  setup.model_file = osim::input_path_of(*file, tool, "model_file", folder, setup.notes);
   if (const auto trials = osim::objects_of(tool, "IKTrialSet"); !trials.empty()) {
     setup.tasks = osim::read_ik_tasks(*file, tool, "IKTaskSet");
     setup.constraint_weight = 20.0;  // what OpenSim takes for these old files
     tool = trials.front();
   }
-  setup.marker_file = path_of(tool, "marker_file", folder);
-  setup.coordinate_file = path_of(tool, "coordinate_file", folder);
+  setup.marker_file = osim::input_path_of(*file, tool, "marker_file", folder, setup.notes);
+  setup.coordinate_file = osim::input_path_of(*file, tool, "coordinate_file", folder, setup.notes);
   setup.output_motion_file = path_of(tool, "output_motion_file", folder);
   setup.results_directory = path_of(tool, "results_directory", folder);
   if (const auto range = osim::read_time_range(*file, tool)) {

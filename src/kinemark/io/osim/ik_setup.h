@@ -41,7 +41,8 @@ struct IkTasks {
 };
 
 /// OpenSim's setup of one inverse-kinematics run. Paths are resolved against the folder of the setup file;
-/// one that the file leaves out (or calls "Unassigned") is empty. Nothing is opened or checked to exist.
+/// one that the file leaves out (or calls "Unassigned") is empty. A file to read that is not where the setup
+/// says is looked for beside the setup by its name; else nothing is checked to exist.
 struct IkSetup {
   std::string name;                          ///< of the tool; may be empty
   std::filesystem::path model_file;          ///< seen from the setup's folder; empty: not said
@@ -49,6 +50,7 @@ struct IkSetup {
   std::filesystem::path coordinate_file;     ///< seen from the setup's folder; empty: none
   std::filesystem::path output_motion_file;  ///< seen from the setup's folder; empty: not said
   std::filesystem::path results_directory;   ///< seen from the setup's folder; empty: not said
+  std::vector<std::filesystem::path> parts;  ///< files that elements were taken from: that of its tasks
   double time_begin_s = -std::numeric_limits<double>::infinity();      ///< infinite: from the first frame
   double time_end_s = std::numeric_limits<double>::infinity();         ///< infinite: to the last frame
   double constraint_weight = std::numeric_limits<double>::infinity();  ///< infinite: closed exactly
@@ -56,6 +58,7 @@ struct IkSetup {
   bool report_errors = true;             ///< OpenSim's switch for a table of errors
   bool report_marker_locations = false;  ///< OpenSim's switch for a table of marker positions
   IkTasks tasks;                         ///< weights of markers and coordinates
+  std::vector<std::string> notes;        ///< files found beside the setup, one sentence each
 };
 
 /// Read an InverseKinematicsTool file, or an IKTool file of before 2.3 (its first trial), with the tasks

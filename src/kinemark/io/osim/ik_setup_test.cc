@@ -134,6 +134,22 @@ TEST_F(SmallSetup, PathsAreSeenFromTheSetupsFolderOnEverySystem) {
   EXPECT_EQ(setup.marker_file, "/data/t.trc");
 }
 
+TEST_F(SmallSetup, FilesThatMovedAreFoundBesideTheSetupAndItIsSaid) {
+  fs::create_directories(scratch_ / "sub");
+  ASSERT_TRUE(write_text(scratch_ / "sub/walk.trc", "", true));
+  const IkSetup setup = read(
+                            "<model_file>C:\\Users\\me\\m.osim</model_file>"
+                            "<marker_file>C:\\Users\\me\\walk.trc</marker_file>"
+                            "<output_motion_file>..\\walk.trc</output_motion_file>")
+                            .value();
+  EXPECT_EQ(setup.marker_file, scratch_ / "sub/walk.trc");
+  EXPECT_EQ(setup.model_file.filename(), "m.osim");
+  EXPECT_EQ(setup.output_motion_file, scratch_ / "walk.trc") << "where results go is not looked for";
+  ASSERT_EQ(setup.notes.size(), 1U);
+  EXPECT_NE(setup.notes[0].find("<marker_file> names 'C:\\Users\\me\\walk.trc'"), std::string::npos)
+      << setup.notes[0];
+}
+
 TEST_F(SmallSetup, CoordinateTasks) {
   const IkSetup setup = read(R"(<IKTaskSet><objects>
     <IKCoordinateTask name="a"><weight>2</weight><value_type> manual_value </value_type><value>0.5</value></IKCoordinateTask>
@@ -159,6 +175,17 @@ TEST_F(SmallSetup, ToolsOfBefore23HaveTheirTrialInside) {
   EXPECT_EQ(setup.time_begin_s, 1.0);
   ASSERT_EQ(setup.tasks.markers.size(), 1U);
   EXPECT_EQ(setup.constraint_weight, 20.0);
+}
+
+TEST_F(SmallSetup, NamesTheFilesItIsPutTogetherFrom) {
+  EXPECT_TRUE(read("<marker_file>w.trc</marker_file>").value().parts.empty());
+  ASSERT_TRUE(write_text(scratch_ / "sub/tasks.xml",
+                         "<OpenSimDocument><IKTaskSet><objects><IKMarkerTask name=\"M\"><weight>3</weight>"
+                         "</IKMarkerTask></objects></IKTaskSet></OpenSimDocument>",
+                         false));
+  const IkSetup setup = read("<IKTaskSet file=\"tasks.xml\"/>").value();
+  ASSERT_EQ(setup.tasks.markers.size(), 1U);
+  EXPECT_EQ(setup.parts, std::vector{scratch_ / "sub/tasks.xml"});
 }
 
 TEST_F(SmallSetup, OneSentenceForEachMistake) {

@@ -13,6 +13,7 @@
 #include "kinemark/io/osim/internal/format_xml.h"
 #include "kinemark/io/osim/internal/function_xml.h"
 #include "kinemark/io/osim/internal/joint_writer.h"
+#include "kinemark/io/osim/internal/part_writer.h"
 #include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {
@@ -22,16 +23,6 @@ using data::ModelDescription;
 
 pugi::xml_node append_set(pugi::xml_node model, const char* tag, const char* name) {
   return osim::append_named(model, tag, name).append_child("objects");
-}
-
-void write_body(pugi::xml_node objects, const data::BodyDescription& body) {
-  const pugi::xml_node node = osim::append_named(objects, "Body", body.name);
-  const Eigen::Matrix3d& inertia = body.inertia_about_com;
-  osim::append_number(node, "mass", body.mass);
-  osim::append_vector3(node, "mass_center", body.com_in_body);
-  osim::append_numbers(
-      node, "inertia",
-      {inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2), inertia(1, 2)});
 }
 
 Status write_coupling(pugi::xml_node objects, const ModelDescription& description,
@@ -82,31 +73,10 @@ Status check_coordinates(const ModelDescription& description) {
   return {};
 }
 
-/// OpenSim 4 refuses names with these characters; it turned them into '_' itself when it read older files.
-void make_legal(std::string& name) {
-  for (char& c : name)
-    if (std::string_view(" \\*+/\t\r\n").find(c) != std::string_view::npos) c = '_';
-}
-
-ModelDescription with_legal_names(ModelDescription description) {
-  const auto rename = [](auto& items) {
-    for (auto& item : items) make_legal(item.name);
-  };
-  if (description.name.empty()) description.name = "model";
-  make_legal(description.name);
-  rename(description.bodies);
-  rename(description.joints);
-  rename(description.coordinates);
-  rename(description.couplings);
-  rename(description.point_constraints);
-  rename(description.markers);
-  return description;
-}
-
 }  // namespace
 
 Result<std::string> format_osim(const ModelDescription& original) {
-  const ModelDescription description = with_legal_names(original);
+  const ModelDescription description = osim::with_legal_names(original);
   if (const Status valid = description.validate(); !valid) return std::unexpected(valid.error());
   if (const Status alone = check_coordinates(description); !alone) return std::unexpected(alone.error());
   pugi::xml_document document;
@@ -130,7 +100,7 @@ Result<std::string> format_osim(const ModelDescription& original) {
     }
   const pugi::xml_node bodies = append_set(model, "BodySet", "bodyset");
   for (std::size_t b = 0; b < description.bodies.size(); ++b)
-    if (!hidden_bodies.contains(static_cast<int>(b))) write_body(bodies, description.bodies[b]);
+    if (!hidden_bodies.contains(static_cast<int>(b))) osim::write_body(bodies, description.bodies[b]);
   const pugi::xml_node joints = append_set(model, "JointSet", "jointset");
   for (std::size_t j = 0; j < description.joints.size(); ++j)
     if (!hidden_joints.contains(static_cast<int>(j)))
@@ -143,11 +113,7 @@ Result<std::string> format_osim(const ModelDescription& original) {
   for (const auto& constraint : description.point_constraints)
     write_point_constraint(constraints, description, constraint);
   const pugi::xml_node markers = append_set(model, "MarkerSet", "markerset");
-  for (const auto& marker : description.markers) {
-    const pugi::xml_node node = osim::append_named(markers, "Marker", marker.name);
-    osim::append_text(node, "socket_parent_frame", osim::body_path(description, marker.body_idx));
-    osim::append_vector3(node, "location", marker.x_in_body);
-  }
+  for (const auto& marker : description.markers) osim::write_marker(markers, description, marker);
   std::ostringstream text;
   document.save(text, "\t", pugi::format_default, pugi::encoding_utf8);
   return std::move(text).str();
@@ -157,11 +123,16 @@ Status write_osim(const std::filesystem::path& path, const ModelDescription& des
                   const WriteOsimOptions& options) {
   const auto text = format_osim(description);
   if (!text) return fail_at(path.string(), text.error());
-  if (options.set.empty()) return write_text(path, *text, options.force);
-  const std::size_t declaration = text->find("?>") + 2;
+  return write_osim_text(path, *text, options);
+}
+
+Status write_osim_text(const std::filesystem::path& path, const std::string& text,
+                       const WriteOsimOptions& options) {
+  if (options.set.empty()) return write_text(path, text, options.force);
+  const std::size_t declaration = text.find("?>") + 2;
   return write_text(path,
-                    fmt::format("{}\n<!-- {} -->{}", text->substr(0, declaration), set_mark(options.set),
-                                text->substr(declaration)),
+                    fmt::format("{}\n<!-- {} -->{}", text.substr(0, declaration), set_mark(options.set),
+                                text.substr(declaration)),
                     options.force);
 }
 

@@ -34,4 +34,8 @@ struct WriteOsimOptions {
 [[nodiscard]] Status write_osim(const std::filesystem::path& path, const data::ModelDescription& description,
                                 const WriteOsimOptions& options = {});
 
+/// Write a document that is ready, as format_osim() and OsimDocument::format() make it.
+[[nodiscard]] Status write_osim_text(const std::filesystem::path& path, const std::string& text,
+                                     const WriteOsimOptions& options = {});
+
 }  // namespace kinemark::io

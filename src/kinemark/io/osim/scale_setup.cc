@@ -109,7 +109,7 @@ void read_scaler(XmlFile& file, pugi::xml_node scaler, const std::filesystem::pa
     if (auto measurement = read_measurement(file, node))
       recipe.measurements.push_back(std::move(*measurement));
   recipe.manual = read_scales(file, scaler);
-  setup.scale_marker_file = path_of(scaler, "marker_file", folder);
+  setup.scale_marker_file = osim::input_path_of(file, scaler, "marker_file", folder, setup.notes);
   if (const auto range = osim::read_time_range(file, scaler)) {
     recipe.first_time_s = range->first;
     recipe.last_time_s = range->second;
@@ -127,8 +127,8 @@ void read_placer(XmlFile& file, pugi::xml_node placer, const std::filesystem::pa
                  ScaleSetup& setup) {
   setup.place = placer && file.flag(placer, "apply", true);
   setup.tasks = osim::read_ik_tasks(file, placer, "IKTaskSet");
-  setup.place_marker_file = path_of(placer, "marker_file", folder);
-  setup.coordinate_file = path_of(placer, "coordinate_file", folder);
+  setup.place_marker_file = osim::input_path_of(file, placer, "marker_file", folder, setup.notes);
+  setup.coordinate_file = osim::input_path_of(file, placer, "coordinate_file", folder, setup.notes);
   if (const auto range = osim::read_time_range(file, placer)) {
     setup.place_begin_s = range->first;
     setup.place_end_s = range->second;
@@ -156,13 +156,13 @@ Result<ScaleSetup> read_scale_setup(const std::filesystem::path& path) {
   if (!tool)
     return fail(Code::bad_input, fmt::format("{}: has no <ScaleTool>; its first element is <{}>",
                                              path.string(), file->document().name()));
-  ScaleSetup setup{.name = name_of(tool)};
+  ScaleSetup setup{.name = name_of(tool), .parts = file->inlined()};
   const double mass = file->number(tool, "mass", -1.0), height = file->number(tool, "height", -1.0);
   if (!std::isfinite(mass)) file->note(tool.child("mass"), "must be finite");
   setup.height_mm = std::isfinite(height) ? std::max(0.0, height) : 0.0;
   const pugi::xml_node maker = tool.child("GenericModelMaker");
-  setup.model_file = path_of(maker, "model_file", folder);
-  setup.marker_set_file = path_of(maker, "marker_set_file", folder);
+  setup.model_file = osim::input_path_of(*file, maker, "model_file", folder, setup.notes);
+  setup.marker_set_file = osim::input_path_of(*file, maker, "marker_set_file", folder, setup.notes);
   read_scaler(*file, tool.child("ModelScaler"), folder, setup);
   setup.recipe.mass_kg = std::max(0.0, mass);
   read_placer(*file, tool.child("MarkerPlacer"), folder, setup);

@@ -16,7 +16,8 @@
 namespace kinemark::io {
 
 /// OpenSim's setup of scaling. Paths are resolved against the folder of the setup file; one that the file
-/// leaves out (or calls "Unassigned") is empty. Nothing but sets named by `file=` is opened.
+/// leaves out (or calls "Unassigned") is empty. A file to read that is not where the setup says is looked for
+/// beside the setup by its name. Nothing but sets named by `file=` is opened.
 struct ScaleSetup {
   std::string name;        ///< of the subject; may be empty
   double height_mm = 0.0;  ///< 0: not given; for information only
@@ -37,6 +38,9 @@ struct ScaleSetup {
   double place_end_s = std::numeric_limits<double>::infinity();     ///< infinite: to the last frame
   double max_marker_movement_mm = -1.0;                             ///< below 0: any
   std::filesystem::path output_model_file, output_motion_file;      ///< where results go; empty: not said
+
+  std::vector<std::string> notes;            ///< files found beside the setup, one sentence each
+  std::vector<std::filesystem::path> parts;  ///< files that elements were taken from: measurements, tasks
 };
 
 /// Read a ScaleTool file. A part that is missing is not applied. Both spellings of old and new files

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "kinemark/io/recording/testing/small_recording.h"
@@ -28,7 +29,7 @@ Bytes recording_of(const std::vector<std::pair<std::uint32_t, double>>& messages
   encoder.begin(bytes);
   EXPECT_TRUE(encoder.add_channel({.topic = "/t", .metadata = {{"rate_hz", "10"}}}, bytes));
   for (const auto& [sequence, time_s] : messages) {
-    const auto ns = static_cast<std::uint64_t>(1e9 * time_s + 0.5);
+    const auto ns = static_cast<std::uint64_t>(std::llround(1e9 * time_s));
     const RecordingMessage message{0, sequence, ns, ns, {}};
     EXPECT_TRUE(encoder.add_messages({&message, 1}, bytes));
   }

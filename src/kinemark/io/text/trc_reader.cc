@@ -11,6 +11,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
 #include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/marker_rows.h"
 #include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/internal/trc_header.h"
 #include "kinemark/io/text/trc.h"
@@ -25,7 +26,6 @@ using internal::excerpt;
 using internal::Lines;
 using internal::TrcHeader;
 
-constexpr double kNearOrigin_m = 0.005;
 constexpr std::size_t kNamesInWarning = 8;
 // A row may stop early and still stands for all markers; this keeps a short text from asking for much memory.
 constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
@@ -125,31 +125,6 @@ Status read_row_samples(Cells& cells, std::int64_t line, const TrcHeader& header
   return {};
 }
 
-/// Turn the zeros of one marker into missing samples, except where it passes through the origin. Returns how
-/// many were turned.
-std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m) {
-  const std::int64_t frames = markers.frames();
-  const auto is_zero = [&](std::int64_t f) { return markers.present(f, m) && markers.x(f, m).isZero(0.0); };
-  const auto beside_origin = [&](std::int64_t f) {
-    return markers.present(f, m) && markers.x(f, m).norm() <= kNearOrigin_m;
-  };
-  std::int64_t removed = 0;
-  for (std::int64_t begin = 0; begin < frames;) {
-    std::int64_t end = begin;
-    while (end < frames && is_zero(end)) ++end;
-    if (end == begin) {
-      ++begin;
-      continue;
-    }
-    const bool passes_origin = (begin > 0 || end < frames) && (begin == 0 || beside_origin(begin - 1)) &&
-                               (end == frames || beside_origin(end));
-    for (std::int64_t f = begin; f < end && !passes_origin; ++f) markers.set_missing(f, m);
-    removed += passes_origin ? 0 : end - begin;
-    begin = end;
-  }
-  return removed;
-}
-
 /// "'A', 'B' and 3 more"
 std::string list(const std::vector<std::string_view>& names) {
   std::vector<std::string> quoted;
@@ -167,7 +142,7 @@ void judge_markers(data::Trial& trial, const Tally& tally) {
     const auto i = static_cast<std::size_t>(m);
     if (tally.present[i] == 0) blank.push_back(trial.markers.names[i]);
     if (tally.zeros[i] == 0) continue;
-    const std::int64_t removed = remove_zeros(trial.markers, m);
+    const std::int64_t removed = internal::remove_zeros(trial.markers, m);
     if (tally.zeros[i] == tally.present[i]) {
       always_zero.push_back(trial.markers.names[i]);
     } else if (removed > 0) {

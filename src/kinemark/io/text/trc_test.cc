@@ -198,7 +198,14 @@ TEST(ParseTrc, RateAndTimeAreChecked) {
   const std::string three = kRows + "3\t0.02\t1\t1\t1\t1\t1\t1\n";
   EXPECT_THAT(good(text_with(three, "A\t\t\tB", "50\t50\t3\t2\tmm\t50\t1\t3")).warnings,
               ElementsAre(HasSubstr("header says 50 Hz, but the time column runs at 100 Hz")));
-  EXPECT_EQ(good(text_with(kRows, "A\t\t\tB", "0\t0\t2\t2\tmm\t0\t1\t2")).markers.time.rate_hz, 100.0);
+  const auto unknown = good(text_with(kRows, "A\t\t\tB", "0\t0\t2\t2\tmm\t0\t1\t2"));
+  EXPECT_EQ(unknown.markers.time.rate_hz, 100.0);
+  EXPECT_THAT(unknown.warnings,
+              ElementsAre("line 3: DataRate is 0, which is taken as not known",
+                          HasSubstr("header gives no rate; 100 Hz is taken from the time column")));
+  const auto stand_in = good(text_with(kRows, "A\t\t\tB", "0\t100\t2\t2\tmm\t0\t1\t2"));
+  EXPECT_THAT(stand_in.warnings, ElementsAre(HasSubstr("DataRate is 0")));
+  EXPECT_THAT(good(text_with(kRows, "A\t\t\tB", "100\t0\t2\t2\tmm\t0\t1\t2")).warnings, ElementsAre());
   EXPECT_EQ(good(text_with(kRows, "A\t\t\tB", "\t\t2\t2\tmm")).markers.time.rate_hz, 100.0);
   EXPECT_EQ(good(text_with("7\t0.25\t1\t2\t3\t4\t5\t6\n")).markers.time, (TimeBase{100.0, 0.25, 1}));
 }
@@ -234,9 +241,17 @@ TEST(ParseTrc, NamesMayBeInLatin1AndHoldAnything) {
   EXPECT_THAT(good(text_with(kRows, "\xE9paule\t\t\tB\x1B[2J\t\t")).markers.names,
               ElementsAre("épaule", "B [2J"));
   EXPECT_THAT(good(text_with(kRows, "épaule\t\t\t肩\t\t")).markers.names, ElementsAre("épaule", "肩"));
-  EXPECT_THAT(bad(text_with(kRows, "A\x01\t\t\tA\x02\t\t")), HasSubstr("'A' occurs twice"));
+  EXPECT_THAT(good(text_with(kRows, "A\x01\t\t\tA\x02\t\t")).markers.names, ElementsAre("A", "A_2"));
   const std::string longest(100'000, 'M');
   EXPECT_THAT(good(text_with(kRows, longest + "\t\t\tB\t\t")).markers.names, ElementsAre(longest, "B"));
+}
+
+TEST(ParseTrc, NamesThatStandTwiceGetANumber) {
+  const auto trial = good(text_with(kRows, "A\t\t\tA\t\t"));
+  EXPECT_THAT(trial.markers.names, ElementsAre("A", "A_2"));
+  EXPECT_THAT(trial.warnings,
+              Contains("line 4 repeats 1 marker names ('A' is the first); a number is added to each"));
+  EXPECT_EQ(trial.markers.x(0, 1), good(text_with(kRows)).markers.x(0, 1));
 }
 
 TEST(ParseTrc, SaysLineAndColumnOfWhatIsWrong) {
@@ -249,8 +264,6 @@ TEST(ParseTrc, SaysLineAndColumnOfWhatIsWrong) {
   EXPECT_THAT(bad(text_with("1.5\t0.00\t1\t2\t3\t4\t5\t6\n")), HasSubstr("line 7, column 1"));
   EXPECT_THAT(bad(text_with("1\tnan\t1\t2\t3\t4\t5\t6\n")), HasSubstr("line 7, column 2"));
   EXPECT_THAT(bad(text_with("1\t0,01\t1,5\t2\t3\t4\t5\t6\n")), HasSubstr("column 2: the time is '0,01'"));
-  EXPECT_EQ(bad(text_with(kRows, "A\t\t\tA")),
-            "t.trc: line 4: marker name 'A' occurs twice (columns 3 and 6); names must differ");
   EXPECT_THAT(bad(text_with(kRows, "\t\t")), HasSubstr("line 4: names no marker"));
   EXPECT_THAT(bad(text_with(kRows, "A\t\t\tB", "fast\t100\t2\t2\tmm")),
               HasSubstr("line 3, column 1 (DataRate): 'fast' is not a number"));

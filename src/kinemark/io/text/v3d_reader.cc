@@ -8,6 +8,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/units.h"
+#include "kinemark/io/rate.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/v3d_header.h"
 #include "kinemark/io/text/v3d.h"
@@ -175,7 +176,7 @@ Eigen::Matrix3d SegmentOrientations::world_from_segment(std::int64_t frame, std:
 }
 
 Result<V3dFile> parse_v3d(std::string_view text, std::string_view name, const V3dReadOptions& options) {
-  if (!(options.rate_hz > 0.0) || !std::isfinite(options.rate_hz))
+  if (!is_rate(options.rate_hz))
     return fail(Code::usage,
                 fmt::format("{}: a Visual3D text export stores no rate; give the rate of its rows "
                             "in Hz (--rate)",

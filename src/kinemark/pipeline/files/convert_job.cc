@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -48,10 +48,15 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
 }
 
 Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
-  auto model = io::read_osim(job.in);
-  if (!model) return std::unexpected(model.error());
-  if (auto s = io::write_osim(job.out, *model, {.force = job.force}); !s) return std::unexpected(s.error());
-  return std::move(model->warnings);
+  const auto document = io::OsimDocument::read(job.in);
+  if (!document) return std::unexpected(document.error());
+  auto text = document->format({.model = document->model(), .factors = {}, .paths = {}});
+  if (!text) return fail_at(job.out.string(), text.error());
+  if (auto s = io::write_osim_text(job.out, text->text, {.force = job.force}); !s)
+    return std::unexpected(s.error());
+  std::vector<std::string> notes = document->model().warnings;
+  notes.insert(notes.end(), text->lost.begin(), text->lost.end());
+  return notes;
 }
 
 Result<std::vector<std::string>> convert_table(const ConvertJob& job) {

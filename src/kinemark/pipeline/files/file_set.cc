@@ -30,8 +30,13 @@ constexpr std::array<std::string_view, 11> kEndings = {
     "_tau_sd.sto",        "_sd.sto",   "_bound.sto",   "_tau.sto",
     "_marker_errors.sto", "_rank.sto", "_report.json", "_derivatives.sto",
     "_skeleton.json",     ".mot",      ".osim"};
-/// A result of `joints` in a folder.
-constexpr std::array<std::string_view, 3> kJointFiles = {"centres.c3d", "segments.toml", "skeleton.json"};
+/// Results that have a folder of their own, by the names there: of `joints`, of `simulate`. Models are left
+/// out: one is replaced by its scaled one.
+using Names = std::array<std::string_view, 5>;
+constexpr std::array<Names, 3> kFolders = {
+    Names{"centres.c3d", "segments.toml", "skeleton.json"},
+    Names{"markers.c3d", "markers.trc", "truth.mot", "truth.trc"},
+    Names{"recording.mcap", "truth.trc", "truth_derivatives.sto", "rig_true.toml", "rig_nominal.toml"}};
 
 /// The set that stands in a text, or empty.
 std::string find_mark(std::string_view text) {
@@ -130,9 +135,13 @@ std::vector<std::string> find_strangers(const fs::path& file) {
   if (set.empty()) return out;
   std::vector<fs::path> beside_it;
   const std::string stem = stem_of_result(file), name = file.filename().string();
-  for (const auto ending : kEndings) beside_it.push_back(file.parent_path() / (stem + std::string(ending)));
-  if (std::ranges::find(kJointFiles, name) != kJointFiles.end())
-    for (const auto other : kJointFiles) beside_it.push_back(file.parent_path() / other);
+  const auto look_at = [&](const fs::path& other) {
+    if (std::ranges::find(beside_it, other) == beside_it.end()) beside_it.push_back(other);
+  };
+  for (const auto ending : kEndings) look_at(file.parent_path() / (stem + std::string(ending)));
+  for (const auto& names : kFolders)
+    if (std::ranges::find(names, name) != names.end())
+      for (const auto other : names) look_at(file.parent_path() / other);
   std::error_code ignored;
   for (const auto& other : beside_it) {
     if (other.filename() == file.filename() || !fs::is_regular_file(other, ignored)) continue;

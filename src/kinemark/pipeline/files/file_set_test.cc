@@ -113,6 +113,25 @@ TEST(FileSet, StrangersBesideAFileAreFound) {
   EXPECT_EQ(find_strangers(scratch / "q_sd.sto").size(), 2U);
 }
 
+TEST(FileSet, StrangersAreFoundByTheNamesOfAFolder) {
+  const testing_support::ScratchFolder scratch;
+  const auto trial = small_trial();
+  put(marker_file(scratch / "markers.c3d", trial), kSet);
+  put(marker_file(scratch / "markers.trc", trial), kSet);
+  put(table_file(scratch / "truth.mot", small_table), kSet);
+  data::ModelDescription scaled;
+  scaled.name = "scaled";
+  put(model_file(scratch / "model.osim", scaled), kOther);
+  EXPECT_THAT(find_strangers(scratch / "markers.c3d"), ElementsAre())
+      << "a model is replaced by its scaled one";
+  put(marker_file(scratch / "truth.trc", trial), kOther);
+  for (const char* name : {"markers.c3d", "markers.trc", "truth.mot"})
+    EXPECT_THAT(find_strangers(scratch / name),
+                ElementsAre(HasSubstr("truth.trc: was not written together with")))
+        << name;
+  EXPECT_EQ(find_strangers(scratch / "truth.trc").size(), 3U);
+}
+
 TEST(SetDigest, IsOfContentAndOfNothingElse) {
   const auto digest = [](double value, const char* text) {
     return SetDigest().add(text).add(std::array{value, 2.0}).hex();

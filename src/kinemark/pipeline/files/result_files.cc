@@ -64,6 +64,12 @@ ResultFile model_file(fs::path target, const data::ModelDescription& model) {
           }};
 }
 
+ResultFile model_text_file(fs::path target, const std::string& text) {
+  return {std::move(target), [&text](const fs::path& staged, const std::string& set) {
+            return io::write_osim_text(staged, text, {.set = set});
+          }};
+}
+
 Result<std::vector<fs::path>> write_results(Staging& staging, const std::vector<ResultFile>& files,
                                             const Progress& progress, std::string_view what,
                                             const std::string& set) {

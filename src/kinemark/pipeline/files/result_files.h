@@ -39,6 +39,8 @@ struct ResultFile {
 [[nodiscard]] ResultFile marker_file(std::filesystem::path target, const data::Trial& trial);
 /// An .osim. The object must live until the file is written.
 [[nodiscard]] ResultFile model_file(std::filesystem::path target, const data::ModelDescription& model);
+/// An .osim whose text is there already, with its set as a comment.
+[[nodiscard]] ResultFile model_text_file(std::filesystem::path target, const std::string& text);
 
 /// Write the files and let them appear together. On a failure, which names the target, none appears.
 ///

@@ -29,6 +29,9 @@ namespace fs = std::filesystem;
 /// Screening looks for breaks of paths. Where so large a share of samples breaks them there are no paths: the
 /// frames are poses of their own.
 constexpr double kMostDefects = 0.05;
+// Times what is expected of a body. Noise hardly changes from the first geometry to the last; reach does.
+constexpr double kHopelessNoise = 1.5;
+constexpr double kHopelessReach = 3.0;
 constexpr std::size_t kDefectsListed = 5;
 
 bool into_folder(const fs::path& output) { return !output.has_extension() || fs::is_directory(output); }
@@ -88,6 +91,10 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.soft_tissue = job.soft_tissue;
     options.joint = job.kind;
     options.threads = job.threads;
+    // Far beyond what judge_skeleton() takes for a body's: the fit need not go on.
+    constexpr skeleton::PlausibilityOptions body;
+    options.most_noise_m = kHopelessNoise * body.most_noise_m;
+    options.most_reach_m = kHopelessReach * body.most_length_m;
     auto fit = skeleton::fit_articulated(markers, layout, options, job.progress);
     if (!fit) return std::unexpected(fit.error());
     if (!job.soft_tissue) return std::move(fit->skeleton);

@@ -94,6 +94,8 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
                                    const motion::IkResult& result, const TorqueAccount& torques) {
   auto run = internal::begin_run(job, inputs);
   if (auto s = internal::add_input(run, "setup", job.setup); !s) return std::unexpected(s.error());
+  for (const auto& part : job.setup_parts)
+    if (auto s = internal::add_input(run, "setup part", part); !s) return std::unexpected(s.error());
   if (auto s = internal::add_input(run, "tasks", job.tasks); !s) return std::unexpected(s.error());
   const auto& o = job.options;
   run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
@@ -150,8 +152,9 @@ Result<Staging> stage_files(const IkJob& job) {
   if (!job.report.empty()) further.push_back(job.report);
   if (job.torques) further.push_back(beside(job.output, "_tau.sto"));
   if (job.torques && job.options.error_bars) further.push_back(beside(job.output, "_tau_sd.sto"));
-  return internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further,
-                         {job.setup, job.tasks, job.coordinates});
+  std::vector<fs::path> read{job.setup, job.tasks, job.coordinates};
+  read.insert(read.end(), job.setup_parts.begin(), job.setup_parts.end());
+  return internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further, read);
 }
 
 }  // namespace
@@ -175,6 +178,7 @@ Result<IkOutcome> run_ik(IkJob job) {
   const data::Trajectories solved = solved_markers(trial.markers, outcome.result);
   auto run = describe_run(job, *inputs, outcome.result, estimate->torques);
   if (!run) return std::unexpected(run.error());
+  run->warnings.insert(run->warnings.begin(), job.setup_notes.begin(), job.setup_notes.end());
   if (auto s = internal::judge(std::move(*run), motion, &solved, outcome); !s)
     return std::unexpected(s.error());
   // Write.

@@ -20,6 +20,8 @@ struct IkJob : MotionJob {
       setup;  ///< OpenSim InverseKinematicsTool file; fills what the other fields leave open
   std::filesystem::path tasks;                     ///< OpenSim IKTaskSet file
   std::filesystem::path coordinates;               ///< values for its tasks; the setup's, filled by run_ik()
+  std::vector<std::string> setup_notes;            ///< where files of the setup were found; by run_ik()
+  std::vector<std::filesystem::path> setup_parts;  ///< files that the setup is put together from; likewise
   std::filesystem::path report;                    ///< page to write as well
   motion::IkOptions options;                       ///< of the least squares
   Estimator estimator = Estimator::least_squares;  ///< which estimator

@@ -95,6 +95,21 @@ Status add_tasks(const io::IkTasks& tasks, const std::filesystem::path& file,
   return {};
 }
 
+/// OpenSim takes the frames nearest to both ends of a setup's range, also where they lie outside it.
+void take_nearest_frames(const io::IkSetup& setup, const data::Trajectories& markers,
+                         motion::IkOptions& options) {
+  const auto nearest = [&](double t) {
+    const double frame = std::round((t - markers.time.t0_s) * markers.time.rate_hz);
+    const bool recorded = frame >= 0.0 && frame < static_cast<double>(markers.frames());
+    return recorded ? markers.time.time_s(static_cast<std::int64_t>(frame)) : t;
+  };
+  // A range that options changed is taken as it was given.
+  if (std::isfinite(setup.time_begin_s) && options.first_time_s == setup.time_begin_s)
+    options.first_time_s = std::min(options.first_time_s, nearest(setup.time_begin_s));
+  if (std::isfinite(setup.time_end_s) && options.last_time_s == setup.time_end_s)
+    options.last_time_s = std::max(options.last_time_s, nearest(setup.time_end_s));
+}
+
 }  // namespace
 
 Status apply_setup(IkJob& job) {
@@ -104,6 +119,8 @@ Status apply_setup(IkJob& job) {
   if (job.model.empty()) job.model = setup->model_file;
   if (job.markers.empty()) job.markers = setup->marker_file;
   job.coordinates = setup->coordinate_file;
+  job.setup_notes = setup->notes;
+  job.setup_parts = setup->parts;
   if (job.output.empty() && !setup->output_motion_file.empty()) {
     if (auto s = check_below(job.setup, setup->output_motion_file, "output_motion_file"); !s) return s;
     job.output = setup->output_motion_file;
@@ -114,15 +131,20 @@ Status apply_setup(IkJob& job) {
 }
 
 Status apply_tasks(IkJob& job, const model::Model& model, const data::Trajectories& markers) {
+  io::IkSetup setup;
+  if (!job.setup.empty()) {
+    auto read = io::read_ik_setup(job.setup);
+    if (!read) return std::unexpected(read.error());
+    setup = std::move(*read);
+    take_nearest_frames(setup, markers, job.options);
+  }
   if (!job.tasks.empty()) {
     const auto tasks = io::read_ik_tasks(job.tasks);
     if (!tasks) return std::unexpected(tasks.error());
     return add_tasks(*tasks, job.tasks, {}, model, markers, job.options);
   }
   if (job.setup.empty()) return {};
-  const auto setup = io::read_ik_setup(job.setup);
-  if (!setup) return std::unexpected(setup.error());
-  return add_tasks(setup->tasks, job.setup, setup->coordinate_file, model, markers, job.options);
+  return add_tasks(setup.tasks, job.setup, setup.coordinate_file, model, markers, job.options);
 }
 
 }  // namespace kinemark::pipeline

@@ -87,6 +87,37 @@ TEST_F(IkSetupOptions, TasksBecomeWeightsAndTargets) {
   EXPECT_NEAR(values[2], 17.5 * kRadPerDeg, 1e-12);
 }
 
+TEST_F(IkSetupOptions, TheRangeOfASetupTakesTheNearestFramesAndThatOfTheUserIsTaken) {
+  ASSERT_TRUE(io::write_text(scratch_ / "between.xml",
+                             "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"t\">"
+                             "<time_range>0.37 0.63</time_range></InverseKinematicsTool></OpenSimDocument>",
+                             false));
+  IkJob job;
+  job.setup = scratch_ / "between.xml";
+  ASSERT_TRUE(apply_setup(job));
+  ASSERT_TRUE(apply_tasks(job, *model_, markers_));
+  EXPECT_EQ(job.options.first_time_s, 0.25);
+  EXPECT_EQ(job.options.last_time_s, 0.75);
+  job.options.first_time_s = 0.38;  // as an option would
+  job.options.last_time_s = 0.6;
+  ASSERT_TRUE(apply_tasks(job, *model_, markers_));
+  EXPECT_EQ(job.options.first_time_s, 0.38);
+  EXPECT_EQ(job.options.last_time_s, 0.6);
+}
+
+TEST_F(IkSetupOptions, ARangeBeyondTheRecordingTakesNoFrameOfIt) {
+  ASSERT_TRUE(io::write_text(scratch_ / "late.xml",
+                             "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"t\">"
+                             "<time_range>7 9</time_range></InverseKinematicsTool></OpenSimDocument>",
+                             false));
+  IkJob job;
+  job.setup = scratch_ / "late.xml";
+  ASSERT_TRUE(apply_setup(job));
+  ASSERT_TRUE(apply_tasks(job, *model_, markers_));
+  EXPECT_EQ(job.options.first_time_s, 7.0);
+  EXPECT_EQ(job.options.last_time_s, 9.0);
+}
+
 TEST_F(IkSetupOptions, WeightsOfTheUserWinOverThoseOfTheFile) {
   IkJob job;
   job.tasks = scratch_ / "tasks.xml";

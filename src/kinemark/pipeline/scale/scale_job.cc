@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/io/osim/osim_model.h"
-#include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/core/text.h"
+#include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -22,6 +22,7 @@
 #include "kinemark/pipeline/scale/scale_setup_options.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/masses.h"
+#include "kinemark/stages/motion/scaling/muscles.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -42,6 +43,7 @@ class ScaleRun {
     auto setup = io::read_scale_setup(job_.setup);
     if (!setup) return std::unexpected(setup.error());
     setup_ = std::move(*setup);
+    out_.warnings = setup_->notes;
     if (job_.model.empty()) job_.model = setup_->model_file;
     if (job_.output.empty() && !setup_->output_model_file.empty()) {
       if (auto s = check_below(job_.setup, setup_->output_model_file, "output_model_file"); !s) return s;
@@ -67,9 +69,10 @@ class ScaleRun {
   }
 
   Status read_model() {
-    auto model = io::read_osim(job_.model);
-    if (!model) return std::unexpected(model.error());
-    out_.model = std::move(*model);
+    auto document = io::OsimDocument::read(job_.model);
+    if (!document) return std::unexpected(document.error());
+    out_.model = document->model();
+    document_ = std::move(*document);
     if (setup_ && !setup_->marker_set_file.empty()) {
       auto set = io::read_marker_set(setup_->marker_set_file);
       if (!set) return std::unexpected(set.error());
@@ -168,16 +171,37 @@ class ScaleRun {
     return {};
   }
 
+  /// Muscles follow the bodies that they run over.
+  Status scale_muscles() {
+    if (!document_->paths_error().empty()) {
+      out_.warnings.push_back(fmt::format(
+          "The lengths of muscles at rest stay as they are, because their paths cannot be read: {}",
+          document_->paths_error()));
+      return {};
+    }
+    auto scales = motion::scale_paths(document_->model(), out_.model, document_->paths(), factors());
+    if (!scales) return fail_at(job_.model.string(), scales.error());
+    out_.muscles = std::move(*scales);
+    std::vector<std::string> wrapped;
+    for (const auto& muscle : out_.muscles)
+      if (muscle.wraps) wrapped.push_back(muscle.name);
+    if (!wrapped.empty())
+      out_.warnings.push_back(fmt::format(
+          "Lengths at rest follow straight paths also where these bend around surfaces: {}", join(wrapped)));
+    return {};
+  }
+
   Result<ScaleOutcome> write() {
     const fs::path report = beside(job_.output, "_report.json");
-    const auto text = io::format_osim(out_.model);
+    const auto text = document_->format({.model = out_.model, .factors = factors(), .paths = out_.muscles});
     if (!text) return fail_at(job_.output.string(), text.error());
+    out_.lost = text->lost;
     auto staging = Staging::create({job_.output, report}, job_.force, inputs());
     if (!staging) return std::unexpected(staging.error());
-    auto written = write_results(
-        *staging,
-        {model_file(job_.output, out_.model), json_file(report, [this] { return scale_json(job_, out_); })},
-        {}, "scaling", name_set(*text));
+    auto written = write_results(*staging,
+                                 {model_text_file(job_.output, text->text),
+                                  json_file(report, [this] { return scale_json(job_, out_); })},
+                                 {}, "scaling", name_set(text->text));
     if (!written) return std::unexpected(written.error());
     out_.written = std::move(*written);
     return std::move(out_);
@@ -202,12 +226,20 @@ class ScaleRun {
     return digest.hex();
   }
 
+  /// Of the bodies that the file has.
+  std::vector<Vector3d> factors() const {
+    std::vector<Vector3d> factors(document_->model().bodies.size());
+    for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = out_.factors[b].factors;
+    return factors;
+  }
+
   /// Every file that is read.
   std::vector<fs::path> inputs() const {
     std::vector<fs::path> files{job_.model, job_.setup, job_.static_trial, job_.markers};
-    if (setup_)
-      files.insert(files.end(),
-                   {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file});
+    if (!setup_) return files;
+    files.insert(files.end(), {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file,
+                               setup_->coordinate_file});
+    files.insert(files.end(), setup_->parts.begin(), setup_->parts.end());
     return files;
   }
 
@@ -269,6 +301,7 @@ class ScaleRun {
   }
 
   ScaleJob job_;
+  std::optional<io::OsimDocument> document_;
   std::optional<io::ScaleSetup> setup_;
   std::vector<io::MarkerOfSet> marker_set_;
   ScaleOutcome out_;
@@ -278,9 +311,9 @@ class ScaleRun {
 
 Result<ScaleOutcome> run_scale(ScaleJob job) {
   ScaleRun run(std::move(job));
-  for (const auto step :
-       {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
-        &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh, &ScaleRun::judge}) {
+  for (const auto step : {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
+                          &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh,
+                          &ScaleRun::scale_muscles, &ScaleRun::judge}) {
     if (auto s = (run.*step)(); !s) return std::unexpected(s.error());
     if (step != &ScaleRun::read_setup) continue;
     if (auto s = run.check(); !s) return std::unexpected(s.error());

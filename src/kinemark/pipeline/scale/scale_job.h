@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/muscle_path.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
 #include "kinemark/stages/motion/scaling/place.h"
@@ -42,6 +43,8 @@ struct ScaleOutcome : JobOutcome {
   std::optional<motion::AdaptResult> from_motion;  ///< sizes and positions from the motion
   std::vector<data::BodyFactors> factors;          ///< of every body, all steps together
   std::vector<std::string> clavicles;              ///< set free
+  std::vector<data::PathScale> muscles;            ///< lengths of muscles and ligaments, before and after
+  std::vector<std::string> lost;                   ///< what the file held and the output does not
 };
 
 /// Scale, place, adapt, weigh and write, in this order; each step only where its input is given. Without a

@@ -30,6 +30,18 @@ ordered_json measurements(const motion::ScaleResult& scaled) {
   return list;
 }
 
+/// Lengths of muscles and ligaments in the default pose.
+ordered_json muscles(const std::vector<data::PathScale>& scales) {
+  ordered_json list = ordered_json::array();
+  for (const auto& muscle : scales)
+    list.push_back({{"name", muscle.name},
+                    {"ratio", muscle.ratio},
+                    {"before_m", muscle.before_m},
+                    {"after_m", muscle.after_m},
+                    {"straight_for_wrapped", muscle.wraps}});
+  return list;
+}
+
 ordered_json adapted(const motion::AdaptResult& result) {
   ordered_json parameters = ordered_json::array(), lengths = ordered_json::array();
   for (const auto& p : result.parameters)
@@ -76,6 +88,8 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
                       {"notes", outcome.warnings},
                       {"clavicles", outcome.clavicles},
                       {"factors", std::move(factors)}};
+  report["muscles"] = muscles(outcome.muscles);
+  report["lost"] = outcome.lost;
   if (outcome.scaled) report["measurements"] = measurements(*outcome.scaled);
   if (outcome.placed) {
     ordered_json placed = ordered_json::array();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/result_files.h"
 
 namespace kinemark::pipeline {
@@ -86,11 +87,14 @@ Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
   stream.markers = std::move(*recorded);
   truth.markers = truth_of(*limb);
   const auto& targets = staging->targets();
-  auto written = write_results(
-      *staging,
-      {marker_file(targets[0], stream), marker_file(targets[1], stream), marker_file(targets[2], truth),
-       text_file(targets[3], [&] { return segment_layout_toml(limb->layout, limb->markers.names); })},
-      job.progress, "the simulation");
+  const std::string layout = segment_layout_toml(limb->layout, limb->markers.names);
+  const std::string set =
+      SetDigest().add("simulate limb").add(layout).add(stream.markers).add(truth.markers).hex();
+  auto written =
+      write_results(*staging,
+                    {marker_file(targets[0], stream), marker_file(targets[1], stream),
+                     marker_file(targets[2], truth), toml_file(targets[3], [&] { return layout; })},
+                    job.progress, "the simulation", set);
   if (!written) return std::unexpected(written.error());
   out.written = std::move(*written);
   return out;

@@ -6,6 +6,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -24,6 +25,10 @@ TEST(SimulateLimb, TheFilesAgreeWithTheStage) {
   const auto outcome = run_simulate_limb(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->written.size(), 4U);
+  const std::string set = set_in(scratch / "arm/markers.c3d");
+  EXPECT_EQ(set.size(), 16U);
+  EXPECT_EQ(set_in(scratch / "arm/markers.trc"), set);
+  EXPECT_EQ(set_in(scratch / "arm/segments.toml"), set);
   EXPECT_THAT(outcome->warnings.at(0), HasSubstr("6 markers, 40 frames at 60 Hz"));
   const auto limb = simulation::simulate_chain(job.arm).value();
   for (const char* name : {"arm/markers.c3d", "arm/markers.trc"}) {
@@ -69,9 +74,10 @@ TEST(SimulateLimb, SaysWhichMarkersRideWhere) {
   job.macaque.leds_per_segment = 2;
   ASSERT_TRUE(run_simulate_limb(job));
   EXPECT_EQ(io::read_text(scratch / "segments.toml").value(),
-            "[[segment]]\nname = \"upper_arm\"\nmarkers = [\"u0\", \"u1\"]\n\n"
-            "[[segment]]\nname = \"forearm\"\nmarkers = [\"f0\", \"f1\"]\n\n"
-            "[[joint]]\nname = \"elbow\"\nparent = \"upper_arm\"\nchild = \"forearm\"\n");
+            "# kinemark_set=" + set_in(scratch / "segments.toml") +
+                "\n[[segment]]\nname = \"upper_arm\"\nmarkers = [\"u0\", \"u1\"]\n\n"
+                "[[segment]]\nname = \"forearm\"\nmarkers = [\"f0\", \"f1\"]\n\n"
+                "[[joint]]\nname = \"elbow\"\nparent = \"upper_arm\"\nchild = \"forearm\"\n");
   const data::SegmentLayout odd{{{"a\"b", {0}}}, {}};
   EXPECT_THAT(segment_layout_toml(odd, {"c\\d"}), HasSubstr("name = \"a\\\"b\"\nmarkers = [\"c\\\\d\"]"));
 }

@@ -13,6 +13,8 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
+#include "kinemark/io/set_mark.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/simulation/rig_calibration.h"
@@ -184,9 +186,24 @@ io::RecordingMetadata about(const SimulateRigJob& job, std::string scene) {
 
 ResultFile counts_file(fs::path target, data::Counts counts, std::vector<io::RecordingMetadata> metadata) {
   return {std::move(target), [counts = std::move(counts), metadata = std::move(metadata)](
-                                 const fs::path& path, const std::string&) {
-            return io::write_counts(path, counts, metadata, false);
+                                 const fs::path& path, const std::string& set) {
+            auto with_set = metadata;
+            if (!set.empty()) with_set.push_back({"set", {{"mark", io::set_mark(set)}}});
+            return io::write_counts(path, counts, with_set, false);
           }};
+}
+
+/// Name of the set of files.
+std::string name_set(const simulation::RigRecording& recorded, const std::string& rig_true,
+                     const std::string& rig_nominal) {
+  const auto& counts = recorded.counts.counts;
+  return SetDigest()
+      .add("simulate rig")
+      .add(rig_true)
+      .add(rig_nominal)
+      .add({reinterpret_cast<const char*>(counts.data()), counts.size() * sizeof counts[0]})
+      .add(recorded.truth)
+      .hex();
 }
 
 /// Recordings of known things: what a calibration has to know of them travels in the recording.
@@ -256,24 +273,21 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   truth.source = "simulated";
   truth.markers = recorded->truth;
   const fs::path& folder = job.folder;
-  const auto rig_file = [&](const char* name, const data::Rig& which) {
-    return ResultFile{folder / name, [&which](const fs::path& path, const std::string&) {
-                        return io::write_rig(path, which, false);
-                      }};
-  };
   std::vector<ResultFile> files;
   files.push_back(counts_file(folder / "recording.mcap", recorded->counts, {about(job, scene)}));
   files.push_back(marker_file(folder / "truth.trc", truth));
   files.push_back(table_file(folder / "truth_derivatives.sto", [&] { return derivatives_table(*recorded); }));
-  const data::Rig calibrated = simulation::rig_in_room(*rig);
-  files.push_back(rig_file("rig_true.toml", calibrated));
-  files.push_back(rig_file("rig_nominal.toml", rig->nominal));
+  const std::string rig_true = io::format_rig(simulation::rig_in_room(*rig)),
+                    rig_nominal = io::format_rig(rig->nominal);
+  files.push_back(toml_file(folder / "rig_true.toml", [&] { return rig_true; }));
+  files.push_back(toml_file(folder / "rig_nominal.toml", [&] { return rig_nominal; }));
   if (auto s = add_calibration(job, *rig, files); !s) return std::unexpected(s.error());
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.target.filename().string());
   auto staging = Staging::create_in(folder, names, job.force, {job.markers});
   if (!staging) return std::unexpected(staging.error());
-  auto written = write_results(*staging, files, job.progress, "the simulation");
+  auto written = write_results(*staging, files, job.progress, "the simulation",
+                               name_set(*recorded, rig_true, rig_nominal));
   if (!written) return std::unexpected(written.error());
   SimulateRigOutcome out;
   out.written = std::move(*written);

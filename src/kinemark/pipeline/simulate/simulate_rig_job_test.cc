@@ -10,6 +10,7 @@
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -53,6 +54,21 @@ TEST(SimulateRig, TheFilesAgreeWithTheStage) {
   const auto read = io::read_rig(scratch / "sign/rig_true.toml").value();
   EXPECT_EQ(io::format_rig(read), io::format_rig(simulation::rig_in_room(rig)));
   EXPECT_EQ(io::read_rig(scratch / "sign/rig_nominal.toml").value().method, "nominal");
+}
+
+TEST(SimulateRig, FilesNameTheirSet) {
+  const testing_support::ScratchFolder scratch;
+  auto asked = job(scratch / "tree", RigSceneKind::tree);
+  asked.grid = asked.scan = true;
+  const auto outcome = run_simulate_rig(asked);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const std::string set = set_in(outcome->written.front());
+  EXPECT_EQ(set.size(), 16U);
+  for (const auto& file : outcome->written) EXPECT_EQ(set_in(file), set) << file;
+  asked.folder = scratch / "other";
+  asked.seed = 8;
+  ASSERT_TRUE(run_simulate_rig(asked));
+  EXPECT_NE(set_in(scratch / "other/recording.mcap"), set);
 }
 
 TEST(SimulateRig, CalibrationRecordingsTellWhatIsKnown) {

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/model/model.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/simulate/human_model.h"
@@ -31,12 +33,21 @@ Result<SimulateSubjectOutcome> run_simulate_subject(const SimulateSubjectJob& jo
   recorded.markers = subject->markers;
   truth.markers = subject->true_markers;
   const auto& targets = staging->targets();
+  const auto model_text = io::format_osim(*description);
+  if (!model_text) return fail_at(targets[2].string(), model_text.error());
+  const std::string set = SetDigest()
+                              .add("simulate subject")
+                              .add(*model_text)
+                              .add(recorded.markers)
+                              .add(coordinates_table(subject->truth))
+                              .add(truth.markers)
+                              .hex();
   auto written = write_results(*staging,
                                {marker_file(targets[0], recorded), marker_file(targets[1], recorded),
                                 model_file(targets[2], *description),
                                 table_file(targets[3], [&] { return coordinates_table(subject->truth); }),
                                 marker_file(targets[4], truth)},
-                               job.progress, "the simulation");
+                               job.progress, "the simulation", set);
   if (!written) return std::unexpected(written.error());
   SimulateSubjectOutcome out;
   out.written = std::move(*written);

@@ -11,6 +11,7 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/pipeline/testing/test_files.h"
 #include "support/scratch.h"
@@ -52,6 +53,22 @@ TEST(SimulateSubject, OneSeedOneRecording) {
   testing::simulate_into(scratch / "b");
   EXPECT_EQ(io::read_text(scratch / "a/markers.trc").value().substr(200),
             io::read_text(scratch / "b/markers.trc").value().substr(200));
+}
+
+TEST(SimulateSubject, FilesNameTheirSet) {
+  const testing_support::ScratchFolder scratch;
+  const auto files = testing::simulate_into(scratch / "a");
+  const std::string set = set_in(files.front());
+  EXPECT_EQ(set.size(), 16U);
+  for (const auto& file : files) EXPECT_EQ(set_in(file), set) << file;
+  testing::simulate_into(scratch / "same");
+  EXPECT_EQ(set_in(scratch / "same/truth.trc"), set) << "a digest of what it is, not of where or when";
+  SimulateSubjectJob other;
+  other.folder = scratch / "other";
+  other.seed = 99;
+  other.options.duration_s = 0.2;
+  ASSERT_TRUE(run_simulate_subject(other));
+  EXPECT_NE(set_in(scratch / "other/truth.trc"), set);
 }
 
 TEST(SimulateSubject, RefusesToReplaceAndLeavesNoNewFolderBehind) {

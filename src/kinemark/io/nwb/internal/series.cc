@@ -11,6 +11,7 @@
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/metadata.h"
+#include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -51,9 +52,9 @@ Status read_clock(Input& in, hid_t series, std::int64_t frames, PositionSeries& 
         break;
       }
   }
-  if (!(out.time.rate_hz > 0.0) || !std::isfinite(out.time.rate_hz) || !std::isfinite(out.time.t0_s))
-    return fail(Code::bad_input, fmt::format("runs at {} Hz from {} s; need a positive rate",
-                                             out.time.rate_hz, out.time.t0_s));
+  if (!is_rate(out.time.rate_hz) || !std::isfinite(out.time.t0_s))
+    return fail(Code::bad_input, fmt::format("runs at {} Hz from {} s; need a rate of {} to {:.0f} Hz",
+                                             out.time.rate_hz, out.time.t0_s, kSlowest_hz, kFastest_hz));
   return {};
 }
 

@@ -19,4 +19,11 @@ void append_vector3(pugi::xml_node node, const char* child, const Eigen::Vector3
 /// `<tag name="name">` as the last child of `node`.
 pugi::xml_node append_named(pugi::xml_node node, const char* tag, std::string_view name);
 
+/// Replace the text of an element; comments in it stay.
+void set_text(pugi::xml_node node, std::string_view text);
+/// The same for a child element, which is made when there is none.
+void set_numbers(pugi::xml_node node, const char* child, const std::vector<double>& values);
+/// Three numbers.
+void set_vector3(pugi::xml_node node, const char* child, const Eigen::Vector3d& value);
+
 }  // namespace kinemark::io::osim

@@ -68,6 +68,19 @@ std::filesystem::path path_of(pugi::xml_node node, const char* child, const std:
   return (folder / text).lexically_normal();
 }
 
+std::filesystem::path input_path_of(const XmlFile& file, pugi::xml_node node, const char* child,
+                                    const std::filesystem::path& folder, std::vector<std::string>& notes) {
+  const std::filesystem::path path = path_of(node, child, folder);
+  std::error_code unreadable;
+  if (path.empty() || std::filesystem::exists(path, unreadable)) return path;
+  const std::filesystem::path beside = folder / path.filename();
+  if (path.filename().empty() || !std::filesystem::is_regular_file(beside, unreadable)) return path;
+  notes.push_back(fmt::format("{}: <{}> names {}, which is not there; {} beside the setup is read instead",
+                              file.name(), child, in_quotes(text_of(node, child)),
+                              in_quotes(path.filename().string())));
+  return beside;
+}
+
 std::optional<std::pair<double, double>> read_time_range(XmlFile& file, pugi::xml_node owner) {
   const auto words = words_of(text_of(owner, "time_range"));
   if (words.empty()) return std::nullopt;

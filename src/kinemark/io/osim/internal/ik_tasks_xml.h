@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/io/osim/internal/xml_file.h"
@@ -19,6 +21,12 @@ namespace kinemark::io::osim {
 /// "Unassigned".
 [[nodiscard]] std::filesystem::path path_of(pugi::xml_node node, const char* child,
                                             const std::filesystem::path& folder);
+
+/// The same for a file to read. Where it is not there, but a file of its name stands beside the setup, it is
+/// that one, and `notes` gets a sentence.
+[[nodiscard]] std::filesystem::path input_path_of(const XmlFile& file, pugi::xml_node node, const char* child,
+                                                  const std::filesystem::path& folder,
+                                                  std::vector<std::string>& notes);
 
 /// <time_range> as two times, the earlier first; nothing when it is absent or wrong (then noted).
 [[nodiscard]] std::optional<std::pair<double, double>> read_time_range(XmlFile& file, pugi::xml_node owner);

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <span>
+#include <sstream>
 
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
@@ -118,7 +119,7 @@ bool is_set(std::string_view tag) { return tag.ends_with("Set") || tag == "Model
 
 }  // namespace
 
-Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
+Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name, Comments comments) {
   XmlFile file;
   file.name_ = std::move(name);
   if (xml.size() > kMaxBytes)
@@ -134,7 +135,8 @@ Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
   }
   const std::string_view text = as_it_is ? xml : std::string_view(converted);
   const auto encoding = utf16 ? pugi::encoding_auto : pugi::encoding_utf8;
-  const auto options = pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype;
+  const auto options = pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype |
+                       (comments == Comments::kept ? pugi::parse_comments : 0U);
   auto outcome = file.tree_.load_buffer(text.data(), text.size(), options, encoding);
   if (outcome.status == pugi::status_end_element_mismatch) {
     // An unmatched closing tag after an otherwise complete document.
@@ -155,7 +157,7 @@ Result<XmlFile> XmlFile::parse(std::string_view xml, std::string name) {
   return file;
 }
 
-Result<XmlFile> XmlFile::read(const std::filesystem::path& path) {
+Result<XmlFile> XmlFile::read(const std::filesystem::path& path, Comments comments) {
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
   std::string begin(std::min(file->size(), kJudged), '\0');
@@ -167,7 +169,30 @@ Result<XmlFile> XmlFile::read(const std::filesystem::path& path) {
         fmt::format("{}: is no XML: it does not begin with a tag. Nothing more was read.", path.string()));
   const auto text = read_text(path, kMaxBytes);
   if (!text) return std::unexpected(text.error());
-  return parse(*text, path.string());
+  return parse(*text, path.string(), comments);
+}
+
+XmlFile XmlFile::copy() const {
+  XmlFile other;
+  other.name_ = name_;
+  other.tree_.reset(tree_);
+  return other;
+}
+
+std::string XmlFile::text() const {
+  pugi::xml_document document;
+  document.reset(tree_);
+  for (pugi::xml_node node = document.first_child(); node;) {
+    const pugi::xml_node next = node.next_sibling();
+    if (node.type() == pugi::node_declaration) document.remove_child(node);
+    node = next;
+  }
+  pugi::xml_node declaration = document.prepend_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  std::ostringstream text;
+  document.save(text, "\t", pugi::format_default, pugi::encoding_utf8);
+  return std::move(text).str();
 }
 
 void XmlFile::inline_files(const std::filesystem::path* folder) {
@@ -190,7 +215,9 @@ void XmlFile::inline_files(const std::filesystem::path* folder) {
     if (!other) return note(node, other.error().message, other.error().code);
     const pugi::xml_node source = other->find_object({node.name()});
     if (!source) return note(node, fmt::format("the file {} has no <{}>", in_quotes(wanted), node.name()));
+    inlined_.push_back(*folder / wanted);
     pugi::xml_node target = node;
+    target.remove_attribute("file");
     for (const pugi::xml_node child : source.children()) target.append_copy(child);
   }
 }

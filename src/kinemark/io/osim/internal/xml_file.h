@@ -25,12 +25,23 @@ namespace kinemark::io::osim {
 /// reader goes straight on and looks at error() once.
 class XmlFile {
  public:
-  static Result<XmlFile> parse(std::string_view xml, std::string name);
-  static Result<XmlFile> read(const std::filesystem::path& path);
+  /// Whether comments of the file are part of the tree.
+  enum class Comments { left_out, kept };
+
+  static Result<XmlFile> parse(std::string_view xml, std::string name,
+                               Comments comments = Comments::left_out);
+  static Result<XmlFile> read(const std::filesystem::path& path, Comments comments = Comments::left_out);
+
+  /// A tree of its own with the same content.
+  [[nodiscard]] XmlFile copy() const;
+  /// The whole document as UTF-8, with a declaration that says so.
+  [[nodiscard]] std::string text() const;
 
   /// Replace every element `<SomethingSet file="x"/>` by that element as file x, relative to `folder`,
   /// defines it. Without a folder such an element is an error.
   void inline_files(const std::filesystem::path* folder);
+  /// The files that inline_files() took elements from.
+  [[nodiscard]] const std::vector<std::filesystem::path>& inlined() const { return inlined_; }
 
   /// The first element below the document element whose tag is one of `tags`, or that element itself.
   [[nodiscard]] pugi::xml_node find_object(std::initializer_list<const char*> tags) const;
@@ -55,6 +66,7 @@ class XmlFile {
   std::string name_;
   pugi::xml_document tree_;
   std::optional<Error> error_;
+  std::vector<std::filesystem::path> inlined_;
 };
 
 /// The text of an element, without blanks at both ends. Comments inside it do not count.

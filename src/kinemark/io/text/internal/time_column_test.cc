@@ -53,7 +53,7 @@ std::string refusal(const std::vector<double>& time_s, const std::vector<double>
   return clock.error().message;
 }
 
-Outcome fit(const std::vector<double>& time_s, double resolution_s, std::vector<double> stated) {
+Outcome fit(const std::vector<double>& time_s, double resolution_s, const std::vector<double>& stated) {
   Outcome out;
   const auto clock = clock_of(time_s, resolution_s, stated, out.warnings);
   EXPECT_TRUE(clock) << clock.error().message;

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
 #include <utility>
 
+#include "kinemark/core/distinct_names.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
@@ -86,12 +86,15 @@ Status read_values(Lines& lines, TrcHeader& header) {
                                                  lines.number(), i + 1, keys[i], excerpt(values[i])));
     }
   }
-  // Programs write 0 for a rate that they do not know.
+  // The others only stand in for the first, so nothing is said where they are not known.
+  std::vector<std::string> unsaid;
   for (std::size_t k = 0; k < rates.size(); ++k) {
-    if (!rates[k] || *rates[k] == 0.0) continue;
+    if (!rates[k]) continue;
     constexpr std::array<std::string_view, 3> kKeys{"DataRate", "CameraRate", "OrigDataRate"};
-    if (auto s = check_rate(*rates[k], fmt::format("line {}: {}", lines.number(), kKeys[k])); !s) return s;
-    header.rates_hz.push_back(*rates[k]);
+    const auto stated = states_rate(*rates[k], fmt::format("line {}: {}", lines.number(), kKeys[k]),
+                                    k == 0 ? header.warnings : unsaid);
+    if (!stated) return std::unexpected(stated.error());
+    if (*stated) header.rates_hz.push_back(*rates[k]);
   }
   if (header.units.empty()) {
     header.warnings.push_back("header names no unit; millimetres are assumed");
@@ -133,17 +136,15 @@ Status read_names(Lines& lines, TrcHeader& header) {
   if (name_cells.empty())
     return fail(Code::bad_input, fmt::format("line {}: names no marker", lines.number()));
   const bool above = std::ranges::all_of(name_cells, [](std::size_t c) { return c % 3 == 2; });
-  std::unordered_map<std::string_view, std::size_t> seen;
   for (std::size_t i = 0; i < name_cells.size(); ++i) {
     const std::size_t slot = above ? (name_cells[i] - 2) / 3 : i;
-    const std::string_view name = names[i];
-    if (const auto [it, is_new] = seen.emplace(name, slot); !is_new)
-      return fail(Code::bad_input,
-                  fmt::format("line {}: marker name '{}' occurs twice (columns {} and {}); names must differ",
-                              lines.number(), excerpt(name), 3 + 3 * it->second, 3 + 3 * slot));
     header.marker.resize(slot + 1, -1);
     header.marker[slot] = static_cast<std::int32_t>(i);
   }
+  if (const auto repeated = make_distinct(names); repeated.changed > 0)
+    header.warnings.push_back(
+        fmt::format("line {} repeats {} marker names ('{}' is the first); a number is added to each",
+                    lines.number(), repeated.changed, excerpt(repeated.example)));
   header.names = std::move(names);
   if (header.marker.size() > header.names.size())
     header.warnings.push_back(fmt::format("{} markers between the named ones have no name and are not read",

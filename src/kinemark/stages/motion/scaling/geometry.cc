@@ -49,7 +49,7 @@ void add_terms_of_body(const data::ModelDescription& model, int body, const Vect
     for (std::size_t a = 0; a < joint.axes.size(); ++a) {
       const auto& axis = joint.axes[a];
       if (axis.is_rotation || is_free_slide(axis)) continue;
-      const Vector3d along = joint.parent_from_joint.rotation * axis.axis.normalized();
+      const Vector3d along = axis.axis.normalized();  // as apply_factors()
       terms.push_back({.moves = GeometryTerm::Moves::translation,
                        .idx = static_cast<int>(j),
                        .axis = static_cast<int>(a),

@@ -181,7 +181,9 @@ void apply_factors(data::ModelDescription& model, std::span<const Vector3d> fact
     const Vector3d parent = of(joint.parent_body_idx), child = of(joint.child_body_idx);
     for (auto& axis : joint.axes) {
       if (axis.is_rotation || (axis.function.is_identity() && axis.second_coordinate_idx < 0)) continue;
-      const Vector3d along = joint.parent_from_joint.rotation * axis.axis.normalized();
+      // The parent's factors count along the axes of the joint's frame, also where that is turned: OpenSim's
+      // rule.
+      const Vector3d along = axis.axis.normalized();
       const double factor = along.cwiseAbs2().dot(parent);
       if (factor != 1.0) axis.function = axis.function.scaled(factor);
     }

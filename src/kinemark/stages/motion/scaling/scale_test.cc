@@ -78,6 +78,18 @@ TEST(ApplyFactors, masses_can_stay) {
       std::pow(1.2, 2) * before.bodies[1].inertia_about_com, 1e-12));
 }
 
+TEST(ApplyFactors, translations_of_a_turned_joint_frame_take_the_factors_of_its_axes_as_in_opensim) {
+  auto model = leg();
+  auto& knee = model.joints[2];
+  knee.parent_from_joint.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // x of the frame is y of the thigh
+  knee.axes.push_back({.is_rotation = false,
+                       .axis = Vector3d(2.0, 0.0, 0.0),
+                       .coordinate_idx = knee.axes.front().coordinate_idx,
+                       .function = math::ScalarFunction::linear(0.1, 0.2)});
+  apply_factors(model, same_factors(model, Vector3d(1.5, 7.0, 1.0)), false);
+  EXPECT_NEAR(model.joints[2].axes.back().function(0.0).f, 0.3, 1e-15);
+}
+
 TEST(ApplyFactors, a_body_stretched_along_one_axis_has_the_inertia_of_its_points) {
   // Six equal point masses on the axes.
   const double m = 0.5;

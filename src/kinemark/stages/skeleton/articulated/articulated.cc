@@ -71,6 +71,9 @@ ChainFitOptions fit_options(const Work& w) {
   out.robust_dof = w.options.robust ? kRobustDof : 0.0;
   out.frames_max = w.options.max_fit_frames;
   out.marker_noise = w.options.soft_tissue;
+  out.most_noise_m = w.options.most_noise_m;
+  out.most_reach_m = w.options.most_reach_m;
+  out.threads = w.options.threads;
   if (!w.options.kinds.empty())
     for (const int s : w.tree.segment_order) out.kind.push_back(w.options.kinds[at(s)]);
   for (const int m : w.input.marker) out.marker_names.push_back(w.markers.names[at(m)]);
@@ -354,6 +357,11 @@ Status ArticulatedOptions::check() const {
     return fail(Code::usage, fmt::format("noise is {} m; need 0 (estimated) or more", noise_sd_m));
   if (max_fit_frames < 20)
     return fail(Code::usage, fmt::format("{} frames for the geometry; need 20 or more", max_fit_frames));
+  if (!(most_noise_m > 0.0) || !(most_reach_m > 0.0))
+    return fail(Code::usage,
+                fmt::format("bounds of a first geometry are {} m of noise and {} m of reach; need "
+                            "more than 0",
+                            most_noise_m, most_reach_m));
   if (!std::isfinite(max_bridge_sd_m) || max_bridge_sd_m <= 0.0)
     return fail(Code::usage, fmt::format("largest bridged SD is {} m; need more than 0", max_bridge_sd_m));
   if (threads < 0) return fail(Code::usage, fmt::format("{} threads; need 0 (all cores) or more", threads));

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,11 @@ struct ArticulatedOptions {
   /// Soft tissue: every marker has a noise of its own, found from its residuals and shrunk towards the common
   /// one. Markers on loose skin then count less, and covariances know of them.
   bool soft_tissue = false;
-  int max_fit_frames = 1500;      ///< 20 or more; frames, spread over the recording, for the geometry
+  int max_fit_frames = 1500;  ///< 20 or more; frames, spread over the recording, for the geometry
+  /// A geometry that is worse than this at first is not refined further, but returned as it is: noise of a
+  /// marker, and distance of a joint from the nearest marker of one of its segments; > 0.
+  double most_noise_m = std::numeric_limits<double>::infinity();
+  double most_reach_m = std::numeric_limits<double>::infinity();
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
 

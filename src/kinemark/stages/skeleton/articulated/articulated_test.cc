@@ -361,6 +361,9 @@ TEST(FitArticulated, SaysInOneSentenceWhatCannotBeKnown) {
   EXPECT_THAT(message(limb.layout, {.kinds = {SegmentKind::line}}), HasSubstr("1 kinds for 2 segments"));
   EXPECT_THAT(message(limb.layout, {.noise_sd_m = -1.0}), HasSubstr("noise"));
   EXPECT_THAT(message(limb.layout, {.max_fit_frames = 3}), HasSubstr("20 or more"));
+  EXPECT_THAT(message(limb.layout, {.most_noise_m = 0.0}), HasSubstr("0 m of noise"));
+  EXPECT_THAT(message(limb.layout, {.most_reach_m = std::numeric_limits<double>::quiet_NaN()}),
+              HasSubstr("nan m of reach"));
   EXPECT_THAT(message(limb.layout, {.max_bridge_sd_m = 0.0}), HasSubstr("bridged"));
   EXPECT_THAT(message(limb.layout, {.threads = -1}), HasSubstr("threads"));
   auto untimed = limb.markers;

@@ -86,6 +86,26 @@ PosedFrames determined_frames(const ChainSamples& samples, const FittedChain& fi
   return out;
 }
 
+// Distance of a joint from the nearest marker of the segment that it is farther from; infinite where it is no
+// number.
+double reach_of(const Chain& chain, int joint) {
+  double reach = 0.0;
+  for (const bool in_parent : {true, false}) {
+    const Vector3d at = in_parent ? Vector3d(chain.joint.col(joint)) : Vector3d(Vector3d::Zero());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int k : chain.layout.markers_of(in_parent ? chain.layout.parent[joint] : joint + 1))
+      if (const double d = (chain.marker.col(k) - at).norm(); d < nearest) nearest = d;
+    reach = std::max(reach, nearest);
+  }
+  return reach;
+}
+
+bool is_hopeless(const FittedChain& fit, const ChainFitOptions& options) {
+  double reach = 0.0;
+  for (int j = 0; j < fit.chain.joints(); ++j) reach = std::max(reach, reach_of(fit.chain, j));
+  return !(fit.noise_sd_m <= options.most_noise_m && reach <= options.most_reach_m);
+}
+
 class Rounds {
  public:
   Rounds(const ChainSamples& samples, const ChainFitOptions& options, FittedChain& fit)
@@ -93,7 +113,7 @@ class Rounds {
 
   // Geometry, noise and covariance from `frames`.
   void fit(PosedFrames& frames, bool last) {
-    GeometryFit geometry(fit_.chain, samples_, frames, fit_.noise_sd_m);
+    GeometryFit geometry(fit_.chain, samples_, frames, fit_.noise_sd_m, options_.threads);
     double cost = geometry.run(30);
     measure_noise(geometry, cost);
     if (options_.robust_dof > 0.0) {
@@ -126,6 +146,8 @@ class Rounds {
           break;
         cost = geometry.run(15, extra_gradient);
         measure_noise(geometry, cost);
+        // No joint comes back from where no body has one.
+        if (is_hopeless(fit_, options_)) break;
       }
     }
     fit_.geometry_covariance = fit_.noise_sd_m * fit_.noise_sd_m * geometry.covariance(fit_.noise_sd_m);
@@ -223,7 +245,7 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
       frames = first_poses(drawn, fit.chain, frames.frame, fit.marker_weight, fit.noise_sd_m, 25);
       rounds.fit(frames, round + 1 == count);
     }
-    if (round + 1 == count) break;
+    if (round + 1 == count || is_hopeless(fit, options)) break;
     if (stopped()) return cancelled();
     PosedFrames next = determined_frames(drawn, fit);
     if (next.size() < 20) {

@@ -3,6 +3,7 @@
 // The geometry of a chain by maximum likelihood, from many frames.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct ChainFitOptions {
   int frames_max = 1500;                ///< frames that inform the geometry, drawn evenly; 50 or more
   double alternative_max = 1e-3;        ///< weight of other minima that a determined frame may have
   std::vector<std::string> marker_names;  ///< K, for warnings; empty: numbers
+  /// A first geometry with more noise, or with a joint farther from the nearest marker of one of its
+  /// segments, is returned as it is: further rounds would not make a body of it.
+  double most_noise_m = std::numeric_limits<double>::infinity();
+  double most_reach_m = std::numeric_limits<double>::infinity();
+  int threads = 1;  ///< 0: all cores. Any number gives the same bits.
 };
 
 /// Fit the geometry. `progress` is asked before every step of the fit whether to go on, with none of the

@@ -67,6 +67,44 @@ TEST(FitChain, EstimatesTheNoise) {
   }
 }
 
+TEST(FitChain, AnyNumberOfThreadsGivesTheSameBits) {
+  for (const SegmentKind kind : {SegmentKind::line, SegmentKind::solid}) {
+    const RandomChain limb =
+        make_random_chain({.segments = 3, .frames = 200, .kind = kind, .noise_sd_m = 0.002, .missing = 0.2});
+    ChainFitOptions options = of_kind(kind, 3);
+    const auto one = fit_chain(limb.samples, limb.chain.layout, options);
+    options.threads = 3;
+    const auto three = fit_chain(limb.samples, limb.chain.layout, options);
+    ASSERT_TRUE(one && three);
+    EXPECT_EQ(one->chain.marker, three->chain.marker);
+    EXPECT_EQ(one->chain.joint, three->chain.joint);
+    EXPECT_EQ(one->geometry_covariance, three->geometry_covariance);
+    EXPECT_EQ(one->noise_sd_m, three->noise_sd_m);
+  }
+}
+
+TEST(FitChain, AGeometryThatIsNoBodysIsNotRefined) {
+  const RandomChain limb = make_random_chain({.frames = 200, .noise_sd_m = 0.01});
+  const auto steps = [&](const ChainFitOptions& options) {
+    int asked = 0;
+    const auto fit = fit_chain(limb.samples, limb.chain.layout, options, [&](std::int64_t, std::int64_t) {
+      ++asked;
+      return true;
+    });
+    EXPECT_NEAR(fit->noise_sd_m, 0.01, 0.001);
+    return asked;
+  };
+  const ChainFitOptions whole = of_kind(SegmentKind::solid);
+  ChainFitOptions loose = whole, noisy = whole, far = whole;
+  loose.most_noise_m = 0.02;
+  loose.most_reach_m = 0.5;
+  noisy.most_noise_m = 0.005;
+  far.most_reach_m = 0.01;
+  EXPECT_EQ(steps(loose), steps(whole));
+  EXPECT_LT(steps(noisy), steps(whole));
+  EXPECT_LT(steps(far), steps(whole));
+}
+
 TEST(FitChain, RaisesANoiseThatWasGivenTooSmall) {
   const RandomChain limb = make_random_chain({.noise_sd_m = 0.003});
   ChainFitOptions options = of_kind(SegmentKind::solid);

@@ -6,8 +6,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
+#include "kinemark/core/parallel.h"
 #include "kinemark/data/joint_choice.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
 #include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
@@ -19,6 +23,7 @@ namespace {
 
 constexpr double kUnknownPosition = 1.0;  // m, SD of a parameter that no frame shows
 constexpr double kDifference = 1e-5;      // m, for derivatives of log det H
+constexpr std::int64_t kChunk = 64;       // frames that one thread takes at a time
 constexpr double kShrinkage = 300.0;      // residuals' degrees of freedom that the common noise weighs
 constexpr double kHold =                  // information of a hold over that of the prior
     data::kJointPriorSd_m / kHingeHold_m * (data::kJointPriorSd_m / kHingeHold_m);
@@ -53,8 +58,9 @@ Vector3d joint_from_markers(const Chain& chain, int joint, bool in_parent) {
   return position - mean / static_cast<double>(markers.size());
 }
 
-GeometryFit::GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames& frames, double sigma_m)
-    : chain_(chain), samples_(samples), frames_(frames), solver_(chain) {
+GeometryFit::GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames& frames, double sigma_m,
+                         int threads)
+    : chain_(chain), samples_(samples), frames_(frames), solver_(chain), threads_(threads) {
   set_noise(sigma_m);
 }
 
@@ -114,29 +120,31 @@ void GeometryFit::add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const {
   }
 }
 
-double GeometryFit::refine_all(PoseSolver& solver, std::vector<ChainPose>& poses, int iterations) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    solver.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
-    total += solver.refine(poses[i], {}, iterations, 1e-12);
-  }
-  return total;
+double GeometryFit::refine_all(const Chain& chain, std::vector<ChainPose>& poses, int iterations) const {
+  std::vector<double> cost(frames_.size());
+  parallel_for(std::ssize(cost), kChunk, threads_, [&](std::int64_t begin, std::int64_t end) {
+    PoseSolver solver(chain);
+    for (std::int64_t i = begin; i < end; ++i) {
+      solver.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
+      cost[i] = solver.refine(poses[i], {}, iterations, 1e-12);
+    }
+  });
+  return std::accumulate(cost.begin(), cost.end(), 0.0);
 }
 
-void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep) {
+void GeometryFit::accumulate(std::int64_t begin, std::int64_t end, bool keep, Part& part) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
-  S.setZero(n, n);
-  right.setZero(n);
+  part.S.setZero(n, n);
+  part.right.setZero(n);
+  PoseSolver solver(chain_);
   Eigen::MatrixXd H;
   Eigen::MatrixXd G;
   Eigen::VectorXd b;
-  by_geometry_.resize(keep ? frames_.size() : 0);
-  step_.resize(keep ? frames_.size() : 0);
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
+  for (std::int64_t i = begin; i < end; ++i) {
     const double* x = samples_.frame(frames_.frame[i]);
-    solver_.set(x, frames_.weight[i]);
-    solver_.normal(frames_.pose[i], {}, false, H, b);
-    solver_.linearize_geometry(frames_.pose[i], x, frames_.weight[i], G, &S, &right);
+    solver.set(x, frames_.weight[i]);
+    solver.normal(frames_.pose[i], {}, false, H, b);
+    solver.linearize_geometry(frames_.pose[i], x, frames_.weight[i], G, &part.S, &part.right);
     hold_loose_rotations(chain_, H);
     if (!cholesky_from_leaves(H)) continue;
     if (keep) {
@@ -146,11 +154,29 @@ void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool ke
     }
     for (Eigen::Index c = 0; c < n; ++c) solve_from_leaves(H, G.col(c));
     solve_from_leaves(H, b);
-    S.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose(), -1.0);
-    right.noalias() -= G.transpose() * b;
+    part.S.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose(), -1.0);
+    part.right.noalias() -= G.transpose() * b;
     if (!keep) continue;
     for (Eigen::Index c = 0; c < n; ++c) solve_to_leaves(H, G.col(c));
     by_geometry_[i] = G;
+  }
+}
+
+void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep) {
+  const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
+  by_geometry_.assign(keep ? frames_.size() : 0, {});
+  step_.assign(keep ? frames_.size() : 0, {});
+  const std::int64_t count = std::ssize(frames_.frame);
+  std::vector<Part> parts((count + kChunk - 1) / kChunk);
+  parallel_for(count, kChunk, threads_, [&](std::int64_t begin, std::int64_t end) {
+    accumulate(begin, end, keep, parts[begin / kChunk]);
+  });
+  // In the order of the chunks, which does not depend on the threads.
+  S.setZero(n, n);
+  right.setZero(n);
+  for (const Part& part : parts) {
+    S += part.S;
+    right += part.right;
   }
   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
   add_prior(S, right);
@@ -158,12 +184,11 @@ void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool ke
 
 double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
-  double cost = refine_all(solver_, frames_.pose, 40) + prior_cost(chain_);
+  double cost = refine_all(chain_, frames_.pose, 40) + prior_cost(chain_);
   double lambda = 1e-6;
   Eigen::MatrixXd S;
   Eigen::VectorXd right;
   Chain trial = chain_;
-  PoseSolver trial_solver(trial);
   std::vector<ChainPose> poses;
   Eigen::VectorXd frame_step;
   for (int round = 0; round < iterations; ++round) {
@@ -190,7 +215,7 @@ double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
         if (big > 0.5) frame_step *= 0.5 / big;
         move_pose(trial, frame_step, poses[i]);
       }
-      const double value = refine_all(trial_solver, poses, 20) + prior_cost(trial);
+      const double value = refine_all(trial, poses, 20) + prior_cost(trial);
       const double extra_cost = extra_gradient.size() == n ? 2.0 * extra_gradient.dot(step) : 0.0;
       if (value + extra_cost <= cost + 1e-18) {
         gain = cost - value - extra_cost;
@@ -212,17 +237,12 @@ double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
 Eigen::VectorXd GeometryFit::integrated_gradient(double sigma_m) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
   Eigen::VectorXd gradient(n);
-  Chain trial = chain_;
-  PoseSolver trial_solver(trial);
-  Eigen::MatrixXd H;
-  Eigen::VectorXd b;
-  FrameInformation information;
   const auto half_log_det = [&](Eigen::Index g, double change) {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
-    step[g] = change;
-    trial.marker = chain_.marker;
-    trial.joint = chain_.joint;
-    trial.move_geometry(step);
+    Chain trial = chain_;
+    trial.move_geometry(change * Eigen::VectorXd::Unit(n, g));
+    PoseSolver trial_solver(trial);
+    Eigen::MatrixXd H;
+    Eigen::VectorXd b;
     double sum = 0.0;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       trial_solver.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
@@ -237,11 +257,13 @@ Eigen::VectorXd GeometryFit::integrated_gradient(double sigma_m) {
     }
     return sum;
   };
-  for (Eigen::Index g = 0; g < n; ++g) {
-    const double up = half_log_det(g, kDifference);
-    const double down = half_log_det(g, -kDifference);
-    gradient[g] = sigma_m * sigma_m * (up - down) / (2.0 * kDifference);
-  }
+  parallel_for(n, 1, threads_, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t g = begin; g < end; ++g) {
+      const double up = half_log_det(g, kDifference);
+      const double down = half_log_det(g, -kDifference);
+      gradient[g] = sigma_m * sigma_m * (up - down) / (2.0 * kDifference);
+    }
+  });
   return gradient;
 }
 
@@ -260,7 +282,7 @@ Eigen::MatrixXd GeometryFit::covariance(double sigma_m) {
   return 0.5 * (inverse + inverse.transpose());
 }
 
-double GeometryFit::cost() { return refine_all(solver_, frames_.pose, 20); }
+double GeometryFit::cost() { return refine_all(chain_, frames_.pose, 20); }
 
 double GeometryFit::degrees_of_freedom() {
   double dof = 0.0;

@@ -29,13 +29,15 @@ struct PosedFrames {
   [[nodiscard]] std::size_t size() const { return frame.size(); }
 };
 
-/// Fits the geometry of `chain`, in place. Keeps references to all three.
+/// Fits the geometry of `chain`, in place. Keeps references to all three. Any number of threads (0: all
+/// cores) gives the same bits.
 class GeometryFit {
  public:
   /// Beforehand every joint is taken to lie about the mean of its segments' markers, by
   /// data::kJointPriorSd_m. With noise `sigma_m` that says nothing beside what frames tell, and holds what
   /// they leave open (the position along a hinge's axis). 0: nothing is known beforehand.
-  GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames& frames, double sigma_m = 0.0);
+  GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames& frames, double sigma_m = 0.0,
+              int threads = 1);
 
   /// Damped Gauss-Newton with variable projection: S dg = sum (b_g - G^T H^-1 b), S = sum (H_gg - G^T H^-1
   /// G), each trial with all poses refined. `extra_gradient` (empty: none) is added to that of half the cost.
@@ -64,7 +66,14 @@ class GeometryFit {
   void reweigh(const std::vector<double>& own, double dof, double sigma_m);
 
  private:
-  double refine_all(PoseSolver& solver, std::vector<ChainPose>& poses, int iterations);
+  /// The frames of one chunk in accumulate(): their part of S and of the right-hand side.
+  struct Part {
+    Eigen::MatrixXd S;
+    Eigen::VectorXd right;
+  };
+
+  double refine_all(const Chain& chain, std::vector<ChainPose>& poses, int iterations) const;
+  void accumulate(std::int64_t begin, std::int64_t end, bool keep, Part& part);
   void accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep);
   void add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const;
   [[nodiscard]] double prior_cost(const Chain& chain) const;
@@ -80,6 +89,7 @@ class GeometryFit {
   const ChainSamples& samples_;
   PosedFrames& frames_;
   PoseSolver solver_;
+  int threads_;
   std::vector<Hold> holds_;
   double prior_weight_ = 0.0;                 // (noise / kJointPriorSd_m)^2
   std::vector<Eigen::MatrixXd> by_geometry_;  // H^-1 G, frame by frame

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Text exports of the makers of camera systems: Qualisys, OptiTrack, Vicon.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
+
+namespace kinemark::io {
+
+/// A text export that read_maker_text() knows.
+enum class MakerText : std::uint8_t {
+  qtm,     ///< Qualisys Track Manager, TSV: 3D data with header
+  motive,  ///< OptiTrack Motive, CSV, format versions 1.0 to 1.25
+  vicon,   ///< Vicon Nexus or Workstation, CSV with a section of trajectories
+};
+
+/// Which of them a text is that begins like this (512 bytes are enough); none: another text.
+[[nodiscard]] std::optional<MakerText> maker_text_of(std::string_view begin);
+
+/// Read the markers of such an export, in metres.
+///
+/// - QTM: lines of a keyword and its values up to MARKER_NAMES and TRAJECTORY_TYPES, then, where they were
+/// exported,
+///   a row of column names and columns of frames and times; millimetres; EVENT lines become events. Samples
+///   that are exactly (0, 0, 0) are missing. Of a trajectory that QTM calls virtual or gap-filled all samples
+///   are SampleState::interpolated; of mixed ones filled samples cannot be kept apart from measured ones,
+///   which a warning says. 2D and 6DOF exports are Code::not_supported.
+/// - Motive: columns of Type "Marker" and their positions, in the length unit of line 1. Rigid bodies, bones
+/// and
+///   their markers are solved, not measured, and are not read (warning).
+/// - Vicon: the first section "Trajectories"; units from the row of units, else millimetres. Other sections,
+/// and
+///   columns that are not X, Y, Z, are not read (warning).
+///
+/// Blank cells and what is no finite number are missing samples. Names that stand twice get a number. Frame
+/// numbers give first_frame; times come from the time column, else from frame numbers and the stated rate.
+/// Axes stay as they are. Code::bad_input, with line and column, for what does not fit; Code::io when it
+/// cannot be read. O(bytes); memory at most 16 times the text + 125 MB.
+[[nodiscard]] Result<data::Trial> read_maker_text(const std::filesystem::path& path, MakerText which);
+
+/// The same from memory; `name` stands for the file in messages and in Trial::source.
+[[nodiscard]] Result<data::Trial> parse_maker_text(std::string_view text, std::string_view name,
+                                                   MakerText which);
+
+}  // namespace kinemark::io

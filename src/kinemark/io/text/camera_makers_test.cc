@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/text/camera_makers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace kinemark::io {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+data::Trial good_maker_text(const std::string& text, MakerText which) {
+  EXPECT_EQ(maker_text_of(text), which);
+  const auto trial = parse_maker_text(text, "t", which);
+  EXPECT_TRUE(trial) << trial.error().message;
+  if (!trial) return {};
+  EXPECT_TRUE(trial->validate()) << trial->validate().error().message;
+  return *trial;
+}
+
+std::string bad_maker_text(const std::string& text, MakerText which, Code code = Code::bad_input) {
+  const auto trial = parse_maker_text(text, "t", which);
+  EXPECT_FALSE(trial) << text;
+  if (trial) return "";
+  EXPECT_EQ(trial.error().code, code);
+  EXPECT_EQ(trial.error().message.find('\n'), std::string::npos) << "one sentence";
+  return trial.error().message;
+}
+
+std::string with(std::string text, const std::string& what, const std::string& instead) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), instead);
+}
+
+const std::string kQtmKeys =
+    "NO_OF_FRAMES\t3\nNO_OF_CAMERAS\t7\nNO_OF_MARKERS\t2\nFREQUENCY\t100\nNO_OF_ANALOG\t0\n"
+    "ANALOG_FREQUENCY\t0\nDESCRIPTION\t--\nTIME_STAMP\t2026-01-02, 03:04:05\t6.7\nDATA_INCLUDED\t3D\n";
+const std::string kQtm = kQtmKeys +
+                         "EVENT\tgrasp\t2\t0.01\nMARKER_NAMES\tA\tB\nTRAJECTORY_TYPES\tMeasured\tVirtual\n"
+                         "Frame\tTime\tA X\tA Y\tA Z\tB X\tB Y\tB Z\n"
+                         "1\t0.00000\t1\t2\t3\t4\t5\t6\n2\t0.01000\t0.000\t0.000\t0.000\t7\t8\t9\n"
+                         "3\t0.02000\t1000\t2\t3\t\t\t\n";
+
+TEST(QtmText, ReadsMarkersTimesAndEvents) {
+  const auto trial = good_maker_text(kQtm, MakerText::qtm);
+  EXPECT_EQ(trial.format, "QTM TSV");
+  EXPECT_THAT(trial.markers.names, ElementsAre("A", "B"));
+  EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 3}));
+  EXPECT_EQ(trial.first_frame, 1);
+  EXPECT_EQ(trial.markers.x(0, 0), Eigen::Vector3d(0.001, 0.002, 0.003));
+  EXPECT_EQ(trial.markers.x(2, 0).x(), 1.0);
+  ASSERT_THAT(trial.events, SizeIs(1));
+  EXPECT_EQ(trial.events[0].label, "grasp");
+  EXPECT_EQ(trial.events[0].time_s, 0.01);
+}
+
+TEST(QtmText, ZerosAndBlanksAreMissingAndVirtualSamplesAreNotMeasured) {
+  const auto trial = good_maker_text(kQtm, MakerText::qtm);
+  EXPECT_FALSE(trial.markers.present(1, 0));
+  EXPECT_FALSE(trial.markers.present(2, 1));
+  EXPECT_EQ(trial.markers.state[trial.markers.index(0, 0)], data::SampleState::measured);
+  EXPECT_EQ(trial.markers.state[trial.markers.index(0, 1)], data::SampleState::interpolated);
+  EXPECT_THAT(trial.warnings, Contains(HasSubstr("1 samples of 1 markers are exactly (0, 0, 0)")));
+}
+
+TEST(QtmText, ColumnsOfFramesAndTimesMayBeAbsent) {
+  const std::string rows = "1\t2\t3\t4\t5\t6\n7\t8\t9\t10\t11\t12\n13\t14\t15\t16\t17\t18\n";
+  const std::string names = "MARKER_NAMES\tA\tB\n";
+  for (const std::string& text :
+       {kQtmKeys + names + rows, kQtmKeys + names + "A X\tA Y\tA Z\tB X\tB Y\tB Z\n" + rows}) {
+    const auto trial = good_maker_text(text, MakerText::qtm);
+    EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 3}));
+    EXPECT_EQ(trial.markers.x(2, 1), Eigen::Vector3d(0.016, 0.017, 0.018));
+    EXPECT_THAT(trial.warnings, IsEmpty());
+  }
+  const auto numbered =
+      good_maker_text(kQtmKeys + names + "11\t1\t2\t3\t4\t5\t6\n12\t1\t2\t3\t4\t5\t6\n14\t1\t2\t3\t4\t5\t6\n",
+                      MakerText::qtm);
+  EXPECT_EQ(numbered.first_frame, 11);
+  EXPECT_EQ(numbered.markers.time, (TimeBase{100.0, 0.1, 4}));
+  EXPECT_FALSE(numbered.markers.present(2, 0));
+}
+
+TEST(QtmText, MixedTrajectoriesAreSaid) {
+  const auto trial = good_maker_text(with(kQtm, "Measured\tVirtual", "Measured\tMixed"), MakerText::qtm);
+  EXPECT_THAT(trial.warnings, Contains(HasSubstr("cannot be kept apart from measured ones: 'B'")));
+  EXPECT_THAT(good_maker_text(kQtm, MakerText::qtm).warnings,
+              testing::Not(Contains(HasSubstr("kept apart"))));
+}
+
+TEST(QtmText, SaysWhatIsWrong) {
+  const auto bad = [](const std::string& text) { return bad_maker_text(text, MakerText::qtm); };
+  EXPECT_THAT(bad(with(kQtm, "1000\t2", "1000\tx")),
+              "t: line 16, column 4: y of marker 'A' is 'x'; expected a number");
+  EXPECT_THAT(bad(with(kQtm, "2\t0.01000", "2\tlate")), HasSubstr("line 15, column 2: the time is 'late'"));
+  EXPECT_THAT(bad(with(kQtm, "FREQUENCY\t100", "FREQUENCY\tEXT")), HasSubstr("FREQUENCY is 'EXT'"));
+  EXPECT_THAT(bad(with(kQtm, "FREQUENCY\t100", "FREQUENCY\t-1")), HasSubstr("FREQUENCY"));
+  EXPECT_THAT(bad(kQtmKeys), HasSubstr("without MARKER_NAMES"));
+  EXPECT_THAT(bad(kQtmKeys + "MARKER_NAMES\tA\n"), HasSubstr("before the first row"));
+  EXPECT_THAT(bad_maker_text(with(kQtm, "DATA_INCLUDED\t3D", "DATA_INCLUDED\t6D"), MakerText::qtm,
+                             Code::not_supported),
+              HasSubstr("holds 6D data"));
+}
+
+const std::string kMotiveKeys =
+    "Format Version,1.23,Take Name,walk,Capture Frame Rate,120.000000,Export Frame Rate,100.000000,"
+    "Total Exported Frames,2,Rotation Type,Quaternion,Length Units,Meters,Coordinate Space,Global\n\n";
+const std::string kMotive = kMotiveKeys +
+                            ",Type,Marker,Marker,Marker,Rigid Body,Rigid Body,Marker,Marker,Marker\n"
+                            ",Name,s:A,s:A,s:A,Hand,Hand,\"s:B,b\",\"s:B,b\",\"s:B,b\"\n"
+                            ",ID,1,1,1,2,2,3,3,3\n"
+                            ",,Position,Position,Position,Rotation,Position,Position,Position,Position\n"
+                            "Frame,Time (Seconds),X,Y,Z,X,X,X,Y,Z\n"
+                            "0,0.000000,0.1,0.2,0.3,9,9,,,\n1,0.010000,0.4,0.5,0.6,9,9,1,2,3\n";
+
+TEST(MotiveText, ReadsPositionsOfMarkers) {
+  const auto trial = good_maker_text(kMotive, MakerText::motive);
+  EXPECT_EQ(trial.format, "Motive CSV");
+  EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:B,b"));
+  EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 2}));
+  EXPECT_EQ(trial.first_frame, 0);
+  EXPECT_EQ(trial.markers.x(1, 0), Eigen::Vector3d(0.4, 0.5, 0.6));
+  EXPECT_FALSE(trial.markers.present(0, 1));
+  EXPECT_EQ(trial.markers.x(1, 1), Eigen::Vector3d(1, 2, 3));
+  EXPECT_THAT(trial.warnings,
+              Contains("columns that are solved, not measured, are not read: 2 of Rigid Body"));
+}
+
+TEST(MotiveText, RowsAreFoundInEveryVersion) {
+  // 1.25 has a row of parents; exports exist whose rows carry no label.
+  const auto parent = with(kMotive, ",,Position", ",Parent,,,,,,,,\n,,Position");
+  EXPECT_EQ(good_maker_text(parent, MakerText::motive).markers.x(1, 0), Eigen::Vector3d(0.4, 0.5, 0.6));
+  const auto bare = with(with(kMotive, ",Type", ","), ",Name", ",");
+  EXPECT_THAT(good_maker_text(bare, MakerText::motive).markers.names, ElementsAre("s:A", "s:B,b"));
+  const auto mm =
+      good_maker_text(with(kMotive, "Length Units,Meters", "Length Units,Millimeters"), MakerText::motive);
+  EXPECT_EQ(mm.markers.x(1, 1), Eigen::Vector3d(0.001, 0.002, 0.003));
+}
+
+TEST(MotiveText, NamesThatStandTwiceAreTwoMarkers) {
+  const auto trial =
+      good_maker_text(with(kMotive, "\"s:B,b\",\"s:B,b\",\"s:B,b\"", "s:A,s:A,s:A"), MakerText::motive);
+  EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:A_2"));
+  EXPECT_EQ(trial.markers.x(1, 0), Eigen::Vector3d(0.4, 0.5, 0.6));
+  EXPECT_EQ(trial.markers.x(1, 1), Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(MotiveText, SaysWhatIsWrong) {
+  const auto bad = [](const std::string& text) { return bad_maker_text(text, MakerText::motive); };
+  EXPECT_THAT(bad(with(kMotive, "0.4,0.5", "0.4,up")),
+              HasSubstr("line 9, column 4: y of marker 's:A' is 'up'"));
+  EXPECT_THAT(bad(with(kMotive, "Meters", "Furlongs")),
+              HasSubstr("line 1: length unit 'Furlongs' is unknown"));
+  EXPECT_THAT(bad(with(kMotive, "Export Frame Rate,100", "Export Frame Rate,fast100")),
+              HasSubstr("Export Frame Rate"));
+  EXPECT_THAT(bad(kMotiveKeys), HasSubstr("the row that begins with Frame is not found"));
+  EXPECT_THAT(
+      bad("Format Version,1.23\n\n,Type,Bone\n,Name,Hip\n,,Position\nFrame,Time (Seconds),X\n0,0,1\n"),
+      HasSubstr("no column is the position of a marker"));
+  EXPECT_THAT(bad(with(kMotive, "\"s:B,b\"\n", "\"s:B,b\n")), HasSubstr("quote"));
+}
+
+const std::string kNexus =
+    "Trajectories\n100\n,,s:A,,,s:B,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n"
+    "5,0,1,2,3,4,5,6\n6,0,7,8,9,,,\n\nModel Outputs\n100\n";
+
+TEST(ViconText, ReadsTheSectionOfTrajectories) {
+  const auto trial = good_maker_text(kNexus, MakerText::vicon);
+  EXPECT_EQ(trial.format, "Vicon CSV");
+  EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:B"));
+  EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.04, 2}));
+  EXPECT_EQ(trial.first_frame, 5);
+  EXPECT_EQ(trial.markers.x(1, 0), Eigen::Vector3d(0.007, 0.008, 0.009));
+  EXPECT_FALSE(trial.markers.present(1, 1));
+  EXPECT_THAT(trial.warnings, Contains(HasSubstr("a blank line ends the trajectories; line 9")));
+}
+
+TEST(ViconText, SectionsBeforeItArePassedOver) {
+  const auto trial = good_maker_text("Devices\n1000\n,,Force\n1,0,2\n\n" + kNexus, MakerText::vicon);
+  EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "s:B"));
+  EXPECT_THAT(trial.warnings, Contains("sections that are not read: devices"));
+  const auto rates = good_maker_text(with(kNexus, "X,Y,Z,X,Y,Z", "X,Y,Z,X',Y',Z'"), MakerText::vicon);
+  EXPECT_FALSE(rates.markers.present(0, 1));
+  EXPECT_THAT(rates.warnings, Contains(HasSubstr("3 columns of trajectories are not X, Y or Z")));
+}
+
+TEST(ViconText, FramesWithoutARowAreMissing) {
+  const auto trial = good_maker_text(with(kNexus, "6,0,7", "8,0,7"), MakerText::vicon);
+  EXPECT_THAT(trial.warnings, Contains("2 frames between the rows have no row and are missing"));
+  ASSERT_EQ(trial.markers.time, (TimeBase{100.0, 0.04, 4}));
+  EXPECT_FALSE(trial.markers.present(1, 0));
+  EXPECT_EQ(trial.markers.x(3, 0).x(), 0.007);
+}
+
+TEST(ViconText, NamesThatAreNoneAreMade) {
+  const auto trial = good_maker_text(with(kNexus, "s:B", "\x83"), MakerText::vicon);
+  EXPECT_THAT(trial.markers.names, ElementsAre("s:A", "point 2"));
+  EXPECT_THAT(trial.warnings, Contains("line 3 names 1 of 2 markers; the others are called 'point n'"));
+}
+
+TEST(ViconText, SaysWhatIsWrong) {
+  const auto bad = [](const std::string& text) { return bad_maker_text(text, MakerText::vicon); };
+  EXPECT_THAT(bad("Trajectories\nfast\n"), HasSubstr("line 2: the frame rate is 'fast'"));
+  EXPECT_THAT(bad("Trajectories\n100\n"), HasSubstr("line 3: the file ends where the row of marker names"));
+  EXPECT_THAT(bad("Devices\n100\n"), HasSubstr("without a section of trajectories; it has devices"));
+  EXPECT_THAT(bad(with(kNexus, ",,mm,mm", ",,miles,mm")), HasSubstr("line 5: length unit 'miles'"));
+  EXPECT_THAT(bad(with(kNexus, "6,0,7", "5,0,7")),
+              HasSubstr("line 7 (frame 5): the frame number does not increase"));
+  EXPECT_THAT(bad(with(kNexus, "6,0,7", "half,0,7")),
+              HasSubstr("line 7, column 1: the frame number is 'half'"));
+}
+
+TEST(MakerText, OthersAreNotTakenForOne) {
+  for (const std::string_view begin : {"", "frame,time_s,marker,x_m,y_m,z_m\n", "PathFileType\t4\n",
+                                       "Format of mine,1\n", "NO_OF_FRAMES 5\n", "Trajectoriesof,1\n"})
+    EXPECT_FALSE(maker_text_of(begin)) << begin;
+}
+
+}  // namespace
+}  // namespace kinemark::io

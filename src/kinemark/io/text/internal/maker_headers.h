@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/io/text/internal/cells.h"
+#include "kinemark/io/text/internal/marker_rows.h"
+
+namespace kinemark::io::internal {
+
+/// What stands above the rows of an export; events, software and warnings go into the trial at once.
+struct MakerHeader {
+  MarkerColumns columns;
+  /// State of each marker's samples; empty: all measured.
+  std::vector<data::SampleState> state;
+};
+
+/// Each reads up to the last line before the rows. Errors carry the line, not the file.
+[[nodiscard]] Result<MakerHeader> parse_qtm_header(Lines& lines, data::Trial& trial);
+[[nodiscard]] Result<MakerHeader> parse_motive_header(Lines& lines, data::Trial& trial);
+[[nodiscard]] Result<MakerHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
+
+/// Metres per unit of "mm", "Meters", ... the other way round: 1000 for millimetres. Code::bad_input, naming
+/// the line, for any other word.
+[[nodiscard]] Result<double> units_per_metre(std::string_view unit, std::int64_t line);
+
+/// Names that are there and unique; warnings say how many were not.
+void settle_marker_names(std::vector<std::string>& names, std::int64_t line, data::Trial& trial);
+
+}  // namespace kinemark::io::internal
