@@ -97,7 +97,7 @@ TEST(C3dWriter, AMarkerAtTheOriginIsNotLost) {
   trial.markers.x(1, 0).setConstant(1e-300);
   for (const bool integers : {false, true}) {
     const Trial back = round_trip(trial, {.integers = integers});
-    EXPECT_EQ(back.markers.count_missing(), missing);
+    EXPECT_EQ(back.markers.count_missing(), 0);
     EXPECT_LT(back.markers.x(0, 0).norm(), integers ? 1e-4 : 1e-8);
   }
 }
