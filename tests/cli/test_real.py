@@ -43,6 +43,9 @@ class RealFiles(CommandTest):
                     after = self.facts(f"x.{ending}")
                     for key in ("points", "frames", "missing", "labels"):
                         self.assertEqual(after[key], before[key], key)
+                    lost = f"{len(before['channels'])} channels that are no markers" in said
+                    self.assertEqual(lost, bool(before["channels"]) and ending != "c3d")
+                    self.assertEqual(after["channels"], before["channels"] if ending == "c3d" else [])
                     self.assertAlmostEqual(after["rate_hz"], before["rate_hz"], delta=1e-3 * before["rate_hz"])
                     for key, words in (("analog_channels", "analog channels"), ("force_plates", "force plates"), ("events", "events")):
                         if ending == "c3d":

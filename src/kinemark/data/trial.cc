@@ -8,6 +8,10 @@ namespace kinemark::data {
 
 Status Trial::validate() const {
   if (auto status = markers.validate(); !status) return status;
+  if (auto status = channels.validate(); !status) return status;
+  if (channels.count() > 0 && channels.frames != markers.frames())
+    return fail(Code::bad_input, fmt::format("trial holds channels of {} frames and markers of {}",
+                                             channels.frames, markers.frames()));
   const auto samples = static_cast<std::size_t>(markers.frames() * markers.markers());
   if (!residual_m.empty() && residual_m.size() != samples)
     return fail(Code::bad_input,

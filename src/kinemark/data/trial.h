@@ -10,6 +10,7 @@
 
 #include "kinemark/core/array.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/channels.h"
 #include "kinemark/data/trajectories.h"
 
 namespace kinemark::data {
@@ -51,6 +52,7 @@ struct Trial {
       residual_m;  ///< F x M reconstruction residual, NaN where not measured; empty when the file has none
   Array<std::uint8_t>
       camera_mask;            ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
+  Channels channels;          ///< points that are no markers; never cleaned, filled or fitted
   AnalogChannels analog;      ///< no channels: the file has none
   std::vector<Event> events;  ///< in the order of the file
   std::vector<ForcePlate> force_plates;  ///< in the order of the file

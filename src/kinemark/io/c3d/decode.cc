@@ -205,9 +205,24 @@ void decode_analog(const C3dLayout& layout, const std::byte* in, double* out) {
   }
 }
 
+/// Points that are no markers, in the numbers of the file.
+template <class Samples>
+void decode_channels(const C3dLayout& layout, const std::byte* in, double* out) {
+  const double unit = layout.is_float ? 1.0 : layout.scale;
+  for (const std::int64_t point : layout.channel_points) {
+    const std::byte* at = in + static_cast<std::size_t>(point) * 4 * Samples::kBytes;
+    const double word = Samples::analog(at + 3 * Samples::kBytes, false);
+    const bool there = word >= 0.0 && word < 65535.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      *out++ = there ? unit * Samples::analog(at + axis * Samples::kBytes, false)
+                     : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 template <class Samples>
 C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames, const C3dFrames& out) {
   const auto points = static_cast<std::size_t>(layout.points);
+  const auto markers = static_cast<std::size_t>(layout.markers);
   const Steps steps{.coordinate_m = layout.metres_per_unit * (layout.is_float ? 1.0 : layout.scale),
                     .residual_m = static_cast<float>(layout.metres_per_unit * layout.scale)};
   C3dSeen seen;
@@ -217,9 +232,19 @@ C3dSeen decode(const C3dLayout& layout, const std::byte* in, std::int64_t frames
     const auto at = [&](auto span, std::size_t width) {
       return span.empty() ? nullptr : span.data() + frame * width;
     };
-    const Cursor cursor{at(out.x_in_world, 3 * points), at(out.state, points), at(out.residual_m, points),
-                        at(out.camera_mask, points)};
-    decode_points<Samples>(in, layout.points, steps, cursor, boxes, seen);
+    std::size_t m = 0;
+    for (const C3dMarkerRun& run : layout.runs) {
+      const auto from = [&](auto span, std::size_t width) {
+        return span.empty() ? nullptr : span.data() + (frame * markers + m) * width;
+      };
+      decode_points<Samples>(
+          in + static_cast<std::size_t>(run.first) * 4 * Samples::kBytes, run.count, steps,
+          {from(out.x_in_world, 3), from(out.state, 1), from(out.residual_m, 1), from(out.camera_mask, 1)},
+          boxes, seen);
+      m += static_cast<std::size_t>(run.count);
+    }
+    if (!out.channels.empty())
+      decode_channels<Samples>(layout, in, at(out.channels, 3 * layout.channel_points.size()));
     if (!out.analog.empty())
       decode_analog<Samples>(layout, in + points * 4 * Samples::kBytes,
                              at(out.analog, static_cast<std::size_t>(layout.analog_per_frame())));

@@ -19,6 +19,7 @@ struct C3dFrames {
   std::span<float> residual_m;          ///< n x M, NaN where not measured
   std::span<std::uint8_t> camera_mask;  ///< n x M, bit c: camera c + 1
   std::span<double> analog;             ///< n x (S / F) x K
+  std::span<double> channels;           ///< n x C x 3, numbers of the file; NaN where missing
 };
 
 /// Counts of what was decoded, and the box around it; they add up over pieces of a file.
@@ -39,7 +40,8 @@ struct C3dSeen {
 /// when all three are exactly 0. The fourth word's high byte is the camera mask, its low byte the residual in
 /// steps of POINT:SCALE; both 0 say that the point was filtered, interpolated or made (c3d.org, "Notes for
 /// programmers"). Where cameras saw the point but the residual byte is 0, the residual was below half a step:
-/// the sample is measured. Every byte is read once and every output written once.
+/// the sample is measured. Points that are no markers are missing by their fourth word alone: an angle may be
+/// 0. Every byte is read once and every output written once.
 C3dSeen decode_frames(const C3dLayout& layout, const std::byte* bytes, std::int64_t frames,
                       const C3dFrames& out);
 

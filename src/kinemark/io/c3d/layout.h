@@ -15,14 +15,23 @@
 
 namespace kinemark::io {
 
+/// Points in a row that are all markers.
+struct C3dMarkerRun {
+  std::int64_t first = 0;  ///< point, from 0
+  std::int64_t count = 0;  ///< points
+};
+
 /// Contents of a C3D file and their byte positions, derived from header, parameters and file size.
 struct C3dLayout {
-  Processor processor = Processor::intel;  ///< how numbers are stored
-  bool is_float = true;                    ///< 32-bit float samples; else 16-bit integers
-  std::int64_t points = 0;                 ///< M
-  std::int64_t frames = 0;                 ///< F, all of which lie in the file
-  std::int64_t first_frame = 1;            ///< the file's own number of its first frame
-  double rate_hz = 0.0;                    ///< frames a second, > 0
+  Processor processor = Processor::intel;    ///< how numbers are stored
+  bool is_float = true;                      ///< 32-bit float samples; else 16-bit integers
+  std::int64_t points = 0;                   ///< stored in a frame
+  std::int64_t markers = 0;                  ///< M, points that are markers
+  std::vector<C3dMarkerRun> runs;            ///< where these are, in order
+  std::vector<std::int64_t> channel_points;  ///< the other points, from 0: angles, forces, ...
+  std::int64_t frames = 0;                   ///< F, all of which lie in the file
+  std::int64_t first_frame = 1;              ///< the file's own number of its first frame
+  double rate_hz = 0.0;                      ///< frames a second, > 0
   double scale = 1.0;             ///< size of one integer or residual step, in units of the file, > 0
   double metres_per_unit = 1e-3;  ///< of POINT:UNITS
   std::string units;              ///< POINT:UNITS, or empty

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "kinemark/io/c3d/layout.h"
+#include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
 #include "kinemark/io/length_unit.h"
 #include "kinemark/io/set_mark.h"
@@ -87,11 +88,45 @@ std::int64_t first_frame(const data::Trial& trial) {
   return std::max<std::int64_t>(1, std::llround(meant) + 1);
 }
 
+/// Which labels belong to which kind of channel, with the kind's unit and the pairs of TYPE_GROUPS.
+void add_channel_lists(C3dGroup& point, const data::Channels& channels, const std::string& length) {
+  std::vector<std::string> pairs;
+  const auto add = [&](std::string_view list, std::string_view singular, data::ChannelKind kind) {
+    std::vector<std::string> names;
+    std::string unit;
+    for (std::size_t c = 0; c < channels.names.size(); ++c) {
+      if (channels.kinds[c] != kind) continue;
+      const bool is_length = kind == data::ChannelKind::modeled_marker && metres_per_unit(channels.units[c]);
+      if (names.empty()) unit = is_length ? length : channels.units[c];
+      names.push_back(channels.names[c]);
+    }
+    if (names.empty()) return;
+    add_texts(point, list, names);
+    add_text(point, fmt::format("{}_UNITS", singular), std::move(unit));
+    pairs.emplace_back(list);
+    pairs.emplace_back(singular);
+  };
+  for (const C3dPointType& type : kC3dPointTypes) add(type.list, type.singular, type.kind);
+  add("OTHERS", "OTHER", data::ChannelKind::other);
+  if (pairs.empty()) return;
+  const int width = static_cast<int>(std::ranges::max(pairs, {}, &std::string::size).size());
+  const int count = static_cast<int>(pairs.size() / 2);
+  point.parameters.push_back(
+      {.name = "TYPE_GROUPS", .type = C3dType::text, .dims = {width, 2, count}, .texts = std::move(pairs)});
+}
+
+std::vector<std::string> point_names(const data::Trial& trial) {
+  std::vector<std::string> names = trial.markers.names;
+  names.insert(names.end(), trial.channels.names.begin(), trial.channels.names.end());
+  return names;
+}
+
 void add_point_group(C3dPlan& plan, const data::Trial& trial, const std::string& units) {
   C3dGroup& point = plan.parameters.group("POINT");
   const std::int64_t frames = trial.markers.frames();
   const bool is_long = frames > kMaxWord;
-  add_number(point, "USED", C3dType::int16, static_cast<double>(trial.markers.markers()));
+  const std::vector<std::string> names = point_names(trial);
+  add_number(point, "USED", C3dType::int16, static_cast<double>(names.size()));
   // A float here would be legal, too, but several readers accept an integer only.
   add_number(point, "FRAMES", C3dType::int16, static_cast<double>(std::min(frames, kMaxWord)));
   if (is_long) add_number(point, "LONG_FRAMES", C3dType::float32, static_cast<double>(frames));
@@ -100,8 +135,9 @@ void add_point_group(C3dPlan& plan, const data::Trial& trial, const std::string&
   add_number(point, "DATA_START", C3dType::int16, 0.0);
   add_number(point, std::string(kC3dResidualsParameter), C3dType::int16, 1.0);
   add_text(point, "UNITS", units);
-  add_texts(point, "LABELS", trial.markers.names);
-  add_texts(point, "DESCRIPTIONS", std::vector<std::string>(trial.markers.names.size()));
+  add_texts(point, "LABELS", names);
+  add_texts(point, "DESCRIPTIONS", std::vector<std::string>(names.size()));
+  add_channel_lists(point, trial.channels, units);
 }
 
 void add_analog_group(C3dPlan& plan, const data::Trial& trial) {
@@ -230,9 +266,9 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   if (auto status = trial.validate(); !status) return std::unexpected(status.error());
   const std::int64_t frames = trial.markers.frames();
   if (frames == 0) return fail(Code::bad_input, "the trial has no frames; there is nothing to write");
-  if (trial.markers.markers() > kMaxWord)
-    return fail(Code::not_supported,
-                fmt::format("has {} points; a C3D file can count {}", trial.markers.markers(), kMaxWord));
+  const std::int64_t points = trial.markers.markers() + trial.channels.count();
+  if (points > kMaxWord)
+    return fail(Code::not_supported, fmt::format("has {} points; a C3D file can count {}", points, kMaxWord));
   const auto metres = metres_per_unit(options.units);
   if (!metres) return fail(Code::usage, fmt::format("'{}' is not a known length unit", options.units));
 
@@ -241,6 +277,7 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   double scale = largest(trial.markers.x_in_world) / kIntegerSteps;
   // Float files keep residuals whole by making the step as large as the largest needs.
   if (!plan.integers) scale = std::max(scale, largest(trial.residual_m) / 255.0);
+  if (plan.integers) scale = std::max(scale, largest(trial.channels.values) * *metres / kIntegerSteps);
   plan.scale = scale > 0.0 ? static_cast<float>(scale * plan.units_per_metre) : 1.0F;
   // Coordinates that are next to nothing are written as nothing.
   plan.scale = std::max(plan.scale, static_cast<decltype(plan.scale)>(std::numeric_limits<float>::min()));
@@ -249,13 +286,18 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
                 fmt::format("has coordinates up to {} m; C3D's single precision cannot hold them",
                             scale * kIntegerSteps));
   if (auto status = plan_analog(plan, trial); !status) return std::unexpected(status.error());
+  for (std::size_t c = 0; c < trial.channels.names.size(); ++c) {
+    const bool is_length = trial.channels.kinds[c] == data::ChannelKind::modeled_marker;
+    const auto unit = is_length ? metres_per_unit(trial.channels.units[c]) : std::nullopt;
+    plan.channel_factor.push_back(unit ? *unit / *metres : 1.0);
+  }
 
   const std::int64_t first = first_frame(trial);
   const std::int64_t last = first + frames - 1;
   if (last > std::int64_t{65535} * 65536)
     return fail(Code::not_supported, fmt::format("ends at frame {}; a C3D file can count 32 bits", last));
   const bool fits = last <= kMaxWord;
-  plan.header = {.points = static_cast<int>(trial.markers.markers()),
+  plan.header = {.points = static_cast<int>(points),
                  .analog_per_frame = static_cast<int>(static_cast<std::int64_t>(trial.analog.names.size()) *
                                                       plan.samples_per_frame),
                  .first_frame = static_cast<int>(fits ? first : 1),

@@ -17,6 +17,7 @@ struct C3dPlan {
   double scale = 1.0;                      ///< of POINT:SCALE, in units; a float's value
   std::int64_t samples_per_frame = 0;      ///< analog samples of a channel in a frame
   std::vector<double> analog_scale;        ///< K; stored = value / scale
+  std::vector<double> channel_factor;      ///< C; lengths into the unit of the file, 1 for all others
   C3dHeader header;                        ///< first block of the file
   C3dParameters parameters;                ///< POINT:DATA_START is still 0
 };

@@ -38,14 +38,14 @@ template <class Body>
 Status for_each_piece(const C3dReader& reader, std::int64_t first, std::int64_t last, bool markers,
                       Body&& body) {
   const C3dLayout& layout = reader.layout();
-  const std::int64_t per_frame = std::max<std::int64_t>(1, layout.analog_per_frame() + 3 * layout.points);
+  const std::int64_t per_frame = std::max<std::int64_t>(1, layout.analog_per_frame() + 3 * layout.markers);
   const std::int64_t piece = std::max<std::int64_t>(8, kBlockNumbers / per_frame);
   Array<double> analog, x;
   for (std::int64_t f = first; f < last; f += piece) {
     const std::int64_t count = std::min(piece, last - f), begin = std::max<std::int64_t>(0, f - 1);
     const auto frames = static_cast<std::size_t>(f + count - begin);
     analog.resize(frames * static_cast<std::size_t>(layout.analog_per_frame()));
-    x.resize(markers ? frames * static_cast<std::size_t>(3 * layout.points) : 0);
+    x.resize(markers ? frames * static_cast<std::size_t>(3 * layout.markers) : 0);
     C3dFrames out;
     out.analog = analog;
     out.x_in_world = x;
@@ -53,7 +53,7 @@ Status for_each_piece(const C3dReader& reader, std::int64_t first, std::int64_t 
       return std::unexpected(seen.error());
     body(f, count, std::span<const double>(analog),
          std::span<const double>(x).subspan(
-             x.empty() ? 0 : static_cast<std::size_t>((f - begin) * 3 * layout.points)));
+             x.empty() ? 0 : static_cast<std::size_t>((f - begin) * 3 * layout.markers)));
   }
   return {};
 }
@@ -169,7 +169,7 @@ Result<Vector3d> measure(const C3dReader& reader, std::vector<Plate>& plates) {
   auto status = for_each_piece(
       reader, 0, layout.frames, true,
       [&](std::int64_t first, std::int64_t count, std::span<const double> analog, std::span<const double> x) {
-        markers.add(x, count * layout.points);
+        markers.add(x, count * layout.markers);
         const std::int64_t origin = std::max<std::int64_t>(0, first - 1) * S;  // of the piece, in samples
         for (std::int64_t f = first; f < first + count; ++f) {
           const std::int64_t at = f * S, half = std::min({S / 2, at, samples - 1 - at});

@@ -13,6 +13,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/io/c3d/describe.h"
+#include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
 
 namespace kinemark::io {
@@ -117,6 +118,7 @@ Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
   reader.layout_ = std::move(*layout);
   trial.source = name;
   describe_trial(reader.header_, reader.parameters_, reader.layout_, trial);
+  sort_points(reader.parameters_, reader.layout_, trial);
   reader.source_ = std::move(source);
   return reader;
 }
@@ -125,14 +127,15 @@ Result<C3dSeen> C3dReader::read(std::int64_t first, std::int64_t count, const C3
                                 int threads) const {
   check(first >= 0 && count >= 0 && first + count <= layout_.frames, "frames lie outside the file");
   const auto frames = static_cast<std::size_t>(count);
-  const std::size_t points = static_cast<std::size_t>(layout_.points);
+  const auto markers = static_cast<std::size_t>(layout_.markers);
+  const std::size_t channels = 3 * layout_.channel_points.size();
   const auto analog = static_cast<std::size_t>(layout_.analog_per_frame());
   const auto fits = [&](std::size_t size, std::size_t per_frame) {
     return size == 0 || size == frames * per_frame;
   };
-  check(fits(out.x_in_world.size(), 3 * points) && fits(out.state.size(), points) &&
-            fits(out.residual_m.size(), points) && fits(out.camera_mask.size(), points) &&
-            fits(out.analog.size(), analog),
+  check(fits(out.x_in_world.size(), 3 * markers) && fits(out.state.size(), markers) &&
+            fits(out.residual_m.size(), markers) && fits(out.camera_mask.size(), markers) &&
+            fits(out.analog.size(), analog) && fits(out.channels.size(), channels),
         "spans must be empty or hold exactly the frames asked for");
   if (count == 0 || layout_.frame_bytes == 0) return C3dSeen{};
 
@@ -160,8 +163,8 @@ Result<C3dSeen> C3dReader::read(std::int64_t first, std::int64_t count, const C3
       };
       *mine += decode_frames(
           layout_, bytes.data(), n,
-          {part(out.x_in_world, 3 * points), part(out.state, points), part(out.residual_m, points),
-           part(out.camera_mask, points), part(out.analog, analog)});
+          {part(out.x_in_world, 3 * markers), part(out.state, markers), part(out.residual_m, markers),
+           part(out.camera_mask, markers), part(out.analog, analog), part(out.channels, channels)});
     }
   });
   C3dSeen total;
@@ -177,15 +180,19 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   const C3dLayout& layout = reader.layout();
   C3dFrames out;
   if (options.points) {
-    const auto samples = static_cast<std::size_t>(layout.frames * layout.points);
+    const auto samples = static_cast<std::size_t>(layout.frames * layout.markers);
     out.x_in_world = room_for(trial.markers.x_in_world, 3 * samples);
     out.state = room_for(trial.markers.state, samples);
     if (options.residuals) {
       out.residual_m = room_for(trial.residual_m, samples);
       out.camera_mask = room_for(trial.camera_mask, samples);
     }
+    trial.channels.frames = trial.channels.count() > 0 ? layout.frames : 0;
+    out.channels = room_for(trial.channels.values,
+                            3 * static_cast<std::size_t>(layout.frames) * layout.channel_points.size());
   } else {
     trial.markers.names.clear();
+    trial.channels = {};
   }
   if (options.analog) {
     trial.analog.samples = layout.frames * layout.samples_per_frame;

@@ -33,12 +33,14 @@ class FrameEncoder {
 
   [[nodiscard]] std::size_t frame_bytes() const {
     const auto analog = channels_ * static_cast<std::size_t>(plan_.samples_per_frame);
-    return (4 * static_cast<std::size_t>(points_) + analog) * (plan_.integers ? 2 : 4);
+    return (4 * (static_cast<std::size_t>(points_) + plan_.channel_factor.size()) + analog) *
+           (plan_.integers ? 2 : 4);
   }
 
   void encode(std::int64_t frame, std::byte* out) {
     at_ = out;
     for (std::int64_t m = 0; m < points_; ++m) point(frame, m);
+    for (std::size_t c = 0; c < plan_.channel_factor.size(); ++c) channel(static_cast<std::size_t>(frame), c);
     const auto samples = channels_ * static_cast<std::size_t>(plan_.samples_per_frame);
     const double* analog = trial_.analog.values.data() + static_cast<std::size_t>(frame) * samples;
     for (std::size_t i = 0; i < samples; ++i) put(analog[i] / plan_.analog_scale[i % channels_]);
@@ -75,6 +77,15 @@ class FrameEncoder {
     if (x.cwiseAbs().maxCoeff() < smallest) x.z() = plan_.integers ? 1.0 : 1e-6;
     for (const double v : x) put(v);
     put(trial_.markers.state[i] == SampleState::measured ? measured_word(i) : 0.0);
+  }
+
+  /// Numbers of the file that they came from; not measured, or missing.
+  void channel(std::size_t frame, std::size_t c) {
+    const double* values = trial_.channels.values.data() + 3 * (frame * plan_.channel_factor.size() + c);
+    const double unit = plan_.channel_factor[c] / (plan_.integers ? plan_.scale : 1.0);
+    const bool there = std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
+    for (std::size_t axis = 0; axis < 3; ++axis) put(there ? values[axis] * unit : 0.0);
+    put(there ? 0.0 : -1.0);
   }
 
   const data::Trial& trial_;

@@ -29,6 +29,13 @@ Kind kind_of(const std::string& ending) {
 std::vector<std::string> losses(const data::Trial& trial, const std::string& ending) {
   std::vector<std::string> notes = trial.warnings;
   if (ending == ".c3d") return notes;
+  if (const auto n = trial.channels.count(); n > 0)
+    notes.push_back(
+        fmt::format("{} cannot be stored in a {} file",
+                    n == 1 ? fmt::format("1 channel that is no marker ({})", trial.channels.names.front())
+                           : fmt::format("{} channels that are no markers ({} to {})", n,
+                                         trial.channels.names.front(), trial.channels.names.back()),
+                    ending));
   if (!trial.analog.names.empty())
     notes.push_back(
         fmt::format("{} analog channels cannot be stored in a {} file", trial.analog.names.size(), ending));

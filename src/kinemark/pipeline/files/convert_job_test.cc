@@ -54,6 +54,24 @@ TEST_F(ConvertFile, MarkersKeepPositionsAndGapsFromC3dToTrc) {
     }
 }
 
+TEST_F(ConvertFile, ChannelsGoFromC3dToC3dAndAreMissedElsewhere) {
+  const auto trial = testing::trial_with_channel();
+  ASSERT_TRUE(io::write_markers(at("channels.c3d"), trial, true));
+  const auto kept = convert(at("channels.c3d"), at("again.c3d"), true);
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_THAT(kept->warnings, IsEmpty());
+  const auto again = io::read_markers(at("again.c3d")).value();
+  EXPECT_EQ(again.channels.names, trial.channels.names);
+  EXPECT_EQ(again.channels.values, trial.channels.values);
+  for (const char* ending : {".trc", ".csv"}) {
+    const auto lost = convert(at("channels.c3d"), at(std::string("lost") + ending), true);
+    ASSERT_TRUE(lost) << lost.error().message;
+    EXPECT_THAT(lost->warnings,
+                Contains(HasSubstr("1 channel that is no marker (LKneeAngles) cannot be stored in a " +
+                                   std::string(ending) + " file")));
+  }
+}
+
 TEST_F(ConvertFile, WhatTheNewFormatCannotHoldIsSaid) {
   auto trial = io::read_markers(at("in/markers.c3d")).value();
   trial.events.push_back({.label = "Foot Strike", .context = "Left", .time_s = 0.1});

@@ -14,27 +14,40 @@
 namespace kinemark::pipeline {
 namespace {
 
+std::vector<ChannelFacts> describe_channels(const data::Channels& channels) {
+  std::vector<ChannelFacts> facts;
+  for (std::size_t c = 0; c < channels.names.size(); ++c)
+    facts.push_back({.name = channels.names[c],
+                     .kind = std::string(data::to_string(channels.kinds[c])),
+                     .unit = channels.units[c],
+                     .rate_hz = channels.rate_hz});
+  return facts;
+}
+
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   const auto input =
       read_marker_input({.path = job.file, .rate_hz = job.rate_hz, .rate = RateRule::or_unknown});
   if (!input) return std::unexpected(input.error());
   const auto& trial = input->trial;
   const auto& markers = trial.markers;
-  out.facts =
-      MarkerFileFacts{.format = trial.format,
-                      .units = trial.units_in_file,
-                      .software = trial.software,
-                      .points = markers.markers(),
-                      .frames = markers.frames(),
-                      .rate_hz = input->rate_known ? std::optional(markers.time.rate_hz) : std::nullopt,
-                      .first_frame = trial.first_frame,
-                      .last_frame = trial.last_frame(),
-                      .missing = markers.count_missing(),
-                      .analog_channels = trial.analog.names.size(),
-                      .analog_rate_hz = trial.analog.rate_hz,
-                      .force_plates = trial.force_plates.size(),
-                      .events = trial.events.size(),
-                      .labels = markers.names};
+  MarkerFileFacts facts{.format = trial.format,
+                        .units = trial.units_in_file,
+                        .software = trial.software,
+                        .points = markers.markers(),
+                        .frames = markers.frames(),
+                        .rate_hz = input->rate_known ? std::optional(markers.time.rate_hz) : std::nullopt,
+                        .first_frame = trial.first_frame,
+                        .last_frame = trial.last_frame(),
+                        .missing = markers.count_missing(),
+                        .analog_channels = trial.analog.names.size(),
+                        .analog_rate_hz = trial.analog.rate_hz,
+                        .force_plates = trial.force_plates.size(),
+                        .events = trial.events.size(),
+                        .labels = markers.names,
+                        .channels = describe_channels(trial.channels)};
+  for (const auto& name : markers.names)
+    if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
+  out.facts = std::move(facts);
   out.warnings = trial.warnings;
   return {};
 }

@@ -21,6 +21,12 @@ struct InfoJob : JobSettings {
   double rate_hz = 0.0;        ///< of marker files that tell none; 0: not given, theirs stays unknown
 };
 
+/// Of points that are no markers.
+struct ChannelFacts {
+  std::string name, kind, unit;  ///< as data::Channels has them
+  double rate_hz = 0.0;          ///< values a second
+};
+
 /// Of a marker file (.c3d, .trc, .nwb, .csv, .v3d).
 struct MarkerFileFacts {
   std::string format, units, software;           ///< as data::Trial has them
@@ -32,6 +38,8 @@ struct MarkerFileFacts {
   double analog_rate_hz = 0.0;                   ///< of each channel; 0 without
   std::size_t force_plates = 0, events = 0;      ///< how many there are
   std::vector<std::string> labels;               ///< of the markers
+  std::vector<std::string> unlabelled;           ///< those of them that nobody named
+  std::vector<ChannelFacts> channels;            ///< points that are no markers
 };
 
 /// Of a table (.mot, .sto).

@@ -54,6 +54,24 @@ TEST(RunInfo, MarkersTablesAndModels) {
   EXPECT_NEAR(model["mass_kg"].get<double>(), 75.0, 25.0);
 }
 
+TEST(RunInfo, ChannelsAreNoMarkers) {
+  const testing_support::ScratchFolder scratch;
+  auto trial = testing::trial_with_channel();
+  ASSERT_TRUE(io::write_markers(scratch / "t.c3d", trial, false));
+  const auto facts = facts_of(scratch / "t.c3d").value();
+  EXPECT_EQ(facts["points"], 2);
+  EXPECT_EQ(facts["labels"], nlohmann::ordered_json({"LASI", "*12"}));
+  EXPECT_EQ(facts["unlabelled"], nlohmann::ordered_json({"*12"}));
+  ASSERT_EQ(facts["channels"].size(), 1U);
+  EXPECT_EQ(facts["channels"][0]["name"], "LKneeAngles");
+  EXPECT_EQ(facts["channels"][0]["kind"], "angle");
+  EXPECT_EQ(facts["channels"][0]["unit"], "deg");
+  EXPECT_EQ(facts["channels"][0]["rate_hz"], 100.0);
+  InfoJob job;
+  job.file = scratch / "t.c3d";
+  EXPECT_THAT(info_text(run_info(job).value()), HasSubstr("channels          LKneeAngles (angle, deg)\n"));
+}
+
 TEST(RunInfo, AnEmptyTableHasNoTimes) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "none.sto",

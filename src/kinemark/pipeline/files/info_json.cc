@@ -18,12 +18,20 @@ constexpr std::size_t kLineLetters = 120;  // beside the key
 constexpr std::size_t kNameLetters = 300;
 constexpr std::string_view kBesideKey = "\n                  ";
 
-/// Names one after another, in as many lines as it takes.
+/// "LKneeAngles (angle, deg)"
+std::string channel_text(const Json& channel) {
+  const auto of = [&](const char* key) { return printable(channel[key].get<std::string>(), kNameLetters); };
+  const std::string unit = of("unit");
+  return fmt::format("{} ({}{}{})", of("name"), of("kind"), unit.empty() ? "" : ", ", unit);
+}
+
+/// Names, or channels, one after another, in as many lines as it takes.
 std::string in_lines(const Json& names) {
   std::string text;
   std::size_t begin = 0;
   for (const auto& name : names) {
-    const std::string word = printable(name.get<std::string>(), kNameLetters);
+    const std::string word =
+        name.is_object() ? channel_text(name) : printable(name.get<std::string>(), kNameLetters);
     if (text.size() > begin) {
       if (text.size() - begin + 1 + word.size() > kLineLetters) {
         text += kBesideKey;
@@ -55,6 +63,13 @@ void add(const MarkerFileFacts& facts, Json& to) {
   to["events"] = facts.events;
   to["software"] = facts.software;
   to["labels"] = facts.labels;
+  to["unlabelled"] = facts.unlabelled;
+  to["channels"] = Json::array();
+  for (const ChannelFacts& channel : facts.channels)
+    to["channels"].push_back({{"name", channel.name},
+                              {"kind", channel.kind},
+                              {"unit", channel.unit},
+                              {"rate_hz", channel.rate_hz}});
 }
 
 void add(const TableFacts& facts, Json& to) {

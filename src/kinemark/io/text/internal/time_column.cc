@@ -94,13 +94,24 @@ Status check_increase(const TimeColumn& column) {
   return {};
 }
 
+/// Frames from one row to the next; more than one: a hole. The one place that decides it.
+double frames_of_step(double step_s, double interval_s) {
+  return std::max(1.0, std::round(step_s / interval_s));
+}
+
+bool has_hole(std::span<const double> time_s, double interval_s) {
+  for (std::size_t i = 1; i < time_s.size(); ++i)
+    if (frames_of_step(time_s[i] - time_s[i - 1], interval_s) > 1.0) return true;
+  return false;
+}
+
 /// Frame interval of the steps that are no holes, s.
 double interval_without_holes(std::span<const double> time_s, double median_s) {
   double sum_s = 0.0;
   std::size_t n = 0;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const double step_s = time_s[i] - time_s[i - 1];
-    if (step_s >= kHole * median_s) continue;
+    if (frames_of_step(step_s, median_s) > 1.0) continue;
     sum_s += step_s;
     ++n;
   }
@@ -125,11 +136,11 @@ double rounded_rate_of_frames(const TimeColumn& column, std::span<const std::int
   return rate_hz;
 }
 
-/// Frames of the rows of a column with holes. @param stated_hz  a rate that agrees with the steps, or 0
-Result<EvenClock> clock_with_holes(const TimeColumn& column, double median_s, double stated_hz,
+/// Frames of the rows of a column that has a hole at this interval.
+/// @param stated_hz  a rate that agrees with the steps, or 0
+Result<EvenClock> clock_with_holes(const TimeColumn& column, double interval_s, double stated_hz,
                                    std::vector<std::string>& warnings) {
   const auto& t = column.time_s;
-  const double interval_s = stated_hz > 0.0 ? 1.0 / stated_hz : interval_without_holes(t, median_s);
   const double slack = std::min(kWholeMultiple + column.resolution_s / interval_s, 0.45);
   EvenClock clock;
   clock.frame.assign(1, 0);
@@ -137,8 +148,8 @@ Result<EvenClock> clock_with_holes(const TimeColumn& column, double median_s, do
   double frame = 0.0;
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double steps = (t[i] - t[i - 1]) / interval_s;
-    const double whole = std::max(1.0, std::round(steps));
-    if (steps >= kHole && std::abs(steps - whole) > slack)
+    const double whole = frames_of_step(t[i] - t[i - 1], interval_s);
+    if (whole > 1.0 && std::abs(steps - whole) > slack)
       return fail(
           Code::bad_input,
           fmt::format(
@@ -165,12 +176,6 @@ Result<EvenClock> clock_with_holes(const TimeColumn& column, double median_s, do
                   holes, holes == 1 ? "hole" : "holes", column.place(first_hole), t[first_hole - 1],
                   t[first_hole], missing, missing == 1 ? "frame is" : "frames are"));
   return clock;
-}
-
-bool has_hole(std::span<const double> time_s, double interval_s) {
-  for (std::size_t i = 1; i < time_s.size(); ++i)
-    if (time_s[i] - time_s[i - 1] >= kHole * interval_s) return true;
-  return false;
 }
 
 }  // namespace
@@ -240,8 +245,9 @@ Result<EvenClock> even_clock(const TimeColumn& column, std::vector<std::string>&
   const bool header_agrees =
       header_hz > 0.0 && (!is_rate(step_hz) || std::abs(step_s - 1.0 / header_hz) <=
                                                    std::max(resolution_s, kJitterFrames / header_hz));
-  if (has_hole(time_s, header_agrees ? 1.0 / header_hz : step_s) && !rounding_explains(column, header_hz))
-    return clock_with_holes(column, step_s, header_agrees ? header_hz : 0.0, warnings);
+  const double interval_s = header_agrees ? 1.0 / header_hz : interval_without_holes(time_s, step_s);
+  if (has_hole(time_s, interval_s) && !rounding_explains(column, header_hz))
+    return clock_with_holes(column, interval_s, header_agrees ? header_hz : 0.0, warnings);
   time.rate_hz = header_agrees ? header_hz : rounded_rate(time_s, resolution_s, step_hz);
   std::size_t worst = 0;
   double deviation_s = 0.0;
