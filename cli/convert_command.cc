@@ -17,6 +17,8 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("IN", job->in, "File to read")->required();
   command->add_option("OUT", job->out, "File to write; its ending names the format")->required();
   command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
+  command->add_option("--rotate", job->rotate,
+                      "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
   command->callback([&common, job, &run] {
     run = [&common, job] { return run_job(common, "files", *job, pipeline::run_convert, print_written); };
   });

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/axes_options.h"
 #include "cli/command.h"
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/motion/motion_job.h"
@@ -40,6 +41,7 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Input");
   command.add_option("--start", job.options.first_time_s, "First time to use, s")->group("Input");
   command.add_option("--end", job.options.last_time_s, "Last time to use, s")->group("Input");
+  add_axes_options(command, job.axes);
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command
       .add_option("--images", a.images,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "cli/axes_options.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/core/text.h"
@@ -94,6 +95,7 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
       ->group("Input");
   command->add_option("--end", job.adapt.ik.last_time_s, "Last time of the motion to use, s")->group("Input");
+  add_axes_options(*command, job.axes);
   command->add_option("-o,--output", job.output, "Model to write, M.osim")->group("Output");
   command->add_option("--mass", job.mass_kg, "Mass of the subject, kg")->group("Model");
   command

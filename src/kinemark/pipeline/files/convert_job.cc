@@ -14,6 +14,7 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/turn.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -67,8 +68,13 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
 }
 
 Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const std::string& ending) {
-  const auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
+  auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
   if (!input) return std::unexpected(input.error());
+  if (!job.rotate.empty()) {
+    const auto turning = parse_rotation(job.rotate);
+    if (!turning) return std::unexpected(turning.error());
+    turn(input->trial, *turning);
+  }
   if (auto s = io::write_markers(job.out, input->trial, job.force); !s) return std::unexpected(s.error());
   return losses(input->trial, ending);
 }
@@ -81,6 +87,8 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
     return fail(Code::usage,
                 fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
                             job.in.string(), job.out.string()));
+  if (!job.rotate.empty() && kind_of(from) != Kind::markers)
+    return fail(Code::usage, fmt::format("{}: only marker files can be turned", job.in.string()));
   if (auto s = check_apart({job.out}, {job.in}); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   switch (kind_of(from)) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -14,6 +15,7 @@ struct ConvertJob : JobSettings {
   std::filesystem::path in;   ///< file to convert
   std::filesystem::path out;  ///< its ending names the format
   double rate_hz = 0.0;       ///< of marker files that tell none (.v3d); 0: not given
+  std::string rotate;         ///< turns markers and force plates, "x -90"; empty: as they are
 };
 
 /// Warnings: what was odd about the input and what the new format cannot hold.

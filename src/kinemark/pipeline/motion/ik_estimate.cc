@@ -22,7 +22,8 @@ motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
 }  // namespace
 
 Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
-                                       const data::Trajectories& markers, const data::ImageTracks* images) {
+                                       const data::Trajectories& markers, const data::ImageTracks* images,
+                                       const Axes& axes) {
   MotionEstimate estimate;
   motion::RateErrors errors;
   if (job.estimator == Estimator::smoother) {
@@ -42,7 +43,7 @@ Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& mod
   if (!job.torques) return estimate;
   auto torques = add_torques(model, estimate.ik.motion, job.forces,
                              {.error_bars = job.options.error_bars, .threads = job.options.threads},
-                             errors.covariance.empty() ? nullptr : &errors);
+                             errors.covariance.empty() ? nullptr : &errors, axes);
   if (!torques) return std::unexpected(torques.error());
   estimate.torques = std::move(*torques);
   return estimate;

@@ -21,8 +21,10 @@ struct MotionEstimate {
 /// Least squares or the whole-trajectory smoother, both with the result type of the former; with torques
 /// (and, for least squares, estimated rates) in the motion when the job asks for them. Failures name the
 /// file. With images the smoother fits these, started from the markers; least squares cannot use images.
+/// @param axes  how the recording was turned; forces are turned alike
 [[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
                                                      const data::Trajectories& markers,
-                                                     const data::ImageTracks* images = nullptr);
+                                                     const data::ImageTracks* images = nullptr,
+                                                     const Axes& axes = {});
 
 }  // namespace kinemark::pipeline

@@ -164,12 +164,12 @@ Result<IkOutcome> run_ik(IkJob job) {
   if (auto s = complete(job); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
-  const auto& [model, trial, images, read] = *inputs;
+  const auto& [model, trial, axes, images, read] = *inputs;
   if (auto s = apply_tasks(job, model, trial.markers); !s) return std::unexpected(s.error());
   auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
   // Solve.
-  auto estimate = estimate_motion(job, model, trial.markers, images ? &*images : nullptr);
+  auto estimate = estimate_motion(job, model, trial.markers, images ? &*images : nullptr, axes);
   if (!estimate) return std::unexpected(estimate.error());
   // Judge.
   IkOutcome outcome;

@@ -48,6 +48,7 @@ Status check_named(const MotionJob& job, std::string_view or_else) {
   if (job.model.empty()) return fail(Code::usage, fmt::format("no model; give --model{}", or_else));
   if (job.markers.empty()) return fail(Code::usage, fmt::format("no marker file; give --markers{}", or_else));
   if (job.output.empty()) return fail(Code::usage, fmt::format("no output; give --output{}", or_else));
+  if (auto s = job.axes.check(); !s) return s;
   return job.images.check();
 }
 
@@ -56,8 +57,15 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
   if (!model) return std::unexpected(model.error());
   auto markers = read_marker_input({.path = job.markers, .rate_hz = job.rate_hz, .record = true});
   if (!markers) return std::unexpected(markers.error());
+  auto axes = bring_into_axes(job.axes, job.markers, markers->trial, model->model);
+  if (!axes) return std::unexpected(axes.error());
+  if (job.images.any() && !axes->model_from_recording.isIdentity(0.0))
+    return fail(
+        Code::usage,
+        "images are seen in the axes of their rig, which --up and --rotate do not turn; turn the model");
   MotionInputs inputs{.model = std::move(model->model),
                       .trial = std::move(markers->trial),
+                      .axes = std::move(*axes),
                       .images = {},
                       .files = {std::move(model->file), std::move(markers->file)}};
   if (auto s = add_images(job, inputs); !s) return std::unexpected(s.error());
@@ -92,9 +100,6 @@ Status add_torque_account(report::IkRun& run, const TorqueAccount& account) {
   run.warnings.insert(run.warnings.end(), account.warnings.begin(), account.warnings.end());
   for (const auto& file : account.files)
     if (auto s = add_input(run, "forces", file); !s) return s;
-  if (account.forces_off_vertical_deg)
-    add_gate(run, "forces_off_vertical", *account.forces_off_vertical_deg, kMostOffVerticalDeg, "deg",
-             account.forces_sentence);
   return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/motion/image_files.h"
 #include "kinemark/stages/report/ik_summary.h"
@@ -17,6 +18,7 @@ struct MotionJob : JobSettings {
   std::filesystem::path model, markers;  ///< .osim; and any marker file
   std::filesystem::path output;          ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
+  AxesChoice axes;               ///< how recording and forces are turned into the model's axes
   ImageFiles images;             ///< seen besides the markers; none: nothing
   double rate_hz = 0.0;          ///< for a marker file that stores none (.v3d); 0: not given
   double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers

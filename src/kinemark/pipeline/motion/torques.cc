@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "kinemark/core/units.h"
+#include "kinemark/pipeline/files/turn.h"
 #include "kinemark/pipeline/motion/external_forces.h"
 
 namespace kinemark::pipeline {
@@ -85,33 +86,15 @@ std::string direction(const Vector3d& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", rounded(v.x()), rounded(v.y()), rounded(v.z()));
 }
 
-/// Plates push the body upwards; otherwise recording and model have different axes.
-void check_forces_vertical(const data::Wrenches& wrenches, const model::Model& model,
-                           TorqueAccount& account) {
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& wrench : wrenches.items)
-    for (std::int64_t f = 0; f < wrenches.frames(); ++f)
-      if (known(wrench, f)) sum += Eigen::Map<const Vector3d>(wrench.force.data() + 3 * f);
-  const Vector3d up = -model.gravity().normalized();
-  const double most = 1e3 * static_cast<double>(wrenches.frames());  // N, largest force of a person
-  if (!(sum.norm() > 1e-2 * most) || !up.allFinite()) return;
-  const Vector3d mean = sum.normalized();
-  account.forces_off_vertical_deg = kDegPerRad * std::acos(std::clamp(mean.dot(up), -1.0, 1.0));
-  account.forces_sentence = fmt::format(
-      "The forces push along {} on average, up in the model is {}: {:.0f} deg apart, at most {:.0f} deg are "
-      "accepted. Forces, markers and model need the same axes.",
-      direction(mean), direction(up), *account.forces_off_vertical_deg, kMostOffVerticalDeg);
-}
-
 /// Where no force says what is up, the body does: its mass centre lies above its feet, unless it lies down.
 void check_posture(const model::Model& model, const motion::DynamicsSummary& dynamics,
                    TorqueAccount& account) {
   if (dynamics.feet_to_centre.isZero()) return;
   const Vector3d up = -model.gravity().normalized(), body = dynamics.feet_to_centre.normalized();
-  if (!up.allFinite() || body.dot(up) > std::cos(kRadPerDeg * kMostOffVerticalDeg)) return;
+  if (!up.allFinite() || body.dot(up) > std::cos(45.0 * kRadPerDeg)) return;
   account.warnings.push_back(fmt::format(
       "the body stands along {} on average, from its feet to its mass centre, and up in the model is {}: "
-      "either it lies, or markers and model have different axes and the torques a wrong gravity",
+      "either it lies, or markers and model have different axes (--up) and the torques a wrong gravity",
       direction(body), direction(up)));
 }
 
@@ -139,7 +122,7 @@ void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, Torqu
 
 Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,
                                   const std::filesystem::path& forces, const motion::DynamicsOptions& options,
-                                  const motion::RateErrors* errors) {
+                                  const motion::RateErrors* errors, const Axes& axes) {
   TorqueAccount account;
   ExternalForces external;
   const bool with_forces = !forces.empty();
@@ -150,7 +133,10 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
     account.files = external.files;
     for (const auto& warning : external.warnings)
       account.warnings.push_back(fmt::format("{}: {}", forces.filename().string(), warning));
-    check_forces_vertical(external.wrenches, model, account);
+    turn(external.wrenches, axes.model_from_recording);
+    const auto off = check_forces(external.wrenches, axes, model);
+    if (!off) return fail_at(forces.string(), off.error());
+    if (!off->empty()) account.warnings.push_back(*off);
   }
   const auto dynamics =
       motion::inverse_dynamics(model, motion, options, with_forces ? &external.wrenches : nullptr, errors);
@@ -161,7 +147,7 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
     tell_forces(external.wrenches, *dynamics, account);
     tell_unmeasured(*dynamics, motion.time, account);
   }
-  if (!account.forces_off_vertical_deg) check_posture(model, *dynamics, account);
+  if (!with_forces) check_posture(model, *dynamics, account);
   tell_roots(*dynamics, with_forces, account);
   return account;
 }

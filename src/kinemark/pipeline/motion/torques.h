@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,12 +10,10 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/model/model.h"
+#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 
 namespace kinemark::pipeline {
-
-/// Largest accepted angle between the mean of the forces and the model's up axis.
-inline constexpr double kMostOffVerticalDeg = 45.0;
 
 /// Facts about the torques of a motion, for the report.
 struct TorqueAccount {
@@ -25,16 +22,16 @@ struct TorqueAccount {
       facts;  ///< which plate acted on which body and when; how long forces are unknown; the residual of the
               ///< root
   std::vector<std::string> warnings;  ///< one sentence each
-  /// Angle between the mean of the forces and the model's up axis, degrees; none where no forces say.
-  std::optional<double> forces_off_vertical_deg;
-  std::string forces_sentence;  ///< the same for people, with both directions
 };
 
 /// Fill tau (and tau_sd) of a motion by inverse dynamics, with the forces of a file unless `forces` is empty.
+/// Forces in other axes than the model's: check_forces().
 /// @param errors  of the motion's rates; null: estimated
+/// @param axes    how the recording was turned; the forces are turned alike
 [[nodiscard]] Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,
                                                 const std::filesystem::path& forces,
                                                 const motion::DynamicsOptions& options,
-                                                const motion::RateErrors* errors = nullptr);
+                                                const motion::RateErrors* errors = nullptr,
+                                                const Axes& axes = {});
 
 }  // namespace kinemark::pipeline

@@ -166,10 +166,15 @@ TEST(Torques, ForcesInOtherAxesAreNoticed) {
   description.gravity = {0.0, -kGravity, 0.0};  // y up, the recording z up
   const auto model = model::Model::compile(description).value();
   auto motion = stand(model, 10);
-  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
-  EXPECT_NEAR(account.forces_off_vertical_deg.value(), 90.0, 0.1);
-  EXPECT_THAT(account.forces_sentence, HasSubstr("The forces push along (0.00, 0.00, 1.00) on average, up in "
-                                                 "the model is (0.00, 1.00, 0.00): 90 deg apart"));
+  const auto refused = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::bad_input);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("stand.c3d: the forces push along z on average, 90 deg off y"));
+  const Axes chosen{.model_from_recording = Eigen::Matrix3d::Identity(), .chosen = true, .note = ""};
+  const auto account =
+      add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}, nullptr, chosen).value();
+  EXPECT_THAT(account.warnings, Contains(HasSubstr("90 deg off y")));
 }
 
 /// A foot and a trunk 0.9 m along z from it.
@@ -191,7 +196,6 @@ TEST(Torques, ABodyThatStandsAcrossGravityIsNoticedWithoutForces) {
   auto motion = stand(standing, 10);
   const auto upright = add_torques(standing, motion, {}, {.error_bars = false}).value();
   EXPECT_THAT(upright.warnings, Not(Contains(HasSubstr("stands along"))));
-  EXPECT_FALSE(upright.forces_off_vertical_deg);
   const auto sideways = add_torques(across, motion, {}, {.error_bars = false}).value();
   EXPECT_THAT(
       sideways.warnings,

@@ -100,11 +100,13 @@ Status add_images(const internal::MotionInputs& inputs, motion::TrackOptions& op
 
 /// What the controller pushes with knows nothing of the ground: with forces the torques are made anew, from
 /// the motion and the forces.
-Result<TorqueAccount> add_torques(const TrackJob& job, const model::Model& model,
+Result<TorqueAccount> add_torques(const TrackJob& job, const internal::MotionInputs& inputs,
                                   motion::TrackResult& result) {
+  const model::Model& model = inputs.model;
   if (!job.forces.empty())
     return pipeline::add_torques(model, result.motion, job.forces,
-                                 {.error_bars = job.options.error_bars, .threads = job.options.threads});
+                                 {.error_bars = job.options.error_bars, .threads = job.options.threads},
+                                 nullptr, inputs.axes);
   if (job.options.error_bars) add_torque_deviations(model, job, result);
   return TorqueAccount{};
 }
@@ -138,7 +140,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
   }
   TrackOutcome outcome;
   outcome.result = std::move(*result);
-  const auto torques = add_torques(job, inputs->model, outcome.result);
+  const auto torques = add_torques(job, *inputs, outcome.result);
   if (!torques) return std::unexpected(torques.error());
   // Judge.
   auto run = describe_run(job, *inputs, outcome.result, *torques);

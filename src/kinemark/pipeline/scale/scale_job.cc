@@ -60,6 +60,7 @@ class ScaleRun {
       return fail(Code::usage, "nothing to scale by; give --static, --setup or --markers");
     if (!std::isfinite(job_.mass_kg) || job_.mass_kg < 0.0)
       return fail(Code::usage, fmt::format("a mass of {} kg; need a number above 0", job_.mass_kg));
+    if (auto s = job_.axes.check(); !s) return s;
     if (job_.dempster && job_.mass_kg == 0.0)
       return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
     for (const double sd : {job_.size_prior_sd, job_.position_prior_sd_m})
@@ -244,13 +245,17 @@ class ScaleRun {
   }
 
   /// --static takes precedence over the file named by the setup.
-  Status read_trial(const fs::path& named, const char* what, data::Trajectories& out,
-                    bool by_setup = false) const {
+  Status read_trial(const fs::path& named, const char* what, data::Trajectories& out, bool by_setup = false) {
     const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;
     if (path.empty())
       return fail(Code::usage, fmt::format("{} needs a marker file; give --static or name it there", what));
     auto input = read_marker_input({.path = path, .rate_hz = job_.rate_hz, .rate = RateRule::where_needed});
     if (!input) return std::unexpected(input.error());
+    const auto model = model::Model::compile(out_.model);
+    if (!model) return fail_at(job_.model.string(), model.error());
+    const auto axes = bring_into_axes(job_.axes, path, input->trial, *model);
+    if (!axes) return std::unexpected(axes.error());
+    if (!axes->note.empty()) out_.warnings.push_back(fmt::format("{}: {}", path.string(), axes->note));
     out = std::move(input->trial.markers);
     return {};
   }

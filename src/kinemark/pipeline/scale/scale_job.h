@@ -9,6 +9,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/muscle_path.h"
+#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
 #include "kinemark/stages/motion/scaling/place.h"
@@ -24,6 +25,7 @@ struct ScaleJob : JobSettings {
   std::filesystem::path markers;       ///< marker file of a motion: sizes and positions are adapted to it
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
   double rate_hz = 0.0;                ///< for marker files that store none (.v3d); 0: not given
+  AxesChoice axes;                     ///< how marker files are turned into the model's axes
   double mass_kg = 0.0;                ///< 0: the setup's, or as the factors make it
   bool dempster = false;               ///< distribute the mass by Dempster's fractions
   bool clavicles = false;              ///< set shoulders free first

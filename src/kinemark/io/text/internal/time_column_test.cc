@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace kinemark::io::internal {
@@ -137,6 +138,30 @@ TEST(EvenTime, FramesMissingFromTheColumnAreCounted) {
     EXPECT_EQ(lost.frame[49], 49);
     EXPECT_EQ(lost.frame[50], 60);
     EXPECT_EQ(lost.frame.back(), 109);
+  }
+}
+
+TEST(EvenTime, AStepThatIsOnTheEdgeOfAHoleIsOneFrameOrAHoleButNeverBoth) {
+  // 0.029 s is a hole beside the median step of 0.011 s, and one frame and a half of the rate: uneven, no
+  // lost frame.
+  for (const double stated_hz : {0.0, 1.5 / 0.029, 50.0, 52.0}) {
+    for (const double longest_s : {0.029, 0.0165, 0.0150, 0.0152}) {
+      const std::vector<double> time_s = {0.011,
+                                          0.011 + longest_s,
+                                          0.022 + longest_s,
+                                          0.031 + longest_s,
+                                          0.042 + longest_s,
+                                          0.051 + longest_s};
+      std::vector<std::string> warnings;
+      const auto fitted = clock_of(time_s, 0.0, {stated_hz}, warnings);
+      if (!fitted) {
+        EXPECT_THAT(fitted.error().message, HasSubstr("time jumps")) << stated_hz << ' ' << longest_s;
+      } else {
+        const bool says_hole = std::ranges::any_of(
+            warnings, [](const std::string& w) { return w.find("hole") != std::string::npos; });
+        EXPECT_EQ(says_hole, fitted->time.frames > 6) << stated_hz << ' ' << longest_s;
+      }
+    }
   }
 }
 

@@ -22,7 +22,8 @@ namespace kinemark::pipeline::internal {
 
 struct MotionInputs {
   model::Model model;
-  data::Trial trial;
+  data::Trial trial;                        ///< in the model's axes
+  Axes axes;                                ///< how it came there
   std::optional<data::ImageTracks> images;  ///< at the frames of the trial
   std::vector<data::InputFile> files;       ///< all that were read, for the record
 };

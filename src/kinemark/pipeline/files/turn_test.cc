@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/turn.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace kinemark::pipeline {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+TEST(ParseAxis, SixNamesAndNoOther) {
+  EXPECT_EQ(parse_axis("x").value(), Vector3d::UnitX());
+  EXPECT_EQ(parse_axis("-z").value(), Vector3d(0.0, 0.0, -1.0));
+  EXPECT_EQ(parse_axis("+Y").value(), Vector3d::UnitY());
+  for (const char* bad : {"", "-", "w", "xy", "--x", "1"})
+    EXPECT_EQ(parse_axis(bad).error().code, Code::usage) << bad;
+}
+
+TEST(NameOfDirection, IsTheAxisOrItsNumbers) {
+  EXPECT_EQ(name_of_direction({0.0, 0.0, 2.0}), "z");
+  EXPECT_EQ(name_of_direction({0.05, -1.0, 0.0}), "-y");
+  EXPECT_EQ(name_of_direction({0.6, 0.8, 0.0}), "(0.60, 0.80, 0.00)");
+}
+
+TEST(ParseRotation, QuarterTurnsAreExact) {
+  const Matrix3d R = parse_rotation("x -90").value();
+  EXPECT_EQ(Vector3d(R * Vector3d::UnitZ()), Vector3d::UnitY());  // Z-up becomes Y-up
+  EXPECT_EQ(Vector3d(R * Vector3d::UnitX()), Vector3d::UnitX());
+  for (const double entry : R.reshaped()) EXPECT_TRUE(entry == 0.0 || entry == 1.0 || entry == -1.0) << entry;
+}
+
+TEST(ParseRotation, FollowOneAnotherAboutTheLaboratory) {
+  EXPECT_EQ(parse_rotation("x 90 z 90").value(),
+            Matrix3d(parse_rotation("z 90").value() * parse_rotation("x 90").value()));
+  EXPECT_TRUE(parse_rotation("y 30 y -30").value().isIdentity(1e-15));
+}
+
+TEST(ParseRotation, RefusesWhatIsNone) {
+  for (const char* bad : {"", "x", "90", "x ninety", "x -90 y", "x nan", "q 90", "x 720"})
+    EXPECT_EQ(parse_rotation(bad).error().code, Code::usage) << bad;
+}
+
+TEST(RotationBetween, BringsEveryAxisToEveryOther) {
+  const char* names[] = {"x", "y", "z", "-x", "-y", "-z"};
+  for (const char* from : names)
+    for (const char* to : names) {
+      const Matrix3d R = rotation_between(parse_axis(from).value(), parse_axis(to).value());
+      EXPECT_EQ(Vector3d(R * parse_axis(from).value()), parse_axis(to).value()) << from << " " << to;
+      EXPECT_EQ(R.determinant(), 1.0);
+    }
+  EXPECT_EQ(rotation_between(Vector3d::UnitZ(), Vector3d::UnitY()), parse_rotation("x -90").value());
+}
+
+TEST(Turn, TakesAllOfATrialAlong) {
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({"A", "B"}, {.rate_hz = 10.0, .frames = 1});
+  trial.markers.x(0, 0) = Vector3d(0.1, 0.2, 0.3);
+  trial.markers.state[0] = data::SampleState::measured;
+  trial.markers.covariance = {1.0, 0.0, 0.0, 2.0, 0.5, 3.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+  trial.force_plates.emplace_back().corners_in_world[2] = Vector3d(1.0, 2.0, 3.0);
+  turn(trial, parse_rotation("x -90").value());  // (x, y, z) becomes (x, z, -y)
+  EXPECT_EQ(Vector3d(trial.markers.x(0, 0)), Vector3d(0.1, 0.3, -0.2));
+  EXPECT_FALSE(trial.markers.x(0, 1).array().isFinite().any());
+  EXPECT_THAT(std::vector<double>(trial.markers.covariance.begin(), trial.markers.covariance.begin() + 6),
+              testing::ElementsAre(1.0, 0.0, 0.0, 3.0, -0.5, 2.0));
+  EXPECT_EQ(trial.force_plates[0].corners_in_world[2], Vector3d(1.0, 3.0, -2.0));
+}
+
+TEST(Turn, WrenchesKeepWhatTheyDo) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  data::Wrenches wrenches{.time = {.rate_hz = 10.0, .frames = 1},
+                          .items = {{.name = "p",
+                                     .body = "",
+                                     .force = {0.0, 0.0, 700.0},
+                                     .moment = {1.0, 2.0, 3.0},
+                                     .point = {0.5, nan, 0.0}}}};
+  turn(wrenches, parse_rotation("x -90").value());
+  EXPECT_THAT(wrenches.items[0].force, testing::ElementsAre(0.0, 700.0, 0.0));
+  EXPECT_THAT(wrenches.items[0].moment, testing::ElementsAre(1.0, 3.0, -2.0));
+  EXPECT_EQ(wrenches.items[0].point[0], 0.5);
+  EXPECT_EQ(wrenches.items[0].point[1], 0.0) << "an unknown coordinate does not spoil the others";
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
