@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -49,6 +50,18 @@ void turn_covariances(Array<double>& values, const Matrix3d& R) {
     if (!C.allFinite()) continue;
     C = R * C * R.transpose();
     c[0] = C(0, 0), c[1] = C(0, 1), c[2] = C(0, 2), c[3] = C(1, 1), c[4] = C(1, 2), c[5] = C(2, 2);
+  }
+}
+
+/// Outputs that are points of the laboratory; angles, forces and moments are in the axes of their segments.
+void turn_modeled_markers(data::Channels& channels, const Matrix3d& to_from) {
+  const auto count = static_cast<std::size_t>(channels.count());
+  for (std::size_t c = 0; c < count; ++c) {
+    if (channels.kinds[c] != data::ChannelKind::modeled_marker) continue;
+    for (std::size_t i = 3 * c; i + 3 <= channels.values.size(); i += 3 * count) {
+      Eigen::Map<Vector3d> x(channels.values.data() + i);
+      x = turned(to_from, x);
+    }
   }
 }
 
@@ -108,6 +121,11 @@ void turn(data::Trial& trial, const Matrix3d& to_from) {
   if (to_from.isIdentity(0.0)) return;
   turn_triples(trial.markers.x_in_world, to_from);
   turn_covariances(trial.markers.covariance, to_from);
+  turn_modeled_markers(trial.channels, to_from);
+  if (std::ranges::any_of(trial.channels.kinds, [](data::ChannelKind kind) {
+        return kind == data::ChannelKind::force || kind == data::ChannelKind::moment;
+      }))
+    trial.warnings.emplace_back("forces and moments among the outputs of a model keep their axes");
   for (auto& plate : trial.force_plates)
     for (auto& corner : plate.corners_in_world) corner = turned(to_from, corner);
 }

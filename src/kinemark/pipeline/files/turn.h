@@ -28,7 +28,8 @@ namespace kinemark::pipeline {
 /// about x, or about y where x is the axis.
 [[nodiscard]] Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// Turn everything of a trial that has a direction: positions, their covariances, force plates.
+/// Turn everything of a trial that has a direction: positions, their covariances, modelled
+/// markers, force plates. Other outputs of a model are in the axes of its segments and stay.
 /// @param to_from  rotation, x_new = to_from x_old
 void turn(data::Trial& trial, const Eigen::Matrix3d& to_from);
 /// Turn forces, moments and their points.

@@ -67,8 +67,23 @@ TEST(Turn, TakesAllOfATrialAlong) {
   EXPECT_EQ(Vector3d(trial.markers.x(0, 0)), Vector3d(0.1, 0.3, -0.2));
   EXPECT_FALSE(trial.markers.x(0, 1).array().isFinite().any());
   EXPECT_THAT(std::vector<double>(trial.markers.covariance.begin(), trial.markers.covariance.begin() + 6),
-              testing::ElementsAre(1.0, 0.0, 0.0, 3.0, -0.5, 2.0));
+              ::testing::ElementsAre(1.0, 0.0, 0.0, 3.0, -0.5, 2.0));
   EXPECT_EQ(trial.force_plates[0].corners_in_world[2], Vector3d(1.0, 3.0, -2.0));
+}
+
+TEST(Turn, OfTheOutputsOfAModelOnlyPointsAreTurned) {
+  using enum data::ChannelKind;
+  data::Trial trial;
+  trial.channels = {.names = {"LKneeAngles", "LHJC", "LHipForce"},
+                    .kinds = {angle, modeled_marker, force},
+                    .units = {"deg", "mm", "N"},
+                    .rate_hz = 10.0,
+                    .frames = 2,
+                    .values = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18}};
+  turn(trial, parse_rotation("x -90").value());
+  EXPECT_THAT(trial.channels.values,
+              ::testing::ElementsAre(1, 2, 3, 4, 6, -5, 7, 8, 9, 10, 11, 12, 13, 15, -14, 16, 17, 18));
+  EXPECT_THAT(trial.warnings, ::testing::ElementsAre(::testing::HasSubstr("keep their axes")));
 }
 
 TEST(Turn, WrenchesKeepWhatTheyDo) {
@@ -80,8 +95,8 @@ TEST(Turn, WrenchesKeepWhatTheyDo) {
                                      .moment = {1.0, 2.0, 3.0},
                                      .point = {0.5, nan, 0.0}}}};
   turn(wrenches, parse_rotation("x -90").value());
-  EXPECT_THAT(wrenches.items[0].force, testing::ElementsAre(0.0, 700.0, 0.0));
-  EXPECT_THAT(wrenches.items[0].moment, testing::ElementsAre(1.0, 3.0, -2.0));
+  EXPECT_THAT(wrenches.items[0].force, ::testing::ElementsAre(0.0, 700.0, 0.0));
+  EXPECT_THAT(wrenches.items[0].moment, ::testing::ElementsAre(1.0, 3.0, -2.0));
   EXPECT_EQ(wrenches.items[0].point[0], 0.5);
   EXPECT_EQ(wrenches.items[0].point[1], 0.0) << "an unknown coordinate does not spoil the others";
 }

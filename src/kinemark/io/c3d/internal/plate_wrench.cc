@@ -8,6 +8,8 @@
 #include <cctype>
 #include <optional>
 
+#include "kinemark/io/length_unit.h"
+
 namespace kinemark::io::internal {
 namespace {
 
