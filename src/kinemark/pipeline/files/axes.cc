@@ -54,11 +54,12 @@ Result<Axes> settle_axes(const AxesChoice& choice, const std::filesystem::path& 
     return Axes{.model_from_recording = parse_rotation(choice.rotate).value(),
                 .chosen = true,
                 .note = fmt::format("the recording was turned: {}", choice.rotate)};
-  const Vector3d up = -model.gravity().normalized();
-  if (!up.allFinite()) {
+  const auto against_gravity = up_of(model);
+  if (!against_gravity) {
     if (choice.up.empty()) return Axes{};
     return fail(Code::bad_input, "the model has no gravity, and so no vertical for --up; give --rotate");
   }
+  const Vector3d up = *against_gravity;
   if (!choice.up.empty() && choice.up != "auto") return with_up(parse_axis(choice.up).value(), up);
   const auto found = find_vertical(path, trial, model);
   if (choice.up == "auto") {
@@ -96,19 +97,19 @@ Result<std::string> check_forces(const data::Wrenches& wrenches, const Axes& axe
       const Eigen::Map<const Vector3d> force(wrench.force.data() + i);
       if (force.allFinite() && Eigen::Map<const Vector3d>(wrench.moment.data() + i).allFinite()) sum += force;
     }
-  const Vector3d up = -model.gravity().normalized();
-  if (!(sum.norm() > kLeastForce_n * static_cast<double>(wrenches.frames())) || !up.allFinite()) return "";
+  const auto up = up_of(model);
+  if (!(sum.norm() > kLeastForce_n * static_cast<double>(wrenches.frames())) || !up) return "";
   const Vector3d mean = sum.normalized();
-  const double off_deg = degrees_between(mean, up);
+  const double off_deg = degrees_between(mean, *up);
   if (off_deg <= kMostOff_deg) return "";
   std::string off =
       fmt::format("the forces push along {} on average, {:.0f} deg off {}, which is up in the model",
-                  name_of_direction(mean), off_deg, name_of_direction(up));
+                  name_of_direction(mean), off_deg, name_of_direction(*up));
   if (axes.chosen) return off;
   return fail(Code::bad_input,
               fmt::format("{}; give --up {} when the markers have the axes of the forces, else turn the file "
                           "of the forces ('kinemark convert --rotate'), or --up {} to take all as it is",
-                          off, name_of_direction(mean), name_of_direction(up)));
+                          off, name_of_direction(mean), name_of_direction(*up)));
 }
 
 }  // namespace kinemark::pipeline

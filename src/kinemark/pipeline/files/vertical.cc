@@ -93,6 +93,12 @@ std::optional<Vector3d> up_in_frame(const data::Trajectories& markers, const std
 
 }  // namespace
 
+std::optional<Vector3d> up_of(const model::Model& model) {
+  const double g = model.gravity().norm();
+  if (!(g > 0.0)) return std::nullopt;
+  return Vector3d(-model.gravity() / g);
+}
+
 std::optional<Vertical> vertical_of_plates(const data::Trial& trial) {
   const Vector3d middle = middle_of(trial.markers);
   std::optional<Vector3d> common;
@@ -111,15 +117,15 @@ std::optional<Vertical> vertical_of_plates(const data::Trial& trial) {
 }
 
 std::optional<Vertical> vertical_of_body(const data::Trajectories& markers, const model::Model& model) {
-  const Vector3d up = -model.gravity().normalized();
-  if (!up.allFinite()) return std::nullopt;
-  const auto pairs = pairs_of(markers, model, up);
+  const auto up = up_of(model);
+  if (!up) return std::nullopt;
+  const auto pairs = pairs_of(markers, model, *up);
   if (pairs.empty()) return std::nullopt;
   std::vector<Vector3d> ups;
   Vector3d sum = Vector3d::Zero();
   const std::int64_t step = std::max<std::int64_t>(1, markers.frames() / kMostFrames);
   for (std::int64_t f = 0; f < markers.frames(); f += step)
-    if (const auto in_frame = up_in_frame(markers, pairs, f, up)) {
+    if (const auto in_frame = up_in_frame(markers, pairs, f, *up)) {
       ups.push_back(*in_frame);
       sum += *in_frame;
     }

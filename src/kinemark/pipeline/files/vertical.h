@@ -19,6 +19,9 @@ struct Vertical {
   std::string from;    ///< "the force plates", for a sentence
 };
 
+/// Against gravity, length 1; none where the model has no gravity.
+[[nodiscard]] std::optional<Eigen::Vector3d> up_of(const model::Model& model);
+
 /// The axis across all plates, towards the markers. None where there are no plates with corners, where they
 /// differ or lie askew by more than 10 deg.
 [[nodiscard]] std::optional<Vertical> vertical_of_plates(const data::Trial& trial);
