@@ -11,6 +11,7 @@ Finds the program in KINEMARK_PROGRAM and the recordings in KINEMARK_TEST_DATA; 
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data")) / "opensim-gait2354"
 MOST = 1e-9
+NUMBER = re.compile(r"[+-]?\d+(\.\d*)?([eE][+-]?\d+)?")
 FEET = ("calcn_r", "calcn_l")
 
 LOADS = """<?xml version="1.0" encoding="UTF-8"?>
@@ -77,7 +79,7 @@ def numbers(path):
     text = path.read_text()
     body = text.partition("endheader\n")[2] if path.suffix in (".mot", ".sto") else text.partition("<Model")[2]
     cells = body.replace("<", " ").replace(">", " ").split()
-    return [float(cell) for cell in cells if cell.lstrip("+-")[:1].isdigit()]
+    return [float(cell) for cell in cells if NUMBER.fullmatch(cell)]
 
 
 def worst_of(one, other, names):
