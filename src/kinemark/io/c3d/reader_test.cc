@@ -257,6 +257,19 @@ TEST(C3dReader, UnsignedAnalogSamplesGoPast32767) {
   EXPECT_NEAR(bytes.read()->analog.values[0], (40000 - 32768) * step, 1e-9);
 }
 
+TEST(C3dReader, AMisspeltUnitIsTakenForTheOneThatItIsLike) {
+  Bytes bytes(simulate_trial({}), {.units = "meters"});
+  const double x = bytes.read()->markers.x(0, 0)[0];
+  std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "metars", 6);
+  Trial t = bytes.read().value();
+  EXPECT_EQ(t.markers.x(0, 0)[0], x);
+  EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'metars', not a known length; taken for m"));
+  std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "furlon", 6);
+  t = bytes.read().value();
+  EXPECT_NEAR(t.markers.x(0, 0)[0], 1e-3 * x, 1e-12);
+  EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'furlon', not a known length; mm is assumed"));
+}
+
 TEST(C3dReader, NonsenseForcePlatesAreLeftOut) {
   Trial trial = simulate_trial({.channels = 6});
   trial.force_plates.push_back({.type = 2, .channel_idx = {0, 1, 2, 3, 4, 5}});
