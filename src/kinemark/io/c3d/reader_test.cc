@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -259,14 +260,18 @@ TEST(C3dReader, UnsignedAnalogSamplesGoPast32767) {
 
 TEST(C3dReader, AMisspeltUnitIsTakenForTheOneThatItIsLike) {
   Bytes bytes(simulate_trial({}), {.units = "meters"});
-  const double x = bytes.read()->markers.x(0, 0)[0];
+  const auto first = [](const Trial& trial) {
+    const auto& x = trial.markers.x_in_world;
+    return *std::ranges::find_if(x, [](double coordinate) { return std::isfinite(coordinate); });
+  };
+  const double x = first(bytes.read().value());
   std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "metars", 6);
   Trial t = bytes.read().value();
-  EXPECT_EQ(t.markers.x(0, 0)[0], x);
+  EXPECT_EQ(first(t), x);
   EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'metars', not a known length; taken for m"));
   std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "furlon", 6);
   t = bytes.read().value();
-  EXPECT_NEAR(t.markers.x(0, 0)[0], 1e-3 * x, 1e-12);
+  EXPECT_NEAR(first(t), 1e-3 * x, 1e-12);
   EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'furlon', not a known length; mm is assumed"));
 }
 
