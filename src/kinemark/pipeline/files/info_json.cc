@@ -137,7 +137,7 @@ std::string info_text(const InfoOutcome& outcome) {
       for (const auto& warning : outcome.warnings)
         text += fmt::format("warning           {}\n", printable_sentence(warning));
     } else if (value.is_array()) {
-      text += fmt::format("{:<17} {}\n", key, in_lines(value));
+      text += fmt::format("{:<17} {}\n", key, value.empty() ? "none" : in_lines(value));
     } else {
       text += fmt::format("{:<17} {}\n", key,
                           value.is_string() ? printable(value.get<std::string>()) : value.dump());
