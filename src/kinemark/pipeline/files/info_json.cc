@@ -69,7 +69,8 @@ void add(const MarkerFileFacts& facts, Json& to) {
     to["channels"].push_back({{"name", channel.name},
                               {"kind", channel.kind},
                               {"unit", channel.unit},
-                              {"rate_hz", channel.rate_hz}});
+                              {"rate_hz", channel.rate_hz},
+                              {"missing", channel.missing}});
 }
 
 void add(const TableFacts& facts, Json& to) {
