@@ -35,12 +35,7 @@ std::vector<LengthUnitName> units_like(std::string_view word) {
     const double metres = metres_per_unit(name).value();
     const auto same = [&](const LengthUnitName& unit) { return unit.metres == metres; };
     if (std::ranges::any_of(units, same)) continue;
-    const char* usual = metres == 1e-3     ? "mm"
-                        : metres == 1e-2   ? "cm"
-                        : metres == 1.0    ? "m"
-                        : metres == 0.0254 ? "inch"
-                                           : "foot";
-    units.push_back({usual, metres});
+    units.push_back({name, metres});
   }
   return units;
 }

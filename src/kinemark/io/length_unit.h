@@ -16,12 +16,12 @@ namespace kinemark::io {
 
 /// A unit by its usual name.
 struct LengthUnitName {
-  std::string name;  ///< "mm", "cm", "m", "inch" or "foot"
+  std::string name;  ///< in full, "meter"
   double metres;     ///< per unit
 };
 
-/// What an unknown word was probably meant to be ("mete": m), nearest first, each unit once; empty when it is
-/// like none.
+/// What an unknown word was probably meant to be ("mete": meter), nearest first, each unit once; empty when
+/// it is like none.
 [[nodiscard]] std::vector<LengthUnitName> units_like(std::string_view word);
 
 /// The only one of these units that makes a recording of a body of what reaches over `extent` units: 0.1 to

@@ -26,10 +26,10 @@ std::vector<std::string> names_like(std::string_view word) {
 }
 
 TEST(LengthUnit, AMisspeltWordIsLikeTheUnitThatItWasMeantToBe) {
-  EXPECT_EQ(names_like("mete"), std::vector<std::string>{"m"});
-  EXPECT_EQ(names_like("milimeters"), std::vector<std::string>{"mm"});
-  EXPECT_EQ(names_like("centi"), std::vector<std::string>{"cm"});
-  EXPECT_EQ(names_like("inhces"), std::vector<std::string>{"inch"});
+  EXPECT_EQ(names_like("mete"), std::vector<std::string>{"meter"});
+  EXPECT_EQ(names_like("milimeters"), std::vector<std::string>{"millimeter"});
+  EXPECT_EQ(names_like("centi"), std::vector<std::string>{"centimeter"});
+  EXPECT_EQ(names_like("inhces"), std::vector<std::string>{"inches"});
   EXPECT_EQ(names_like("furlong"), std::vector<std::string>{});
   EXPECT_EQ(names_like(""), std::vector<std::string>{});
   EXPECT_EQ(names_like("mn"), std::vector<std::string>{}) << "two letters are like anything";

@@ -268,7 +268,7 @@ TEST(C3dReader, AMisspeltUnitIsTakenForTheOneThatItIsLike) {
   std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "metars", 6);
   Trial t = bytes.read().value();
   EXPECT_EQ(first(t), x);
-  EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'metars', not a known length; taken for m"));
+  EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'metars', not a known length; taken for meter"));
   std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "furlon", 6);
   t = bytes.read().value();
   EXPECT_NEAR(first(t), 1e-3 * x, 1e-12);

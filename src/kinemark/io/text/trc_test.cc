@@ -135,11 +135,11 @@ TEST(ParseTrc, AMisspeltUnitIsTakenForTheOneThatMakesABody) {
   EXPECT_EQ(metres.markers.x(0, 0)[0], 1.0);
   EXPECT_EQ(metres.units_in_file, "mete");
   EXPECT_THAT(metres.warnings,
-              ElementsAre(testing::AllOf(HasSubstr("line 3: unit 'mete' is unknown; taken for m"),
+              ElementsAre(testing::AllOf(HasSubstr("line 3: unit 'mete' is unknown; taken for meter"),
                                          HasSubstr("reach over"))));
   EXPECT_THAT(
       bad(with_unit("milimeter")),
-      HasSubstr("unit 'milimeter' is unknown, and in mm markers that reach over 9 are no body; expected"))
+      HasSubstr("unit 'milimeter' is unknown, and the markers, which reach over 9 of it, do not tell"))
       << "a body of millimetres is none";
 }
 
