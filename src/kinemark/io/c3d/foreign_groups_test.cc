@@ -72,7 +72,7 @@ TEST_P(ForeignGroupsOf, ComeBackByteForByte) {
   const auto path = folder.path() / "a.c3d";
   ASSERT_TRUE(write_c3d(path, trial, {.processor = GetParam()}));
   const auto back = read_c3d(path);
-  ASSERT_TRUE(back) << back.error().message();
+  ASSERT_TRUE(back) << back.error().message;
   ASSERT_EQ(back->foreign.size(), 2U);
   expect_same(back->foreign[0], trial.foreign[0]);
   expect_same(back->foreign[1], trial.foreign[1]);
