@@ -209,7 +209,12 @@ Status settle_unit(const internal::TrcHeader& header, data::Trial& trial) {
     extent = std::max(extent, most - least);
   }
   const auto unit = unit_of_body_size(header.units_like, extent);
-  if (!unit) return internal::unknown_unit(header);
+  if (!unit)
+    return fail(
+        Code::bad_input,
+        fmt::format("line {}: unit '{}' is unknown, and in {} markers that reach over {:.4g} are no body; "
+                    "expected mm, cm or m",
+                    header.units_line, internal::excerpt(header.units), header.units_like[0].name, extent));
   for (double& coordinate : x) coordinate /= 1.0 / unit->metres;
   trial.warnings.push_back(
       fmt::format("line {}: unit '{}' is unknown; taken for {}, as the markers reach over {:.3g} m then",

@@ -137,7 +137,9 @@ TEST(ParseTrc, AMisspeltUnitIsTakenForTheOneThatMakesABody) {
   EXPECT_THAT(metres.warnings,
               ElementsAre(testing::AllOf(HasSubstr("line 3: unit 'mete' is unknown; taken for m"),
                                          HasSubstr("reach over"))));
-  EXPECT_THAT(bad(with_unit("milimeter")), HasSubstr("line 3: unit 'milimeter' is unknown; expected mm"))
+  EXPECT_THAT(
+      bad(with_unit("milimeter")),
+      HasSubstr("unit 'milimeter' is unknown, and in mm markers that reach over 9 are no body; expected"))
       << "a body of millimetres is none";
 }
 

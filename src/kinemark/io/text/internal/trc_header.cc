@@ -80,7 +80,9 @@ Status read_values(Lines& lines, TrcHeader& header) {
   }
   header.units_like = units_like(header.units);
   header.units_per_metre = 1.0;
-  return header.units_like.empty() ? unknown_unit(header) : Status{};
+  if (!header.units_like.empty()) return {};
+  return fail(Code::bad_input, fmt::format("line {}: unit '{}' is unknown; expected mm, cm or m",
+                                           header.units_line, excerpt(header.units)));
 }
 
 /// Line 4: Frame#, Time and the names, each above its three columns or packed without gaps.
@@ -140,11 +142,6 @@ bool is_axis_labels(std::string_view line, Separator separator) {
 }
 
 }  // namespace
-
-Status unknown_unit(const TrcHeader& header) {
-  return fail(Code::bad_input, fmt::format("line {}: unit '{}' is unknown; expected mm, cm or m",
-                                           header.units_line, excerpt(header.units)));
-}
 
 Result<TrcHeader> parse_trc_header(Lines& lines) {
   TrcHeader header;

@@ -28,9 +28,6 @@ struct TrcHeader {
   std::vector<std::string> warnings;
 };
 
-/// The error of a unit that nobody knows.
-[[nodiscard]] Status unknown_unit(const TrcHeader& header);
-
 /// Read up to the last line before the rows, blank lines included. Errors carry the line, not the file.
 [[nodiscard]] Result<TrcHeader> parse_trc_header(Lines& lines);
 
