@@ -37,7 +37,9 @@ data::Trial rows_of(const std::string& text, const MarkerColumns& columns) {
   Lines lines(text);
   const Status status = read_marker_rows(lines, columns, text.size(), trial);
   EXPECT_TRUE(status) << status.error().message;
-  if (status) EXPECT_TRUE(trial.markers.validate()) << trial.markers.validate().error().message;
+  if (status) {
+    EXPECT_TRUE(trial.markers.validate()) << trial.markers.validate().error().message;
+  }
   return trial;
 }
 

@@ -135,10 +135,11 @@ TEST(FrameWalk, SolvesAgainOnlyWhatIsConcerned) {
   w.walk->solve_again(better, w.only({10, 11, 25}), w.solved);
   for (std::int64_t f = 0; f < 30; ++f) {
     const bool concerned = f == 10 || f == 11 || f == 25;
-    if (concerned)
+    if (concerned) {
       EXPECT_LT(w.off(f, w.solved.states.col(f)), 1e-5) << f;
-    else
+    } else {
       EXPECT_EQ(w.solved.states.col(f), before.states.col(f)) << f;
+    }
     EXPECT_EQ(w.solved.cost[static_cast<std::size_t>(f)] == before.cost[static_cast<std::size_t>(f)],
               !concerned);
   }

@@ -56,7 +56,9 @@ void expect_sound(const data::Trajectories& t, const GapProblem& p) {
   for (Index r = 0; r < p.rows.size(); ++r) {
     EXPECT_GE(p.rows(r), 0);
     EXPECT_LT(p.rows(r), p.window.length);
-    if (r > 0) EXPECT_LT(p.rows(r - 1), p.rows(r));
+    if (r > 0) {
+      EXPECT_LT(p.rows(r - 1), p.rows(r));
+    }
   }
   EXPECT_EQ(p.rows(0), 0);
 }

@@ -72,7 +72,9 @@ TEST(SmoothKalman, PolynomialsBelowItsOrderPassWithAllTheirDerivatives) {
     for (std::int64_t f = 0; f < 150; ++f) {
       EXPECT_LT((row(r.x, f) - derivative(f, 0)).norm(), 1e-6) << order << " " << f;
       EXPECT_LT((row(r.velocity, f) - derivative(f, 1)).norm(), 1e-4) << order << " " << f;
-      if (order > 2) EXPECT_LT((row(r.acceleration, f) - derivative(f, 2)).norm(), 1e-2) << order << " " << f;
+      if (order > 2) {
+        EXPECT_LT((row(r.acceleration, f) - derivative(f, 2)).norm(), 1e-2) << order << " " << f;
+      }
     }
   }
 }
@@ -113,10 +115,11 @@ TEST(SmoothKalman, PlayedBackwardsItIsTheSamePath) {
     EXPECT_LT((row(forth.velocity, f) + row(back.velocity, 149 - f)).norm(), 1e-7) << f;
     EXPECT_LT((row(forth.acceleration, f) - row(back.acceleration, 149 - f)).norm(), 1e-5) << f;
     // Beside the ends the bars are scaled by stretches hidden from the start on: those differ.
-    if (f >= 40 && f < 110)
+    if (f >= 40 && f < 110) {
       EXPECT_NEAR(forth.covariance[static_cast<std::size_t>(6 * f)] /
                       back.covariance[static_cast<std::size_t>(6 * (149 - f))],
                   1.0, 1e-6);
+    }
   }
 }
 
@@ -180,8 +183,9 @@ TEST(SmoothKalman, BridgesOnlyWhatLiesBetweenSamplesAndIsShortAndSureEnough) {
       EXPECT_EQ(row(r.x, f).array().isFinite().all(), there) << f;
       EXPECT_EQ(row(r.jerk, f).array().isFinite().all(), there) << f;
       EXPECT_EQ(std::isfinite(r.covariance[static_cast<std::size_t>(6 * f + 1)]), there) << f;
-      if (!t.present(f, 0) && there)
+      if (!t.present(f, 0) && there) {
         EXPECT_EQ(r.state[static_cast<std::size_t>(f)], SampleState::interpolated);
+      }
     }
   };
   check(smoothed(t, options), 5);
