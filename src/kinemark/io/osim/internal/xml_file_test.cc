@@ -61,7 +61,7 @@ TEST(XmlFile, WhatIsNoNumberIsNotedWithItsPlace) {
     EXPECT_THAT(noted(std::string("<a>") + bad + "</a>", list), HasSubstr("<a>")) << bad;
 }
 
-TEST(XmlFile, TheFirstErrorIsTheOneThatIsTold) {
+TEST(XmlFile, TheFirstErrorIsTheOneThatIsReported) {
   XmlFile file = object("<a>x</a><b>y</b>");
   EXPECT_EQ(file.number(thing(file), "a", 1.0), 1.0) << "the reader goes on";
   EXPECT_EQ(file.number(thing(file), "b", 2.0), 2.0);

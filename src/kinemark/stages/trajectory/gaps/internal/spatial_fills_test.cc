@@ -69,17 +69,17 @@ TEST(SpatialFills, EveryCandidateOfARigidBodyFindsTheHiddenSamples) {
 }
 
 TEST(SpatialFills, ErrorsOnWindowsTellThoseInTheGap) {
-  std::map<FillKind, double> told, made;
+  std::map<FillKind, double> estimated, actual;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Hidden h(200, 240, GapMethod::automatic, {.noise_m = 0.001, .seed = seed});
     for (const Fill& fill : h.fills) {
-      told[fill.kind] += fill.rms_m() * fill.rms_m();
-      made[fill.kind] += h.rms_m(fill) * h.rms_m(fill);
+      estimated[fill.kind] += fill.rms_m() * fill.rms_m();
+      actual[fill.kind] += h.rms_m(fill) * h.rms_m(fill);
     }
   }
-  EXPECT_GE(told.size(), 8U);
-  for (const auto& [kind, squares] : told) {
-    const double ratio = std::sqrt(made[kind] / squares);
+  EXPECT_GE(estimated.size(), 8U);
+  for (const auto& [kind, squares] : estimated) {
+    const double ratio = std::sqrt(actual[kind] / squares);
     EXPECT_GT(ratio, 0.5) << to_string(kind);
     EXPECT_LT(ratio, 2.0) << to_string(kind);
   }

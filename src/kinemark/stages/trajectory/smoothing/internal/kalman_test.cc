@@ -196,7 +196,7 @@ TEST(SmoothKalman, BridgesOnlyWhatLiesBetweenSamplesAndIsShortAndSureEnough) {
   check(smoothed(t, options), 0);
 }
 
-TEST(SmoothKalman, SaysWhatItChoseAndWhatItWasTold) {
+TEST(SmoothKalman, SaysWhatItChoseAndWhatItWasGiven) {
   const auto asked = smoothed(noisy_path(200, 9), fixed(4, 6.0));
   EXPECT_EQ(asked.account.description, "order 4, cut-off 6 Hz: as asked.");
   EXPECT_EQ(asked.account.used.order, 4);
