@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/selection_options.h"
 #include "kinemark/pipeline/files/convert_job.h"
 
 namespace kinemark::cli {
@@ -19,6 +20,7 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
   command->add_option("--rotate", job->rotate,
                       "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
+  add_selection_options(*command, job->selection);
   command->callback([&common, job, &run] {
     run = [&common, job] { return run_job(common, "files", *job, pipeline::run_convert, print_written); };
   });
