@@ -46,8 +46,11 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
   if (!trial.events.empty())
     notes.push_back(fmt::format("{} events cannot be stored in a {} file", trial.events.size(), ending));
   if (!trial.foreign.empty())
-    notes.push_back(
-        fmt::format("{} groups of parameters cannot be stored in a {} file", trial.foreign.size(), ending));
+    notes.push_back(fmt::format("{} cannot be stored in a {} file",
+                                trial.foreign.size() == 1
+                                    ? "1 group of parameters"
+                                    : fmt::format("{} groups of parameters", trial.foreign.size()),
+                                ending));
   return notes;
 }
 
@@ -79,8 +82,10 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const st
     if (!turning) return std::unexpected(turning.error());
     turn(input->trial, *turning);
   }
-  if (auto s = io::write_markers(job.out, input->trial, job.force); !s) return std::unexpected(s.error());
-  return losses(input->trial, ending);
+  auto notes = losses(input->trial, ending);
+  if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
+    return std::unexpected(s.error());
+  return notes;
 }
 
 }  // namespace
