@@ -172,7 +172,7 @@ TEST(ForeignGroups, TheRestOfAWrittenGroupStandsInItOnce) {
 TEST(ForeignGroups, GiveWayWhereTheSectionIsFullAndThatIsSaid) {
   const ScratchFolder folder;
   data::Trial trial = internal::simulate_trial({});
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 6; ++i)
     trial.foreign.push_back(
         {.name = "BIG" + std::to_string(i),
          .parameters = {
