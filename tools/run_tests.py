@@ -147,7 +147,7 @@ def count_unittest(text):
     numbers = dict(re.findall(r"(failures|errors|skipped)=(\d+)", text.rsplit("\nRan ", 1)[-1]))
     failed = int(numbers.get("failures", 0)) + int(numbers.get("errors", 0))
     skipped = int(numbers.get("skipped", 0))
-    return Counts(total - failed - skipped, failed, skipped)
+    return Counts(max(0, total - failed - skipped), failed, skipped)  # parts of one test can fail each
 
 
 def tools(log):
@@ -411,9 +411,21 @@ def processor_minutes():
     return (used.ru_utime + used.ru_stime) / 60
 
 
+def compilations():
+    """(compilations, how many of them came from the cache) of ccache so far; (0, 0) without it."""
+    try:
+        told = subprocess.run(["ccache", "--print-stats"], capture_output=True, text=True, check=False).stdout
+    except OSError:
+        return 0, 0
+    counts = dict(re.findall(r"^(\w+)\t(\d+)$", told, re.MULTILINE))
+    hits = int(counts.get("direct_cache_hit", 0)) + int(counts.get("preprocessed_cache_hit", 0))
+    return hits + int(counts.get("cache_miss", 0)), hits
+
+
 def run_stages(stages, names, logs, jobs=2, keep_going=False, check_budget=False, budget_minutes=BUDGET_MINUTES):
     """Exit status of running the named stages; prints a line for each and the closing line."""
     total, failed, began, first_minutes = Counts(), [], time.monotonic(), processor_minutes()
+    first_compilations = compilations()
     for number, name in enumerate(names, 1):
         print(f"[{number:2}/{len(names)}] {name} ...", flush=True)
         run, budget = stages[name]
@@ -437,6 +449,9 @@ def run_stages(stages, names, logs, jobs=2, keep_going=False, check_budget=False
         if not keep_going:
             break
     minutes = processor_minutes() - first_minutes
+    compiled, cached = (now - before for now, before in zip(compilations(), first_compilations))
+    if compiled:
+        print(f"{compiled} compilations, {cached} of them from the cache")
     if minutes > budget_minutes:
         print(f"{minutes:.1f} processor minutes, more than the {budget_minutes:g} of a whole run")
         if check_budget:

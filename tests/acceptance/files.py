@@ -60,13 +60,13 @@ def c3d_differences(facts, text):
     missing = [int(n.replace(",", "")) for n in re.findall(r"([\d,]+) (?:residual|NaN)", text.split("missing:")[-1])]
     frames = cut or number(r"pt x (\d+) fr", text)
     wrong = differences([
-        ("points", facts["points"], number(r"(\d+) pt x", text)),
+        ("points", facts["points"] + len(facts["channels"]), number(r"(\d+) pt x", text)),
         ("frames", facts["frames"], frames),
         ("rate", facts["rate_hz"], number(r"@ ([\d.]+) Hz", text)),
         ("first frame", facts["first_frame"], number(r"frames (\d+)-", text)),
         ("analog channels", facts["analog_channels"], number(r"analog (\d+) ch", text) or 0.0),
         ("force plates", facts["force_plates"], number(r"(\d+) FP", text) or 0.0),
-        ("missing", facts["missing"], float(sum(missing))),
+        ("missing", facts["missing"] + sum(c["missing"] for c in facts["channels"]), float(sum(missing))),
     ])
     units = re.search(r"units (\w+)", text)
     if units and facts["units"] != units[1]:

@@ -36,6 +36,15 @@ class Markers(CommandTest):
                 for a, b in zip(position, after[key][2], strict=True):
                     self.assertAlmostEqual(a, b, delta=tolerance_m)
 
+    def test_a_group_that_is_not_read_stays_in_c3d_and_is_said_to_be_lost_elsewhere(self):
+        raw = self.c3d.read_bytes()
+        self.assertEqual(raw.count(b"KINEMARK"), 1)
+        (self.folder / "other.c3d").write_bytes(raw.replace(b"KINEMARK", b"SUBJECTS"))
+        self.good("convert", "other.c3d", "copy.c3d")
+        self.assertIn(b"SUBJECTS", (self.folder / "copy.c3d").read_bytes())
+        self.assertIn("1 groups of parameters cannot be stored", self.good("convert", "other.c3d", "copy.trc").err)
+        self.assertNotIn("groups of parameters", self.good("convert", self.c3d, "own.trc").err)
+
     def test_every_format_becomes_every_other_with_the_same_facts(self):
         expected = self.facts(self.c3d)
         self.assertGreater(expected["missing"], 0)

@@ -129,7 +129,7 @@ class MarkerFiles(CommandTest):
     def test_what_cannot_be_a_marker_file_is_refused(self):
         text = self.trc.read_text()
         for spoilt, words in (
-            (changed_cell(text, 3, 5, "inch"), "line 3: unit 'inch' is unknown; expected mm, cm or m"),
+            (changed_cell(text, 3, 5, "furlong"), "line 3: unit 'furlong' is unknown; expected mm, cm or m"),
             (changed_cell(text, 11, 1, "eleven"), "line 11, column 1: the frame number is 'eleven'; expected a number"),
             ("", "expected a TRC file"),
         ):

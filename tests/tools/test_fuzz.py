@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
 import unittest
-from pathlib import Path
+from random import Random
 
 from support import Tree, load_tool
 
@@ -30,25 +30,49 @@ class FindTargets(unittest.TestCase):
 
 
 class HowLong(unittest.TestCase):
-    def test_a_fixed_number_of_runs_begins_with_the_kept_inputs_in_the_order_of_their_names(self):
-        with Tree({"corpus/c.c3d": "", "corpus/a.c3d": "", "corpus/b.c3d": "", "work/log": ""}) as root:
-            options = fuzz.how_long("c3d", None, root / "corpus", root / "work")
-            kept = (root / "work" / "kept").read_text().split(",")
+    def test_a_fixed_set_is_the_kept_inputs_and_the_same_damaged_copies_each_time(self):
+        tried = []
+        with Tree({"corpus/c.c3d": "third one", "corpus/a.c3d": "first, 1.25", "work/log": "", "work/tried/old": ""}) as root:
+            fuzz.COPIES["few"] = 200
+            self.addCleanup(fuzz.COPIES.pop, "few")
+            for seed in (1, 1, 2):
+                options = fuzz.how_long("few", None, seed, root / "corpus", root / "work")
+                self.assertEqual(options, ["-runs=0", str(root / "work" / "tried")])
+                tried.append({path.name: path.read_bytes() for path in (root / "work" / "tried").iterdir()})
             self.assertFalse((root / "work" / "found").exists())
-        self.assertEqual([Path(name).name for name in kept], ["a.c3d", "b.c3d", "c.c3d"])
-        self.assertEqual(options, [f"-runs={fuzz.RUNS['c3d']}", "-shuffle=0", f"-seed_inputs=@{root / 'work' / 'kept'}"])
+        self.assertEqual(len(tried[0]), 202)
+        self.assertEqual((tried[0]["kept_0"], tried[0]["kept_1"]), (b"first, 1.25", b"third one"))
+        self.assertEqual(tried[0], tried[1])
+        self.assertNotEqual(tried[0], tried[2])
+        self.assertGreater(len(set(tried[0].values())), 180, "copies differ")
 
     def test_a_hunt_begins_with_all_that_was_ever_found(self):
         with Tree({"corpus/a": "", "work/log": ""}) as root:
-            options = fuzz.how_long("c3d", 30, root / "corpus", root / "work")
+            options = fuzz.how_long("c3d", 30, 1, root / "corpus", root / "work")
             self.assertTrue((root / "work" / "found").is_dir())
         self.assertEqual(options, ["-max_total_time=30", str(root / "work" / "found"), str(root / "corpus")])
 
-    def test_each_target_has_a_number_of_runs(self):
+    def test_each_target_has_a_number_of_copies(self):
         kept = sorted(path.name for path in fuzz.CORPORA.iterdir())
-        self.assertEqual(sorted(fuzz.RUNS), kept)
-        self.assertEqual(fuzz.without_runs(kept), [])
-        self.assertEqual(fuzz.without_runs(["c3d", "new"]), ["fuzz_new has no number of runs; give it one in RUNS of tools/fuzz"])
+        self.assertEqual(sorted(fuzz.COPIES), kept)
+        self.assertEqual(fuzz.without_copies(kept), [])
+        self.assertEqual(fuzz.without_copies(["c3d", "new"]), ["fuzz_new has no number of copies; give it one in COPIES of tools/fuzz"])
+
+
+class Damaged(unittest.TestCase):
+    def test_uses_words_and_other_inputs_and_takes_an_empty_one(self):
+        random = Random(1)
+        copies = [fuzz.damaged(b"abc" * 20, [b"OTHER" * 40], [b"<word>"], random) for _ in range(300)]
+        for part in (b"<word>", b"OTHEROTHER"):
+            self.assertTrue(any(part in copy for copy in copies), part)
+        self.assertTrue(any(len(copy) < 60 for copy in copies))
+        self.assertTrue(any(len(copy) > 60 for copy in copies))
+        self.assertEqual({type(fuzz.damaged(b"", [b""], [], random)) for _ in range(100)}, {bytes})
+
+    def test_words_of_a_dictionary_lose_their_quotes_and_escapes(self):
+        with Tree({"d": '# "no"\nname="a\\x00b"\n"tab\\"s"\n'}) as root:
+            self.assertEqual(fuzz.dictionary_words(root / "d"), [b"a\0b", b'tab"s'])
+            self.assertEqual(fuzz.dictionary_words(root / "none"), [])
 
 
 class Corpora(unittest.TestCase):

@@ -11,6 +11,7 @@
 #include "kinemark/core/array.h"
 #include "kinemark/core/result.h"
 #include "kinemark/data/channels.h"
+#include "kinemark/data/foreign_group.h"
 #include "kinemark/data/trajectories.h"
 
 namespace kinemark::data {
@@ -56,6 +57,7 @@ struct Trial {
   AnalogChannels analog;      ///< no channels: the file has none
   std::vector<Event> events;  ///< in the order of the file
   std::vector<ForcePlate> force_plates;  ///< in the order of the file
+  std::vector<ForeignGroup> foreign;     ///< what only a C3D file can keep, and nothing here reads
   std::vector<std::string> warnings;     ///< irregularities of the file, one sentence each
 
   /// number of the last frame in the file's own counting

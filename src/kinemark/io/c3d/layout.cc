@@ -235,7 +235,11 @@ void settle_units(C3dLayout& out, const C3dParameters& p, Warnings& warnings) {
   out.metres_per_unit = factor.value_or(1e-3);
   if (out.units.empty())
     warnings.push_back("POINT:UNITS is missing; mm is assumed");
-  else if (!factor)
+  else if (const auto like = units_like(out.units); !factor && like.size() == 1) {
+    out.metres_per_unit = like[0].metres;
+    warnings.push_back(
+        fmt::format("POINT:UNITS is '{}', not a known length; taken for {}", out.units, like[0].name));
+  } else if (!factor)
     warnings.push_back(fmt::format("POINT:UNITS is '{}', not a known length; mm is assumed", out.units));
 }
 

@@ -54,9 +54,10 @@ class Parser {
       if (next > section_.size()) ends_inside(at);
       const std::size_t body = std::min(pointer_at + 2, end);
       if (id < 0)
-        read_group(-id, name, body, end);
+        read_group(-id, name, {.name = std::string(text(at + 2, n)), .locked = name_length < 0}, body, end);
       else
-        read_parameter(id, name, name_length < 0, body, end);
+        read_parameter(id, name, {.name = std::string(text(at + 2, n)), .locked = name_length < 0}, body,
+                       end);
       if (next <= pointer_at) break;
       at = next;
     }
@@ -79,18 +80,32 @@ class Parser {
                     at));
   }
 
-  void read_group(int id, const std::string& name, std::size_t at, std::size_t end) {
+  void read_group(int id, const std::string& name, data::ForeignGroup stored, std::size_t at,
+                  std::size_t end) {
     C3dGroup& group = groups_[id];
     if (!group.name.empty()) return;
     group.name = name;
     order_.push_back(id);
-    group.description = description(at, end);
+    stored.description = description(at, end);
+    group.description = clean_text(stored.description);
+    group.stored = std::move(stored);
   }
 
   std::string description(std::size_t at, std::size_t end) const {
     if (at >= end) return {};
     const auto n = std::min<std::size_t>(std::to_integer<unsigned>(section_[at]), end - at - 1);
-    return clean_text(text(at + 1, n));
+    return std::string(text(at + 1, n));
+  }
+
+  /// Numbers in Intel order, texts as they are.
+  std::vector<std::byte> in_intel_order(C3dType type, std::span<const std::byte> values) const {
+    std::vector<std::byte> out(values.begin(), values.end());
+    if (processor_ == Processor::intel) return out;
+    for (std::size_t i = 0; type == C3dType::int16 && i + 2 <= out.size(); i += 2)
+      store_u16(&out[i], load_u16(&values[i], processor_), Processor::intel);
+    for (std::size_t i = 0; type == C3dType::float32 && i + 4 <= out.size(); i += 4)
+      store_f32(&out[i], load_f32(&values[i], processor_), Processor::intel);
+    return out;
   }
 
   /// "POINT:LABELS", as far as the group is known yet.
@@ -99,9 +114,10 @@ class Parser {
     return group == groups_.end() ? name : group->second.name + ":" + name;
   }
 
-  void read_parameter(int id, const std::string& name, bool locked, std::size_t at, std::size_t end) {
+  void read_parameter(int id, const std::string& name, data::ForeignParameter stored, std::size_t at,
+                      std::size_t end) {
     if (end < at + 2) return;
-    Entry entry{.id = id, .parameter = {.name = name, .locked = locked}};
+    Entry entry{.id = id, .parameter = {.name = name, .locked = stored.locked}};
     C3dParameter& p = entry.parameter;
     const int type = static_cast<std::int8_t>(section_[at]);
     if (type != -1 && type != 1 && type != 2 && type != 4) {
@@ -130,7 +146,12 @@ class Parser {
       read_texts(p, at, there);
     else
       read_numbers(p, at, there);
-    p.description = description(at + there * size, end);
+    stored.type = static_cast<std::int8_t>(type);
+    for (const int d : p.dims) stored.dims.push_back(static_cast<std::uint8_t>(d));
+    stored.values = in_intel_order(p.type, section_.subspan(at, there * size));
+    stored.description = description(at + there * size, end);
+    p.description = clean_text(stored.description);
+    if (there == values) p.stored = std::move(stored);
     entries_.push_back(std::move(entry));
   }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/foreign_group.h"
 #include "kinemark/io/c3d/number_format.h"
 
 namespace kinemark::io {
@@ -31,6 +32,7 @@ struct C3dParameter {
   std::vector<std::string> texts;  ///< UTF-8; empty for numbers
   std::string description;         ///< the file's own words; may be empty
   bool locked = false;             ///< the file asks that it is not changed
+  data::ForeignParameter stored;   ///< the same as read; empty in what is to be written
 };
 
 /// Parameters under one name.
@@ -38,6 +40,7 @@ struct C3dGroup {
   std::string name;                      ///< upper case; "GROUP n" when the file names none
   std::string description;               ///< the file's own words; may be empty
   std::vector<C3dParameter> parameters;  ///< in the order of the file
+  data::ForeignGroup stored;             ///< the same as read, without its parameters
 };
 
 /// The parameter section of a C3D file, in file order.
@@ -70,9 +73,10 @@ struct C3dParameters {
                                              std::vector<std::string>& warnings);
 
 /// The section's bytes, a whole number of 512-byte blocks. Values are taken from `numbers` or `texts` and
-/// must fit `dims`; more than 255 blocks is Code::not_supported.
-[[nodiscard]] Result<std::vector<std::byte>> encode_parameters(const C3dParameters& parameters,
-                                                               Processor processor);
+/// must fit `dims`; `foreign` groups follow as they are, 120 at most. More than 255 blocks is
+/// Code::not_supported.
+[[nodiscard]] Result<std::vector<std::byte>> encode_parameters(
+    const C3dParameters& parameters, Processor processor, std::span<const data::ForeignGroup> foreign = {});
 
 /// Text as a file holds it, made fit to show: control characters become blanks, blanks at both ends go, and
 /// bytes that are not UTF-8 are taken as Latin-1.

@@ -66,6 +66,19 @@ class Encoder {
     for (const double v : p.numbers) number(p.type, v);
   }
 
+  void stored(const data::ForeignParameter& p) {
+    put(p.type);
+    put(static_cast<int>(p.dims.size()));
+    for (const std::uint8_t d : p.dims) put(d);
+    const std::size_t at = bytes.size();
+    bytes.insert(bytes.end(), p.values.begin(), p.values.end());
+    if (processor_ == Processor::intel) return;
+    for (std::size_t i = 0; p.type == 2 && i < p.values.size(); i += 2)
+      store_u16(&bytes[at + i], load_u16(&p.values[i], Processor::intel), processor_);
+    for (std::size_t i = 0; p.type == 4 && i < p.values.size(); i += 4)
+      store_f32(&bytes[at + i], load_f32(&p.values[i], Processor::intel), processor_);
+  }
+
   std::vector<std::byte> bytes;
 
  private:
@@ -85,10 +98,28 @@ class Encoder {
   Processor processor_;
 };
 
+void put_foreign(Encoder& e, int id, const data::ForeignGroup& group) {
+  const auto head = [&](const std::string& name, bool locked, int signed_id) {
+    const int length = static_cast<int>(name.size());
+    e.head(locked ? -length : length, signed_id, name);
+    return e.open_entry();
+  };
+  const std::size_t group_pointer = head(group.name, group.locked, -id);
+  e.description(group.description);
+  e.close_entry(group_pointer);
+  for (const data::ForeignParameter& p : group.parameters) {
+    const std::size_t pointer = head(p.name, p.locked, id);
+    e.stored(p);
+    e.description(p.description);
+    e.close_entry(pointer);
+  }
+}
+
 }  // namespace
 
-Result<std::vector<std::byte>> encode_parameters(const C3dParameters& parameters, Processor processor) {
-  check(parameters.groups.size() <= 127, "a C3D file has at most 127 groups");
+Result<std::vector<std::byte>> encode_parameters(const C3dParameters& parameters, Processor processor,
+                                                 std::span<const data::ForeignGroup> foreign) {
+  check(parameters.groups.size() + foreign.size() <= 127, "a C3D file has at most 127 groups");
   Encoder e(processor);
   for (const int byte : {1, 80, 0, static_cast<int>(processor)}) e.put(byte);
   int id = 0;
@@ -107,6 +138,7 @@ Result<std::vector<std::byte>> encode_parameters(const C3dParameters& parameters
       e.close_entry(parameter_pointer);
     }
   }
+  for (const data::ForeignGroup& group : foreign) put_foreign(e, ++id, group);
   e.put(0);
   e.put(0);
   const std::size_t blocks = (e.bytes.size() + kBlock - 1) / kBlock;

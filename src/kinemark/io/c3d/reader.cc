@@ -13,6 +13,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/io/c3d/describe.h"
+#include "kinemark/io/c3d/foreign_groups.h"
 #include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
 
@@ -119,6 +120,7 @@ Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
   trial.source = name;
   describe_trial(reader.header_, reader.parameters_, reader.layout_, trial);
   sort_points(reader.parameters_, reader.layout_, trial);
+  trial.foreign = find_foreign_groups(reader.parameters_, trial.warnings);
   reader.source_ = std::move(source);
   return reader;
 }

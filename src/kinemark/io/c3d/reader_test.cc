@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -255,6 +256,23 @@ TEST(C3dReader, UnsignedAnalogSamplesGoPast32767) {
   const std::size_t format = bytes.find("FORMAT", 1);
   std::memcpy(bytes.raw().data() + format, "UNSIGN", 6);
   EXPECT_NEAR(bytes.read()->analog.values[0], (40000 - 32768) * step, 1e-9);
+}
+
+TEST(C3dReader, AMisspeltUnitIsTakenForTheOneThatItIsLike) {
+  Bytes bytes(simulate_trial({}), {.units = "meters"});
+  const auto first = [](const Trial& trial) {
+    const auto& x = trial.markers.x_in_world;
+    return *std::ranges::find_if(x, [](double coordinate) { return std::isfinite(coordinate); });
+  };
+  const double x = first(bytes.read().value());
+  std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "metars", 6);
+  Trial t = bytes.read().value();
+  EXPECT_EQ(first(t), x);
+  EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'metars', not a known length; taken for meter"));
+  std::memcpy(bytes.raw().data() + bytes.find("UNITS", 1), "furlon", 6);
+  t = bytes.read().value();
+  EXPECT_NEAR(first(t), 1e-3 * x, 1e-12);
+  EXPECT_THAT(t.warnings, Contains("POINT:UNITS is 'furlon', not a known length; mm is assumed"));
 }
 
 TEST(C3dReader, NonsenseForcePlatesAreLeftOut) {

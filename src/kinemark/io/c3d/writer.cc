@@ -124,17 +124,23 @@ Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
                  const C3dWriteOptions& options) {
   auto plan = plan_c3d(trial, options);
   if (!plan) return fail_at(path.string(), plan.error());
-  auto section = encode_parameters(plan->parameters, plan->processor);
+  // What does not fit gives way: how samples were filled first, then what is carried for others.
+  std::span<const data::ForeignGroup> foreign = trial.foreign;
+  auto section = encode_parameters(plan->parameters, plan->processor, foreign);
   if (!section && std::erase_if(plan->parameters.groups,
                                 [](const C3dGroup& g) { return g.name == kProvenanceGroup; }) > 0)
+    section = encode_parameters(plan->parameters, plan->processor, foreign);
+  if (!section && !foreign.empty()) {
+    foreign = {};
     section = encode_parameters(plan->parameters, plan->processor);
+  }
   if (!section) return fail_at(path.string(), section.error());
   // The section's length does not depend on where the data begin, so it is encoded once to know and once for
   // good.
   plan->header.data_block = static_cast<int>(2 + section->size() / kC3dBlock);
   for (C3dParameter& p : plan->parameters.group("POINT").parameters)
     if (p.name == "DATA_START") p.numbers = {static_cast<double>(plan->header.data_block)};
-  section = encode_parameters(plan->parameters, plan->processor);
+  section = encode_parameters(plan->parameters, plan->processor, foreign);
 
   auto file = OutputFile::create(path, options.force);
   if (!file) return std::unexpected(file.error());

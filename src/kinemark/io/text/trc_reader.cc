@@ -197,6 +197,32 @@ Status settle_time(const TrcHeader& header, const Tally& tally, std::int64_t fir
   return {};
 }
 
+/// Of the units that an unknown word may mean, the one that makes the recording as large as a body.
+Status settle_unit(const internal::TrcHeader& header, data::Trial& trial) {
+  if (header.units_like.empty()) return {};
+  auto& x = trial.markers.x_in_world;
+  double extent = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = axis; i < x.size(); i += 3)
+      if (std::isfinite(x[i])) least = std::min(least, x[i]), most = std::max(most, x[i]);
+    extent = std::max(extent, most - least);
+  }
+  const auto unit = unit_of_body_size(header.units_like, extent);
+  if (!unit)
+    return fail(
+        Code::bad_input,
+        fmt::format(
+            "line {}: unit '{}' is unknown, and the markers, which reach over {:.4g} of it, do not tell "
+            "which is meant; expected mm, cm or m",
+            header.units_line, internal::excerpt(header.units), extent));
+  for (double& coordinate : x) coordinate /= 1.0 / unit->metres;
+  trial.warnings.push_back(
+      fmt::format("line {}: unit '{}' is unknown; taken for {}, as the markers reach over {:.3g} m then",
+                  header.units_line, internal::excerpt(header.units), unit->name, extent * unit->metres));
+  return {};
+}
+
 Result<data::Trial> parse(std::string_view text) {
   Lines lines(text);
   auto header = internal::parse_trc_header(lines);
@@ -241,6 +267,7 @@ Result<data::Trial> parse(std::string_view text) {
 
   trial.markers.names = std::move(header->names);
   trial.markers.time.frames = static_cast<std::int64_t>(rows);
+  if (auto s = settle_unit(*header, trial); !s) return std::unexpected(s.error());
   judge_rows(trial, *header, tally, next_text_line);
   if (auto s = settle_time(*header, tally, first_line, static_cast<std::int64_t>(most_frames), trial); !s)
     return std::unexpected(s.error());

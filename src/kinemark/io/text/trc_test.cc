@@ -127,6 +127,22 @@ TEST(ParseTrc, ConvertsEveryUnitToMetres) {
               HasSubstr("line 3: unit 'furlong' is unknown"));
 }
 
+TEST(ParseTrc, AMisspeltUnitIsTakenForTheOneThatMakesABody) {
+  const auto with_unit = [](const std::string& unit) {
+    return text_with(kRows, "A\t\t\tB", "100\t100\t2\t2\t" + unit + "\t100\t1\t2");
+  };
+  const auto metres = good(with_unit("mete"));
+  EXPECT_EQ(metres.markers.x(0, 0)[0], 1.0);
+  EXPECT_EQ(metres.units_in_file, "mete");
+  EXPECT_THAT(metres.warnings,
+              ElementsAre(testing::AllOf(HasSubstr("line 3: unit 'mete' is unknown; taken for meter"),
+                                         HasSubstr("reach over"))));
+  EXPECT_THAT(
+      bad(with_unit("milimeter")),
+      HasSubstr("unit 'milimeter' is unknown, and the markers, which reach over 9 of it, do not tell"))
+      << "a body of millimetres is none";
+}
+
 TEST(ParseTrc, BlankNaNAndMissingCellsAreMissing) {
   const auto trial = good(
       text_with("1\t0.00\t\t\t\t NaN\tnan\t-nan(ind)\n2\t0.01\t7\t8\t9\n3\t0.02\t1\t\t3\t4\tNAN\tinf\n"));

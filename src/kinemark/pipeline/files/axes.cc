@@ -59,7 +59,7 @@ Result<Axes> settle_axes(const AxesChoice& choice, const std::filesystem::path& 
     if (choice.up.empty()) return Axes{};
     return fail(Code::bad_input, "the model has no gravity, and so no vertical for --up; give --rotate");
   }
-  const Vector3d up = *against_gravity;
+  const Vector3d& up = *against_gravity;
   if (!choice.up.empty() && choice.up != "auto") return with_up(parse_axis(choice.up).value(), up);
   const auto found = find_vertical(path, trial, model);
   if (choice.up == "auto") {

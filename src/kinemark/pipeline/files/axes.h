@@ -28,7 +28,7 @@ struct AxesChoice {
 struct Axes {
   Eigen::Matrix3d model_from_recording = Eigen::Matrix3d::Identity();  ///< rotation
   bool chosen = false;                                                 ///< by whoever asked
-  std::string note;  ///< what was done, "turned: z is up in the recording"; empty: nothing
+  std::string note;  ///< what was done, "the recording was turned: x -90"; empty: nothing
 };
 
 /// The rotation that brings a recording into a model's axes, up being against its gravity.

@@ -45,6 +45,9 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
         fmt::format("{} force plates cannot be stored in a {} file", trial.force_plates.size(), ending));
   if (!trial.events.empty())
     notes.push_back(fmt::format("{} events cannot be stored in a {} file", trial.events.size(), ending));
+  if (!trial.foreign.empty())
+    notes.push_back(
+        fmt::format("{} groups of parameters cannot be stored in a {} file", trial.foreign.size(), ending));
   return notes;
 }
 

@@ -3,6 +3,7 @@
 #include "kinemark/pipeline/files/info_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kinemark/io/osim/osim_model.h"
@@ -14,13 +15,21 @@
 namespace kinemark::pipeline {
 namespace {
 
+std::int64_t missing_frames(const data::Channels& channels, std::size_t c) {
+  std::int64_t missing = 0;
+  for (std::size_t i = 3 * c; i < channels.values.size(); i += 3 * channels.names.size())
+    missing += std::isnan(channels.values[i]);
+  return missing;
+}
+
 std::vector<ChannelFacts> describe_channels(const data::Channels& channels) {
   std::vector<ChannelFacts> facts;
   for (std::size_t c = 0; c < channels.names.size(); ++c)
     facts.push_back({.name = channels.names[c],
                      .kind = std::string(data::to_string(channels.kinds[c])),
                      .unit = channels.units[c],
-                     .rate_hz = channels.rate_hz});
+                     .rate_hz = channels.rate_hz,
+                     .missing = missing_frames(channels, c)});
   return facts;
 }
 

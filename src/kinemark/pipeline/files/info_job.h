@@ -25,6 +25,7 @@ struct InfoJob : JobSettings {
 struct ChannelFacts {
   std::string name, kind, unit;  ///< as data::Channels has them
   double rate_hz = 0.0;          ///< values a second
+  std::int64_t missing = 0;      ///< frames without a value
 };
 
 /// Of a marker file (.c3d, .trc, .nwb, .csv, .v3d).

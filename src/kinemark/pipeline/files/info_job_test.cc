@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "kinemark/io/file.h"
@@ -67,6 +68,11 @@ TEST(RunInfo, ChannelsAreNoMarkers) {
   EXPECT_EQ(facts["channels"][0]["kind"], "angle");
   EXPECT_EQ(facts["channels"][0]["unit"], "deg");
   EXPECT_EQ(facts["channels"][0]["rate_hz"], 100.0);
+  EXPECT_EQ(facts["channels"][0]["missing"], 0);
+  auto gap = trial;
+  for (std::size_t i = 0; i < 3; ++i) gap.channels.values[i] = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(io::write_markers(scratch / "gap.c3d", gap, false));
+  EXPECT_EQ(facts_of(scratch / "gap.c3d").value()["channels"][0]["missing"], 1);
   InfoJob job;
   job.file = scratch / "t.c3d";
   EXPECT_THAT(info_text(run_info(job).value()), HasSubstr("channels          LKneeAngles (angle, deg)\n"));

@@ -69,7 +69,8 @@ void add(const MarkerFileFacts& facts, Json& to) {
     to["channels"].push_back({{"name", channel.name},
                               {"kind", channel.kind},
                               {"unit", channel.unit},
-                              {"rate_hz", channel.rate_hz}});
+                              {"rate_hz", channel.rate_hz},
+                              {"missing", channel.missing}});
 }
 
 void add(const TableFacts& facts, Json& to) {
@@ -137,7 +138,7 @@ std::string info_text(const InfoOutcome& outcome) {
       for (const auto& warning : outcome.warnings)
         text += fmt::format("warning           {}\n", printable_sentence(warning));
     } else if (value.is_array()) {
-      text += fmt::format("{:<17} {}\n", key, in_lines(value));
+      text += fmt::format("{:<17} {}\n", key, value.empty() ? "none" : in_lines(value));
     } else {
       text += fmt::format("{:<17} {}\n", key,
                           value.is_string() ? printable(value.get<std::string>()) : value.dump());

@@ -142,7 +142,7 @@ std::optional<Vertical> vertical_of_screen(const std::filesystem::path& path) {
   const auto reader = io::C3dReader::open(path);
   if (!reader) return std::nullopt;
   const auto axis = parse_axis(reader->parameters().text("POINT", "Y_SCREEN"));
-  if (!axis) return std::nullopt;
+  if (!axis || axis->minCoeff() < 0.0) return std::nullopt;
   return Vertical{*axis, "POINT:Y_SCREEN of the file"};
 }
 

@@ -32,7 +32,8 @@ struct Vertical {
 [[nodiscard]] std::optional<Vertical> vertical_of_body(const data::Trajectories& markers,
                                                        const model::Model& model);
 
-/// What a C3D file says goes up the screen (POINT:Y_SCREEN). None for other files.
+/// What a C3D file says goes up the screen (POINT:Y_SCREEN). None for other files, nor for an axis that is
+/// negated: files that say "-Z" stand on plates with z up.
 [[nodiscard]] std::optional<Vertical> vertical_of_screen(const std::filesystem::path& path);
 
 /// The first that tells: plates, body, file.

@@ -10,6 +10,7 @@
 #include "kinemark/model/workspace.h"
 #include "kinemark/pipeline/files/turn.h"
 #include "kinemark/pipeline/simulate/human_model.h"
+#include "support/test_data.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -90,6 +91,16 @@ TEST(VerticalOfPlates, LiesAcrossThemTowardsTheBody) {
 TEST(VerticalOfScreen, IsForC3dOnly) {
   EXPECT_FALSE(vertical_of_screen("walk.trc"));
   EXPECT_FALSE(vertical_of_screen("not_there.c3d"));
+}
+
+TEST(VerticalOfScreen, TellsTheAxisOfARealFileUnlessItIsNegated) {
+  KINEMARK_REQUIRE_TEST_DATA(data);
+  const auto up = vertical_of_screen(data / "btk-others/PiG_Motion3_FF.c3d");
+  ASSERT_TRUE(up);
+  EXPECT_EQ(up->up, Vector3d::UnitZ());
+  EXPECT_EQ(up->from, "POINT:Y_SCREEN of the file");
+  EXPECT_FALSE(vertical_of_screen(data / "ezc3d-testFiles/Qualisys.c3d"))
+      << "it says -Z; its plates and markers have z up";
 }
 
 }  // namespace

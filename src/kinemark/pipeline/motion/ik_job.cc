@@ -80,8 +80,7 @@ void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInput
                              result.fit.rms_error_m);
   std::int64_t failed = 0;
   for (const auto status : result.motion.status) failed += status == data::FrameStatus::not_converged;
-  internal::add_gate(run, "not_converged", static_cast<double>(failed), 0.0, "frames",
-                     fmt::format("{} of {} frames did not converge.", failed, result.motion.frames()));
+  internal::add_frames_gate(run, "not_converged", failed, result.motion.frames(), "did not converge");
   add_frame_gates(run, job, result.motion);
   if (!std::isnan(result.fit.max_loop_gap_m) && result.fit.max_loop_gap_m > 0.0)
     internal::add_gate(

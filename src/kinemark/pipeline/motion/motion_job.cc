@@ -130,6 +130,14 @@ void add_gate(report::IkRun& run, std::string name, double value, double bound, 
   if (!passed) run.exit_status = 1;
 }
 
+void add_frames_gate(report::IkRun& run, std::string name, std::int64_t bad, std::int64_t all,
+                     std::string_view what) {
+  constexpr double kMostBad = 0.1;  // %: three frames of 100,000 do not spoil a trial, one of 100 does
+  const double percent = all > 0 ? 100.0 * static_cast<double>(bad) / static_cast<double>(all) : 0.0;
+  add_gate(run, std::move(name), percent, kMostBad, "%",
+           fmt::format("{} of {} frames {}; at most {:g} % are accepted.", bad, all, what, kMostBad));
+}
+
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m) {
   add_gate(run, "mean_marker_offset", 1e3 * offset_m, 1e3 * job.max_offset_m, "mm",

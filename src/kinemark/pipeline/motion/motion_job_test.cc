@@ -56,6 +56,28 @@ TEST(MotionRun, AGateFailsAboveItsBoundAndOnWhatIsNotANumber) {
   EXPECT_EQ(run.exit_status, 1) << "a gate that passes later does not take back a failure";
 }
 
+TEST(MotionRun, AFewBadFramesOfManyDoNotFailATrial) {
+  struct Case {
+    std::int64_t bad, all;
+    bool passes;
+  };
+  for (const Case& c : {Case{3, 100'000, true},
+                        {1, 1'000, true},
+                        {1, 999, false},
+                        {101, 100'000, false},
+                        {0, 50, true},
+                        {0, 0, true}}) {
+    report::IkRun run;
+    internal::add_frames_gate(run, "not_converged", c.bad, c.all, "did not converge");
+    EXPECT_EQ(run.exit_status, c.passes ? 0 : 1) << c.bad << " of " << c.all;
+    EXPECT_EQ(run.gates.at(0).unit, "%");
+  }
+  report::IkRun run;
+  internal::add_frames_gate(run, "flagged", 2, 100, "are flagged");
+  EXPECT_EQ(run.gates.at(0).value, 2.0);
+  EXPECT_EQ(run.gates.at(0).sentence, "2 of 100 frames are flagged; at most 0.1 % are accepted.");
+}
+
 TEST(MotionRun, WarningsOfTheFitJoinThoseOfTheRunOnce) {
   report::IkRun run;
   run.warnings = {"first"};

@@ -10,6 +10,7 @@
 
 #include "kinemark/core/units.h"
 #include "kinemark/pipeline/files/turn.h"
+#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/external_forces.h"
 
 namespace kinemark::pipeline {
@@ -81,21 +82,17 @@ void tell_unmeasured(const motion::DynamicsSummary& dynamics, const TimeBase& ti
   }
 }
 
-std::string direction(const Vector3d& v) {
-  const auto rounded = [](double x) { return std::abs(x) < 0.005 ? 0.0 : x; };  // no "-0.00"
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", rounded(v.x()), rounded(v.y()), rounded(v.z()));
-}
-
 /// Where no force says what is up, the body does: its mass centre lies above its feet, unless it lies down.
 void check_posture(const model::Model& model, const motion::DynamicsSummary& dynamics,
                    TorqueAccount& account) {
   if (dynamics.feet_to_centre.isZero()) return;
-  const Vector3d up = -model.gravity().normalized(), body = dynamics.feet_to_centre.normalized();
-  if (!up.allFinite() || body.dot(up) > std::cos(45.0 * kRadPerDeg)) return;
+  const auto up = up_of(model);
+  const Vector3d body = dynamics.feet_to_centre.normalized();
+  if (!up || body.dot(*up) > std::cos(45.0 * kRadPerDeg)) return;
   account.warnings.push_back(fmt::format(
       "the body stands along {} on average, from its feet to its mass centre, and up in the model is {}: "
       "either it lies, or markers and model have different axes (--up) and the torques a wrong gravity",
-      direction(body), direction(up)));
+      name_of_direction(body), name_of_direction(*up)));
 }
 
 void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, TorqueAccount& account) {

@@ -51,11 +51,10 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
   internal::add_marker_gates(run, job, offset_m,
                              fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
                              result.fit.rms_error_m);
-  internal::add_gate(
-      run, "flagged", static_cast<double>(result.flagged_frames), 0.0, "frames",
-      fmt::format("{} of {} frames are flagged: goals out of reach, or a body that ran away ({} "
-                  "times started anew).",
-                  result.flagged_frames, result.motion.frames(), result.restarts));
+  internal::add_frames_gate(run, "flagged", result.flagged_frames, result.motion.frames(),
+                            fmt::format("are flagged: goals out of reach, or a body that ran away ({} times "
+                                        "started anew)",
+                                        result.restarts));
   if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
   return run;
 }

@@ -19,7 +19,6 @@ constexpr double kJitterFrames = 0.02;       ///< an even column may jitter by t
 constexpr double kMaxRoundingFrames = 0.35;  ///< more is not rounding: a lost frame moves its rows by 1/2
 constexpr double kSameRate = 1e-5;           ///< relative; headers round 59.94006 to 59.94
 
-constexpr double kHole = 1.5;            ///< frame intervals between rows from which frames are missing
 constexpr double kEvenStep = 0.2;        ///< share of the median by which steps of a table may differ
 constexpr double kWholeMultiple = 0.25;  ///< frame intervals by which a hole may differ from a whole number
 
@@ -277,7 +276,7 @@ void note_jump(const TimeColumn& column, std::vector<std::string>& warnings) {
     if (step_s > t[worst] - t[worst - 1]) worst = i;
   }
   const bool is_even = even + 2 >= t.size() || 10 * even >= 9 * (t.size() - 1);
-  if (!is_even || t[worst] - t[worst - 1] < kHole * median_s) return;
+  if (!is_even || frames_of_step(t[worst] - t[worst - 1], median_s) <= 1.0) return;
   warnings.push_back(fmt::format("{}: time jumps from {:.9g} to {:.9g} s, elsewhere in steps of {:.6g} s",
                                  column.place(worst), t[worst - 1], t[worst], median_s));
 }

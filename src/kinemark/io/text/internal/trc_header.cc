@@ -24,33 +24,6 @@ std::vector<std::string_view> split(std::string_view line) {
   return out;
 }
 
-std::optional<double> units_per_metre(std::string_view unit) {
-  static constexpr std::array<std::pair<std::string_view, double>, 19> kUnits{{
-      {"mm", 1000.0},
-      {"millimeter", 1000.0},
-      {"millimeters", 1000.0},
-      {"millimetre", 1000.0},
-      {"millimetres", 1000.0},
-      {"cm", 100.0},
-      {"centimeter", 100.0},
-      {"centimeters", 100.0},
-      {"centimetre", 100.0},
-      {"centimetres", 100.0},
-      {"dm", 10.0},
-      {"m", 1.0},
-      {"meter", 1.0},
-      {"meters", 1.0},
-      {"metre", 1.0},
-      {"metres", 1.0},
-      {"in", 1.0 / 0.0254},
-      {"inches", 1.0 / 0.0254},
-      {"ft", 1.0 / 0.3048},
-  }};
-  const std::string word = lower(unit);
-  const auto* it = std::ranges::find_if(kUnits, [&](const auto& u) { return u.first == word; });
-  return it == kUnits.end() ? std::nullopt : std::optional(it->second);
-}
-
 /// Lines 2 and 3: keys above their values.
 Status read_values(Lines& lines, TrcHeader& header) {
   std::string_view line;
@@ -100,12 +73,16 @@ Status read_values(Lines& lines, TrcHeader& header) {
     header.warnings.push_back("header names no unit; millimetres are assumed");
     return {};
   }
-  const auto per_metre = units_per_metre(header.units);
-  if (!per_metre)
-    return fail(Code::bad_input, fmt::format("line {}: unit '{}' is unknown; expected mm, cm or m",
-                                             lines.number(), excerpt(header.units)));
-  header.units_per_metre = *per_metre;
-  return {};
+  header.units_line = lines.number();
+  if (const auto metres = metres_per_unit(header.units)) {
+    header.units_per_metre = 1.0 / *metres;
+    return {};
+  }
+  header.units_like = units_like(header.units);
+  header.units_per_metre = 1.0;
+  if (!header.units_like.empty()) return {};
+  return fail(Code::bad_input, fmt::format("line {}: unit '{}' is unknown; expected mm, cm or m",
+                                           header.units_line, excerpt(header.units)));
 }
 
 /// Line 4: Frame#, Time and the names, each above its three columns or packed without gaps.

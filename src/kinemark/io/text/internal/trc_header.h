@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/io/length_unit.h"
 #include "kinemark/io/text/internal/cells.h"
 
 namespace kinemark::io::internal {
@@ -17,8 +18,10 @@ struct TrcHeader {
   std::vector<double> rates_hz;  ///< DataRate, CameraRate, OrigDataRate, as far as they are numbers
   std::optional<double> frames;  ///< NumFrames as written
   std::optional<double> markers;
-  std::string units;                ///< as written, empty when absent
-  double units_per_metre = 1000.0;  ///< coordinates of the file are divided by it
+  std::string units;                       ///< as written, empty when absent
+  std::int64_t units_line = 0;             ///< where it stands
+  double units_per_metre = 1000.0;         ///< coordinates of the file are divided by it
+  std::vector<LengthUnitName> units_like;  ///< what an unknown unit may be; units_per_metre is 1 then
   Separator separator = Separator::tab;
   std::vector<std::string> names;    ///< M marker names, unique
   std::vector<std::int32_t> marker;  ///< index of the marker in cells 2 + 3 k to 4 + 3 k, or -1: not named

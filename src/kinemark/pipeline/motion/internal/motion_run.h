@@ -44,6 +44,11 @@ struct MotionInputs {
 /// @param time  of the estimated motion
 void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time);
 
+/// A gate on the share of `bad` frames: 0.1 %, so that a few of 100,000 do not spoil a trial.
+/// @param what  that they did, for the sentence: "did not converge"
+void add_frames_gate(report::IkRun& run, std::string name, std::int64_t bad, std::int64_t all,
+                     std::string_view what);
+
 /// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
               std::string sentence);
