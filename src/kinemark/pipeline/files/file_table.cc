@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "kinemark/core/utf8.h"
@@ -131,6 +133,37 @@ nlohmann::ordered_json files_json(const ValidateOutcome& outcome) {
                       {"error", checked.error ? checked.error->message : ""}});
   }
   return list;
+}
+
+std::string trial_table(const ManyOutcome& outcome) {
+  std::vector<std::vector<std::string>> rows{{"recording", "status", "s", "output", "findings"}};
+  std::map<TrialStatus, int> counts;
+  for (const auto& trial : outcome.trials) {
+    ++counts[trial.status];
+    const bool has_output = trial.status != TrialStatus::failed && trial.status != TrialStatus::not_begun;
+    std::string said = printable_sentence(trial.said);
+    if (trial.warnings > 1) said += fmt::format(" (and {} more)", trial.warnings - 1);
+    rows.push_back({printable(trial.input.string()), std::string(to_string(trial.status)),
+                    trial.seconds > 0.0 ? fmt::format("{:.2f}", trial.seconds) : "",
+                    has_output ? printable(trial.output.string()) : "", std::move(said)});
+  }
+  std::string totals = count(outcome.trials.size(), "recording") + ":";
+  for (const auto& [status, n] : counts)
+    totals += fmt::format("{} {} {}", totals.back() == ':' ? "" : ",", n, to_string(status));
+  return aligned(rows) + totals + "\n";
+}
+
+nlohmann::ordered_json trials_json(const ManyOutcome& outcome) {
+  auto trials = nlohmann::ordered_json::array();
+  for (const auto& trial : outcome.trials)
+    trials.push_back({{"input", trial.input.string()},
+                      {"output", trial.output.string()},
+                      {"status", to_string(trial.status)},
+                      {"exit_status", trial.exit_status},
+                      {"seconds", trial.seconds},
+                      {"warnings", trial.warnings},
+                      {"said", trial.said}});
+  return {{"exit_status", outcome.exit_status()}, {"trials", std::move(trials)}};
 }
 
 }  // namespace kinemark::pipeline

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/pipeline/files/many.h"
 #include "kinemark/pipeline/files/validate_job.h"
 
 namespace kinemark::pipeline {
@@ -21,5 +22,13 @@ namespace kinemark::pipeline {
 /// The same as an array: info_json() of each file that can be read, else its "file", "exit_status" and
 /// "error".
 [[nodiscard]] nlohmann::ordered_json files_json(const ValidateOutcome& outcome);
+
+/// How many recordings fared: a heading, a line for each (input, status, seconds, output, what was said), and
+/// how many fared how.
+[[nodiscard]] std::string trial_table(const ManyOutcome& outcome);
+
+/// The same: "exit_status" and "trials", each with "input", "output", "status", "exit_status", "seconds",
+/// "warnings" (their number) and "said".
+[[nodiscard]] nlohmann::ordered_json trials_json(const ManyOutcome& outcome);
 
 }  // namespace kinemark::pipeline

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "kinemark/core/utf8.h"
+
 namespace kinemark::pipeline {
 namespace {
 
@@ -39,7 +41,7 @@ TEST(FileTable, HasALineForEachFileAndTheTotals) {
             "file      format  holds       frames  Hz   s     findings\n"
             "walk.c3d  C3D     39 markers  450     100  4.50  good\n"
             "q.mot     MOT     1 column    101     100  1.01  a column is odd (and 2 more)\n"
-            "b\uFFFD.trc                                      b.trc: no number\n"
+            "b\uFFFD.trc                                           b.trc: no number\n"
             "3 files: 1 good, 1 with findings, 1 not readable; 551 frames, 5.51 s\n");
 }
 
@@ -74,6 +76,42 @@ TEST(FilesJson, IsTheFactsOfEachOrItsError) {
   EXPECT_EQ(json[2]["exit_status"], 3);
   EXPECT_EQ(json[2]["error"], "b.trc: no number");
   EXPECT_FALSE(json[2].contains("kind"));
+}
+
+ManyOutcome three_trials() {
+  ManyOutcome outcome;
+  outcome.trials = {{.input = "in/a.c3d",
+                     .output = "out/a.trc",
+                     .status = TrialStatus::good,
+                     .said = "odd",
+                     .warnings = 3,
+                     .seconds = 1.234},
+                    {.input = "in/b.c3d", .output = "out/b.trc", .status = TrialStatus::there},
+                    {.input = "in/c.c3d",
+                     .output = "out/c.trc",
+                     .status = TrialStatus::failed,
+                     .said = "c: is\nbad",
+                     .seconds = 0.5,
+                     .exit_status = 3}};
+  return outcome;
+}
+
+TEST(TrialTable, HasALineForEachRecordingAndTheTotals) {
+  EXPECT_EQ(trial_table(three_trials()),
+            "recording  status         s     output     findings\n"
+            "in/a.c3d   good           1.23  out/a.trc  odd (and 2 more)\n"
+            "in/b.c3d   there already        out/b.trc  \n"
+            "in/c.c3d   failed         0.50             " +
+                printable_sentence("c: is\nbad") + "\n3 recordings: 1 good, 1 there already, 1 failed\n");
+}
+
+TEST(TrialsJson, HasTheSame) {
+  const auto json = trials_json(three_trials());
+  EXPECT_EQ(json["exit_status"], 3);
+  ASSERT_EQ(json["trials"].size(), 3U);
+  EXPECT_EQ(json["trials"][1]["status"], "there already");
+  EXPECT_EQ(json["trials"][2]["said"], "c: is\nbad");
+  EXPECT_EQ(json["trials"][0]["warnings"], 3);
 }
 
 }  // namespace
