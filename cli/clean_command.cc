@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
 #include "kinemark/pipeline/clean/clean_job.h"
 #include "kinemark/pipeline/files/json_text.h"
 
@@ -15,6 +16,7 @@ constexpr std::size_t kMarkersListed = 12;
 
 struct CleanArguments {
   pipeline::CleanJob job;
+  ManyArguments many;
   std::string gaps = "none", filter = "auto", upsampled = "mark", cutoff_rule = "winter";
   double noise_mm = 0.0, max_gap_sd_mm = 20.0;
   bool uncorrected = false;
@@ -66,7 +68,24 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
   job.gaps.max_sd_m = 1e-3 * arguments.max_gap_sd_mm;
   job.gaps.noise_sd_m = job.filter.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.filter.correct_cutoff = !arguments.uncorrected;
-  return run_job(common, "markers", job, pipeline::run_clean, print_clean_outcome);
+  auto& many = arguments.many;
+  if (auto s = many.split_output(); !s) return report_error(s.error());
+  if (!many.are_many()) {
+    job.input = many.inputs.front();
+    job.output = many.output;
+    return run_job(common, "markers", job, pipeline::run_clean, print_clean_outcome);
+  }
+  many.pages = job.report;
+  const auto clean_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
+    pipeline::CleanJob one = job;
+    static_cast<pipeline::JobSettings&>(one) = settings;
+    one.input = input;
+    one.output = output;
+    if (!job.report.empty()) one.report = job.report / (output.stem().string() + ".html");
+    return pipeline::run_clean(one);
+  };
+  return run_each(common, many, many.to, true, clean_one);
 }
 
 }  // namespace
@@ -79,8 +98,14 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
       "its state (measured, interpolated, model_filled, upsampled, rejected, missing) and its SD.");
   const auto arguments = std::make_shared<CleanArguments>();
   auto& job = arguments->job;
-  command->add_option("IN", job.input, "Recording to read")->required();
-  command->add_option("OUT", job.output, "File to write; its ending names the format")->required();
+  auto& many = arguments->many;
+  add_in_and_out(*command, many, "Recording to read; several, or a folder of them");
+  command
+      ->add_option("--to", many.to,
+                   "Format of the files in the folder OUT: c3d, trc, csv or nwb; else as read")
+      ->type_name("FORMAT")
+      ->group("Several recordings");
+  add_many_options(*command, many);
   command
       ->add_option("--gaps", arguments->gaps,
                    "none, auto, linear, cubic, pchip, walk, rigid, regression or pca")
@@ -115,7 +140,7 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
                     "Reject spikes, swaps, stuck and false samples instead of only reporting them");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
-  command->add_option("--report", job.report, "Page to write, .html");
+  command->add_option("--report", job.report, "Page to write, .html; a folder for several recordings");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }

@@ -4,24 +4,71 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
+#include "cli/selection_options.h"
 #include "kinemark/pipeline/files/convert_job.h"
 
 namespace kinemark::cli {
+namespace {
+
+struct ConvertArguments {
+  pipeline::ConvertJob job;
+  ManyArguments many;
+};
+
+int run_command(const CommonOptions& common, ConvertArguments& arguments) {
+  auto& job = arguments.job;
+  auto& many = arguments.many;
+  if (auto s = many.split_output(); !s) return report_error(s.error());
+  if (!many.are_many()) {
+    if (!many.to.empty())
+      return report_error(
+          {.code = Code::usage,
+           .message = fmt::format("{}: --to is for a folder; the ending of a file names its format",
+                                  many.output.string())});
+    job.in = many.inputs.front();
+    job.out = many.output;
+    return run_job(common, "files", job, pipeline::run_convert, print_written);
+  }
+  if (many.to.empty())
+    return report_error({.code = Code::usage,
+                         .message = fmt::format("{}: files for a folder need --to c3d, trc, csv or nwb",
+                                                many.output.string())});
+  const auto convert_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                  const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
+    pipeline::ConvertJob one = job;
+    static_cast<pipeline::JobSettings&>(one) = settings;
+    one.in = input;
+    one.out = output;
+    return pipeline::run_convert(one);
+  };
+  return run_each(common, many, many.to, false, convert_one);
+}
+
+}  // namespace
 
 void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
-  auto* command = app.add_subcommand("convert", "A file in another format of its kind");
+  auto* command = app.add_subcommand("convert", "Files in another format of their kind");
   command->footer(
       "Markers: .c3d, .trc, .nwb, .csv; .v3d and the texts of QTM, Motive and Vicon in. Tables: .mot, .sto. "
-      "Models: .osim, in their own version from 2.0 on, older ones as 4.0.");
-  const auto job = std::make_shared<pipeline::ConvertJob>();
-  command->add_option("IN", job->in, "File to read")->required();
-  command->add_option("OUT", job->out, "File to write; its ending names the format")->required();
-  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
-  command->add_option("--rotate", job->rotate,
+      "Models: .osim, in their own version from 2.0 on, older ones as 4.0.\n"
+      "Several recordings, or a folder of them: OUT is a folder, --to the format; what is there already is "
+      "not done "
+      "again.");
+  const auto arguments = std::make_shared<ConvertArguments>();
+  auto& job = arguments->job;
+  auto& many = arguments->many;
+  add_in_and_out(*command, many, "File to read; several, or a folder of recordings");
+  command->add_option("--to", many.to, "Format of the files in the folder OUT: c3d, trc, csv or nwb")
+      ->type_name("FORMAT")
+      ->group("Several recordings");
+  add_many_options(*command, many);
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
+  command->add_option("--rotate", job.rotate,
                       "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
-  command->callback([&common, job, &run] {
-    run = [&common, job] { return run_job(common, "files", *job, pipeline::run_convert, print_written); };
-  });
+  add_selection_options(*command, job.selection);
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
 #include "cli/motion_arguments.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 
@@ -42,6 +43,7 @@ void print_ik_outcome(const CommonOptions& common, const pipeline::IkOutcome& ou
 struct IkArguments {
   pipeline::IkJob job;
   MotionArguments motion;
+  ManyArguments many;
   std::vector<std::string> coordinate_weights;
   double loss_scale_mm = 20.0;
 };
@@ -55,7 +57,22 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
     job.options.coordinate_tasks.push_back({.coordinate = weight->first, .weight = weight->second});
   }
   job.options.loss_scale_m = 1e-3 * arguments.loss_scale_mm;
-  return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
+  auto& many = arguments.many;
+  many.inputs = arguments.motion.recordings;
+  many.output = job.output;
+  if (many.inputs.empty() || !many.are_many())
+    return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
+  many.pages = job.report;
+  const auto solve_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
+    pipeline::IkJob one = job;
+    static_cast<pipeline::JobSettings&>(one) = settings;
+    one.markers = input;
+    one.output = output;
+    if (!job.report.empty()) one.report = job.report / (output.stem().string() + ".html");
+    return pipeline::run_ik(one);
+  };
+  return run_each(common, many, ".mot", true, solve_one);
 }
 
 }  // namespace
@@ -66,17 +83,22 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_marker_errors.sto "
       "(metres, NaN where\n"
-      "not seen) and Q_report.json. Exit status 1: the files are there, but a quality gate was missed.");
+      "not seen) and Q_report.json. Exit status 1: the files are there, but a quality gate was missed.\n"
+      "Several marker files, or a folder of them: --output is a folder; what is there already is not done "
+      "again.");
   const auto arguments = std::make_shared<IkArguments>();
   auto& job = arguments->job;
   auto& options = job.options;
   add_motion_options(*command, job, arguments->motion);
+  add_many_options(*command, arguments->many);
   command
       ->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options take precedence")
       ->group("Input");
   command->add_option("--tasks", job.tasks, "OpenSim IKTaskSet: marker and coordinate weights")
       ->group("Input");
-  command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
+  command
+      ->add_option("--report", job.report,
+                   "Also write the page that shows the result, R.html; a folder for several recordings")
       ->group("Output");
   command
       ->add_option("--coordinate-weight", arguments->coordinate_weights,

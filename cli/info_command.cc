@@ -1,30 +1,77 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
+#include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
+namespace {
+
+struct InfoArguments {
+  std::vector<std::filesystem::path> given;
+  double rate_hz = 0.0;
+};
+
+int show_one(const CommonOptions& common, const InfoArguments& arguments) {
+  pipeline::InfoJob job;
+  job.file = arguments.given.front();
+  job.rate_hz = arguments.rate_hz;
+  settle(common, "files", job);
+  const auto outcome = pipeline::run_info(job);
+  if (!outcome) return report_error(outcome.error());
+  if (common.json)
+    print_result(pipeline::json_text(pipeline::info_json(*outcome)) + "\n");
+  else
+    print_result(pipeline::info_text(*outcome));
+  return outcome->exit_status();
+}
+
+int show_many(const CommonOptions& common, const InfoArguments& arguments) {
+  pipeline::ValidateJob job;
+  job.rate_hz = arguments.rate_hz;
+  auto list = pipeline::list_inputs(arguments.given, pipeline::known_endings());
+  if (!list) return report_error(list.error());
+  job.files = std::move(list->files);
+  settle(common, "files", job);
+  const auto outcome = pipeline::run_validate(job);
+  if (!outcome) return report_error(outcome.error());
+  for (const auto& note : list->notes) say(common, fmt::format("note: {}", note));
+  if (common.json)
+    print_result(pipeline::json_text(pipeline::files_json(*outcome)) + "\n");
+  else
+    print_result(pipeline::file_table(*outcome));
+  int worst = 0;
+  for (const auto& checked : outcome->files) {
+    if (!checked.error) continue;
+    worst = std::max(worst, checked.exit_status());
+    if (common.json) (void)report_error(*checked.error);
+  }
+  return worst;
+}
+
+}  // namespace
 
 void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
-  auto* command = app.add_subcommand("info", "What a marker, motion, model or recording file holds");
-  const auto job = std::make_shared<pipeline::InfoJob>();
-  command->add_option("FILE", job->file, ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim or .mcap")
+  auto* command = app.add_subcommand("info", "What marker, motion, model and recording files hold");
+  command->footer(
+      "Of several files, or a folder: a line each and the totals; the exit status is the worst of all "
+      "files.");
+  const auto arguments = std::make_shared<InfoArguments>();
+  command
+      ->add_option("FILE", arguments->given,
+                   ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, or a folder of them")
       ->required();
-  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
-  command->callback([&common, job, &run] {
-    run = [&common, job] {
-      settle(common, "files", *job);
-      const auto outcome = pipeline::run_info(*job);
-      if (!outcome) return report_error(outcome.error());
-      if (common.json)
-        print_result(pipeline::json_text(pipeline::info_json(*outcome)) + "\n");
-      else
-        print_result(pipeline::info_text(*outcome));
-      return outcome->exit_status();
+  command->add_option("--rate", arguments->rate_hz,
+                      "Frame rate of a marker file that stores none (.v3d), Hz");
+  command->callback([&common, arguments, &run] {
+    run = [&common, arguments] {
+      return are_many(arguments->given) ? show_many(common, *arguments) : show_one(common, *arguments);
     };
   });
 }

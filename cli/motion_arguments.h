@@ -22,6 +22,7 @@ struct MotionArguments {
   double noise_mm = 0.0, max_rms_mm = 50.0, max_offset_mm = 50.0;
   bool no_limits = false, no_error_bars = false;
   std::vector<std::string> images;
+  std::vector<std::filesystem::path> recordings;  ///< track takes one of them, ik any number
 };
 
 /// "NAME=NUMBER"; `what` names the number in the failure.
@@ -31,7 +32,7 @@ struct MotionArguments {
 template <class Job>
 void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
-  command.add_option("-t,--markers", job.markers, "Marker file, .c3d, .trc, .nwb, .csv, .tsv or .v3d")
+  command.add_option("-t,--markers", a.recordings, "Marker file, .c3d, .trc, .nwb, .csv, .tsv or .v3d")
       ->group("Input");
   command.add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz")
       ->group("Input");
@@ -74,6 +75,7 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
 /// Copy the command line's arguments to the job.
 template <class Job>
 [[nodiscard]] Status apply(const MotionArguments& a, Job& job) {
+  if (!a.recordings.empty()) job.markers = a.recordings.front();
   for (const auto& text : a.weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return std::unexpected(weight.error());

@@ -88,6 +88,8 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
 
 int run_command(const CommonOptions& common, const TrackArguments& arguments) {
   pipeline::TrackJob job = arguments.job;
+  if (arguments.motion.recordings.size() > 1)
+    return report_error({.code = Code::usage, .message = "--markers: several recordings; track takes one"});
   if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   if (auto status = apply(arguments, job); !status) return report_error(status.error());
   return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);

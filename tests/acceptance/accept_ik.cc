@@ -16,6 +16,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/state.h"
+#include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/acceptance.h"
@@ -59,19 +60,15 @@ Case solve(const fs::path& model, const fs::path& markers, const fs::path& setup
 /// Answer of one coordinate at one solved frame, in radians or metres.
 double stored(const Case& c, std::int64_t frame, int coordinate) {
   const auto& motion = c.result.motion;
-  // A coupled coordinate that the answer leaves out follows from the one it is coupled to.
-  if (c.answer.find(motion.coordinates[static_cast<std::size_t>(coordinate)]) < 0) {
-    const auto& coupled = c.model.coordinates()[static_cast<std::size_t>(coordinate)];
-    return coupled.coupling(stored(c, frame, coupled.source)).f;
-  }
+  // A coupled coordinate follows from the one it is coupled to; files of older OpenSims hold it in another
+  // unit.
+  const auto& kind = c.model.coordinates()[static_cast<std::size_t>(coordinate)];
+  if (kind.source >= 0) return kind.coupling(stored(c, frame, kind.source)).f;
   const auto column = c.answer.find(motion.coordinates[static_cast<std::size_t>(coordinate)]);
   const auto row = std::lower_bound(c.answer.time_s.begin(), c.answer.time_s.end(),
                                     motion.time.time_s(frame) - 0.3 / motion.time.rate_hz) -
                    c.answer.time_s.begin();
-  const double unit =
-      motion.is_rotation[static_cast<std::size_t>(coordinate)] && io::angles_are_degrees(c.answer)
-          ? kRadPerDeg
-          : 1.0;
+  const double unit = pipeline::column_unit(c.answer, c.model.description(), coordinate);
   return unit * c.answer(row, column);
 }
 

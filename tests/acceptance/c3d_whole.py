@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
 """Groups of parameters of real C3D files that kinemark does not read, before and after `kinemark convert`, by a parser of
-its own: names, locks, descriptions, types, sizes and values as bytes. Which groups are not carried: docs/formats/c3d.md.
+its own: names, locks, descriptions, types, sizes and values as bytes; and the parameters that it does not read of groups that it
+writes anew. Which groups are not carried: docs/formats/c3d.md.
 
     c3d_whole.py
 
@@ -16,7 +17,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-WRITTEN_ANEW = {"POINT", "ANALOG", "FORCE_PLATFORM", "EVENT", "EVENTS", "TRIAL", "MANUFACTURER", "ROTATION", "KINEMARK"}
+NOT_CARRIED = {"EVENTS", "MANUFACTURER", "ROTATION", "KINEMARK"}
+WRITTEN_ANEW = {  # and what of them is read into the trial or tells how this file stores its numbers
+    "POINT": "USED FRAMES LONG_FRAMES FRAME SCALE RATE DATA_START UNITS LABELS DESCRIPTIONS TYPE_GROUPS ANGLES FORCES MOMENTS "
+    "POWERS SCALARS MODELED_MARKERS RESIDUALS_GIVEN",
+    "ANALOG": "USED RATE GEN_SCALE SCALE OFFSET OFFSETS LABELS UNITS DESCRIPTIONS FORMAT BITS GAIN RATIO",
+    "FORCE_PLATFORM": "USED TYPE ZERO CORNERS ORIGIN CHANNEL CAL_MATRIX",
+    "EVENT": "USED TIMES LABELS CONTEXTS DESCRIPTIONS SUBJECTS ICON_IDS GENERIC_FLAGS",
+    "TRIAL": "ACTUAL_START_FIELD ACTUAL_END_FIELD",
+}
+UNITS_OF_CHANNELS = {f"{kind}_UNITS" for kind in ("ANGLE", "FORCE", "MOMENT", "POWER", "SCALAR", "MODELED_MARKER")}
 INTEL, DEC, MIPS = 84, 85, 86
 LARGEST = 32_000  # bytes of the groups that a copy carries
 failed = False
@@ -94,8 +104,30 @@ def groups(path):
     return [(*head, parameters.get(number, [])) for number, head in heads.items()]
 
 
+def plain(name):
+    return name.decode("latin-1").strip().upper()
+
+
+def parameters_carried(name, parameters):
+    """Of a group that is written anew: what neither the trial holds nor the way of storing decides, with its bytes."""
+    own = set(WRITTEN_ANEW[name].split())
+    if name == "POINT":
+        # A copy writes the units of the kinds of points that it has; these are compared by tests/acceptance/channels.py.
+        own |= UNITS_OF_CHANNELS
+    return [p for p in parameters if plain(p[0]).rstrip("0123456789") not in own]
+
+
 def carried(path):
-    return [g for g in groups(path) if g[0].decode("latin-1").strip().upper() not in WRITTEN_ANEW]
+    found = []
+    for group in groups(path):
+        name = plain(group[0])
+        if name in NOT_CARRIED:
+            continue
+        if name not in WRITTEN_ANEW:
+            found.append(group)
+        elif rest := parameters_carried(name, group[3]):
+            found.append((name.encode(), False, b"", sorted(rest)))
+    return sorted(found)
 
 
 def bytes_of(found):

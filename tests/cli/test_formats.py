@@ -42,7 +42,7 @@ class Markers(CommandTest):
         (self.folder / "other.c3d").write_bytes(raw.replace(b"KINEMARK", b"SUBJECTS"))
         self.good("convert", "other.c3d", "copy.c3d")
         self.assertIn(b"SUBJECTS", (self.folder / "copy.c3d").read_bytes())
-        self.assertIn("1 groups of parameters cannot be stored", self.good("convert", "other.c3d", "copy.trc").err)
+        self.assertIn("1 group of parameters cannot be stored", self.good("convert", "other.c3d", "copy.trc").err)
         self.assertNotIn("groups of parameters", self.good("convert", self.c3d, "own.trc").err)
 
     def test_every_format_becomes_every_other_with_the_same_facts(self):

@@ -39,7 +39,7 @@ SLIPS = (
     (("plot", "q.mot"), "'kinemark report' does that"),
     # Habits from the shell.
     (("ls",), "'kinemark info' does that"),
-    (("info", "a.c3d", "b.c3d"), "'b.c3d' is one argument too many"),
+    (("completion", "bash", "zsh"), "'zsh' is one argument too many"),
     (("convert", "a.c3d", "b.trc", "--overwrite"), "unknown option '--overwrite'"),
     (("ik", "--verbos"), "unknown option '--verbos'"),
     (("simulate",), "'simulate' of what?"),

@@ -30,12 +30,14 @@ enum class FrameStatus : std::uint8_t {
 struct JointMotion {
   std::vector<std::string> coordinates;  ///< n names, in the model's order
   std::vector<bool> is_rotation;         ///< n; true: rad, false: m
-  std::vector<std::string> markers;      ///< M names of the markers that were used
-  TimeBase time;                         ///< F = time.frames
-  Array<double> q;                       ///< F x n
-  Array<double> q_sd;              ///< F x n, one standard deviation; NaN where not determined or unknown
-  Array<std::uint8_t> determined;  ///< F x n; 0: the visible markers do not fix this coordinate
-  Array<double> qd, qdd;           ///< F x n, dq/dt and d2q/dt2; empty when not computed
+  std::vector<bool>
+      keeps_radians;  ///< n, empty: none; rotations that files in degrees hold in rad all the same
+  std::vector<std::string> markers;  ///< M names of the markers that were used
+  TimeBase time;                     ///< F = time.frames
+  Array<double> q;                   ///< F x n
+  Array<double> q_sd;                ///< F x n, one standard deviation; NaN where not determined or unknown
+  Array<std::uint8_t> determined;    ///< F x n; 0: the visible markers do not fix this coordinate
+  Array<double> qd, qdd;             ///< F x n, dq/dt and d2q/dt2; empty when not computed
   Array<double> tau, tau_sd;  ///< F x n, generalised force of each coordinate, N m or N, and its SD; empty
                               ///< when not computed, NaN where it is not known
   Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN

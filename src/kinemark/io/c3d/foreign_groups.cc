@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <utility>
 
+#include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
 
 namespace kinemark::io {
@@ -18,13 +20,59 @@ namespace {
 constexpr std::size_t kMaxGroups = 120;
 constexpr std::size_t kMaxBytes = 32'000;
 
-// Read into the trial and written from it. ROTATION tells where samples are that are not carried.
-constexpr std::array<std::string_view, 8> kOurs = {"POINT",  "ANALOG", "FORCE_PLATFORM", "EVENT",
-                                                   "EVENTS", "TRIAL",  "MANUFACTURER",   "ROTATION"};
+using Names = std::span<const std::string_view>;
 
-bool is_foreign(const C3dGroup& group) {
-  return !group.stored.name.empty() && group.name != kProvenanceGroup &&
-         std::ranges::find(kOurs, group.name) == kOurs.end();
+// Of the groups that are written anew: what the trial holds, or what is true of the samples as this file
+// stores them.
+constexpr std::array<std::string_view, 11> kPoint = {"USED",   "FRAMES",       "LONG_FRAMES", "FRAME",
+                                                     "SCALE",  "RATE",         "DATA_START",  "UNITS",
+                                                     "LABELS", "DESCRIPTIONS", "TYPE_GROUPS"};
+constexpr std::array<std::string_view, 13> kAnalog = {
+    "USED",  "RATE",         "GEN_SCALE", "SCALE", "OFFSET", "OFFSETS", "LABELS",
+    "UNITS", "DESCRIPTIONS", "FORMAT",    "BITS",  "GAIN",   "RATIO"};
+constexpr std::array<std::string_view, 7> kForcePlatform = {"USED",   "TYPE",    "ZERO",      "CORNERS",
+                                                            "ORIGIN", "CHANNEL", "CAL_MATRIX"};
+constexpr std::array<std::string_view, 8> kEvent = {"USED",         "TIMES",    "LABELS",   "CONTEXTS",
+                                                    "DESCRIPTIONS", "SUBJECTS", "ICON_IDS", "GENERIC_FLAGS"};
+constexpr std::array<std::string_view, 2> kTrial = {"ACTUAL_START_FIELD", "ACTUAL_END_FIELD"};
+
+/// A group that is written anew, and its parameters that are not carried.
+struct WrittenAnew {
+  std::string_view group;
+  Names parameters;
+};
+constexpr std::array<WrittenAnew, 5> kWrittenAnew = {{{"POINT", kPoint},
+                                                      {"ANALOG", kAnalog},
+                                                      {"FORCE_PLATFORM", kForcePlatform},
+                                                      {"EVENT", kEvent},
+                                                      {"TRIAL", kTrial}}};
+// EVENTS is read as EVENT. MANUFACTURER names the program that writes. ROTATION tells where samples are that
+// are not carried.
+constexpr std::array<std::string_view, 4> kNotCarried = {"EVENTS", "MANUFACTURER", "ROTATION",
+                                                         kProvenanceGroup};
+
+bool among(Names names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+/// "LABELS" of "LABELS2": lists of more than 255 go on in numbered parameters.
+std::string_view stem(std::string_view name) {
+  return name.substr(0, name.find_last_not_of("0123456789") + 1);
+}
+
+/// Lists of points that are no markers; they are channels of the trial.
+bool lists_channels(const C3dParameters& parameters, std::string_view name) {
+  const auto pairs = parameters.texts("POINT", "TYPE_GROUPS");
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
+    if (pairs[i] == name) return true;
+  return std::ranges::find(kC3dPointTypes, name, &C3dPointType::list) != kC3dPointTypes.end();
+}
+
+bool is_carried(const C3dParameters& parameters, const C3dGroup& group, const C3dParameter& p) {
+  if (p.stored.name.empty()) return false;  // it is cut short, which has been said
+  const auto anew = std::ranges::find(kWrittenAnew, group.name, &WrittenAnew::group);
+  if (anew == kWrittenAnew.end()) return true;
+  const auto name = stem(p.name);
+  return !among(anew->parameters, name) && p.name != kC3dResidualsParameter &&
+         !(group.name == "POINT" && lists_channels(parameters, name));
 }
 
 /// Bytes of a group or parameter at most, with lengths, pointer, type and sizes.
@@ -40,14 +88,17 @@ std::vector<data::ForeignGroup> find_foreign_groups(const C3dParameters& paramet
   std::size_t total = 0;
   std::size_t left_out = 0;
   for (const C3dGroup& group : parameters.groups) {
-    if (!is_foreign(group)) continue;
+    if (group.stored.name.empty() || among(kNotCarried, group.name)) continue;
     data::ForeignGroup foreign = group.stored;
     std::size_t bytes = 8 + foreign.name.size() + foreign.description.size();
     for (const C3dParameter& p : group.parameters) {
-      if (p.stored.name.empty()) continue;  // it is cut short, which has been said
+      if (!is_carried(parameters, group, p)) continue;
       bytes += bytes_of(p.stored);
       foreign.parameters.push_back(p.stored);
     }
+    const bool is_written =
+        std::ranges::find(kWrittenAnew, group.name, &WrittenAnew::group) != kWrittenAnew.end();
+    if (is_written && foreign.parameters.empty()) continue;
     if (found.size() == kMaxGroups || total + bytes > kMaxBytes) {
       ++left_out;
       continue;
@@ -57,8 +108,9 @@ std::vector<data::ForeignGroup> find_foreign_groups(const C3dParameters& paramet
   }
   if (left_out > 0)
     warnings.push_back(fmt::format(
-        "{} groups of parameters that kinemark does not read are too large to be carried into a copy",
-        left_out));
+        "{} that kinemark does not read {} too large to be carried into a copy",
+        left_out == 1 ? "1 group of parameters" : fmt::format("{} groups of parameters", left_out),
+        left_out == 1 ? "is" : "are"));
   return found;
 }
 

@@ -11,7 +11,8 @@
 namespace kinemark::io {
 
 /// Groups that a copy keeps as they are: all but those whose content the trial holds or that would not be
-/// true of the copy's samples. At most 120 groups and 32 kB, so that there is room for our own; what is left
+/// true of the copy's samples. Of POINT, ANALOG, FORCE_PLATFORM, EVENT and TRIAL, which are written anew, the
+/// parameters that are neither. At most 120 groups and 32 kB, so that there is room for our own; what is left
 /// out for that is reported in `warnings`.
 [[nodiscard]] std::vector<data::ForeignGroup> find_foreign_groups(const C3dParameters& parameters,
                                                                   std::vector<std::string>& warnings);

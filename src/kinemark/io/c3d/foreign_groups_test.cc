@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "kinemark/io/c3d/internal/simulated_trial.h"
@@ -108,13 +109,86 @@ TEST(ForeignGroups, AreBoundedAndTheRestIsSaid) {
       {.name = "X",
        .stored = {.name = "X", .type = 1, .dims = {255, 255}, .values = std::vector<std::byte>(65025)}});
   EXPECT_THAT(names_of(find_foreign_groups(p, warnings)), ElementsAre("SMALL", "LAST"));
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("1 groups of parameters")));
+  EXPECT_THAT(warnings,
+              ElementsAre(HasSubstr("1 group of parameters that kinemark does not read is too large")));
 
   warnings.clear();
   C3dParameters many;
   for (int i = 0; i < 127; ++i) many.group("G" + std::to_string(i)).stored.name = "G";
   EXPECT_EQ(find_foreign_groups(many, warnings).size(), 120U);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("7 groups of parameters")));
+}
+
+C3dParameter stored(const char* name) {
+  return {.name = name, .stored = {.name = name, .type = 1, .dims = {}, .values = std::vector<std::byte>(1)}};
+}
+
+TEST(ForeignGroups, OfGroupsThatAreWrittenAnewTheRestIsCarried) {
+  std::vector<std::string> warnings;
+  C3dParameters p = groups({"POINT", "ANALOG", "TRIAL", "MANUFACTURER"});
+  for (const char* name : {"USED", "LABELS", "LABELS2", "X_SCREEN", "ANGLES", "KNEES", "MOVIE_ID"})
+    p.group("POINT").parameters.push_back(stored(name));
+  p.group("POINT").parameters.push_back({.name = "TYPE_GROUPS",
+                                         .type = C3dType::text,
+                                         .dims = {5, 2, 1},
+                                         .texts = {"KNEES", "KNEE"},
+                                         .stored = {.name = "TYPE_GROUPS"}});
+  for (const char* name : {"GAIN", "OFFSETS", "BOARDS"}) p.group("ANALOG").parameters.push_back(stored(name));
+  p.group("TRIAL").parameters.push_back(stored("ACTUAL_START_FIELD"));
+  p.group("MANUFACTURER").parameters.push_back(stored("COMPANY"));
+  const auto found = find_foreign_groups(p, warnings);
+  ASSERT_THAT(names_of(found), ElementsAre("POINT", "ANALOG"));
+  ASSERT_EQ(found[0].parameters.size(), 2U);
+  EXPECT_EQ(found[0].parameters[0].name, "X_SCREEN");
+  EXPECT_EQ(found[0].parameters[1].name, "MOVIE_ID");
+  ASSERT_EQ(found[1].parameters.size(), 1U);
+  EXPECT_EQ(found[1].parameters[0].name, "BOARDS");
+}
+
+TEST(ForeignGroups, TheRestOfAWrittenGroupStandsInItOnce) {
+  const ScratchFolder folder;
+  data::Trial trial = internal::simulate_trial({});
+  const data::ForeignParameter screen{
+      .name = "X_screen", .type = -1, .dims = {2}, .values = bytes_of_words({'+', 'X'})},
+      rate{.name = "RATE", .type = 2, .dims = {}, .values = bytes_of_words({7, 0})};
+  trial.foreign = {{.name = "Point", .parameters = {screen, rate}}};
+  const auto path = folder.path() / "a.c3d";
+  ASSERT_TRUE(write_c3d(path, trial));
+  const auto reader = C3dReader::open(path);
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(std::ranges::count(reader->parameters().groups, "POINT", &C3dGroup::name), 1);
+  EXPECT_EQ(reader->parameters().text("POINT", "X_SCREEN"), "+X");
+  EXPECT_FLOAT_EQ(static_cast<float>(reader->parameters().number("POINT", "RATE").value()),
+                  static_cast<float>(trial.markers.time.rate_hz))
+      << "what is written wins";
+  const auto back = read_c3d(path);
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->foreign.size(), 1U);
+  EXPECT_EQ(back->foreign[0].name, "POINT");
+  ASSERT_EQ(back->foreign[0].parameters.size(), 1U);
+  EXPECT_EQ(back->foreign[0].parameters[0].values, screen.values);
+}
+
+TEST(ForeignGroups, GiveWayWhereTheSectionIsFullAndThatIsSaid) {
+  const ScratchFolder folder;
+  data::Trial trial = internal::simulate_trial({});
+  for (int i = 0; i < 6; ++i)
+    trial.foreign.push_back(
+        {.name = "BIG" + std::to_string(i),
+         .parameters = {
+             {.name = "X", .type = 1, .dims = {255, 100}, .values = std::vector<std::byte>(25500)}}});
+  std::vector<std::string> lost;
+  const auto path = folder.path() / "a.c3d";
+  ASSERT_TRUE(write_c3d(path, trial, {.lost = &lost}));
+  EXPECT_THAT(lost, ElementsAre(HasSubstr("6 groups of parameters that kinemark does not read had no room")));
+  const auto back = read_c3d(path);
+  ASSERT_TRUE(back);
+  EXPECT_THAT(back->foreign, IsEmpty());
+  EXPECT_EQ(back->markers.names, trial.markers.names);
+  trial.foreign.resize(1);
+  lost.clear();
+  ASSERT_TRUE(write_c3d(folder.path() / "b.c3d", trial, {.lost = &lost}));
+  EXPECT_THAT(lost, IsEmpty());
 }
 
 TEST(ForeignGroups, CutShortParametersAreNotCarried) {

@@ -73,10 +73,14 @@ struct C3dParameters {
                                              std::vector<std::string>& warnings);
 
 /// The section's bytes, a whole number of 512-byte blocks. Values are taken from `numbers` or `texts` and
-/// must fit `dims`; `foreign` groups follow as they are, 120 at most. More than 255 blocks is
+/// must fit `dims`; `foreign` groups follow as they are, 120 at most, those of a name that is written with
+/// the parameters that are not. More than 255 blocks is
 /// Code::not_supported.
 [[nodiscard]] Result<std::vector<std::byte>> encode_parameters(
     const C3dParameters& parameters, Processor processor, std::span<const data::ForeignGroup> foreign = {});
+
+/// A name as parameters and groups are found by it: upper case, fit to show.
+[[nodiscard]] std::string c3d_name(std::string_view stored);
 
 /// Text as a file holds it, made fit to show: control characters become blanks, blanks at both ends go, and
 /// bytes that are not UTF-8 are taken as Latin-1.

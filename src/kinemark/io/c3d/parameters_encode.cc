@@ -98,20 +98,34 @@ class Encoder {
   Processor processor_;
 };
 
+std::size_t open_stored(Encoder& e, const std::string& name, bool locked, int signed_id) {
+  const int length = static_cast<int>(name.size());
+  e.head(locked ? -length : length, signed_id, name);
+  return e.open_entry();
+}
+
+void put_foreign(Encoder& e, int id, const data::ForeignParameter& p) {
+  const std::size_t pointer = open_stored(e, p.name, p.locked, id);
+  e.stored(p);
+  e.description(p.description);
+  e.close_entry(pointer);
+}
+
 void put_foreign(Encoder& e, int id, const data::ForeignGroup& group) {
-  const auto head = [&](const std::string& name, bool locked, int signed_id) {
-    const int length = static_cast<int>(name.size());
-    e.head(locked ? -length : length, signed_id, name);
-    return e.open_entry();
-  };
-  const std::size_t group_pointer = head(group.name, group.locked, -id);
+  const std::size_t pointer = open_stored(e, group.name, group.locked, -id);
   e.description(group.description);
-  e.close_entry(group_pointer);
-  for (const data::ForeignParameter& p : group.parameters) {
-    const std::size_t pointer = head(p.name, p.locked, id);
-    e.stored(p);
-    e.description(p.description);
-    e.close_entry(pointer);
+  e.close_entry(pointer);
+  for (const data::ForeignParameter& p : group.parameters) put_foreign(e, id, p);
+}
+
+/// What is carried of a group that is written anew, where it is not written too.
+void put_rest(Encoder& e, int id, const C3dGroup& group, std::span<const data::ForeignGroup> foreign) {
+  for (const data::ForeignGroup& carried : foreign) {
+    if (c3d_name(carried.name) != group.name) continue;
+    for (const data::ForeignParameter& p : carried.parameters)
+      if (std::ranges::find(group.parameters, c3d_name(p.name), &C3dParameter::name) ==
+          group.parameters.end())
+        put_foreign(e, id, p);
   }
 }
 
@@ -137,8 +151,12 @@ Result<std::vector<std::byte>> encode_parameters(const C3dParameters& parameters
       e.description(p.description);
       e.close_entry(parameter_pointer);
     }
+    put_rest(e, id, group, foreign);
   }
-  for (const data::ForeignGroup& group : foreign) put_foreign(e, ++id, group);
+  for (const data::ForeignGroup& group : foreign)
+    if (std::ranges::find(parameters.groups, c3d_name(group.name), &C3dGroup::name) ==
+        parameters.groups.end())
+      put_foreign(e, ++id, group);
   e.put(0);
   e.put(0);
   const std::size_t blocks = (e.bytes.size() + kBlock - 1) / kBlock;

@@ -309,7 +309,7 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   add_analog_group(plan, trial);
   add_force_plates(plan, trial);
   add_events(plan, trial);
-  if (!fits) add_trial_group(plan, first, last);
+  if (first >= 1) add_trial_group(plan, first, last);
   add_text(plan.parameters.group("MANUFACTURER"), "SOFTWARE", options.software);
   add_provenance(trial.markers, plan.parameters);
   if (const std::string mark = set_mark(options.set); !mark.empty())

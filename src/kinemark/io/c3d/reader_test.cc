@@ -222,8 +222,9 @@ TEST(C3dReader, AFileCutShortGivesItsWholeFrames) {
   bytes.raw().resize(layout.data_offset + 41 * layout.frame_bytes + 17);
   const Trial t = bytes.read().value();
   EXPECT_EQ(t.markers.frames(), 41);
-  EXPECT_THAT(t.warnings,
-              Contains(HasSubstr("cut short: POINT:FRAMES states 100 frames, 41 whole ones are there")));
+  EXPECT_THAT(
+      t.warnings,
+      Contains(HasSubstr("cut short: TRIAL:ACTUAL_END_FIELD states 100 frames, 41 whole ones are there")));
   bytes.raw().resize(layout.data_offset + 5);
   EXPECT_THAT(bytes.read().error().message, StartsWith("memory.c3d: ends before its first frame"));
 }

@@ -124,14 +124,22 @@ Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
                  const C3dWriteOptions& options) {
   auto plan = plan_c3d(trial, options);
   if (!plan) return fail_at(path.string(), plan.error());
-  // What does not fit gives way: how samples were filled first, then what is carried for others.
+  const auto lose = [&](std::string what) {
+    if (options.lost) options.lost->push_back(std::move(what));
+  };
+  // What does not fit gives way: what is carried for others first, then how samples were filled.
   std::span<const data::ForeignGroup> foreign = trial.foreign;
   auto section = encode_parameters(plan->parameters, plan->processor, foreign);
-  if (!section && std::erase_if(plan->parameters.groups,
-                                [](const C3dGroup& g) { return g.name == kProvenanceGroup; }) > 0)
-    section = encode_parameters(plan->parameters, plan->processor, foreign);
   if (!section && !foreign.empty()) {
+    lose(fmt::format("{} that kinemark does not read had no room in the file",
+                     foreign.size() == 1 ? "1 group of parameters"
+                                         : fmt::format("{} groups of parameters", foreign.size())));
     foreign = {};
+    section = encode_parameters(plan->parameters, plan->processor);
+  }
+  if (!section && std::erase_if(plan->parameters.groups,
+                                [](const C3dGroup& g) { return g.name == kProvenanceGroup; }) > 0) {
+    lose("how samples were filled had no room in the file: filled ones read as interpolated");
     section = encode_parameters(plan->parameters, plan->processor);
   }
   if (!section) return fail_at(path.string(), section.error());

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
@@ -13,11 +14,12 @@ namespace kinemark::io {
 
 /// Options of write_c3d().
 struct C3dWriteOptions {
-  bool force = false;                      ///< replace a file that exists
-  std::string set;                         ///< of files that it belongs to (set_mark()); empty: none
-  std::string software = "kinemark";       ///< MANUFACTURER:SOFTWARE
-  std::string units = "mm";                ///< length unit in the file: "mm", "cm", "m", ...
-  Processor processor = Processor::intel;  ///< how numbers are stored
+  bool force = false;                        ///< replace a file that exists
+  std::string set;                           ///< of files that it belongs to (set_mark()); empty: none
+  std::string software = "kinemark";         ///< MANUFACTURER:SOFTWARE
+  std::string units = "mm";                  ///< length unit in the file: "mm", "cm", "m", ...
+  Processor processor = Processor::intel;    ///< how numbers are stored
+  std::vector<std::string>* lost = nullptr;  ///< gets what did not fit, a sentence each; null: not wanted
   bool integers = false;  ///< 16-bit samples: half the size, rounded to 1/32000 of the largest coordinate
 };
 
@@ -31,7 +33,8 @@ struct C3dWriteOptions {
 /// n is at (n - 1) / rate, rounded to a frame. More than 65535 frames: POINT:FRAMES says 65535, LONG_FRAMES
 /// (float), TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD (32 bits) hold the full number. Lists longer than
 /// 255 go on in LABELS2 and so on. Which samples were filled how, and their standard deviations, go into a
-/// group of our own (add_provenance()).
+/// group of our own (add_provenance()). Where the parameter section overflows, what is carried for other
+/// programs gives way first, then that group.
 ///
 /// Code::bad_input: the trial is not valid, has no frames, or analog samples that do not fill its frames
 /// evenly; Code::not_supported: more points, channels or text than the format can count; Code::io: the disk.

@@ -125,10 +125,10 @@ Status check_marker_format(const std::filesystem::path& path) {
 }
 
 Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
-                     const std::string& set) {
+                     const std::string& set, std::vector<std::string>* lost) {
   if (auto s = check_marker_format(path); !s) return s;
   const std::string extension = lower_extension(path);
-  if (extension == ".c3d") return write_c3d(path, trial, {.force = force, .set = set});
+  if (extension == ".c3d") return write_c3d(path, trial, {.force = force, .set = set, .lost = lost});
   if (extension == ".trc") return write_trc(path, trial, {.force = force, .set = set});
   if (extension == ".csv") return write_trajectories_csv(path, trial, force);
   NwbMetadata metadata;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
@@ -35,8 +36,9 @@ struct MarkerReadOptions {
 /// Write a trial in the format of the extension: .c3d, .trc (millimetres), .nwb (positions with their
 /// provenance; write_nwb() takes more) or .csv (write_trajectories_csv()). Code::usage for any other; else as
 /// the writer of that format. An existing file is replaced only with `force`.
-/// @param set  of files that it belongs to (set_mark()); empty: none. A CSV cannot name one.
+/// @param set   of files that it belongs to (set_mark()); empty: none. A CSV cannot name one.
+/// @param lost  gets what had no room in a C3D file, a sentence each; null: not wanted
 [[nodiscard]] Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
-                                   const std::string& set = {});
+                                   const std::string& set = {}, std::vector<std::string>* lost = nullptr);
 
 }  // namespace kinemark::io

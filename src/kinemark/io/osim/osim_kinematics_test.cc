@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/testing/place_bodies.h"
@@ -35,7 +36,8 @@ std::vector<double> pose_of(const data::ModelDescription& model, const data::Tab
   for (std::size_t i = 0; i < q.size(); ++i) {
     const std::int64_t column = table.find(model.coordinates[i].name);
     if (column < 0) continue;
-    const bool degrees = angles_are_degrees(table) && model.coordinates[i].is_rotation;
+    const bool degrees = angles_are_degrees(table) && model.coordinates[i].is_rotation &&
+                         !data::keeps_radians(model, static_cast<int>(i));
     q[i] = table(row, column) * (degrees ? std::numbers::pi / 180.0 : 1.0);
   }
   return q;

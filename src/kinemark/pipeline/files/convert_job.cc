@@ -46,8 +46,11 @@ std::vector<std::string> losses(const data::Trial& trial, const std::string& end
   if (!trial.events.empty())
     notes.push_back(fmt::format("{} events cannot be stored in a {} file", trial.events.size(), ending));
   if (!trial.foreign.empty())
-    notes.push_back(
-        fmt::format("{} groups of parameters cannot be stored in a {} file", trial.foreign.size(), ending));
+    notes.push_back(fmt::format("{} cannot be stored in a {} file",
+                                trial.foreign.size() == 1
+                                    ? "1 group of parameters"
+                                    : fmt::format("{} groups of parameters", trial.foreign.size()),
+                                ending));
   return notes;
 }
 
@@ -73,13 +76,16 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
 Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const std::string& ending) {
   auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
   if (!input) return std::unexpected(input.error());
+  if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
   if (!job.rotate.empty()) {
     const auto turning = parse_rotation(job.rotate);
     if (!turning) return std::unexpected(turning.error());
     turn(input->trial, *turning);
   }
-  if (auto s = io::write_markers(job.out, input->trial, job.force); !s) return std::unexpected(s.error());
-  return losses(input->trial, ending);
+  auto notes = losses(input->trial, ending);
+  if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
+    return std::unexpected(s.error());
+  return notes;
 }
 
 }  // namespace
@@ -92,6 +98,9 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
                             job.in.string(), job.out.string()));
   if (!job.rotate.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only marker files can be turned", job.in.string()));
+  if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
+  if (!job.selection.empty() && kind_of(from) != Kind::markers)
+    return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
   if (auto s = check_apart({job.out}, {job.in}); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   switch (kind_of(from)) {

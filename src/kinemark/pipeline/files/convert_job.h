@@ -7,6 +7,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/selection.h"
 
 namespace kinemark::pipeline {
 
@@ -15,6 +16,7 @@ struct ConvertJob : JobSettings {
   std::filesystem::path in;   ///< file to convert
   std::filesystem::path out;  ///< its ending names the format
   double rate_hz = 0.0;       ///< of marker files that tell none (.v3d); 0: not given
+  Selection selection;        ///< of a marker file
   std::string rotate;         ///< turns markers and force plates, "x -90"; empty: as they are
 };
 

@@ -79,10 +79,13 @@ struct RecordingFacts {
   std::optional<CountsFacts> counts;                ///< when it holds any
 };
 
+/// By the kind of the file.
+using FileFacts = std::variant<MarkerFileFacts, TableFacts, ModelFacts, RecordingFacts>;
+
 /// What `kinemark info` found.
 struct InfoOutcome : JobOutcome {
-  std::filesystem::path file;                                                   ///< as asked
-  std::variant<MarkerFileFacts, TableFacts, ModelFacts, RecordingFacts> facts;  ///< by the kind of the file
+  std::filesystem::path file;  ///< as asked
+  FileFacts facts;             ///< what it holds
 };
 
 /// Read a file, by its ending, and say what it holds and what is odd about it. Writes nothing. Fails as the

@@ -10,6 +10,8 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
+#include "kinemark/data/motion_coordinates.h"
+#include "kinemark/io/text/table_file.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -22,6 +24,12 @@ data::Table empty_table(const data::JointMotion& motion, std::string name) {
   return table;
 }
 
+/// What a file holds instead of 1 rad or 1 m of a coordinate.
+double file_unit(const data::JointMotion& motion, std::size_t coordinate) {
+  const bool keeps_radians = !motion.keeps_radians.empty() && motion.keeps_radians[coordinate];
+  return motion.is_rotation[coordinate] && !keeps_radians ? kDegPerRad : 1.0;
+}
+
 data::Table coordinate_columns(const data::JointMotion& motion, const Array<double>& values,
                                std::string name) {
   data::Table table = empty_table(motion, std::move(name));
@@ -29,7 +37,7 @@ data::Table coordinate_columns(const data::JointMotion& motion, const Array<doub
   table.columns = motion.coordinates;
   table.values.resize(values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    table.values[i] = values[i] * (motion.is_rotation[i % motion.coordinates.size()] ? kDegPerRad : 1.0);
+    table.values[i] = values[i] * file_unit(motion, i % motion.coordinates.size());
   return table;
 }
 
@@ -106,19 +114,30 @@ data::Table marker_errors_table(const data::JointMotion& motion) {
   return table;
 }
 
+double column_unit(const data::Table& table, const data::ModelDescription& model, int coordinate_idx) {
+  const bool degrees = model.coordinates[at(coordinate_idx)].is_rotation && io::angles_are_degrees(table) &&
+                       !data::keeps_radians(model, coordinate_idx);
+  return degrees ? kRadPerDeg : 1.0;
+}
+
 Result<data::JointMotion> motion_from_tables(const data::Table& coordinates, const data::Table* deviations,
                                              const data::Table* marker_errors,
-                                             const std::vector<std::string>& rotations) {
+                                             const RotationNames& rotations) {
   auto time = time_base_of(coordinates);
   if (!time) return std::unexpected(time.error());
   data::JointMotion motion;
   motion.time = *time;
   motion.coordinates = coordinates.columns;
-  for (const auto& name : motion.coordinates)
-    motion.is_rotation.push_back(std::find(rotations.begin(), rotations.end(), name) != rotations.end());
+  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const auto& name : motion.coordinates) {
+    motion.is_rotation.push_back(among(rotations.all, name));
+    motion.keeps_radians.push_back(among(rotations.keeps_radians, name));
+  }
   const auto n = motion.coordinates.size();
   const auto radians = [&](std::size_t i, double value, bool degrees) {
-    return motion.is_rotation[i % n] && degrees ? value * kRadPerDeg : value;
+    return degrees && file_unit(motion, i % n) != 1.0 ? value * kRadPerDeg : value;
   };
   motion.q.resize(coordinates.values.size());
   for (std::size_t i = 0; i < motion.q.size(); ++i)

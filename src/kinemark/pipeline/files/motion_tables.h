@@ -3,13 +3,17 @@
 // Joint motion as the tables that MOT and STO files hold (degrees and metres), and back.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/model_description.h"
 #include "kinemark/data/table.h"
 
 namespace kinemark::pipeline {
 
-/// Coordinates, one column each; rotations in degrees.
+/// Coordinates, one column each; rotations in degrees but those that keep radians.
 [[nodiscard]] data::Table coordinates_table(const data::JointMotion& motion);
 
 /// One standard deviation of each coordinate, degrees or metres; NaN where the markers do not determine it.
@@ -28,14 +32,22 @@ namespace kinemark::pipeline {
 /// seen.
 [[nodiscard]] data::Table marker_errors_table(const data::JointMotion& motion);
 
-/// A motion from a table of coordinates and, when given, of deviations and marker errors. `rotations` holds
-/// the names of the rotational coordinates; the result is in radians and metres. The marker error gets its
-/// length in x
-/// and 0 in y and z; with both tables each frame has a status (the tables do not show which frames did not
-/// converge).
+/// What 1 in the column of a model's coordinate stands for, rad or m.
+[[nodiscard]] double column_unit(const data::Table& table, const data::ModelDescription& model,
+                                 int coordinate_idx);
+
+/// Names of coordinates whose columns are not lengths.
+struct RotationNames {
+  std::vector<std::string> all;            ///< every rotation
+  std::vector<std::string> keeps_radians;  ///< those of `all` that are in rad where the table is in degrees
+};
+
+/// A motion from a table of coordinates and, when given, of deviations and marker errors; the result is in
+/// radians and metres. The marker error gets its length in x and 0 in y and z; with both tables each frame
+/// has a status (the tables do not show which frames did not converge).
 [[nodiscard]] Result<data::JointMotion> motion_from_tables(const data::Table& coordinates,
                                                            const data::Table* deviations,
                                                            const data::Table* marker_errors,
-                                                           const std::vector<std::string>& rotations);
+                                                           const RotationNames& rotations);
 
 }  // namespace kinemark::pipeline

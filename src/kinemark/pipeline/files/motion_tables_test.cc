@@ -53,7 +53,7 @@ TEST(MotionTables, ComeBackAsTheSameMotion) {
   const auto motion = small();
   const auto q = coordinates_table(motion), sd = deviations_table(motion),
              errors = marker_errors_table(motion);
-  const auto back = motion_from_tables(q, &sd, &errors, {"knee"}).value();
+  const auto back = motion_from_tables(q, &sd, &errors, {.all = {"knee"}}).value();
   EXPECT_TRUE(back.validate());
   EXPECT_EQ(back.time, motion.time);
   for (std::size_t i = 0; i < motion.q.size(); ++i) {
@@ -62,6 +62,35 @@ TEST(MotionTables, ComeBackAsTheSameMotion) {
   }
   EXPECT_EQ(back.status, motion.status);
   EXPECT_EQ(back.markers, motion.markers);
+}
+
+TEST(MotionTables, ACoordinateThatKeepsRadiansIsNeverInDegrees) {
+  auto motion = small();
+  motion.keeps_radians = {true, false};
+  const auto q = coordinates_table(motion), sd = deviations_table(motion),
+             errors = marker_errors_table(motion);
+  EXPECT_DOUBLE_EQ(q(0, 0), 0.5);
+  EXPECT_DOUBLE_EQ(sd(0, 0), 0.01);
+  const auto back = motion_from_tables(q, &sd, &errors, {.all = {"knee"}, .keeps_radians = {"knee"}}).value();
+  EXPECT_EQ(back.q[0], 0.5);
+  EXPECT_EQ(back.q_sd[0], 0.01);
+}
+
+TEST(MotionTables, AColumnHasTheUnitThatOpenSimGivesIt) {
+  data::ModelDescription model;
+  model.bodies = {{.name = "shank", .mass = 1.0}};
+  model.coordinates = {{.name = "knee"}, {.name = "tx", .is_rotation = false}};
+  model.joints = {{.name = "j", .type = "CustomJoint", .child_body_idx = 0}};
+  model.joints[0].axes = {{.coordinate_idx = 0}, {.is_rotation = false, .coordinate_idx = 1}};
+  auto table = coordinates_table(small());
+  EXPECT_EQ(column_unit(table, model, 0), kRadPerDeg);
+  EXPECT_EQ(column_unit(table, model, 1), 1.0);
+  model.joints[0].axes[0].function = math::ScalarFunction::linear(0.5, 0.0);
+  EXPECT_EQ(column_unit(table, model, 0), 1.0) << "moved by a function alone";
+  model.joints[0].axes[0].function = {};
+  table.in_degrees = false;
+  table.degrees_stated = true;
+  EXPECT_EQ(column_unit(table, model, 0), 1.0) << "the table is in radians";
 }
 
 TEST(MotionTables, RefusesTablesThatDoNotFit) {

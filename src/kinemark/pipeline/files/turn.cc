@@ -6,8 +6,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <string_view>
 
 #include "kinemark/core/units.h"
 #include "kinemark/io/number.h"
@@ -62,6 +65,42 @@ void turn_modeled_markers(data::Channels& channels, const Matrix3d& to_from) {
       Eigen::Map<Vector3d> x(channels.values.data() + i);
       x = turned(to_from, x);
     }
+  }
+}
+
+/// "+Z" turned, in the letters of a C3D file; empty: it is no axis any more.
+std::string turned_axis(const std::string& text, const Matrix3d& to_from) {
+  const auto axis = parse_axis(io::trim(text));
+  if (!axis) return "";
+  const Vector3d now = to_from * *axis;
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(now[i]) > 1.0 - 1e-12) return std::string(now[i] < 0.0 ? "-" : "+") + "XYZ"[i];
+  return "";
+}
+
+/// Of what is carried for other programs: axes of the screen are turned, what tells where the laboratory or a
+/// plate lies is left out.
+void turn_foreign(data::Trial& trial, const Matrix3d& to_from) {
+  constexpr std::array<std::string_view, 2> kScreen = {"X_SCREEN", "Y_SCREEN"};
+  constexpr std::array<std::string_view, 6> kPlaces = {"LAB_ROT",     "TRANSLATION", "ROTATION",
+                                                       "X_DIRECTION", "Y_DIRECTION", "Z_DIRECTION"};
+  for (auto& group : trial.foreign) {
+    if (group.name != "POINT" && group.name != "FORCE_PLATFORM" && group.name != "TRIAL") continue;
+    std::erase_if(group.parameters, [&](data::ForeignParameter& p) {
+      if (std::ranges::find(kPlaces, p.name) != kPlaces.end()) {
+        trial.warnings.push_back(
+            fmt::format("{}:{} is not true of a turned recording and is left out", group.name, p.name));
+        return true;
+      }
+      if (std::ranges::find(kScreen, p.name) == kScreen.end() || p.type != -1) return false;
+      std::string text;
+      for (const std::byte b : p.values) text += static_cast<char>(b);
+      text = turned_axis(text, to_from);
+      p.dims = {static_cast<std::uint8_t>(text.size())};
+      p.values.clear();
+      for (const char c : text) p.values.push_back(static_cast<std::byte>(c));
+      return text.empty();
+    });
   }
 }
 
@@ -122,6 +161,7 @@ void turn(data::Trial& trial, const Matrix3d& to_from) {
   turn_triples(trial.markers.x_in_world, to_from);
   turn_covariances(trial.markers.covariance, to_from);
   turn_modeled_markers(trial.channels, to_from);
+  turn_foreign(trial, to_from);
   if (std::ranges::any_of(trial.channels.kinds, [](data::ChannelKind kind) {
         return kind == data::ChannelKind::force || kind == data::ChannelKind::moment;
       }))

@@ -86,6 +86,33 @@ TEST(Turn, OfTheOutputsOfAModelOnlyPointsAreTurned) {
   EXPECT_THAT(trial.warnings, ::testing::ElementsAre(::testing::HasSubstr("keep their axes")));
 }
 
+TEST(Turn, WhatIsCarriedForOthersTurnsOrIsLeftOut) {
+  const auto words = [](const char* text) {
+    std::vector<std::byte> bytes;
+    for (; *text != 0; ++text) bytes.push_back(static_cast<std::byte>(*text));
+    return bytes;
+  };
+  data::Trial trial;
+  trial.foreign = {
+      {.name = "POINT",
+       .parameters = {{.name = "X_SCREEN", .dims = {2}, .values = words("+X")},
+                      {.name = "Y_SCREEN", .dims = {3}, .values = words("+Z ")},
+                      {.name = "LAB_ROT", .type = 4, .dims = {}, .values = std::vector<std::byte>(4)},
+                      {.name = "MOVIE_ID", .dims = {1}, .values = words("7")}}},
+      {.name = "SUBJECTS", .parameters = {{.name = "ROTATION", .dims = {1}, .values = words("1")}}}};
+  turn(trial, parse_rotation("x -90").value());
+  ASSERT_EQ(trial.foreign[0].parameters.size(), 3U);
+  EXPECT_EQ(trial.foreign[0].parameters[0].values, words("+X"));
+  EXPECT_EQ(trial.foreign[0].parameters[1].values, words("+Y"));
+  EXPECT_EQ(trial.foreign[0].parameters[1].dims, std::vector<std::uint8_t>{2});
+  EXPECT_EQ(trial.foreign[0].parameters[2].name, "MOVIE_ID");
+  EXPECT_EQ(trial.foreign[1].parameters.size(), 1U) << "not a place in the laboratory";
+  EXPECT_THAT(trial.warnings, ::testing::ElementsAre(::testing::HasSubstr("POINT:LAB_ROT is not true")));
+  turn(trial, parse_rotation("x 30").value());
+  ASSERT_EQ(trial.foreign[0].parameters.size(), 2U) << "a slanted screen has no name";
+  EXPECT_EQ(trial.foreign[0].parameters[0].name, "X_SCREEN");
+}
+
 TEST(Turn, WrenchesKeepWhatTheyDo) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   data::Wrenches wrenches{.time = {.rate_hz = 10.0, .frames = 1},

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/info_job.h"
 
 namespace kinemark::pipeline {
 
@@ -28,11 +28,13 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
   for (const auto& file : job.files) {
     InfoJob info;
     info.file = file;
+    info.rate_hz = io::needs_rate(file) ? job.rate_hz : 0.0;
     auto facts = run_info(info);
     CheckedFile& checked = out.files.emplace_back();
     checked.file = file;
     if (facts) {
       checked.warnings = std::move(facts->warnings);
+      checked.facts = std::move(facts->facts);
       std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
     } else {
       checked.error = std::move(facts.error());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/info_job.h"
 #include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
@@ -15,11 +16,13 @@ namespace kinemark::pipeline {
 /// What `kinemark validate` is asked to do.
 struct ValidateJob : JobSettings {
   std::vector<std::filesystem::path> files;  ///< to look at
+  double rate_hz = 0.0;                      ///< for those of them that tell none; 0: not given
 };
 
 /// One file that was looked at.
 struct CheckedFile {
   std::filesystem::path file;         ///< as asked
+  std::optional<FileFacts> facts;     ///< what it holds, when it can be read
   std::vector<std::string> warnings;  ///< what is odd about it
   std::optional<Error> error;         ///< why it cannot be read
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemark/core/units.h"
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
@@ -27,15 +27,14 @@ double at_time(const data::Table& table, std::int64_t column, double t) {
 }
 
 /// Task values from the coordinate file, one per solved frame.
-Result<std::vector<double>> values_from_file(const data::Table& table,
-                                             const data::CoordinateDescription& coordinate,
-                                             const data::Trajectories& markers,
+Result<std::vector<double>> values_from_file(const data::Table& table, const data::ModelDescription& model,
+                                             int coordinate_idx, const data::Trajectories& markers,
                                              const motion::IkOptions& options) {
-  const auto column = table.find(coordinate.name);
+  const auto& name = model.coordinates[static_cast<std::size_t>(coordinate_idx)].name;
+  const auto column = table.find(name);
   if (column < 0)
-    return fail(Code::bad_input,
-                fmt::format("has no column '{}', which a task takes its values from", coordinate.name));
-  const double unit = coordinate.is_rotation && io::angles_are_degrees(table) ? kRadPerDeg : 1.0;
+    return fail(Code::bad_input, fmt::format("has no column '{}', which a task takes its values from", name));
+  const double unit = column_unit(table, model, coordinate_idx);
   const double slack = motion::kTimeSlack / markers.time.rate_hz;
   std::vector<double> values;
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
@@ -86,7 +85,7 @@ Status add_tasks(const io::IkTasks& tasks, const std::filesystem::path& file,
         if (!read) return std::unexpected(read.error());
         table = std::move(*read);
       }
-      auto values = values_from_file(*table, coordinate, markers, options);
+      auto values = values_from_file(*table, model.description(), c, markers, options);
       if (!values) return fail_at(coordinate_file.string(), values.error());
       goal.values = std::move(*values);
     }

@@ -33,11 +33,15 @@ Result<Json> read_json(const fs::path& path) {
 }
 
 /// Names of the rotational coordinates, as written by summary_json().
-std::vector<std::string> rotations(const Json& json) {
-  std::vector<std::string> names;
+RotationNames rotations(const Json& json) {
+  RotationNames names;
   if (!json.contains("coordinates") || !json["coordinates"].is_array()) return names;
   for (const auto& coordinate : json["coordinates"])
-    if (coordinate.value("unit", "") == "deg") names.push_back(coordinate.value("name", ""));
+    if (coordinate.value("unit", "") == "deg") {
+      const std::string name = coordinate.value("name", "");
+      names.all.push_back(name);
+      if (coordinate.value("unit_in_tables", "") == "rad") names.keeps_radians.push_back(name);
+    }
   return names;
 }
 

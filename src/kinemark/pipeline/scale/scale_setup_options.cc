@@ -8,8 +8,8 @@
 #include <cmath>
 #include <optional>
 
-#include "kinemark/core/units.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/motion_tables.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -18,11 +18,12 @@ double bounded(double time_s) { return std::clamp(time_s, -1e300, 1e300); }
 
 /// The value of a coordinate's column in the row nearest to the middle of the placement's time range.
 Result<double> value_from_file(const io::ScaleSetup& setup, const data::Table& table,
-                               const data::CoordinateDescription& coordinate) {
-  const auto column = table.find(coordinate.name);
+                               const data::ModelDescription& model, int coordinate_idx) {
+  const auto& name = model.coordinates[static_cast<std::size_t>(coordinate_idx)].name;
+  const auto column = table.find(name);
   if (column < 0 || table.rows() == 0)
     return fail(Code::bad_input, fmt::format("{}: has no value of '{}', which a task takes from it",
-                                             setup.coordinate_file.string(), coordinate.name));
+                                             setup.coordinate_file.string(), name));
   const double begin = std::max(setup.place_begin_s, table.time_s.front()),
                end = std::min(setup.place_end_s, table.time_s.back());
   std::int64_t nearest = 0;
@@ -32,8 +33,7 @@ Result<double> value_from_file(const io::ScaleSetup& setup, const data::Table& t
     };
     if (away(row) < away(nearest)) nearest = row;
   }
-  const bool degrees = coordinate.is_rotation && io::angles_are_degrees(table);
-  return table(nearest, column) * (degrees ? kRadPerDeg : 1.0);
+  return table(nearest, column) * column_unit(table, model, coordinate_idx);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ Result<motion::PlaceOptions> place_options(const io::ScaleSetup& setup,
         if (!read) return std::unexpected(read.error());
         table = std::move(*read);
       }
-      const auto found = value_from_file(setup, *table, coordinate);
+      const auto found = value_from_file(setup, *table, model, c);
       if (!found) return std::unexpected(found.error());
       value = *found;
     }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
@@ -95,10 +96,7 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   result.fit = problem->fit;
   result.fit.max_loop_gap_m = 0.0;
   auto& motion = result.motion;
-  for (const auto& coordinate : model.description().coordinates) {
-    motion.coordinates.push_back(coordinate.name);
-    motion.is_rotation.push_back(coordinate.is_rotation);
-  }
+  data::set_coordinates(model.description(), motion);
   for (const auto& marker : problem->model.description().markers) motion.markers.push_back(marker.name);
   motion.time = {.rate_hz = markers.time.rate_hz,
                  .t0_s = markers.time.time_s(problem->first_frame),

@@ -62,6 +62,7 @@ struct Errors {
 CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& motion, std::int64_t coordinate) {
   const auto j = static_cast<std::size_t>(coordinate);
   CoordinateSummary s{.name = motion.coordinates[j], .is_rotation = motion.is_rotation[j]};
+  s.keeps_radians = !motion.keeps_radians.empty() && motion.keeps_radians[j];
   s.locked = std::ranges::find(run.locked_coordinates, s.name) != run.locked_coordinates.end();
   std::vector<double> sds;
   for (std::int64_t f = 0; f < motion.frames(); ++f) {

@@ -44,6 +44,7 @@ struct IkRun {
 struct CoordinateSummary {
   std::string name;                    ///< in the model
   bool is_rotation = true;             ///< true: rad, false: m
+  bool keeps_radians = false;          ///< MOT and STO files hold it in rad
   bool locked = false;                 ///< the model holds it
   std::int64_t determined_frames = 0;  ///< frames in which the markers fix it
   double min = kNaN;                   ///< rad or m, over determined frames

@@ -31,6 +31,7 @@ Json coordinates_json(const IkSummary& s) {
   for (const CoordinateSummary& c : s.coordinates)
     out.push_back({{"name", c.name},
                    {"unit", c.is_rotation ? "deg" : "m"},
+                   {"unit_in_tables", c.is_rotation ? (c.keeps_radians ? "rad" : "deg") : "m"},
                    {"locked", c.locked},
                    {"determined_frames", c.determined_frames},
                    {"min", coordinate_value(c, c.min)},

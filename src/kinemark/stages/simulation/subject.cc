@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kinemark/core/parallel.h"
+#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
@@ -35,10 +36,7 @@ Eigen::MatrixXd coordinates_through_time(const model::Model& model, const Eigen:
 
 data::JointMotion describe_truth(const model::Model& model, const TimeBase& time, const Eigen::MatrixXd& q) {
   data::JointMotion truth;
-  for (const auto& coordinate : model.description().coordinates) {
-    truth.coordinates.push_back(coordinate.name);
-    truth.is_rotation.push_back(coordinate.is_rotation);
-  }
+  data::set_coordinates(model.description(), truth);
   for (const auto& marker : model.description().markers) truth.markers.push_back(marker.name);
   truth.time = time;
   truth.q.assign(q.data(), q.data() + q.size());

@@ -10,6 +10,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
@@ -67,10 +68,7 @@ void describe(const Plan& plan, const data::Trajectories& markers, TrackResult& 
   result.free_speeds =
       static_cast<int>(std::count(p.fixed_speed.begin(), p.fixed_speed.end(), std::uint8_t{0}));
   auto& motion = result.motion;
-  for (const auto& coordinate : p.model.description().coordinates) {
-    motion.coordinates.push_back(coordinate.name);
-    motion.is_rotation.push_back(coordinate.is_rotation);
-  }
+  data::set_coordinates(p.model.description(), motion);
   for (const auto& marker : p.model.description().markers) motion.markers.push_back(marker.name);
   motion.time = {
       .rate_hz = markers.time.rate_hz, .t0_s = markers.time.time_s(p.first_frame), .frames = p.frames};

@@ -12,6 +12,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
@@ -124,10 +125,7 @@ SmootherResult begin_result(IkResult& start, const model::Model& model) {
   motion.markers = start.motion.markers;
   motion.marker_state = start.motion.marker_state;
   motion.time = start.motion.time;
-  for (const auto& coordinate : model.description().coordinates) {
-    motion.coordinates.push_back(coordinate.name);
-    motion.is_rotation.push_back(coordinate.is_rotation);
-  }
+  data::set_coordinates(model.description(), motion);
   return result;
 }
 

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Several files and folders where a command takes one file.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "kinemark/pipeline/files/input_list.h"
+#include "kinemark/pipeline/files/many.h"
+
+namespace kinemark::cli {
+
+/// More than one input, or a folder.
+[[nodiscard]] bool are_many(const std::vector<std::filesystem::path>& given);
+
+/// Inputs and output of a command that makes one file of one, or a folder of files of many.
+struct ManyArguments {
+  std::vector<std::filesystem::path> inputs;  ///< files and folders
+  std::filesystem::path output;               ///< a file, or a folder
+  std::string to;                             ///< "trc" or ".trc"; empty: not given
+  std::filesystem::path pages;                ///< as ManyJob
+  int jobs = 1;                               ///< as ManyJob
+  bool keep_going = false;                    ///< as ManyJob
+
+  /// The last of the names is the output: Code::usage without one. For positional arguments alone.
+  [[nodiscard]] Status split_output();
+  /// Whether there are several inputs, or the output is a folder that is there or ends in a slash.
+  [[nodiscard]] bool are_many() const;
+};
+
+/// IN and OUT. @param in  what IN is, for the help
+void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in);
+
+/// --jobs and --keep-going.
+void add_many_options(CLI::App& command, ManyArguments& arguments);
+
+/// Run the job for every recording, `ending` being the outputs' (empty: each its input's), and print the
+/// table; the exit status.
+[[nodiscard]] int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,
+                           bool makes_report, decltype(pipeline::ManyJob::run_one) run_one);
+
+}  // namespace kinemark::cli
