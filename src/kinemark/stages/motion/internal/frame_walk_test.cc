@@ -115,8 +115,7 @@ TEST(FrameWalk, AFrameThatSeesNothingKeepsItsNeighboursPose) {
   EXPECT_LT(w.off(11, w.solved.states.col(11)), 1e-5) << "and behind it the body is found again";
 }
 
-TEST(FrameWalk, TheWholeTurnOfABodyIsFollowed) {
-  // The trunk turns by 1.8 rad between two frames that see it.
+TEST(FrameWalk, ABodyThatWasLostForASecondIsFoundAgain) {
   Walked w(200);
   for (std::int64_t f = 60; f < 160; ++f)
     for (std::int64_t m = 0; m < w.markers.markers(); ++m) w.markers.set_missing(f, m);
