@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "kinemark/core/random.h"
 #include "kinemark/stages/trajectory/gaps/testing/moving_bodies.h"
 
 namespace kinemark::trajectory::internal {
