@@ -25,7 +25,6 @@
 namespace kinemark::io::osim {
 namespace {
 
-using data::AxisDescription;
 using data::JointDescription;
 using data::ModelDescription;
 using Eigen::Vector3d;

@@ -140,7 +140,7 @@ TEST(XmlFile, SetsInOtherFilesComeIn) {
   const std::string xml =
       "<OpenSimDocument><Model><MarkerSet file=\"markers.xml\"/></Model></OpenSimDocument>";
   auto file = XmlFile::parse(xml, "t.osim").value();
-  const auto path = folder.path();
+  const auto& path = folder.path();
   file.inline_files(&path);
   EXPECT_FALSE(file.error().has_value()) << file.error()->message;
   const auto markers = objects_of(file.find_object({"Model"}), "MarkerSet");

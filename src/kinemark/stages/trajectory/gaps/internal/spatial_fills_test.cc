@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "kinemark/stages/trajectory/gaps/testing/moving_bodies.h"
 
@@ -19,8 +20,8 @@ struct Hidden {
   explicit Hidden(Index first, Index end, GapMethod method = GapMethod::automatic,
                   testing::BodiesOptions o = {})
       : Hidden(testing::moving_bodies(o), first, end, method) {}
-  Hidden(const data::Trajectories& t, Index first_frame, Index end_frame, GapMethod method)
-      : whole(t), first(first_frame), end(end_frame) {
+  Hidden(data::Trajectories t, Index first_frame, Index end_frame, GapMethod method)
+      : whole(std::move(t)), first(first_frame), end(end_frame) {
     data::Trajectories gappy = whole;
     testing::hide(gappy, 1, first, end - 1);
     const Recording r(gappy);
