@@ -75,7 +75,7 @@ TEST(Selection, AnExactNameIsNoPattern) {
   EXPECT_THAT(selected({.drop = {"?1", "*11"}}, trial).markers.names, ElementsAre("B"));
 }
 
-TEST(Selection, NewNamesCanChangePlaces) {
+TEST(Selection, NewNamesCanBeExchanged) {
   const auto before = numbered_trial();
   const auto trial = selected({.rename = {"A=C", "C=A", "moment=knee"}});
   EXPECT_THAT(trial.markers.names, ElementsAre("C", "B", "A"));

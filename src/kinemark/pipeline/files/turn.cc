@@ -82,12 +82,12 @@ std::string turned_axis(const std::string& text, const Matrix3d& to_from) {
 /// plate lies is left out.
 void turn_foreign(data::Trial& trial, const Matrix3d& to_from) {
   constexpr std::array<std::string_view, 2> kScreen = {"X_SCREEN", "Y_SCREEN"};
-  constexpr std::array<std::string_view, 6> kPlaces = {"LAB_ROT",     "TRANSLATION", "ROTATION",
-                                                       "X_DIRECTION", "Y_DIRECTION", "Z_DIRECTION"};
+  constexpr std::array<std::string_view, 6> kPoseParameters = {"LAB_ROT",     "TRANSLATION", "ROTATION",
+                                                               "X_DIRECTION", "Y_DIRECTION", "Z_DIRECTION"};
   for (auto& group : trial.foreign) {
     if (group.name != "POINT" && group.name != "FORCE_PLATFORM" && group.name != "TRIAL") continue;
     std::erase_if(group.parameters, [&](data::ForeignParameter& p) {
-      if (std::ranges::find(kPlaces, p.name) != kPlaces.end()) {
+      if (std::ranges::find(kPoseParameters, p.name) != kPoseParameters.end()) {
         trial.warnings.push_back(
             fmt::format("{}:{} is not true of a turned recording and is left out", group.name, p.name));
         return true;

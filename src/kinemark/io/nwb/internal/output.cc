@@ -129,7 +129,11 @@ Handle Output::texts(hid_t parent, const char* name, const std::vector<std::stri
   std::vector<hsize_t> dims{texts.size() / columns};
   if (columns > 1) dims.push_back(columns);
   const Handle space = simple_space(dims);
-  const Handle create = small_data(texts.size() * H5Tget_size(text_type_.id()), dims);
+  // Texts of any length cannot have a checksum of HDF5's in a chunk. That of the whole content holds them.
+  const std::size_t bytes = texts.size() * H5Tget_size(text_type_.id());
+  const Handle create =
+      bytes <= kMaxCompactBytes ? small_data(bytes, dims) : keep(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  note(H5Pset_obj_track_times(create.id(), false));
   Handle made = keep(
       H5Dcreate2(parent, name, text_type_.id(), space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT), H5Dclose);
   if (!texts.empty())

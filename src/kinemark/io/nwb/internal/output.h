@@ -60,8 +60,8 @@ class Output {
  private:
   Handle keep(hid_t id, Handle::Closer close);
   void note(herr_t status) { failed_ = failed_ || status < 0; }
-  /// How to store a few numbers or texts so that they have a checksum: in the header of their object, or in a
-  /// chunk.
+  /// How to store numbers, or a few texts, so that they have a checksum: in the header of their object, or in
+  /// a chunk.
   Handle small_data(std::size_t bytes, const std::vector<hsize_t>& dims);
   Handle column(hid_t table, const Column& column);
 

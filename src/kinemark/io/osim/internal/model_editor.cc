@@ -55,6 +55,14 @@ pugi::xml_node child_of(pugi::xml_node node, const char* tag) {
   return child ? child : node.append_child(tag);
 }
 
+bool same_rotation(const math::SE3& a, const math::SE3& b) {
+  return (a.rotation - b.rotation).cwiseAbs().maxCoeff() <= kSamePlace;
+}
+
+bool same_place(const math::SE3& a, const math::SE3& b) {
+  return (a.translation - b.translation).norm() <= kSamePlace && same_rotation(a, b);
+}
+
 class ModelEditor {
  public:
   ModelEditor(XmlFile& file, pugi::xml_node model, const ModelDescription& before,
@@ -241,9 +249,7 @@ class ModelEditor {
     if (!sockets_) return set_old_side(node, parent, wanted);
     const auto side = side_of(node, parent);
     if (!side) return;
-    if (side->body_idx == body_idx &&
-        (side->body_from_frame.translation - wanted.translation).norm() <= kSamePlace)
-      return;
+    if (side->body_idx == body_idx && same_place(side->body_from_frame, wanted)) return;
     const char* socket = parent ? "socket_parent_frame" : "socket_child_frame";
     const std::string last = last_name(text_of(node, socket));
     pugi::xml_node frame =
@@ -255,17 +261,23 @@ class ModelEditor {
     }
     set_text(child_of(frame, "socket_parent"), body_path(after_, body_idx));
     set_vector3(frame, "translation", wanted.translation);
-    const math::SE3 there = read_transform(file_, frame, "translation", "orientation");
-    if ((there.rotation - wanted.rotation).cwiseAbs().maxCoeff() > kSamePlace)
+    if (!same_rotation(read_transform(file_, frame, "translation", "orientation"), wanted))
       set_vector3(frame, "orientation", math::to_body_xyz(wanted.rotation));
   }
 
+  /// Before 4.0 the joint itself holds its place, on a body or, in files of between, on a frame.
   void set_old_side(pugi::xml_node node, bool parent, const math::SE3& wanted) {
-    const char* place = parent                            ? "location_in_parent"
-                        : node.child("location_in_child") ? "location_in_child"
-                                                          : "location";
-    if ((file_.vector3(node, place) - wanted.translation).norm() > kSamePlace)
-      set_vector3(node, place, wanted.translation);
+    const bool old_names = !node.child("location_in_child") && !node.child("orientation_in_child");
+    const char* place = parent ? "location_in_parent" : old_names ? "location" : "location_in_child";
+    const char* rotation = parent      ? "orientation_in_parent"
+                           : old_names ? "orientation"
+                                       : "orientation_in_child";
+    const auto side = side_of(node, parent);
+    const math::SE3 in_frame = side ? side->body_from_frame.inverse() * wanted : wanted;
+    const math::SE3 there = read_transform(file_, node, place, rotation);
+    if ((there.translation - in_frame.translation).norm() > kSamePlace)
+      set_vector3(node, place, in_frame.translation);
+    if (!same_rotation(there, in_frame)) set_vector3(node, rotation, math::to_body_xyz(in_frame.rotation));
   }
 
   [[nodiscard]] static std::string last_name(const std::string& path) {

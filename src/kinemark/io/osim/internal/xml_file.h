@@ -43,7 +43,7 @@ class XmlFile {
   /// The files that inline_files() took elements from.
   [[nodiscard]] const std::vector<std::filesystem::path>& inlined() const { return inlined_; }
 
-  /// The first element below the document element whose tag is one of `tags`, or that element itself.
+  /// Of the first of `tags` that there is: the document element itself, or the first element below it.
   [[nodiscard]] pugi::xml_node find_object(std::initializer_list<const char*> tags) const;
   [[nodiscard]] pugi::xml_node document() const { return tree_.document_element(); }
   /// Version of the document, 10500 for the oldest ones, which do not state it.

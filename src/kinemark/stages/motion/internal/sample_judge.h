@@ -32,6 +32,7 @@ struct Outlier {
 };
 
 /// Judge the frames from `sound`, whose samples are believed, to `last` (included; last < sound: backwards).
+/// So is the speed that led to it: the frame before must be sound too, where there is one.
 ///
 /// @param solved  the pose of each frame, all its samples believed, and the positions of its markers
 /// @param scale   its growth is learnt when it is first needed

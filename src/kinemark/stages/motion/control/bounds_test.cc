@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Bounds of tracked coordinates against small changes of the goals, one after the other.
+#include "kinemark/stages/motion/control/internal/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/testing/body.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int kElbow = 9, kKnee = 11;
+
+/// The body in a pose, with goals for its markers.
+struct Tracked {
+  explicit Tracked(data::ModelDescription description = testing_body::description(),
+                   const TrackOptions& options = {})
+      : model(model::Model::compile(std::move(description)).value()),
+        plan(make_plan(model, testing_body::record(model, 4), options).value()),
+        q(testing_body::coordinates(plan.problem.model, 1)),
+        x(model::state_from_coordinates(plan.problem.model, q)),
+        goal(plan.problem.model.marker_count()),
+        bounds(plan) {
+    reach(x);
+    goal.weight.setOnes();
+    noise.own.setZero(plan.problem.model.marker_count());
+    noise.common.setZero(static_cast<Eigen::Index>(plan.problem.model.bodies().size()));
+  }
+  /// Goals where the markers are in state `there`.
+  void reach(const VectorXd& there) {
+    model::Workspace w(plan.problem.model);
+    model::kinematics(plan.problem.model, w, there);
+    goal.x = w.marker;
+  }
+  void find() { bounds.find(x, q, goal, 0.0, noise); }
+  /// Change of each coordinate by a change of the goals, as equation 15 has it.
+  VectorXd lag_of(const Eigen::Matrix3Xd& change) {
+    const GoalValues kept = goal;
+    const MarkerVariances known = noise;
+    noise.own.setZero();
+    noise.common.setZero();
+    goal.x += change;
+    find();
+    goal = kept;
+    noise = known;
+    return bounds.bound();
+  }
+  [[nodiscard]] int count() const { return plan.problem.model.coordinate_count(); }
+
+  model::Model model;
+  Plan plan;
+  VectorXd q, x;
+  GoalValues goal;
+  MarkerVariances noise;
+  Bounds bounds;
+};
+
+TEST(Bounds, GoalsThatAreReachedExactlyLeaveNothing) {
+  Tracked t;
+  t.find();
+  EXPECT_EQ(t.bounds.rank(), t.plan.problem.model.speed_count());
+  EXPECT_GT(t.bounds.smallest_singular(), 0.0);
+  for (int c = 0; c < t.count(); ++c) {
+    EXPECT_TRUE(t.bounds.determined()[static_cast<std::size_t>(c)]) << c;
+    EXPECT_LT(t.bounds.bound()[c], 1e-12) << c;
+    EXPECT_LT(t.bounds.goal_bound()[c], 1e-12) << c;
+  }
+}
+
+TEST(Bounds, OfGoalsOnTheWayTheyAreTheWay) {
+  Tracked t;
+  VectorXd move(t.plan.problem.model.speed_count());
+  for (Eigen::Index k = 0; k < move.size(); ++k) move[k] = 1e-5 * (1.0 + 0.3 * static_cast<double>(k));
+  VectorXd there = t.x, q_there = t.q;
+  model::integrate(t.plan.problem.model, there, move);
+  model::coordinates_from_state(t.plan.problem.model, there, t.q, q_there);
+  t.reach(there);
+  t.find();
+  for (int c = 0; c < t.count(); ++c) {
+    const double way = std::abs(q_there[c] - t.q[c]);
+    EXPECT_NEAR(t.bounds.bound()[c], way, 1e-3 * way + 1e-10) << c;
+    EXPECT_GE(t.bounds.goal_bound()[c], t.bounds.bound()[c] * (1.0 - 1e-9)) << "equation 16 is the wider one";
+    EXPECT_NEAR(t.bounds.sd()[c], t.bounds.bound()[c], 1e-12) << "without noise the error alone";
+  }
+}
+
+TEST(Bounds, NoiseOfEachMarkerAddsInSquares) {
+  Tracked t;
+  for (Eigen::Index m = 0; m < t.noise.own.size(); ++m)
+    t.noise.own[m] = 1e-6 * (1.0 + static_cast<double>(m));
+  t.find();
+  const VectorXd sd = t.bounds.sd(), bound = t.bounds.bound();
+  VectorXd variance = VectorXd::Zero(t.count());
+  for (Eigen::Index m = 0; m < t.noise.own.size(); ++m)
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Matrix3Xd change = Eigen::Matrix3Xd::Zero(3, t.noise.own.size());
+      change(axis, m) = 1e-3;
+      variance += t.noise.own[m] * (t.lag_of(change) / 1e-3).cwiseAbs2();
+    }
+  for (int c = 0; c < t.count(); ++c) {
+    EXPECT_NEAR(sd[c] / std::sqrt(variance[c]), 1.0, 1e-6) << c;
+    EXPECT_NEAR(bound[c] / sd[c], Bounds::kNoiseSds, 1e-6) << c;
+  }
+}
+
+TEST(Bounds, WhatTheMarkersOfABodyShareMovesThemTogether) {
+  Tracked t;
+  const auto markers = t.plan.problem.model.markers();
+  const int shank = markers[10].body;
+  t.noise.common[shank] = 4e-6;
+  t.find();
+  const VectorXd sd = t.bounds.sd();
+  VectorXd variance = VectorXd::Zero(t.count());
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Matrix3Xd change = Eigen::Matrix3Xd::Zero(3, t.noise.own.size());
+    for (Eigen::Index m = 0; m < change.cols(); ++m)
+      if (markers[static_cast<std::size_t>(m)].body == shank) change(axis, m) = 1e-3;
+    variance += 4e-6 * (t.lag_of(change) / 1e-3).cwiseAbs2();
+  }
+  for (int c = 0; c < t.count(); ++c) EXPECT_NEAR(sd[c], std::sqrt(variance[c]), 1e-9 + 1e-6 * sd[c]) << c;
+}
+
+TEST(Bounds, WhatNoGoalFixesIsUnknownAndOnlyThat) {
+  Tracked t;
+  t.noise.own.setConstant(1e-6);
+  for (const Eigen::Index m : {6, 7}) t.goal.weight[m] = 0.0;  // the forearm's
+  t.find();
+  EXPECT_EQ(t.bounds.rank(), t.plan.problem.model.speed_count() - 1);
+  for (int c = 0; c < t.count(); ++c) {
+    EXPECT_EQ(t.bounds.determined()[static_cast<std::size_t>(c)], c != kElbow) << c;
+    for (const VectorXd* v : {&t.bounds.sd(), &t.bounds.bound(), &t.bounds.goal_bound()})
+      EXPECT_EQ(std::isnan((*v)[c]), c == kElbow) << c;
+  }
+  t.goal.weight.setZero();
+  t.find();
+  EXPECT_EQ(t.bounds.rank(), 0);
+  EXPECT_EQ(t.bounds.smallest_singular(), 0.0);
+  for (int c = 0; c < t.count(); ++c) EXPECT_TRUE(std::isnan(t.bounds.sd()[c])) << c;
+}
+
+TEST(Bounds, AllWeightsAlikeAreAsGoodAsOne) {
+  Tracked t;
+  t.noise.own.setConstant(1e-6);
+  t.find();
+  const VectorXd sd = t.bounds.sd();
+  t.goal.weight.setConstant(0.25);
+  t.find();
+  EXPECT_TRUE(t.bounds.sd().isApprox(sd, 1e-9));
+}
+
+TEST(Bounds, ALockedCoordinateIsKnownFromTheModelAndOneLockedHereIsNot) {
+  auto description = testing_body::description();
+  description.coordinates[kElbow].locked = true;
+  Tracked locked(description);
+  locked.noise.own.setConstant(1e-6);
+  locked.find();
+  EXPECT_EQ(locked.bounds.rank(), locked.plan.problem.model.speed_count() - 1);
+  EXPECT_TRUE(locked.bounds.determined()[kElbow]);
+  EXPECT_EQ(locked.bounds.sd()[kElbow], 0.0);
+  Tracked here;
+  here.noise.own.setConstant(1e-6);
+  here.plan.locked = {kElbow};
+  here.find();
+  EXPECT_FALSE(here.bounds.determined()[kElbow]);
+  EXPECT_TRUE(std::isnan(here.bounds.bound()[kElbow]));
+  EXPECT_TRUE(here.bounds.determined()[kKnee]);
+}
+
+}  // namespace
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Exchanged labels and visits: whatever was exchanged is found, frame by frame, and nothing else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "kinemark/core/random.h"
+#include "kinemark/stages/trajectory/screening/internal/defects.h"
+#include "kinemark/stages/trajectory/screening/testing/walker.h"
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+using data::Trajectories;
+
+struct Swap {
+  std::int64_t one = 0, other = 0, first = 0, last = 0;
+  auto operator<=>(const Swap&) const = default;
+};
+
+/// Exchange the samples, and what is missing with them, as a wrong label does.
+void exchange(Trajectories& t, const Swap& s) {
+  for (std::int64_t f = s.first; f <= s.last; ++f) {
+    const Eigen::Vector3d x = t.x(f, s.one);
+    t.x(f, s.one) = t.x(f, s.other);
+    t.x(f, s.other) = x;
+    std::swap(t.state[t.index(f, s.one)], t.state[t.index(f, s.other)]);
+  }
+}
+
+Defects swaps_in(const Trajectories& t, const ScreenOptions& options = {}) {
+  Defects out;
+  find_swaps(t, options, out);
+  return out;
+}
+
+std::set<Swap> exchanges_in(const Trajectories& t, const ScreenOptions& options = {}) {
+  std::set<Swap> found;
+  for (const Defect& d : swaps_in(t, options)) {
+    EXPECT_EQ(d.kind, FindingKind::label_swap) << d.description;
+    found.insert({d.marker, d.other_marker, d.first_frame, d.last_frame});
+  }
+  return found;
+}
+
+Trajectories reversed(const Trajectories& t) {
+  Trajectories out = t;
+  for (std::int64_t f = 0; f < t.frames(); ++f)
+    for (std::int64_t m = 0; m < t.markers(); ++m) {
+      out.x(f, m) = t.x(t.frames() - 1 - f, m);
+      out.state[out.index(f, m)] = t.state[t.index(t.frames() - 1 - f, m)];
+    }
+  return out;
+}
+
+TEST(Swaps, EveryPairIsFoundInItsFrames) {
+  const Trajectories whole = testing::walker({.frames = 160});
+  Random random(3, 1);
+  for (std::int64_t one = 0; one < whole.markers(); ++one)
+    for (std::int64_t other = one + 1; other < whole.markers(); ++other) {
+      const auto first = static_cast<std::int64_t>(random.uniform(5.0, 75.0));
+      const auto last = first + static_cast<std::int64_t>(random.uniform(0.0, 75.0));
+      const Swap planted{one, other, first, last};
+      Trajectories t = whole;
+      exchange(t, planted);
+      EXPECT_EQ(exchanges_in(t), std::set{planted}) << one << " " << other << " " << first << " " << last;
+    }
+}
+
+TEST(Swaps, SeveralExchangesAtOnceAreKeptApart) {
+  const std::set<Swap> planted{{0, 1, 40, 90}, {2, 6, 60, 120}, {3, 4, 90, 100}, {0, 1, 130, 131}};
+  Trajectories t = testing::walker({.frames = 200});
+  for (const Swap& s : planted) exchange(t, s);
+  EXPECT_EQ(exchanges_in(t), planted);
+}
+
+TEST(Swaps, ARecordingPlayedBackwardsHasTheSameOnes) {
+  Trajectories t = testing::walker({.frames = 200});
+  exchange(t, {1, 5, 30, 44});
+  exchange(t, {2, 3, 100, 160});
+  std::set<Swap> mirrored;
+  for (const Swap& s : exchanges_in(t)) mirrored.insert({s.one, s.other, 199 - s.last, 199 - s.first});
+  EXPECT_EQ(mirrored.size(), 2U);
+  EXPECT_EQ(exchanges_in(reversed(t)), mirrored);
+}
+
+TEST(Swaps, OneThatReachesAnEndNamesTheShorterSideAndSaysSo) {
+  for (const std::int64_t at : {30, 90, 110, 170}) {
+    Trajectories t = testing::walker({.frames = 200});
+    exchange(t, {2, 4, at, 199});
+    const Defects found = swaps_in(t);
+    ASSERT_EQ(found.size(), 1U) << at;
+    EXPECT_EQ(std::tuple(found[0].first_frame, found[0].last_frame),
+              at < 100 ? std::tuple(std::int64_t{0}, at - 1) : std::tuple(at, std::int64_t{199}));
+    EXPECT_NE(found[0].description.find("the shorter one is named"), std::string::npos);
+    Trajectories other_side = testing::walker({.frames = 200});
+    exchange(other_side, {2, 4, 0, at - 1});
+    EXPECT_EQ(exchanges_in(other_side), exchanges_in(t)) << "one cannot be told from the other";
+  }
+}
+
+TEST(Swaps, LabelsExchangedWhileBothWereLostAreFoundWhereTheyComeBack) {
+  for (const std::int64_t lost : {1, 4, 8}) {
+    Trajectories t = testing::walker({.frames = 200});
+    for (std::int64_t f = 80 - lost; f < 80; ++f)
+      for (const std::int64_t m : {1, 3}) t.set_missing(f, m);
+    exchange(t, {1, 3, 80, 120});
+    EXPECT_EQ(exchanges_in(t), (std::set<Swap>{{1, 3, 80, 120}})) << lost;
+  }
+}
+
+TEST(Swaps, APathIsNotContinuedOverALongGap) {
+  Trajectories t = testing::walker({.frames = 200});
+  for (std::int64_t f = 60; f < 80; ++f)
+    for (const std::int64_t m : {1, 3}) t.set_missing(f, m);
+  exchange(t, {1, 3, 80, 199});
+  EXPECT_TRUE(swaps_in(t).empty()) << "0.2 s: nobody knows where they went";
+}
+
+TEST(Swaps, SizesAreComparedWithTheLeastJump) {
+  Trajectories t = testing::walker({.frames = 160});
+  exchange(t, {1, 2, 50, 70});
+  const std::set<Swap> planted{{1, 2, 50, 70}};
+  EXPECT_EQ(exchanges_in(t), planted);
+  EXPECT_TRUE(exchanges_in(t, {.min_jump_m = 2.0}).empty()) << "they are never two metres apart";
+  for (const double scale : {0.01, 0.1, 7.0}) {
+    Trajectories other = t;
+    for (double& x : other.x_in_world) x *= scale;
+    EXPECT_EQ(exchanges_in(other, {.min_jump_m = scale * ScreenOptions{}.min_jump_m}), planted) << scale;
+  }
+}
+
+TEST(Swaps, AVisitIsFoundAndMeasuredAndALongerStayIsNot) {
+  for (const std::int64_t frames : {1, 2, 6, 12}) {
+    Trajectories t = testing::walker({.frames = 200});
+    for (std::int64_t f = 60; f < 60 + frames; ++f) {
+      t.x(f, 5) = t.x(f, 2);
+      t.set_missing(f, 2);
+    }
+    const Defects found = swaps_in(t);
+    ASSERT_EQ(found.size(), 1U) << frames;
+    EXPECT_EQ(found[0].kind, FindingKind::swap_within);
+    EXPECT_EQ(std::tuple(found[0].marker, found[0].other_marker),
+              (std::tuple<std::int64_t, std::int64_t>(5, 2)));
+    EXPECT_EQ(found[0].first_frame, 60);
+    EXPECT_EQ(found[0].last_frame, 59 + frames);
+    const double there = (testing::position(5, 0.6) - testing::position(2, 0.6)).norm();
+    const double back = (testing::position(5, 0.6 + 0.01 * static_cast<double>(frames)) -
+                         testing::position(2, 0.6 + 0.01 * static_cast<double>(frames)))
+                            .norm();
+    EXPECT_NEAR(found[0].size, std::min(there, back), 0.02)
+        << "distance of the two, less their motion in a frame";
+  }
+  Trajectories longer = testing::walker({.frames = 200});
+  for (std::int64_t f = 60; f < 120; ++f) longer.x(f, 5) = longer.x(f, 2);
+  EXPECT_TRUE(swaps_in(longer).empty());
+}
+
+TEST(Swaps, AJumpToWhereNobodyIsIsNoVisit) {
+  Trajectories t = testing::walker({.frames = 200});
+  for (std::int64_t f = 60; f < 70; ++f) t.x(f, 5) += Eigen::Vector3d(0.0, 0.0, 3.0);
+  EXPECT_TRUE(swaps_in(t).empty());
+}
+
+TEST(Swaps, NothingIsFoundWhereThereIsNothing) {
+  for (const std::int64_t frames : {0, 1, 2, 3}) {
+    EXPECT_TRUE(swaps_in(testing::walker({.frames = frames})).empty()) << frames;
+  }
+  EXPECT_TRUE(swaps_in(testing::walker({.markers = 1})).empty());
+  Trajectories lost = testing::walker({.frames = 50});
+  for (std::int64_t f = 0; f < 50; ++f)
+    for (std::int64_t m = 0; m < lost.markers(); ++m) lost.set_missing(f, m);
+  EXPECT_TRUE(swaps_in(lost).empty());
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    EXPECT_TRUE(swaps_in(testing::walker({.frames = 120, .noise_m = 0.002, .seed = seed})).empty()) << seed;
+}
+
+}  // namespace
+}  // namespace kinemark::trajectory::internal
