@@ -16,7 +16,9 @@ struct CommonOptions {
   bool force = false;
   bool quiet = false;
   bool json = false;
-  std::string command_line;  ///< as typed
+  std::string config;        ///< file of options, which are among the words by then
+  std::string save_config;   ///< file for the options; empty: none
+  std::string command_line;  ///< as typed, with what --config put in
 };
 
 /// A command adds itself to the program and stores its action in `run`, which returns the exit status.

@@ -42,10 +42,6 @@ void say(const CommonOptions& common, std::string_view line) {
   if (!common.quiet) std::fprintf(stderr, "%s\n", printable_sentence(line).c_str());
 }
 
-void say_text(const CommonOptions& common, const std::string& text) {
-  if (!common.quiet) std::fputs(text.c_str(), stderr);
-}
-
 void settle(const CommonOptions& common, std::string counts, pipeline::JobSettings& job) {
   job.threads = common.threads;
   job.seed = common.seed;

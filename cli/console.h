@@ -19,9 +19,6 @@ namespace kinemark::cli {
 /// report_error().
 void say(const CommonOptions& common, std::string_view line);
 
-/// Text of several lines that is printable already, likewise.
-void say_text(const CommonOptions& common, const std::string& text);
-
 /// Into the job what every command takes. @param counts  what its progress counts: "frames"
 void settle(const CommonOptions& common, std::string counts, pipeline::JobSettings& job);
 

@@ -13,6 +13,8 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/hints.h"
+#include "cli/metavars.h"
+#include "cli/settings_options.h"
 #include "kinemark/core/version.h"
 
 namespace {
@@ -44,6 +46,12 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
       ->check(whole_number)
       ->capture_default_str()
       ->group("Everywhere");
+  app.add_option("--config", common.config, "Take options from a file: max-rms = 20")
+      ->type_name("FILE.toml")
+      ->group("Everywhere");
+  app.add_option("--save-config", common.save_config, "Write the options given to a file for --config")
+      ->type_name("FILE.toml")
+      ->group("Everywhere");
   app.add_flag("--force", common.force, "Replace files that exist")->group("Everywhere");
   app.add_flag("--quiet", common.quiet, "Say nothing but errors")->group("Everywhere");
   app.add_flag("--json", common.json, "Print the result as JSON on stdout")->group("Everywhere");
@@ -64,8 +72,6 @@ int report_lost_output() {
 
 int run_program(int argc, char** argv) {
   CommonOptions common;
-  for (int i = 0; i < argc; ++i)
-    common.command_line += (i ? std::string(" ") : std::string()) + (i ? argv[i] : "kinemark");
   CLI::App app("From detector counts to joint angles, with an error bar on every number.", "kinemark");
   app.set_version_flag("--version", std::string("kinemark ") + kinemark::kVersion);
   app.footer(kFooter);
@@ -90,17 +96,24 @@ int run_program(int argc, char** argv) {
   kinemark::cli::add_recover(app, common, run);
   kinemark::cli::add_help(app, common, run);
   kinemark::cli::add_completion(app, common, run);
+  kinemark::cli::name_values(app);
+  const auto words = kinemark::cli::with_settings(app, std::vector<std::string>(argv + 1, argv + argc));
+  if (!words) return kinemark::cli::report_error(words.error());
+  common.command_line = "kinemark";
+  for (const auto& word : *words) common.command_line += " " + word;
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words->rbegin(), words->rend()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       app.exit(error, std::cout, std::cerr);
       return std::cout.flush() ? 0 : report_lost_output();
     }
-    const std::vector<std::string> words(argv + 1, argv + argc);
-    return report_usage(app, kinemark::cli::explain_usage(app, error, words));
+    return report_usage(app, kinemark::cli::explain_usage(app, error, *words));
   }
   kinemark::cli::watch_signals();
+  if (!common.save_config.empty())
+    if (const auto s = kinemark::cli::save_settings(app, common.save_config, common.force); !s)
+      return kinemark::cli::report_error(s.error());
   const int status = run();
   return kinemark::cli::output_failed() ? report_lost_output() : status;
 }

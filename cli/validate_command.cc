@@ -4,8 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/many_inputs.h"
-#include "kinemark/pipeline/files/file_table.h"
+#include "kinemark/pipeline/files/input_list.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/validate_job.h"
@@ -13,7 +12,7 @@
 namespace kinemark::cli {
 namespace {
 
-void print_one(const CommonOptions& common, const pipeline::ValidateOutcome& outcome) {
+void print_validate_outcome(const CommonOptions& common, const pipeline::ValidateOutcome& outcome) {
   for (const auto& checked : outcome.files) {
     const std::string file = checked.file.string();
     if (checked.error) (void)report_error(*checked.error);
@@ -23,21 +22,12 @@ void print_one(const CommonOptions& common, const pipeline::ValidateOutcome& out
   if (common.json) print_result(pipeline::json_text(pipeline::validate_json(outcome)) + "\n");
 }
 
-/// A table instead; what cannot be read is said with --quiet too.
-void print_many(const CommonOptions& common, const pipeline::ValidateOutcome& outcome) {
-  say_text(common, pipeline::file_table(outcome));
-  for (const auto& checked : outcome.files)
-    if (common.quiet && checked.error) (void)report_error(*checked.error);
-  if (common.json) print_result(pipeline::json_text(pipeline::validate_json(outcome)) + "\n");
-}
-
 int run_command(const CommonOptions& common, pipeline::ValidateJob& job) {
-  const bool many = are_many(job.files);
   auto list = pipeline::list_inputs(job.files, pipeline::known_endings());
   if (!list) return report_error(list.error());
   job.files = std::move(list->files);
   for (const auto& note : list->notes) say(common, fmt::format("note: {}", note));
-  return run_job(common, "files", job, pipeline::run_validate, many ? print_many : print_one);
+  return run_job(common, "files", job, pipeline::run_validate, print_validate_outcome);
 }
 
 }  // namespace
@@ -47,8 +37,7 @@ void add_validate(CLI::App& app, const CommonOptions& common, Run& run) {
       "validate", "Check files: exit status 0 good, 1 readable but odd, 3 or 4 not readable");
   const auto job = std::make_shared<pipeline::ValidateJob>();
   command->footer(
-      "Of several files, or a folder: a line each and the totals; the exit status is the worst of all "
-      "files.");
+      "Of a folder: the files in it that can be read. The exit status is the worst of all files.");
   command
       ->add_option("FILE", job->files,
                    ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, or a folder of them")

@@ -23,7 +23,8 @@ class MissingAndUnreadable(CommandTest):
 
     def test_a_folder_is_no_file(self):
         (self.folder / "sub.c3d").mkdir()
-        self.refused(3, ["sub.c3d", "a folder, not a regular file"], "info", "sub.c3d")
+        self.refused(3, ["sub.c3d", "a folder, not a regular file"], "ik", "-m", "sub.c3d", "-t", self.trc, "-o", "q.mot")
+        self.refused(3, "sub.c3d: the folder holds no file that can be read here", "info", "sub.c3d")
 
     @unittest.skipIf(os.geteuid() == 0, "root may read every file")
     def test_a_file_without_permission(self):
@@ -153,7 +154,7 @@ class FullDiskAndUnwritableFolder(CommandTest):
             self.refused(4, f"{path}: cannot be written", *self.ik(output=path))
             self.refused(4, f"{path}: cannot be written", "convert", self.truth, path)
         self.refused(4, "file", "simulate", "subject", "-o", "file/sub")
-        self.refused(4, "is a folder", *self.ik(output="."))
+        self.refused(4, "is a folder", "study", "macaque", "--figures", ".")
 
     def test_a_page_that_cannot_be_written_stops_the_rest(self):
         for page in ("no/r.html", "/proc/r.html"):

@@ -38,7 +38,7 @@ class SpecialFiles(CommandTest):
         os.symlink("fifo.trc", self.folder / "link.trc")
         os.symlink("/dev/zero", self.folder / "device.c3d")
         (self.folder / "folder.mot").mkdir()
-        for name, kind in (("fifo.trc", "pipe"), ("link.trc", "pipe"), ("device.c3d", "device"), ("folder.mot", "folder")):
+        for name, kind in (("fifo.trc", "pipe"), ("link.trc", "pipe"), ("device.c3d", "device")):
             said = [name, kind, "not a regular file"]
             to = "x.sto" if name.endswith(".mot") else "x.csv"
             for command in (["info", name], ["validate", name], ["convert", name, to], self.ik(markers=name), self.ik(model=name)):
@@ -46,6 +46,9 @@ class SpecialFiles(CommandTest):
                 self.assertEqual(ran.status, 3, (command, ran.err))
                 for word in said:
                     self.assertIn(word, ran.err.splitlines()[-1])
+        self.refused(3, ["folder.mot", "a folder, not a regular file"], *self.ik(model="folder.mot"))
+        for command in ("info", "validate"):
+            self.refused(3, "folder.mot: the folder holds no file that can be read", command, "folder.mot")
         self.refused(3, ["fifo.trc", "pipe"], "joints", self.c3d, "--segments", "fifo.trc", "-o", "j.csv")
         self.refused(3, ["fifo.trc", "pipe"], "ik", "--setup", "fifo.trc")
 

@@ -70,7 +70,7 @@ std::optional<data::BodyFactors> read_scale(XmlFile& file, pugi::xml_node node) 
   if (body.empty() || body == "Unassigned") body = name_of(node);
   if (body.empty()) file.note(node, "names no <segment>");
   if (body.starts_with("/bodyset/")) body.erase(0, std::string("/bodyset/").size());
-  const data::BodyFactors scale{.body = std::move(body),
+  data::BodyFactors scale{.body = std::move(body),
                                 .factors = file.vector3(node, "scales", Eigen::Vector3d::Ones())};
   const bool apply = file.flag(node, "apply", true);
   if (!(scale.factors.minCoeff() > 0.0)) file.note(node.child("scales"), "must be above 0");

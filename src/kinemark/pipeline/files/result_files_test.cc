@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 class WriteResults : public ::testing::Test {
  protected:
   fs::path at(const std::string& name) const { return scratch_ / name; }
-  static ResultFile text(fs::path target, std::string content) {
+  static ResultFile text(fs::path target, const std::string& content) {
     return text_file(std::move(target), [content] { return content; });
   }
   static data::Trial one_marker() {

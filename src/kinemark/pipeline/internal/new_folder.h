@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ranges>
 #include <system_error>
 #include <vector>
 
@@ -21,8 +22,7 @@ class NewFolder {
          folder.has_relative_path() && !std::filesystem::exists(folder, ignored);
          folder = folder.parent_path())
       missing.push_back(folder);
-    for (auto outer = missing.rbegin(); outer != missing.rend(); ++outer)
-      made_.push_back(io::Temporary::watch_folder(*outer));
+    for (const auto& outer : std::views::reverse(missing)) made_.push_back(io::Temporary::watch_folder(outer));
     if (!missing.empty()) std::filesystem::create_directories(missing.front(), error_);
   }
   ~NewFolder() {

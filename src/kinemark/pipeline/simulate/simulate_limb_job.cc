@@ -93,7 +93,7 @@ Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
   auto written =
       write_results(*staging,
                     {marker_file(targets[0], stream), marker_file(targets[1], stream),
-                     marker_file(targets[2], truth), toml_file(targets[3], [&] { return layout; })},
+                     marker_file(targets[2], truth), toml_file(targets[3], [&] { return std::string(layout); })},
                     job.progress, "the simulation", set);
   if (!written) return std::unexpected(written.error());
   out.written = std::move(*written);

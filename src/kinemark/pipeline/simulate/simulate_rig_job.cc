@@ -279,8 +279,8 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   files.push_back(table_file(folder / "truth_derivatives.sto", [&] { return derivatives_table(*recorded); }));
   const std::string rig_true = io::format_rig(simulation::rig_in_room(*rig)),
                     rig_nominal = io::format_rig(rig->nominal);
-  files.push_back(toml_file(folder / "rig_true.toml", [&] { return rig_true; }));
-  files.push_back(toml_file(folder / "rig_nominal.toml", [&] { return rig_nominal; }));
+  files.push_back(toml_file(folder / "rig_true.toml", [&] { return std::string(rig_true); }));
+  files.push_back(toml_file(folder / "rig_nominal.toml", [&] { return std::string(rig_nominal); }));
   if (auto s = add_calibration(job, *rig, files); !s) return std::unexpected(s.error());
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.target.filename().string());

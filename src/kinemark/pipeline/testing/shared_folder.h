@@ -27,6 +27,8 @@ class SharedFolder : public ::testing::Test {
   static std::filesystem::path at(const std::string& name) { return *scratch_ / name; }
 
  private:
+  SharedFolder() = default;
+  friend Suite;
   static inline testing_support::ScratchFolder* scratch_ = nullptr;
 };
 

@@ -70,7 +70,7 @@ std::filesystem::path path_of(pugi::xml_node node, const char* child, const std:
 
 std::filesystem::path input_path_of(const XmlFile& file, pugi::xml_node node, const char* child,
                                     const std::filesystem::path& folder, std::vector<std::string>& notes) {
-  const std::filesystem::path path = path_of(node, child, folder);
+  std::filesystem::path path = path_of(node, child, folder);
   std::error_code unreadable;
   if (path.empty() || std::filesystem::exists(path, unreadable)) return path;
   const std::filesystem::path beside = folder / path.filename();

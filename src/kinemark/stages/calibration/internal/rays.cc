@@ -24,7 +24,7 @@ std::optional<Eigen::Vector2d> find_spot(const data::Detector& detector, const E
     Eigen::Vector2d step = -(j.transpose() * j).inverse() * (j.transpose() * left.residual);
     if (!step.allFinite()) return std::nullopt;
     if (step.norm() > kLongestStep) step *= kLongestStep / step.norm();
-    const Eigen::Vector2d next = (spot + step).cwiseMax(-limit).cwiseMin(limit);
+    Eigen::Vector2d next = (spot + step).cwiseMax(-limit).cwiseMin(limit);
     if ((next - spot).norm() < 1e-9) return next;
     spot = next;
   }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <utility>
 
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -28,8 +29,8 @@ constexpr double kNoise_m = 0.002;
 class BruteForce {
  public:
   BruteForce(const data::ModelDescription& base, std::vector<GeometryParameter> list,
-             const data::Trajectories& recording, const MatrixXd& states)
-      : base_(base), list_(std::move(list)), recording_(recording), states_(states), x(VectorXd::Zero(P())) {}
+             const data::Trajectories& recording, MatrixXd states)
+      : base_(base), list_(std::move(list)), recording_(recording), states_(std::move(states)), x(VectorXd::Zero(P())) {}
 
   [[nodiscard]] Index P() const { return static_cast<Index>(list_.size()); }
   [[nodiscard]] Index speeds() const { return model::Model::compile(base_)->speed_count(); }
