@@ -71,7 +71,7 @@ std::optional<data::BodyFactors> read_scale(XmlFile& file, pugi::xml_node node) 
   if (body.empty()) file.note(node, "names no <segment>");
   if (body.starts_with("/bodyset/")) body.erase(0, std::string("/bodyset/").size());
   data::BodyFactors scale{.body = std::move(body),
-                                .factors = file.vector3(node, "scales", Eigen::Vector3d::Ones())};
+                          .factors = file.vector3(node, "scales", Eigen::Vector3d::Ones())};
   const bool apply = file.flag(node, "apply", true);
   if (!(scale.factors.minCoeff() > 0.0)) file.note(node.child("scales"), "must be above 0");
   if (!apply) return std::nullopt;

@@ -22,7 +22,8 @@ class NewFolder {
          folder.has_relative_path() && !std::filesystem::exists(folder, ignored);
          folder = folder.parent_path())
       missing.push_back(folder);
-    for (const auto& outer : std::views::reverse(missing)) made_.push_back(io::Temporary::watch_folder(outer));
+    for (const auto& outer : std::views::reverse(missing))
+      made_.push_back(io::Temporary::watch_folder(outer));
     if (!missing.empty()) std::filesystem::create_directories(missing.front(), error_);
   }
   ~NewFolder() {

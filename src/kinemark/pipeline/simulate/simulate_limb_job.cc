@@ -90,11 +90,11 @@ Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
   const std::string layout = segment_layout_toml(limb->layout, limb->markers.names);
   const std::string set =
       SetDigest().add("simulate limb").add(layout).add(stream.markers).add(truth.markers).hex();
-  auto written =
-      write_results(*staging,
-                    {marker_file(targets[0], stream), marker_file(targets[1], stream),
-                     marker_file(targets[2], truth), toml_file(targets[3], [&] { return std::string(layout); })},
-                    job.progress, "the simulation", set);
+  auto written = write_results(
+      *staging,
+      {marker_file(targets[0], stream), marker_file(targets[1], stream), marker_file(targets[2], truth),
+       toml_file(targets[3], [&] { return std::string(layout); })},
+      job.progress, "the simulation", set);
   if (!written) return std::unexpected(written.error());
   out.written = std::move(*written);
   return out;

@@ -36,7 +36,10 @@ std::vector<std::uint8_t> decode_bytes(const std::string& text) {
   for (const char c : text) {
     if (c == '=') break;
     bits = bits << 6 | static_cast<unsigned>(digits.find(c));
-    if ((have += 6) >= 8) out.push_back(static_cast<std::uint8_t>(bits >> (have -= 8)));
+    have += 6;
+    if (have < 8) continue;
+    have -= 8;
+    out.push_back(static_cast<std::uint8_t>(bits >> have));
   }
   return out;
 }

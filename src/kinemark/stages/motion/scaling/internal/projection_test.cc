@@ -30,7 +30,11 @@ class BruteForce {
  public:
   BruteForce(const data::ModelDescription& base, std::vector<GeometryParameter> list,
              const data::Trajectories& recording, MatrixXd states)
-      : base_(base), list_(std::move(list)), recording_(recording), states_(std::move(states)), x(VectorXd::Zero(P())) {}
+      : base_(base),
+        list_(std::move(list)),
+        recording_(recording),
+        states_(std::move(states)),
+        x(VectorXd::Zero(P())) {}
 
   [[nodiscard]] Index P() const { return static_cast<Index>(list_.size()); }
   [[nodiscard]] Index speeds() const { return model::Model::compile(base_)->speed_count(); }
