@@ -79,6 +79,8 @@ struct NwbOutline {
 
 /// Writes a recording piece by piece, any frames of any markers in any order, so that memory is bounded by
 /// the caller's piece. Samples that are never written read as missing. Without commit() no file appears.
+/// Several writers may work in threads of their own where HDF5 was built with its lock (H5_HAVE_THREADSAFE,
+/// as in Debian).
 class NwbWriter {
  public:
   /// Errors as write_nwb().

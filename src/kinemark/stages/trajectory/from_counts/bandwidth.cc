@@ -30,7 +30,7 @@ Problem split(std::span<const LedObservation> observations, std::size_t max_obse
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (const auto& s : observations) mean += s.information;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(mean);
-  const Eigen::Matrix3d axes = eigen.eigenvectors();
+  const Eigen::Matrix3d& axes = eigen.eigenvectors();
   const double least = 1e-3 * eigen.eigenvalues()(0) / static_cast<double>(observations.size());
   const auto add = [&](std::size_t first, std::size_t last) {
     std::array<Scalars, 3> piece;

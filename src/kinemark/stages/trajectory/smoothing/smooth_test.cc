@@ -161,8 +161,9 @@ TEST(Smooth, ErrorBarsKeepTheirWord) {
     const Array<double>* sds[3] = {nullptr, &result.derivatives.velocity_sd,
                                    &result.derivatives.acceleration_sd};
     for (std::size_t i = 0; i < 1200; ++i) {
+      const std::size_t frame = i / 3;
       for (int d = 0; d < 3; ++d) {
-        const double truth = position(static_cast<double>(i / 3) / 100.0, d)[static_cast<int>(i % 3)];
+        const double truth = position(static_cast<double>(frame) / 100.0, d)[static_cast<int>(i % 3)];
         const double sd =
             d == 0 ? std::sqrt(result.trajectories.covariance[6 * (i / 3) + math::kSymmetric3Diagonal[i % 3]])
                    : (*sds[d])[i];

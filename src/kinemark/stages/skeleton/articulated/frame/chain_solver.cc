@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinemark/core/check.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
@@ -33,8 +34,8 @@ constexpr double kFarOff = 3.0;
 }  // namespace
 
 struct ChainSolver::Work {
-  explicit Work(const FittedChain& fit_in)
-      : fit(fit_in), solver(fit.chain), finder(fit.chain), weights(fit.marker_weight) {
+  explicit Work(FittedChain fit_in)
+      : fit(std::move(fit_in)), solver(fit.chain), finder(fit.chain), weights(fit.marker_weight) {
     lines = fit.chain.segments() == 2 && fit.chain.kind[0] == SegmentKind::line &&
             fit.chain.kind[1] == SegmentKind::line;
     for (const SegmentKind kind : fit.chain.kind) any_line = any_line || kind == SegmentKind::line;

@@ -100,7 +100,7 @@ TEST(ChainSolver, CovarianceIsThatOfRepeatedNoise) {
     for (int round = 0; round < n; ++round) {
       ChainSamples noisy = limb.samples;
       for (double& x : noisy.x) x += 0.001 * random.gaussian();
-      solver.solve(noisy.frame(0), &limb.pose[0], frame);
+      solver.solve(noisy.frame(0), limb.pose.data(), frame);
       const Vector3d error = frame.centre[0] - limb.pose[0].joint0;
       scatter += error * error.transpose() / n;
       claimed += frame.own_covariance[0] / n;

@@ -15,7 +15,6 @@
 namespace kinemark::skeleton::articulated {
 namespace {
 
-using data::CentreState;
 using testing_limbs::known_geometry;
 using testing_limbs::make_random_chain;
 using testing_limbs::random_rotation;

@@ -106,7 +106,7 @@ TEST(RecordingPass, FlaggedFramesListTheirPositionsBestFirst) {
   int pairs = 0;
   for (const FlaggedFrame& flagged : pass.flagged) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < flagged.modes.size(); ++i) sum += std::exp(flagged.modes[i].log_weight);
+    for (const auto& mode : flagged.modes) sum += std::exp(mode.log_weight);
     EXPECT_NEAR(sum, 1.0, 1e-9);
     pairs += flagged.modes.size() >= 2 ? 1 : 0;
   }

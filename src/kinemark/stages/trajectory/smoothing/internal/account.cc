@@ -65,7 +65,8 @@ std::vector<double> autocorrelation_if_white(std::span<const double> impulse_res
 class Psd {
  public:
   Psd(std::int64_t length, double rate_hz) : length_(length), rate_hz_(rate_hz) {
-    const auto highest = static_cast<double>(length / 2);
+    const std::int64_t last = length / 2;
+    const auto highest = static_cast<double>(last);
     for (int i = 0; i < kMostFrequencies; ++i) {
       const auto bin =
           static_cast<std::int64_t>(std::llround(std::pow(highest, (i + 0.5) / kMostFrequencies)));

@@ -68,8 +68,10 @@ std::int64_t typical_gap(std::span<const Series> parts, std::int64_t longest) {
   }
   std::ranges::sort(lengths);
   std::int64_t counted = 0;
-  for (const std::int64_t length : lengths)
-    if (2 * (counted += length) >= missing) return length;
+  for (const std::int64_t length : lengths) {
+    counted += length;
+    if (2 * counted >= missing) return length;
+  }
   return 0;
 }
 
