@@ -64,16 +64,19 @@ bool is_type(const std::string& name) {
 }
 
 /// What a check adds to the name of the type ("INT in [0 - 8]") is said by the description or by the refusal.
-void quieten_checks(CLI::Option& option) {
+/// How many checks there were: the parser tells their end by an exception.
+int quieten_checks(CLI::Option& option) {
+  int count = 0;
   try {
-    for (int i = 0;; ++i) option.get_validator(i)->description("");
-  } catch (const CLI::OptionNotFound&) {  // that was the last
+    for (;; ++count) option.get_validator(count)->description("");
+  } catch (const CLI::OptionNotFound&) {
+    return count;
   }
 }
 
 void name_value(CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return;
-  quieten_checks(option);
+  (void)quieten_checks(option);
   if (!is_type(option.get_type_name())) return;
   const std::string name = option.get_lnames().empty() ? option.get_name() : option.get_lnames().front();
   const bool is_number = option.get_type_name() == "FLOAT";

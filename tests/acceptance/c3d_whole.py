@@ -144,8 +144,11 @@ def main():
         for path in files:
             name, copy = path.relative_to(data), Path(scratch) / "copy.c3d"
             run = subprocess.run([program, "convert", path, copy, "--force"], capture_output=True, text=True, timeout=300)
+            if path.stat().st_size == 0:
+                row(run.returncode == 3, f"{name}: an empty file", "refused, status 3", f"status {run.returncode}")
+                continue
             if run.returncode != 0:
-                print(f"SKIP | {name} | converted | status {run.returncode}")
+                row(False, f"{name}: converted", "status 0", f"status {run.returncode}")
                 continue
             before, after = carried(path), carried(copy)
             if bytes_of(before) > LARGEST:

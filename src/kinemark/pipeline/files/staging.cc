@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -101,8 +102,8 @@ Status Staging::place_all() {
       done.emplace_back(i, *placed);
       continue;
     }
-    for (auto back = done.rbegin(); back != done.rend(); ++back)
-      io::unplace_file(path(back->first), resolved_[back->first], back->second);
+    for (const auto& [back, how] : std::views::reverse(done))
+      io::unplace_file(path(back), resolved_[back], how);
     return std::unexpected(placed.error());
   }
   return {};

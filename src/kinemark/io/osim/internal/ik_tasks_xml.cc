@@ -73,7 +73,7 @@ std::filesystem::path input_path_of(const XmlFile& file, pugi::xml_node node, co
   std::filesystem::path path = path_of(node, child, folder);
   std::error_code unreadable;
   if (path.empty() || std::filesystem::exists(path, unreadable)) return path;
-  const std::filesystem::path beside = folder / path.filename();
+  std::filesystem::path beside = folder / path.filename();
   if (path.filename().empty() || !std::filesystem::is_regular_file(beside, unreadable)) return path;
   notes.push_back(fmt::format("{}: <{}> names {}, which is not there; {} beside the setup is read instead",
                               file.name(), child, in_quotes(text_of(node, child)),
