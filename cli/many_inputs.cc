@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/console.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
 
@@ -61,6 +62,10 @@ int run_each(const CommonOptions& common, const ManyArguments& arguments, std::s
         {.code = Code::usage,
          .message = fmt::format("{}: several recordings need a folder for what is made of them",
                                 arguments.output.string())});
+  if (!ending.empty() && ending != ".mot")
+    if (auto s = io::check_marker_format("x" + (ending.starts_with('.') ? ending : "." + ending)); !s)
+      return report_error(
+          {.code = Code::usage, .message = fmt::format("--to {}: need c3d, trc, csv or nwb", ending)});
   pipeline::ManyJob job;
   job.inputs = std::move(list->files);
   job.folder = arguments.output;

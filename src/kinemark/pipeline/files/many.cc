@@ -5,11 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <chrono>
+#include <exception>
 #include <map>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -27,24 +28,43 @@ namespace fs = std::filesystem;
 /// What is there of the output of a recording.
 enum class Presence { none, part, whole };
 
-Presence presence_of(const fs::path& output, bool has_report) {
-  std::error_code ignored;
-  const bool there = fs::exists(output, ignored);
-  if (!has_report) return there ? Presence::whole : Presence::none;
-  const fs::path report = beside(output, "_report.json");
-  const bool reported = fs::exists(report, ignored);
-  const std::string set = there ? set_in(output) : "", set_of_report = reported ? set_in(report) : "";
-  // A table of numbers alone (CSV) cannot name its set.
-  if (there && reported && (set.empty() || set == set_of_report)) return Presence::whole;
-  return there || reported ? Presence::part : Presence::none;
+/// The files of a recording that say how far a run came.
+struct Made {
+  fs::path output, report, page;  ///< the last two empty where the job makes none
+};
+
+Made made_for(const ManyJob& job, const TrialOutcome& trial) {
+  Made made{.output = trial.output, .report = {}, .page = {}};
+  if (job.makes_report) made.report = beside(trial.output, "_report.json");
+  if (!job.pages.empty()) made.page = job.pages / (trial.output.stem().string() + ".html");
+  return made;
 }
 
-/// Whether all that is there was made by a run, which was then killed: each file names its set.
-bool is_ours(const fs::path& output) {
+bool is_there(const fs::path& file) {
   std::error_code ignored;
-  return std::ranges::all_of(std::array{output, beside(output, "_report.json")}, [&](const fs::path& file) {
-    return !fs::exists(file, ignored) || !set_in(file).empty();
-  });
+  return fs::exists(file, ignored);
+}
+
+Presence presence_of(const Made& made) {
+  int needed = 0, there = 0;
+  for (const auto& file : {made.output, made.report, made.page}) {
+    needed += file.empty() ? 0 : 1;
+    there += !file.empty() && is_there(file) ? 1 : 0;
+  }
+  if (there == 0) return Presence::none;
+  if (there < needed) return Presence::part;
+  if (made.report.empty()) return Presence::whole;
+  // A table of numbers alone (CSV) cannot name its set.
+  const std::string set = set_in(made.output);
+  return set.empty() || set == set_in(made.report) ? Presence::whole : Presence::part;
+}
+
+/// Whether all that is there was made by a run that did not come to its end: each file names its set, and
+/// stands for one that cannot.
+bool is_ours(const Made& made) {
+  const bool reported = is_there(made.report) && !set_in(made.report).empty();
+  return (!is_there(made.output) || reported || !set_in(made.output).empty()) &&
+         (!is_there(made.report) || reported) && (!is_there(made.page) || !set_in(made.page).empty());
 }
 
 bool is_older(const fs::path& output, const fs::path& input) {
@@ -83,8 +103,20 @@ Result<std::vector<TrialOutcome>> plan(const ManyJob& job) {
   return trials;
 }
 
+/// A recording that is too large for the memory, or that trips a check, is one that failed.
+Result<JobOutcome> run_guarded(const ManyJob& job, const TrialOutcome& trial, const JobSettings& settings) {
+  try {
+    return job.run_one(trial.input, trial.output, settings);
+  } catch (const std::bad_alloc&) {
+    return fail(Code::io, fmt::format("{}: out of memory", trial.input.string()));
+  } catch (const std::exception& error) {
+    return fail(Code::bad_input, fmt::format("{}: {}", trial.input.string(), error.what()));
+  }
+}
+
 void run_trial(const ManyJob& job, TrialOutcome& trial) {
-  const Presence presence = presence_of(trial.output, job.makes_report);
+  const Made made = made_for(job, trial);
+  const Presence presence = presence_of(made);
   if (presence == Presence::whole && !job.force) {
     trial.status = is_older(trial.output, trial.input) ? TrialStatus::outdated : TrialStatus::there;
     if (trial.status == TrialStatus::outdated) trial.exit_status = 1, trial.said = "--force makes it anew";
@@ -93,9 +125,9 @@ void run_trial(const ManyJob& job, TrialOutcome& trial) {
   JobSettings settings = job;
   settings.progress = {};
   settings.threads = std::max(1, thread_count(job.threads) / thread_count(job.jobs));
-  settings.force = job.force || (presence == Presence::part && is_ours(trial.output));
+  settings.force = job.force || (presence == Presence::part && is_ours(made));
   const auto begin = std::chrono::steady_clock::now();
-  const auto outcome = job.run_one(trial.input, trial.output, settings);
+  const auto outcome = run_guarded(job, trial, settings);
   trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!outcome) {
     trial.status = TrialStatus::failed;

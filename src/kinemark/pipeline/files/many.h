@@ -30,11 +30,11 @@ enum class TrialStatus {
 struct ManyJob : JobSettings {
   std::vector<std::filesystem::path> inputs;  ///< recordings
   std::filesystem::path folder;               ///< for the outputs; made when absent
-  std::filesystem::path pages;                ///< a folder that the jobs write into as well; empty: none
-  std::string ending;                         ///< of the outputs, ".trc" or "trc"; empty: each its input's
-  int jobs = 1;                               ///< recordings at a time; 0: one for each core
-  bool keep_going = false;                    ///< the others are done when one has failed
-  bool makes_report = false;                  ///< OUT_report.json belongs to each output
+  std::filesystem::path pages;  ///< where each job writes the page NAME.html as well; empty: none
+  std::string ending;           ///< of the outputs, ".trc" or "trc"; empty: each its input's
+  int jobs = 1;                 ///< recordings at a time; 0: one for each core
+  bool keep_going = false;      ///< the others are done when one has failed
+  bool makes_report = false;    ///< OUT_report.json belongs to each output
   /// The job of one recording: input, output, and settings to take over.
   std::function<Result<JobOutcome>(const std::filesystem::path& input, const std::filesystem::path& output,
                                    const JobSettings& settings)>
@@ -61,8 +61,8 @@ struct ManyOutcome {
 };
 
 /// Runs the job for each input whose output is not there yet; with `force` for all. An output is there when
-/// it exists, with its report of the same set where one belongs to it; what a killed run left of a set is
-/// replaced. The number of recordings at a time changes no bit. Progress counts recordings.
+/// it exists, with its page and its report of the same set where they belong to it; what a killed run left of
+/// a set is replaced. The number of recordings at a time changes no bit. Progress counts recordings.
 ///
 /// Fails before anything is written: Code::usage for two inputs of one output name (case ignored), an output
 /// that is an input; Code::io where the folder cannot be made.

@@ -9,6 +9,8 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 
 #include "kinemark/io/file.h"
 #include "support/scratch.h"
@@ -31,7 +33,7 @@ class RunMany : public ::testing::Test {
   }
 
   /// Copies inputs; one that says "bad" fails, one that says "poor" misses a gate. Counts what it was asked.
-  ManyJob job(std::vector<std::string> inputs) {
+  ManyJob job(const std::vector<std::string>& inputs) {
     ManyJob job;
     for (const auto& name : inputs) job.inputs.push_back(path(name));
     job.folder = path("out");
@@ -171,6 +173,46 @@ TEST_F(RunMany, AKilledRunsPartOfASetIsReplacedAndNothingElse) {
   const auto kept = run_many(many);
   EXPECT_THAT(statuses(kept), ElementsAre(TrialStatus::failed));
   EXPECT_EQ(io::read_text(path("out/a.json"), 100).value(), "{}");
+}
+
+TEST_F(RunMany, APageThatIsMissingIsMade) {
+  const std::string set = R"({"kinemark_set": "0123456789abcdef"})";
+  write("a.c3d", set);
+  auto many = job({"a.c3d"});
+  many.ending = "json";
+  many.pages = path("pages");
+  const auto copy = many.run_one;
+  many.run_one = [&](const fs::path& input, const fs::path& output, const JobSettings& settings) {
+    write("pages/a.html", "<html>");
+    return copy(input, output, settings);
+  };
+  EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::good));
+  EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::there));
+  fs::remove(path("pages/a.html"));
+  EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::good)) << "what is there names its set";
+  EXPECT_TRUE(fs::exists(path("pages/a.html")));
+}
+
+TEST_F(RunMany, AnExceptionIsAFailureOfThatRecordingAlone) {
+  write("a.c3d", "good"), write("b.c3d", "good"), write("c.c3d", "good");
+  for (const int jobs : {1, 3}) {
+    auto many = job({"a.c3d", "b.c3d", "c.c3d"});
+    many.keep_going = true;
+    many.jobs = jobs;
+    many.force = true;
+    const auto copy = many.run_one;
+    many.run_one = [&](const fs::path& input, const fs::path& output,
+                       const JobSettings& settings) -> Result<JobOutcome> {
+      if (input.stem() == "a") throw std::bad_alloc();
+      if (input.stem() == "b") throw std::runtime_error("a check");
+      return copy(input, output, settings);
+    };
+    const auto outcome = run_many(many);
+    EXPECT_THAT(statuses(outcome), ElementsAre(TrialStatus::failed, TrialStatus::failed, TrialStatus::good));
+    EXPECT_THAT(outcome->trials[0].said, HasSubstr("a.c3d: out of memory"));
+    EXPECT_EQ(outcome->trials[0].exit_status, 4);
+    EXPECT_THAT(outcome->trials[1].said, HasSubstr("b.c3d: a check"));
+  }
 }
 
 }  // namespace

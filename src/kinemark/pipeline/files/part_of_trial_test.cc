@@ -13,7 +13,6 @@
 namespace kinemark::pipeline {
 namespace {
 
-using data::SampleState;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -47,10 +47,7 @@ TEST_F(SettingsFile, ReadsEveryKindOfOptionInTheOrderOfTheFile) {
 TEST_F(SettingsFile, WhatIsWrittenIsReadBack) {
   Settings settings{.command = "simulate rig"};
   for (const auto* value : {"5", "-5", "0.25", "1e-3", "007", ".5", "5.", "x -90", "a \"quoted\" \\ name", "",
-                            "nan", "12345678901234567890", "tab\there",
-                            "Gr\xC3\xB6\xC3\x9F"
-                            "e",
-                            "-"})
+                            "nan", "12345678901234567890", "tab\there", "Gr\u00F6\u00DFe", "-"})
     settings.list.push_back({.name = "o" + std::to_string(settings.list.size()), .values = {value}});
   settings.list.push_back({.name = "many", .values = {"a,b", "2"}});
   settings.list.push_back({.name = "flag", .is_switch = true});

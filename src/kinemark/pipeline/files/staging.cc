@@ -95,7 +95,8 @@ std::unexpected<Error> Staging::failure(Error error) const {
 Status Staging::place_all() {
   std::vector<std::pair<std::size_t, io::Replaced>> done;
   const auto held = io::hold_end();
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
+  // The first comes last: where it is, all are.
+  for (std::size_t i = targets_.size(); i-- > 0;) {
     if (!fs::exists(path(i))) continue;
     const auto placed = io::place_file(path(i), resolved_[i], force_, true);
     if (placed) {

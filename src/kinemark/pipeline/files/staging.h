@@ -42,9 +42,9 @@ class Staging {
   [[nodiscard]] std::vector<std::filesystem::path> written() const;
   /// A failure of writing path(i), told of targets[i].
   [[nodiscard]] std::unexpected<Error> failure(Error error) const;
-  /// Move every file that was written into place, one directly after the other, as all of them are on the
-  /// disk by then. Without force a target that came in the meantime is a failure. After a failure all is as
-  /// it was before, where the file system can exchange files.
+  /// Move every file that was written into place, one directly after the other, the first target last, as all
+  /// of them are on the disk by then. Without force a target that came in the meantime is a failure. After a
+  /// failure all is as it was before, where the file system can exchange files.
   [[nodiscard]] Status commit();
 
  private:
