@@ -144,7 +144,7 @@ Path random_path(Random& random, const MotionLibrary& library, double duration_s
     };
   }
   const Vector3d rest = gaussian3(random) * 800.0;
-  return [=](double) { return rest; };
+  return [=](double) { return Vector3d(rest); };
 }
 
 Stream interpolate(const Stream& low, int factor, InterpolationKernel kernel, bool flat_ends) {

@@ -119,16 +119,6 @@ class CheckTidy(unittest.TestCase):
         self.assertEqual(self.run_tool("--since", "HEAD~1"), (0, ["scratch.cc", "c.cc"]))
         self.assertIn("tidy: 2 of 4 files", self.said)
 
-    def test_what_is_owed_waits_for_all(self):
-        (self.root / "tools").mkdir()
-        (self.root / "tools" / "tidy_debt.txt").write_text("src/kinemark/core/c.cc\n")
-        self.git("init")
-        self.commit()
-        for name in ("b.cc", "c.cc"):
-            (self.root / "src/kinemark/core" / name).write_text("int changed;\n")
-        self.assertEqual(self.run_tool("--since", "HEAD"), (0, ["b.cc"]))
-        self.assertEqual(self.run_tool("--all"), (0, ALL))
-
     def test_what_changed_is_looked_at_together_and_one_by_one_where_that_fails(self):
         self.git("init")
         self.commit()

@@ -19,7 +19,6 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 /// A signing arm before a known rig, written once for all tests.

@@ -24,9 +24,10 @@ struct Scan {
   explicit Scan(const data::Rig& truth) {
     positions.frames_per_position = 3;
     positions.x_in_stage.resize(3, 100);
-    for (int i = 0; i < 100; ++i)
-      positions.x_in_stage.col(i) << 0.15 * (i % 5 - 2), 0.15 * static_cast<double>(i / 5 % 5 - 2),
-          0.2 * static_cast<double>(i / 25) - 0.3;
+    for (int i = 0; i < 100; ++i) {
+      const int row = i / 5 % 5, layer = i / 25;
+      positions.x_in_stage.col(i) << 0.15 * (i % 5 - 2), 0.15 * (row - 2), 0.2 * layer - 0.3;
+    }
     world_from_stage.rotation =
         Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, -2, 1).normalized()).toRotationMatrix();
     world_from_stage.translation << 0.004, -0.003, 0.005;

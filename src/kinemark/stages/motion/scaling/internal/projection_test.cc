@@ -28,9 +28,9 @@ constexpr double kNoise_m = 0.002;
 /// differences: independent of Schur complements and Jacobians.
 class BruteForce {
  public:
-  BruteForce(const data::ModelDescription& base, std::vector<GeometryParameter> list,
+  BruteForce(data::ModelDescription base, std::vector<GeometryParameter> list,
              const data::Trajectories& recording, MatrixXd states)
-      : base_(base),
+      : base_(std::move(base)),
         list_(std::move(list)),
         recording_(recording),
         states_(std::move(states)),
