@@ -77,12 +77,13 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
   }
   many.pages = job.report;
   const auto clean_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                const std::filesystem::path& page,
                                 const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
     pipeline::CleanJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.input = input;
     one.output = output;
-    if (!job.report.empty()) one.report = job.report / (output.stem().string() + ".html");
+    one.report = page;
     return pipeline::run_clean(one);
   };
   return run_each(common, many, many.to, true, clean_one);
@@ -100,11 +101,6 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
   auto& job = arguments->job;
   auto& many = arguments->many;
   add_in_and_out(*command, many, "Recording to read; several, or a folder of them");
-  command
-      ->add_option("--to", many.to,
-                   "Format of the files in the folder OUT: c3d, trc, csv or nwb; else as read")
-      ->type_name("FORMAT")
-      ->group("Several recordings");
   add_many_options(*command, many);
   command
       ->add_option("--gaps", arguments->gaps,

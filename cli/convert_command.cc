@@ -21,11 +21,6 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
   auto& many = arguments.many;
   if (auto s = many.split_output(); !s) return report_error(s.error());
   if (!many.are_many()) {
-    if (!many.to.empty())
-      return report_error(
-          {.code = Code::usage,
-           .message = fmt::format("{}: --to is for a folder; the ending of a file names its format",
-                                  many.output.string())});
     job.in = many.inputs.front();
     job.out = many.output;
     return run_job(common, "files", job, pipeline::run_convert, print_written);
@@ -35,6 +30,7 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
                          .message = fmt::format("{}: files for a folder need --to c3d, trc, csv or nwb",
                                                 many.output.string())});
   const auto convert_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                  const std::filesystem::path& /*page*/,
                                   const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
     pipeline::ConvertJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
@@ -59,9 +55,6 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto& job = arguments->job;
   auto& many = arguments->many;
   add_in_and_out(*command, many, "File to read; several, or a folder of recordings");
-  command->add_option("--to", many.to, "Format of the files in the folder OUT: c3d, trc, csv or nwb")
-      ->type_name("FORMAT")
-      ->group("Several recordings");
   add_many_options(*command, many);
   command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
   command->add_option("--rotate", job.rotate,

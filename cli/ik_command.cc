@@ -64,12 +64,13 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
     return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
   many.pages = job.report;
   const auto solve_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                const std::filesystem::path& page,
                                 const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
     pipeline::IkJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.markers = input;
     one.output = output;
-    if (!job.report.empty()) one.report = job.report / (output.stem().string() + ".html");
+    one.report = page;
     return pipeline::run_ik(one);
   };
   return run_each(common, many, ".mot", true, solve_one);

@@ -28,6 +28,13 @@ Status ManyArguments::split_output() {
   if (inputs.size() < 2) return fail(Code::usage, "OUT is required: the file or folder to write");
   output = std::move(inputs.back());
   inputs.pop_back();
+  if (to.empty()) return {};
+  if (!are_many())
+    return fail(Code::usage, fmt::format("{}: --to is for a folder; the ending of a file names its format",
+                                         output.string()));
+  if (!to.starts_with('.')) to.insert(0, ".");
+  if (!io::check_marker_format("x" + to))
+    return fail(Code::usage, fmt::format("--to: '{}' is not c3d, trc, csv or nwb", to.substr(1)));
   return {};
 }
 
@@ -36,6 +43,9 @@ void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in)
   // The list before it takes all names, this one among them.
   command.add_option("OUT", arguments.output,
                      "File to write, its ending names the format; or a folder (REQUIRED)");
+  command.add_option("--to", arguments.to, "Format of the files in the folder OUT: c3d, trc, csv or nwb")
+      ->type_name("FORMAT")
+      ->group("Several recordings");
 }
 
 void add_many_options(CLI::App& command, ManyArguments& arguments) {
@@ -62,10 +72,6 @@ int run_each(const CommonOptions& common, const ManyArguments& arguments, std::s
         {.code = Code::usage,
          .message = fmt::format("{}: several recordings need a folder for what is made of them",
                                 arguments.output.string())});
-  if (!ending.empty() && ending != ".mot")
-    if (auto s = io::check_marker_format("x" + (ending.starts_with('.') ? ending : "." + ending)); !s)
-      return report_error(
-          {.code = Code::usage, .message = fmt::format("--to {}: need c3d, trc, csv or nwb", ending)});
   pipeline::ManyJob job;
   job.inputs = std::move(list->files);
   job.folder = arguments.output;

@@ -22,18 +22,19 @@ namespace kinemark::cli {
 struct ManyArguments {
   std::vector<std::filesystem::path> inputs;  ///< files and folders
   std::filesystem::path output;               ///< a file, or a folder
-  std::string to;                             ///< "trc" or ".trc"; empty: not given
+  std::string to;                             ///< ending of the files in the folder, ".trc"; empty: not given
   std::filesystem::path pages;                ///< as ManyJob
   int jobs = 1;                               ///< as ManyJob
   bool keep_going = false;                    ///< as ManyJob
 
-  /// The last of the names is the output: Code::usage without one. For positional arguments alone.
+  /// The last of the names is the output, and `to` gets its dot. Code::usage without an output, for a `to`
+  /// without a folder, or one that is no format of markers. For positional arguments alone.
   [[nodiscard]] Status split_output();
   /// Whether there are several inputs, or the output is a folder that is there or ends in a slash.
   [[nodiscard]] bool are_many() const;
 };
 
-/// IN and OUT. @param in  what IN is, for the help
+/// IN, OUT and --to. @param in  what IN is, for the help
 void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in);
 
 /// --jobs and --keep-going.

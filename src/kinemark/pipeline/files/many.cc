@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
 #include <exception>
@@ -59,12 +60,11 @@ Presence presence_of(const Made& made) {
   return set.empty() || set == set_in(made.report) ? Presence::whole : Presence::part;
 }
 
-/// Whether all that is there was made by a run that did not come to its end: each file names its set, and
-/// stands for one that cannot.
+/// Whether all that is there was made by a run that did not come to its end: each file names its set. The
+/// output comes last, so that one that cannot name a set (CSV) is not there then.
 bool is_ours(const Made& made) {
-  const bool reported = is_there(made.report) && !set_in(made.report).empty();
-  return (!is_there(made.output) || reported || !set_in(made.output).empty()) &&
-         (!is_there(made.report) || reported) && (!is_there(made.page) || !set_in(made.page).empty());
+  return std::ranges::all_of(std::array{made.output, made.report, made.page},
+                             [](const fs::path& file) { return !is_there(file) || !set_in(file).empty(); });
 }
 
 bool is_older(const fs::path& output, const fs::path& input) {
@@ -78,9 +78,7 @@ Result<std::vector<TrialOutcome>> plan(const ManyJob& job) {
   std::map<std::string, fs::path> taken;
   std::vector<fs::path> outputs;
   for (const auto& input : job.inputs) {
-    const std::string ending = job.ending.empty()            ? ending_of(input)
-                               : job.ending.starts_with('.') ? job.ending
-                                                             : "." + job.ending;
+    const std::string ending = job.ending.empty() ? ending_of(input) : job.ending;
     TrialOutcome trial{.input = input, .output = job.folder / (input.stem().string() + ending)};
     std::string name = trial.output.filename().string();
     std::ranges::transform(name, name.begin(),
@@ -104,9 +102,10 @@ Result<std::vector<TrialOutcome>> plan(const ManyJob& job) {
 }
 
 /// A recording that is too large for the memory, or that trips a check, is one that failed.
-Result<JobOutcome> run_guarded(const ManyJob& job, const TrialOutcome& trial, const JobSettings& settings) {
+Result<JobOutcome> run_guarded(const ManyJob& job, const TrialOutcome& trial, const fs::path& page,
+                               const JobSettings& settings) {
   try {
-    return job.run_one(trial.input, trial.output, settings);
+    return job.run_one(trial.input, trial.output, page, settings);
   } catch (const std::bad_alloc&) {
     return fail(Code::io, fmt::format("{}: out of memory", trial.input.string()));
   } catch (const std::exception& error) {
@@ -127,7 +126,7 @@ void run_trial(const ManyJob& job, TrialOutcome& trial) {
   settings.threads = std::max(1, thread_count(job.threads) / thread_count(job.jobs));
   settings.force = job.force || (presence == Presence::part && is_ours(made));
   const auto begin = std::chrono::steady_clock::now();
-  const auto outcome = run_guarded(job, trial, settings);
+  const auto outcome = run_guarded(job, trial, made.page, settings);
   trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!outcome) {
     trial.status = TrialStatus::failed;

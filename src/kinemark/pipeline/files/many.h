@@ -31,13 +31,13 @@ struct ManyJob : JobSettings {
   std::vector<std::filesystem::path> inputs;  ///< recordings
   std::filesystem::path folder;               ///< for the outputs; made when absent
   std::filesystem::path pages;  ///< where each job writes the page NAME.html as well; empty: none
-  std::string ending;           ///< of the outputs, ".trc" or "trc"; empty: each its input's
+  std::string ending;           ///< of the outputs, ".trc"; empty: each its input's
   int jobs = 1;                 ///< recordings at a time; 0: one for each core
   bool keep_going = false;      ///< the others are done when one has failed
   bool makes_report = false;    ///< OUT_report.json belongs to each output
-  /// The job of one recording: input, output, and settings to take over.
+  /// The job of one recording: input, output, page (empty: none), and settings to take over.
   std::function<Result<JobOutcome>(const std::filesystem::path& input, const std::filesystem::path& output,
-                                   const JobSettings& settings)>
+                                   const std::filesystem::path& page, const JobSettings& settings)>
       run_one;
 };
 

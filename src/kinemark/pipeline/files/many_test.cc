@@ -37,8 +37,8 @@ class RunMany : public ::testing::Test {
     ManyJob job;
     for (const auto& name : inputs) job.inputs.push_back(path(name));
     job.folder = path("out");
-    job.ending = "trc";
-    job.run_one = [this](const fs::path& input, const fs::path& output,
+    job.ending = ".trc";
+    job.run_one = [this](const fs::path& input, const fs::path& output, const fs::path& /*page*/,
                          const JobSettings& settings) -> Result<JobOutcome> {
       {
         const std::lock_guard lock(mutex_);
@@ -159,7 +159,7 @@ TEST_F(RunMany, AKilledRunsPartOfASetIsReplacedAndNothingElse) {
                     other = R"({"kinemark_set": "ffffffffffffffff"})";
   write("a.c3d", set);
   auto many = job({"a.c3d"});
-  many.ending = "json";
+  many.ending = ".json";
   many.makes_report = true;
   write("out/a_report.json", set);  // the output itself is missing
   EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::good));
@@ -179,18 +179,33 @@ TEST_F(RunMany, APageThatIsMissingIsMade) {
   const std::string set = R"({"kinemark_set": "0123456789abcdef"})";
   write("a.c3d", set);
   auto many = job({"a.c3d"});
-  many.ending = "json";
+  many.ending = ".json";
   many.pages = path("pages");
   const auto copy = many.run_one;
-  many.run_one = [&](const fs::path& input, const fs::path& output, const JobSettings& settings) {
-    write("pages/a.html", "<html>");
-    return copy(input, output, settings);
+  many.run_one = [&](const fs::path& input, const fs::path& output, const fs::path& page,
+                     const JobSettings& settings) {
+    EXPECT_EQ(page, path("pages/a.html"));
+    EXPECT_TRUE(io::write_text(page, set, settings.force));
+    return copy(input, output, page, settings);
   };
   EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::good));
   EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::there));
   fs::remove(path("pages/a.html"));
   EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::good)) << "what is there names its set";
   EXPECT_TRUE(fs::exists(path("pages/a.html")));
+}
+
+TEST_F(RunMany, ATableOfSomebodyIsNotReplacedForAMissingPage) {
+  const std::string set = R"({"kinemark_set": "0123456789abcdef"})";
+  write("a.c3d", set);
+  auto many = job({"a.c3d"});
+  many.ending = ".csv";
+  many.makes_report = true;
+  many.pages = path("pages");
+  write("out/a.csv", "edited by hand");
+  write("out/a_report.json", set);
+  EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::failed));
+  EXPECT_EQ(io::read_text(path("out/a.csv"), 100).value(), "edited by hand");
 }
 
 TEST_F(RunMany, AnExceptionIsAFailureOfThatRecordingAlone) {
@@ -201,11 +216,11 @@ TEST_F(RunMany, AnExceptionIsAFailureOfThatRecordingAlone) {
     many.jobs = jobs;
     many.force = true;
     const auto copy = many.run_one;
-    many.run_one = [&](const fs::path& input, const fs::path& output,
+    many.run_one = [&](const fs::path& input, const fs::path& output, const fs::path& page,
                        const JobSettings& settings) -> Result<JobOutcome> {
       if (input.stem() == "a") throw std::bad_alloc();
       if (input.stem() == "b") throw std::runtime_error("a check");
-      return copy(input, output, settings);
+      return copy(input, output, page, settings);
     };
     const auto outcome = run_many(many);
     EXPECT_THAT(statuses(outcome), ElementsAre(TrialStatus::failed, TrialStatus::failed, TrialStatus::good));

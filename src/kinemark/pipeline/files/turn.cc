@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "kinemark/core/units.h"
+#include "kinemark/io/c3d/parameters.h"
 #include "kinemark/io/number.h"
 
 namespace kinemark::pipeline {
@@ -85,14 +86,16 @@ void turn_foreign(data::Trial& trial, const Matrix3d& to_from) {
   constexpr std::array<std::string_view, 6> kPoseParameters = {"LAB_ROT",     "TRANSLATION", "ROTATION",
                                                                "X_DIRECTION", "Y_DIRECTION", "Z_DIRECTION"};
   for (auto& group : trial.foreign) {
-    if (group.name != "POINT" && group.name != "FORCE_PLATFORM" && group.name != "TRIAL") continue;
+    const std::string group_name = io::c3d_name(group.name);  // files differ in the case of letters
+    if (group_name != "POINT" && group_name != "FORCE_PLATFORM" && group_name != "TRIAL") continue;
     std::erase_if(group.parameters, [&](data::ForeignParameter& p) {
-      if (std::ranges::find(kPoseParameters, p.name) != kPoseParameters.end()) {
+      const std::string name = io::c3d_name(p.name);
+      if (std::ranges::find(kPoseParameters, name) != kPoseParameters.end()) {
         trial.warnings.push_back(
-            fmt::format("{}:{} is not true of a turned recording and is left out", group.name, p.name));
+            fmt::format("{}:{} is not true of a turned recording and is left out", group_name, name));
         return true;
       }
-      if (std::ranges::find(kScreen, p.name) == kScreen.end() || p.type != -1) return false;
+      if (std::ranges::find(kScreen, name) == kScreen.end() || p.type != -1) return false;
       std::string text;
       for (const std::byte b : p.values) text += static_cast<char>(b);
       text = turned_axis(text, to_from);

@@ -96,7 +96,7 @@ TEST(Turn, WhatIsCarriedForOthersTurnsOrIsLeftOut) {
   trial.foreign = {
       {.name = "POINT",
        .parameters = {{.name = "X_SCREEN", .dims = {2}, .values = words("+X")},
-                      {.name = "Y_SCREEN", .dims = {3}, .values = words("+Z ")},
+                      {.name = "y_screen", .dims = {3}, .values = words("+Z ")},
                       {.name = "LAB_ROT", .type = 4, .dims = {}, .values = std::vector<std::byte>(4)},
                       {.name = "MOVIE_ID", .dims = {1}, .values = words("7")}}},
       {.name = "SUBJECTS", .parameters = {{.name = "ROTATION", .dims = {1}, .values = words("1")}}}};
