@@ -114,7 +114,7 @@ TEST(HostileBvh, NestingIsBounded) {
 
 TEST(HostileBvh, ManyJointsInManyFramesMustBeInTheFile) {
   std::string text = "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
-  for (int i = 0; i < 3000; ++i) text += "JOINT j{OFFSET 0 1 0}\n";
+  for (int i = 0; i < 3000; ++i) text += "JOINT j{OFFSET 0 1 0 }\n";
   text += "}\nMOTION\nFrames: 3000\nFrame Time: 0.01\n";
   for (int i = 0; i < 3000; ++i) text += "0\n";
   EXPECT_THAT(sentence(text), HasSubstr("3000 frames of 3001 joints do not fit"));
