@@ -59,6 +59,8 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
   command->add_option("--rotate", job.rotate,
                       "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
+  command->add_option("-m,--model", job.model,
+                      "Model (.osim) that a table of coordinates is of, which then becomes a .bvh or .glb");
   add_selection_options(*command, job.selection);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
