@@ -27,8 +27,8 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
   }
   if (many.to.empty())
     return report_error({.code = Code::usage,
-                         .message = fmt::format("{}: files for a folder need --to c3d, trc, csv or nwb",
-                                                many.output.string())});
+                         .message = fmt::format("{}: files for a folder need --to and one of {}",
+                                                many.output.string(), written_formats())});
   const auto convert_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                   const std::filesystem::path& /*page*/,
                                   const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -46,8 +46,8 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
 void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("convert", "Files in another format of their kind");
   command->footer(
-      "Markers: .c3d, .trc, .nwb, .csv; .v3d and the texts of QTM, Motive and Vicon in. Tables: .mot, .sto. "
-      "Models: .osim, in their own version from 2.0 on, older ones as 4.0.\n"
+      "Markers: 'kinemark help --formats' lists what is read, what is written, and what each format keeps. "
+      "Tables: .mot, .sto. Models: .osim, in their own version from 2.0 on, older ones as 4.0.\n"
       "Several recordings, or a folder of them: OUT is a folder, --to the format; what is there already is "
       "not done "
       "again.");

@@ -8,6 +8,7 @@
 #include "cli/hints.h"
 #include "cli/manual.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/lost_parts.h"
 
 namespace kinemark::cli {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 struct HelpArguments {
   std::vector<std::string> words;
   bool manual = false;
+  bool formats = false;
   std::string folder;
 };
 
@@ -64,8 +66,14 @@ void add_help(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_flag("--man", arguments->manual, "As a manual page, for 'man -l -'");
   command->add_option("--man-pages", arguments->folder,
                       "Write the manual pages of all commands into a folder that exists");
+  command->add_flag("--formats", arguments->formats,
+                    "Formats of marker files: read, written, and what each of them keeps");
   command->callback([&app, &common, arguments, &run] {
     run = [&app, &common, arguments] {
+      if (arguments->formats) {
+        print_result(io::marker_format_table());
+        return 0;
+      }
       return arguments->folder.empty() ? print_help(app, *arguments)
                                        : write_manual(app, common, arguments->folder);
     };

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "cli/console.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/markers/marker_format.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
 
@@ -24,6 +26,12 @@ bool ManyArguments::are_many() const {
          (!output.empty() && !output.has_filename());
 }
 
+std::string written_formats() {
+  auto names = io::written_extensions();
+  for (auto& name : names) name.erase(0, 1);
+  return join(names);
+}
+
 Status ManyArguments::split_output() {
   if (inputs.size() < 2) return fail(Code::usage, "OUT is required: the file or folder to write");
   output = std::move(inputs.back());
@@ -34,7 +42,7 @@ Status ManyArguments::split_output() {
                                          output.string()));
   if (!to.starts_with('.')) to.insert(0, ".");
   if (!io::check_marker_format("x" + to))
-    return fail(Code::usage, fmt::format("--to: '{}' is not c3d, trc, csv or nwb", to.substr(1)));
+    return fail(Code::usage, fmt::format("--to: '{}' is none of {}", to.substr(1), written_formats()));
   return {};
 }
 
@@ -43,7 +51,7 @@ void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in)
   // The list before it takes all names, this one among them.
   command.add_option("OUT", arguments.output,
                      "File to write, its ending names the format; or a folder (REQUIRED)");
-  command.add_option("--to", arguments.to, "Format of the files in the folder OUT: c3d, trc, csv or nwb")
+  command.add_option("--to", arguments.to, "Format of the files in the folder OUT: " + written_formats())
       ->type_name("FORMAT")
       ->group("Several recordings");
 }

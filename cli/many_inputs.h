@@ -34,6 +34,9 @@ struct ManyArguments {
   [[nodiscard]] bool are_many() const;
 };
 
+/// Formats that markers are written in: "c3d, trc, ...".
+[[nodiscard]] std::string written_formats();
+
 /// IN, OUT and --to. @param in  what IN is, for the help
 void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in);
 

@@ -8,7 +8,7 @@ import json
 import math
 import unittest
 
-from support import CommandTest, table
+from support import PROJECT, CommandTest, table
 
 MARKER_FORMATS = ("c3d", "trc", "nwb", "csv")
 
@@ -35,6 +35,12 @@ class Markers(CommandTest):
             if state != "missing":
                 for a, b in zip(position, after[key][2], strict=True):
                     self.assertAlmostEqual(a, b, delta=tolerance_m)
+
+    def test_the_table_of_formats_in_the_documentation_is_the_programs_own(self):
+        printed = self.good("help", "--formats").out
+        self.assertIn(printed.strip(), (PROJECT / "docs" / "formats" / "README.md").read_text())
+        for ending in MARKER_FORMATS:
+            self.assertIn(f"`.{ending}`", printed)
 
     def test_a_group_that_is_not_read_stays_in_c3d_and_is_said_to_be_lost_elsewhere(self):
         raw = self.c3d.read_bytes()
@@ -109,7 +115,7 @@ class Markers(CommandTest):
 
     def test_json_names_what_was_written(self):
         ran = self.good("convert", self.c3d, "a.csv", "--json")
-        self.assertEqual(json.loads(ran.out), {"written": ["a.csv"], "warnings": []})
+        self.assertEqual(json.loads(ran.out), {"written": ["a.csv"], "warnings": ["reconstruction residuals cannot be stored in a .csv file"]})
 
 
 class Tables(CommandTest):

@@ -6,22 +6,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <vector>
 
-#include "kinemark/io/c3d/reader.h"
-#include "kinemark/io/c3d/writer.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/lost_parts.h"
+#include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/markers/plausible.h"
-#include "kinemark/io/nwb/nwb.h"
-#include "kinemark/io/text/trajectories_csv.h"
-#include "kinemark/io/text/trc.h"
-#include "kinemark/io/text/v3d.h"
-#include "kinemark/io/text/vendor_exports.h"
 
 namespace kinemark::io {
 namespace {
@@ -38,35 +33,32 @@ std::string named(const std::string& extension) {
   return extension.empty() ? "a file without an extension" : "a " + extension + " file";
 }
 
-/// The format of a file that begins like this, as an extension, or empty.
-std::string_view format_of(std::string_view begin) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
-  if (begin.starts_with("PathFileType")) return ".trc";
-  if (begin.starts_with("\x89HDF\r\n\x1a\n")) return ".nwb";
-  // The header block of a C3D is never without zero bytes; a text may well have a 'P' (0x50) in second place.
-  if (begin.size() > 1 && begin[1] == '\x50' && begin.find('\0') != std::string_view::npos) return ".c3d";
-  return "";
+/// The format of a file: as its content says, else as its extension does. A text export is known by its
+/// content alone; null: none of ours.
+const MarkerFormat* format_of(std::string_view begin, const std::string& extension) {
+  const auto formats = marker_formats();
+  auto found = std::ranges::find_if(
+      formats, [&](const MarkerFormat& f) { return f.begins != nullptr && f.begins(begin); });
+  if (found == formats.end())
+    found = std::ranges::find_if(formats, [&](const MarkerFormat& f) {
+      return f.extension == extension && (f.begins == nullptr || f.write != nullptr);
+    });
+  return found == formats.end() || found->read == nullptr ? nullptr : &*found;
 }
 
-/// The part of an NWB file that a trial holds.
-Result<data::Trial> read_nwb_trial(const std::filesystem::path& path) {
-  auto file = read_nwb(path);
-  if (!file) return std::unexpected(file.error());
-  data::Trial trial{.source = path.string(), .format = "NWB", .units_in_file = "m"};
-  trial.software = file->metadata.software;
-  trial.markers = std::move(file->trajectories);
-  trial.warnings = std::move(file->warnings);
-  const double first = trial.markers.time.t0_s * trial.markers.time.rate_hz;
-  if (first > 0.0 && first < 1e15) trial.first_frame = std::llround(first) + 1;
-  return trial;
+std::string names_without_rate() {
+  std::vector<std::string> names;
+  for (const MarkerFormat& f : marker_formats())
+    if (!f.stores_rate) names.push_back(fmt::format("{} ({})", f.name, f.extension));
+  return join_names(names, names.size());
 }
 
-}  // namespace
-
-bool needs_rate(const std::filesystem::path& path) { return lower_extension(path) == ".v3d"; }
-
-namespace {
+std::string names_of_read_formats() {
+  std::vector<std::string> names;
+  for (const MarkerFormat& f : marker_formats())
+    if (f.read != nullptr) names.push_back(fmt::format("{} ({})", f.name, f.extension));
+  return join_names(names, names.size());
+}
 
 /// As the reader of its format reads it; `box_m` around its samples where that reader knows it.
 Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options,
@@ -76,37 +68,24 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
   std::array<char, 512> begin{};
   const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
   if (!size) return std::unexpected(size.error());
-  const auto vendor = vendor_export_of({begin.data(), *size});
-  std::string format(format_of({begin.data(), *size}));
   const std::string extension = lower_extension(path);
-  if (format.empty()) format = extension;
-  if (format == ".v3d") {
-    auto text = read_v3d(path, {.rate_hz = options.rate_hz});
-    if (!text) return std::unexpected(text.error());
-    return std::move(text->trial);
-  }
-  if (options.rate_hz != 0.0)
-    return fail(Code::usage,
-                fmt::format("{}: the file stores its own rate; a rate is given only for Visual3D text (.v3d)",
-                            path.string()));
-  if (vendor) return read_vendor_export(path, *vendor);
-  if (format == ".c3d") {
-    C3dSeen seen;
-    auto trial = read_c3d(path, {}, &seen);
-    box_m = seen.box_m;
-    return trial;
-  }
-  if (format == ".trc") return read_trc(path);
-  if (format == ".nwb") return read_nwb_trial(path);
-  if (format == ".csv") return read_trajectories_csv(path);
-  return fail(
-      Code::not_supported,
-      fmt::format("{}: {} is not read as a marker file; supported are C3D (.c3d), TRC (.trc), NWB (.nwb), "
-                  "CSV (.csv), Visual3D text (.v3d), and text exports of QTM (.tsv), Motive and Vicon (.csv)",
-                  path.string(), named(extension)));
+  const MarkerFormat* format = format_of({begin.data(), *size}, extension);
+  if (format == nullptr)
+    return fail(Code::not_supported, fmt::format("{}: {} is not read as a marker file; supported are {}",
+                                                 path.string(), named(extension), names_of_read_formats()));
+  if (format->stores_rate && options.rate_hz != 0.0)
+    return fail(Code::usage, fmt::format("{}: the file stores its own rate; a rate is given only for {}",
+                                         path.string(), names_without_rate()));
+  return format->read(path, options, box_m);
 }
 
 }  // namespace
+
+bool needs_rate(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return std::ranges::any_of(
+      marker_formats(), [&](const MarkerFormat& f) { return !f.stores_rate && f.extension == extension; });
+}
 
 Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
   Eigen::AlignedBox3d box_m;
@@ -117,24 +96,21 @@ Result<data::Trial> read_markers(const std::filesystem::path& path, const Marker
 
 Status check_marker_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  for (const std::string_view known : {".c3d", ".trc", ".nwb", ".csv"})
-    if (extension == known) return {};
-  return fail(Code::usage,
-              fmt::format("{}: {} is not written as a marker file; supported are .c3d, .trc, .nwb and .csv",
-                          path.string(), named(extension)));
+  if (written_format(extension) != nullptr) return {};
+  const auto written = written_extensions();
+  return fail(Code::usage, fmt::format("{}: {} is not written as a marker file; supported are {}",
+                                       path.string(), named(extension), join_names(written, written.size())));
 }
 
 Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
                      const std::string& set, std::vector<std::string>* lost) {
   if (auto s = check_marker_format(path); !s) return s;
-  const std::string extension = lower_extension(path);
-  if (extension == ".c3d") return write_c3d(path, trial, {.force = force, .set = set, .lost = lost});
-  if (extension == ".trc") return write_trc(path, trial, {.force = force, .set = set});
-  if (extension == ".csv") return write_trajectories_csv(path, trial, force);
-  NwbMetadata metadata;
-  metadata.set = set;
-  if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
-  return write_nwb(path, trial.markers, nullptr, metadata, {.force = force});
+  const MarkerFormat& format = *written_format(lower_extension(path));
+  if (lost != nullptr) {
+    auto parts = lost_in(format, trial);
+    lost->insert(lost->end(), parts.begin(), parts.end());
+  }
+  return format.write(path, trial, {.force = force, .set = set, .lost = lost});
 }
 
 }  // namespace kinemark::io

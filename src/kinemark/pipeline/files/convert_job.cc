@@ -27,33 +27,6 @@ Kind kind_of(const std::string& ending) {
   return Kind::markers;
 }
 
-std::vector<std::string> losses(const data::Trial& trial, const std::string& ending) {
-  std::vector<std::string> notes = trial.warnings;
-  if (ending == ".c3d") return notes;
-  if (const auto n = trial.channels.count(); n > 0)
-    notes.push_back(
-        fmt::format("{} cannot be stored in a {} file",
-                    n == 1 ? fmt::format("1 channel that is no marker ({})", trial.channels.names.front())
-                           : fmt::format("{} channels that are no markers ({} to {})", n,
-                                         trial.channels.names.front(), trial.channels.names.back()),
-                    ending));
-  if (!trial.analog.names.empty())
-    notes.push_back(
-        fmt::format("{} analog channels cannot be stored in a {} file", trial.analog.names.size(), ending));
-  if (!trial.force_plates.empty())
-    notes.push_back(
-        fmt::format("{} force plates cannot be stored in a {} file", trial.force_plates.size(), ending));
-  if (!trial.events.empty())
-    notes.push_back(fmt::format("{} events cannot be stored in a {} file", trial.events.size(), ending));
-  if (!trial.foreign.empty())
-    notes.push_back(fmt::format("{} cannot be stored in a {} file",
-                                trial.foreign.size() == 1
-                                    ? "1 group of parameters"
-                                    : fmt::format("{} groups of parameters", trial.foreign.size()),
-                                ending));
-  return notes;
-}
-
 Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
   const auto document = io::OsimDocument::read(job.in);
   if (!document) return std::unexpected(document.error());
@@ -73,7 +46,7 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
   return std::move(table->warnings);
 }
 
-Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const std::string& ending) {
+Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
   auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
   if (!input) return std::unexpected(input.error());
   if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
@@ -82,7 +55,7 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const st
     if (!turning) return std::unexpected(turning.error());
     turn(input->trial, *turning);
   }
-  auto notes = losses(input->trial, ending);
+  auto notes = input->trial.warnings;
   if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
     return std::unexpected(s.error());
   return notes;
@@ -91,8 +64,8 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job, const st
 }  // namespace
 
 Result<ConvertOutcome> run_convert(const ConvertJob& job) {
-  const std::string from = ending_of(job.in), to = ending_of(job.out);
-  if (kind_of(from) != kind_of(to))
+  const std::string from = ending_of(job.in);
+  if (kind_of(from) != kind_of(ending_of(job.out)))
     return fail(Code::usage,
                 fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
                             job.in.string(), job.out.string()));
@@ -111,7 +84,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = convert_table(job);
       break;
     case Kind::markers:
-      warnings = convert_markers(job, to);
+      warnings = convert_markers(job);
       break;
   }
   if (!warnings) return std::unexpected(warnings.error());

@@ -6,10 +6,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <system_error>
 
+#include "kinemark/io/markers/marker_format.h"
 #include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
@@ -18,11 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 10> kKnown = {".c3d", ".trc", ".nwb", ".csv",  ".tsv",
-                                                     ".v3d", ".mot", ".sto", ".osim", ".mcap"};
-constexpr std::size_t kOfMarkers = 6;  // the first of them
-
-Status append_folder(const fs::path& folder, std::span<const std::string_view> endings, InputList& list) {
+Status append_folder(const fs::path& folder, const std::vector<std::string>& endings, InputList& list) {
   std::vector<fs::path> found;
   std::int64_t others = 0;
   std::error_code error;
@@ -51,11 +47,15 @@ Status append_folder(const fs::path& folder, std::span<const std::string_view> e
 
 }  // namespace
 
-std::span<const std::string_view> marker_endings() { return std::span(kKnown).first(kOfMarkers); }
+std::vector<std::string> marker_endings() { return io::read_extensions(); }
 
-std::span<const std::string_view> known_endings() { return kKnown; }
+std::vector<std::string> known_endings() {
+  auto known = io::read_extensions();
+  for (const char* other : {".mot", ".sto", ".osim", ".mcap"}) known.emplace_back(other);
+  return known;
+}
 
-Result<InputList> list_inputs(const std::vector<fs::path>& given, std::span<const std::string_view> endings) {
+Result<InputList> list_inputs(const std::vector<fs::path>& given, const std::vector<std::string>& endings) {
   InputList list;
   for (const auto& path : given) {
     std::error_code ignored;

@@ -4,9 +4,7 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "kinemark/core/result.h"
@@ -14,9 +12,9 @@
 namespace kinemark::pipeline {
 
 /// Endings of the files that hold markers, in lower case.
-[[nodiscard]] std::span<const std::string_view> marker_endings();
+[[nodiscard]] std::vector<std::string> marker_endings();
 /// Endings of all files that run_info() reads, in lower case.
-[[nodiscard]] std::span<const std::string_view> known_endings();
+[[nodiscard]] std::vector<std::string> known_endings();
 
 /// Files to read.
 struct InputList {
@@ -30,6 +28,6 @@ struct InputList {
 /// @param endings  in lower case, with their dots
 /// @return         Code::bad_input for a folder without such a file, Code::io for one that cannot be read
 [[nodiscard]] Result<InputList> list_inputs(const std::vector<std::filesystem::path>& given,
-                                            std::span<const std::string_view> endings);
+                                            const std::vector<std::string>& endings);
 
 }  // namespace kinemark::pipeline

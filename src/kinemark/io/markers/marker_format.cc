@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/markers/marker_format.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/io/c3d/reader.h"
+#include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/text/trajectories_csv.h"
+#include "kinemark/io/text/trc.h"
+#include "kinemark/io/text/v3d.h"
+#include "kinemark/io/text/vendor_exports.h"
+
+namespace kinemark::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+using ReadOptions = const MarkerReadOptions&;
+using Box = Eigen::AlignedBox3d&;
+using WriteOptions = const MarkerWriteOptions&;
+
+// The header block of a C3D is never without zero bytes; a text may well have a 'P' (0x50) in second place.
+bool begins_c3d(std::string_view begin) {
+  return begin.size() > 1 && begin[1] == '\x50' && begin.find('\0') != std::string_view::npos;
+}
+
+bool begins_trc(std::string_view begin) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
+  return begin.starts_with("PathFileType");
+}
+
+bool begins_nwb(std::string_view begin) { return begin.starts_with("\x89HDF\r\n\x1a\n"); }
+
+template <VendorExport which>
+bool begins_export(std::string_view begin) {
+  return vendor_export_of(begin) == which;
+}
+
+Result<data::Trial> read_c3d_trial(const fs::path& path, ReadOptions, Box box_m) {
+  C3dSeen seen;
+  auto trial = read_c3d(path, {}, &seen);
+  box_m = seen.box_m;
+  return trial;
+}
+
+/// The part of an NWB file that a trial holds.
+Result<data::Trial> read_nwb_trial(const fs::path& path, ReadOptions, Box) {
+  auto file = read_nwb(path);
+  if (!file) return std::unexpected(file.error());
+  data::Trial trial{.source = path.string(), .format = "NWB", .units_in_file = "m"};
+  trial.software = file->metadata.software;
+  trial.markers = std::move(file->trajectories);
+  trial.warnings = std::move(file->warnings);
+  const double first = trial.markers.time.t0_s * trial.markers.time.rate_hz;
+  if (first > 0.0 && first < 1e15) trial.first_frame = std::llround(first) + 1;
+  return trial;
+}
+
+Result<data::Trial> read_v3d_trial(const fs::path& path, ReadOptions options, Box) {
+  auto text = read_v3d(path, {.rate_hz = options.rate_hz});
+  if (!text) return std::unexpected(text.error());
+  return std::move(text->trial);
+}
+
+template <VendorExport which>
+Result<data::Trial> read_export(const fs::path& path, ReadOptions, Box) {
+  return read_vendor_export(path, which);
+}
+
+Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOptions options) {
+  NwbMetadata metadata;
+  metadata.set = options.set;
+  if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
+  return write_nwb(path, trial.markers, nullptr, metadata, {.force = options.force});
+}
+
+using enum Kept;
+//                                         provenance covariance times  residuals channels analog events
+//                                         plates groups
+constexpr std::array<Kept, kParts> kOfC3d = {whole, in_part, none, whole, whole, whole, whole, whole, whole};
+constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, none, none, none, none, none, none};
+constexpr std::array<Kept, kParts> kOfCsv = kOfNwb;
+
+constexpr std::array kFormats = {
+    MarkerFormat{.name = "C3D",
+                 .extension = ".c3d",
+                 .begins = begins_c3d,
+                 .read = read_c3d_trial,
+                 .write =
+                     [](const fs::path& path, const data::Trial& trial, WriteOptions o) {
+                       return write_c3d(path, trial, {.force = o.force, .set = o.set, .lost = o.lost});
+                     },
+                 .kept = kOfC3d,
+                 .precision = "float, mm"},
+    MarkerFormat{
+        .name = "TRC",
+        .extension = ".trc",
+        .begins = begins_trc,
+        .read = [](const fs::path& path, ReadOptions, Box) { return read_trc(path); },
+        .write = [](const fs::path& path, const data::Trial& trial,
+                    WriteOptions o) { return write_trc(path, trial, {.force = o.force, .set = o.set}); },
+        .precision = "double, mm"},
+    MarkerFormat{.name = "NWB",
+                 .extension = ".nwb",
+                 .begins = begins_nwb,
+                 .read = read_nwb_trial,
+                 .write = write_nwb_trial,
+                 .kept = kOfNwb,
+                 .precision = "double, m"},
+    MarkerFormat{.name = "Qualisys TSV",
+                 .extension = ".tsv",
+                 .begins = begins_export<VendorExport::qtm>,
+                 .read = read_export<VendorExport::qtm>},
+    MarkerFormat{.name = "Motive CSV",
+                 .extension = ".csv",
+                 .begins = begins_export<VendorExport::motive>,
+                 .read = read_export<VendorExport::motive>},
+    MarkerFormat{.name = "Vicon CSV",
+                 .extension = ".csv",
+                 .begins = begins_export<VendorExport::vicon>,
+                 .read = read_export<VendorExport::vicon>},
+    MarkerFormat{.name = "CSV",
+                 .extension = ".csv",
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_trajectories_csv(path); },
+                 .write = [](const fs::path& path, const data::Trial& trial,
+                             WriteOptions o) { return write_trajectories_csv(path, trial, o.force); },
+                 .kept = kOfCsv,
+                 .precision = "double, m"},
+    MarkerFormat{.name = "Visual3D text", .extension = ".v3d", .read = read_v3d_trial, .stores_rate = false},
+};
+
+std::vector<std::string> extensions(bool written) {
+  std::vector<std::string> out;
+  for (const MarkerFormat& f : kFormats)
+    if ((written ? f.write != nullptr : f.read != nullptr) &&
+        std::ranges::find(out, f.extension) == out.end())
+      out.emplace_back(f.extension);
+  return out;
+}
+
+}  // namespace
+
+std::span<const MarkerFormat> marker_formats() { return kFormats; }
+
+const MarkerFormat* written_format(std::string_view extension) {
+  for (const MarkerFormat& f : kFormats)
+    if (f.write != nullptr && f.extension == extension) return &f;
+  return nullptr;
+}
+
+std::vector<std::string> read_extensions() { return extensions(false); }
+
+std::vector<std::string> written_extensions() { return extensions(true); }
+
+}  // namespace kinemark::io
