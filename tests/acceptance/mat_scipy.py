@@ -119,7 +119,8 @@ def qtm(random, frames, markers, unidentified=0, types=True, force=True):
         labelled["Type"] = kind
     struct = {"FileVersion": [2.0, 0.0, 0.0], "File": "C:\\Data\\walk.qtm", "Timestamp": "2015-03-05, 14:48:31.000\t1476", "StartFrame": 41.0,
               "Frames": float(frames), "FrameRate": 120.0, "Trajectories": {"Labeled": labelled},
-              "Events": [{"Label": "RHS", "Frame": 50.0, "Time": 49 / 120.0}]}
+              "Events": numpy.array([("RHS", 50.0, 49 / 120.0), ("RTO", 60.0, 59 / 120.0)],
+                                    dtype=[("Label", object), ("Frame", object), ("Time", object)])}
     if unidentified:
         other = random.normal(0.0, 500.0, (unidentified, 4, frames))
         struct["Trajectories"]["Unidentified"] = {"Count": float(unidentified), "Data": other}
@@ -157,7 +158,8 @@ def check_qtm(scratch):
                     wrong.append(f"{name}: residuals")
                 if types and texts(ours["labels"])[-2:] != ["uname*1", "uname*2"]:
                     wrong.append(f"{name}: unidentified {texts(ours['labels'])[-2:]}")
-                if ours["first_frame"] != 41 or abs(ours["start"] - 40 / 120.0) > 1e-12 or abs(ours["events"]["time"] - 49 / 120.0) > 1e-12:
+                if ours["first_frame"] != 41 or abs(ours["start"] - 40 / 120.0) > 1e-12 or [
+                        (e["label"], round(e["time"] * 120)) for e in ours["events"]] != [("RHS", 49), ("RTO", 59)]:
                     wrong.append(f"{name}: frames, time or events")
                 if frames > 1 and not (ours["analog"]["data"][:, :2] == struct["Analog"]["Data"].T).all() or frames > 1 and not (
                         ours["analog"]["data"][:, 2:] == struct["Force"]["Force"].T).all():

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
@@ -31,9 +30,8 @@ namespace kinemark::io {
 
 /// Options of write_mat().
 struct MatWriteOptions {
-  bool force = false;                        ///< replace a file that exists
-  std::string set;                           ///< of files that it belongs to (set_mark()); empty: none
-  std::vector<std::string>* lost = nullptr;  ///< gets what did not fit, a sentence each; null: not wanted
+  bool force = false;  ///< replace a file that exists
+  std::string set;     ///< of files that it belongs to (set_mark()); empty: none
 };
 
 /// Write a trial as one struct `trial`, compressed (MATLAB 7 and newer, Octave, scipy.io). Only groups of

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "kinemark/core/random.h"
-#include "kinemark/io/c3d/internal/simulated_trial.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/matlab/internal/inflate.h"
 #include "kinemark/io/matlab/internal/mat_build.h"

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
-#include "kinemark/io/c3d/internal/simulated_trial.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/matlab/internal/mat_parse.h"
 #include "kinemark/io/matlab/testing/sample.h"
@@ -83,13 +83,12 @@ TEST(Mat, EverythingOfATrialComesBackToTheLastBit) {
   EXPECT_EQ(back->units_in_file, "m");
 }
 
-TEST(Mat, SimulatedTrialsOfAnySizeComeBack) {
-  for (const auto& options :
-       {internal::SimulatedTrial{.markers = 1, .frames = 1},
-        internal::SimulatedTrial{.markers = 1, .frames = 9},
-        internal::SimulatedTrial{.markers = 9, .frames = 1, .channels = 3},
-        internal::SimulatedTrial{.markers = 31, .frames = 200, .channels = 5, .residuals = false}}) {
-    const Trial trial = internal::simulate_trial(options);
+TEST(Mat, TrialsOfAnySizeComeBack) {
+  for (const auto& [markers, frames, channels] :
+       {std::array{1, 1, 0}, std::array{1, 9, 2}, std::array{9, 1, 3}, std::array{31, 200, 5},
+        std::array{0, 5, 2}}) {
+    const Trial trial = testing::sized_trial(markers, frames, channels);
+    ASSERT_TRUE(trial.validate()) << trial.validate().error().message;
     const auto back = there_and_back(trial);
     ASSERT_TRUE(back) << back.error().message;
     expect_same(trial, *back);
@@ -102,23 +101,6 @@ TEST(Mat, OffsetsOfEverySampleComeBack) {
   const auto back = there_and_back(trial);
   ASSERT_TRUE(back) << back.error().message;
   expect_same(trial, *back);
-}
-
-TEST(Mat, ATrialOfAnalogChannelsAloneComesBack) {
-  Trial trial = internal::simulate_trial({.markers = 0, .frames = 5, .channels = 2, .residuals = false});
-  const auto back = there_and_back(trial);
-  ASSERT_TRUE(back) << back.error().message;
-  expect_same(trial, *back);
-}
-
-TEST(Mat, GroupsOfAC3dFileAreSaidToBeLost) {
-  Trial trial = testing::full_trial();
-  std::vector<std::string> lost;
-  ASSERT_TRUE(there_and_back(trial, {.lost = &lost}));
-  EXPECT_TRUE(lost.empty());
-  trial.foreign.push_back({.name = "PROCESSING"});
-  ASSERT_TRUE(there_and_back(trial, {.lost = &lost}));
-  EXPECT_THAT(lost, ElementsAre("1 group of parameters cannot be stored in a .mat file"));
 }
 
 TEST(Mat, TheSameTrialGivesTheSameBytesAndNamesItsSet) {
@@ -185,7 +167,7 @@ TEST(Mat, Version73IsRefusedWithTheWayToSaveAgain) {
   EXPECT_THAT(refused.error().message, HasSubstr("'-v7'"));
 }
 
-TEST(Mat, AFileWithoutATrialIsToldByItsVariables) {
+TEST(Mat, AFileWithoutATrialIsRefusedWithItsVariables) {
   const std::string text = testing::mat_file({});
   const auto refused = parse_mat(std::as_bytes(std::span(text)), "x.mat");
   ASSERT_FALSE(refused);

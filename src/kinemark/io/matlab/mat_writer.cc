@@ -191,12 +191,7 @@ Status write_mat(const std::filesystem::path& path, const data::Trial& trial,
   if (auto s = file->write(header(options.set)); !s) return s;
   if (auto s = file->write(std::as_bytes(std::span(tag))); !s) return s;
   if (auto s = file->write(packed); !s) return s;
-  if (auto s = file->commit(); !s) return s;
-  if (options.lost != nullptr && !trial.foreign.empty())
-    options.lost->push_back(
-        fmt::format("{} of parameters cannot be stored in a .mat file",
-                    trial.foreign.size() == 1 ? "1 group" : fmt::format("{} groups", trial.foreign.size())));
-  return {};
+  return file->commit();
 }
 
 }  // namespace kinemark::io

@@ -104,7 +104,7 @@ class Parser {
       return fail(Code::bad_input, fmt::format("an array begins with an element of type {}",
                                                std::to_underlying(element->type)));
     std::vector<std::uint32_t> out(element->bytes.size() / 4);
-    std::memcpy(out.data(), element->bytes.data(), element->bytes.size());
+    if (!out.empty()) std::memcpy(out.data(), element->bytes.data(), element->bytes.size());
     if (swapped_)
       for (std::uint32_t& word : out) word = __builtin_bswap32(word);
     return out;

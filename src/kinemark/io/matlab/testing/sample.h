@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstring>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/core/random.h"
 #include "kinemark/data/trial.h"
 
 namespace kinemark::io::testing {
@@ -61,6 +63,28 @@ inline data::Trial full_trial() {
   for (int c = 0; c < 4; ++c) plate.corners_in_world[c] = Eigen::Vector3d(c, 0.5 * c, -0.25 * c);
   for (int i = 0; i < 36; ++i) plate.calibration.push_back(i);
   t.force_plates = {plate, {.type = 2}};
+  return t;
+}
+
+/// Random positions, every fifth sample missing, and channels of twice the rate.
+inline data::Trial sized_trial(std::int64_t markers, std::int64_t frames, std::int64_t channels) {
+  Random random(5, 0);
+  data::Trial t;
+  std::vector<std::string> names;
+  for (std::int64_t m = 0; m < markers; ++m) names.push_back("M" + std::to_string(m));
+  t.markers = data::Trajectories::all_missing(std::move(names), {.rate_hz = 250.0, .frames = frames});
+  for (std::size_t i = 0; i < t.markers.state.size(); ++i) {
+    if (i % 5 == 4) continue;
+    t.markers.state[i] = data::SampleState::measured;
+    for (std::size_t k = 0; k < 3; ++k) t.markers.x_in_world[3 * i + k] = random.uniform(-2.0, 2.0);
+  }
+  if (channels == 0) return t;
+  t.analog.rate_hz = 500.0;
+  t.analog.samples = 2 * frames;
+  for (std::int64_t c = 0; c < channels; ++c) t.analog.names.push_back("F" + std::to_string(c));
+  t.analog.units.assign(t.analog.names.size(), "N");
+  t.analog.values.resize(static_cast<std::size_t>(2 * frames * channels));
+  for (double& v : t.analog.values) v = random.uniform(-800.0, 800.0);
   return t;
 }
 
