@@ -10,7 +10,7 @@ import unittest
 
 from support import PROJECT, CommandTest, table
 
-MARKER_FORMATS = ("c3d", "trc", "nwb", "csv")
+MARKER_FORMATS = ("c3d", "trc", "nwb", "mat", "csv")
 
 
 class Markers(CommandTest):
@@ -63,7 +63,7 @@ class Markers(CommandTest):
 
     def test_the_longest_way_round_ends_within_a_micrometre(self):
         self.good("convert", self.c3d, "direct.csv")
-        way = ["a.trc", "b.nwb", "c.csv", "d.c3d", "e.nwb", "f.trc", "g.csv"]
+        way = ["a.trc", "b.nwb", "c.csv", "d.c3d", "e.nwb", "m.mat", "f.trc", "g.csv"]
         for source, target in itertools.pairwise([self.c3d, *way]):
             self.good("convert", source, target)
         self.assert_same_samples("direct.csv", "g.csv", 1e-6)
@@ -111,7 +111,7 @@ class Markers(CommandTest):
         for ending in MARKER_FORMATS:
             self.good("convert", self.c3d, f"a.{ending}")
         ran = self.good("validate", *(f"a.{ending}" for ending in MARKER_FORMATS), self.model, self.truth)
-        self.assertEqual(ran.err.count(": good"), 6)
+        self.assertEqual(ran.err.count(": good"), 7)
 
     def test_json_names_what_was_written(self):
         ran = self.good("convert", self.c3d, "a.csv", "--json")

@@ -10,6 +10,7 @@
 #include "kinemark/io/animation/glb.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/matlab/mat.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
@@ -92,6 +93,7 @@ using enum Kept;
 constexpr std::array<Kept, kParts> kOfC3d = {whole, in_part, none, whole, whole, whole, whole, whole, whole};
 constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, none, none, none, none, none, none};
 constexpr std::array<Kept, kParts> kOfCsv = kOfNwb;
+constexpr std::array<Kept, kParts> kOfMat = {whole, whole, whole, whole, whole, whole, whole, whole, none};
 
 constexpr std::array kFormats = {
     MarkerFormat{.name = "C3D",
@@ -119,6 +121,15 @@ constexpr std::array kFormats = {
                  .write = write_nwb_trial,
                  .kept = kOfNwb,
                  .precision = "double, m"},
+    MarkerFormat{
+        .name = "MAT",
+        .extension = ".mat",
+        .begins = is_mat,
+        .read = [](const fs::path& path, ReadOptions, Box) { return read_mat(path); },
+        .write = [](const fs::path& path, const data::Trial& trial,
+                    WriteOptions o) { return write_mat(path, trial, {.force = o.force, .set = o.set}); },
+        .kept = kOfMat,
+        .precision = "double, m"},
     MarkerFormat{.name = "Qualisys TSV",
                  .extension = ".tsv",
                  .begins = begins_export<VendorExport::qtm>,

@@ -43,7 +43,7 @@ TEST(MarkerFormat, ExtensionsAreListedOnce) {
   const auto read = read_extensions(), written = written_extensions();
   for (const auto& list : {read, written})
     EXPECT_EQ(std::set<std::string>(list.begin(), list.end()).size(), list.size());
-  for (const char* both : {".c3d", ".trc", ".nwb", ".csv"}) {
+  for (const char* both : {".c3d", ".trc", ".nwb", ".mat", ".csv"}) {
     EXPECT_THAT(read, Contains(both));
     EXPECT_THAT(written, Contains(both));
   }
@@ -56,8 +56,9 @@ TEST(MarkerFormat, TheBeginningOfAFileBelongsToOneFormatAtMost) {
   for (const std::string& begin :
        {c3d, std::string("PathFileType\t4"), std::string("\xEF\xBB\xBFPathFileType"),
         std::string("\x89HDF\r\n\x1a\n"), std::string("NO_OF_FRAMES\t3\n"),
-        std::string("Format Version,1.23,Take Name,a\n"), std::string("Trajectories\n100\n"),
-        std::string("frame,time_s,marker\n"), std::string("aPlain text"), std::string()}) {
+        std::string("MATLAB 7.3 MAT-file"), std::string("Format Version,1.23,Take Name,a\n"),
+        std::string("Trajectories\n100\n"), std::string("frame,time_s,marker\n"), std::string("aPlain text"),
+        std::string()}) {
     int known = 0;
     for (const MarkerFormat& f : marker_formats()) known += f.begins != nullptr && f.begins(begin) ? 1 : 0;
     const bool plain = begin.empty() || begin.starts_with("frame") || begin.starts_with("aPlain");
