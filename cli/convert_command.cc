@@ -56,7 +56,9 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto& many = arguments->many;
   add_in_and_out(*command, many, "File to read; several, or a folder of recordings");
   add_many_options(*command, many);
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz");
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
+  command->add_option("--skeleton", job.skeleton,
+                      "Skeleton (.asf) of an .amc; the one beside it when absent");
   command->add_option("--rotate", job.rotate,
                       "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
   command->add_option("-m,--model", job.model,

@@ -68,7 +68,7 @@ void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
                    ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, or a folder of them")
       ->required();
   command->add_option("--rate", arguments->rate_hz,
-                      "Frame rate of a marker file that stores none (.v3d), Hz");
+                      "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
   command->callback([&common, arguments, &run] {
     run = [&common, arguments] {
       return are_many(arguments->given) ? show_many(common, *arguments) : show_one(common, *arguments);

@@ -92,7 +92,7 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_flag("--soft-tissue", job.soft_tissue,
                  "articulated: every marker has a noise of its own, found from the data")
       ->group("Estimate");
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d), Hz")
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz")
       ->group("Input");
   command->add_flag("--keep-upsampled", job.keep_upsampled, "Use samples that the recorder interpolated, too")
       ->group("Input");

@@ -90,7 +90,7 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("-t,--markers", job.markers,
                    "Marker file of a motion to which sizes and positions are adapted")
       ->group("Input");
-  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that store none (.v3d), Hz")
+  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that store none (.v3d, .amc), Hz")
       ->group("Input");
   command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
       ->group("Input");

@@ -64,6 +64,61 @@ class Bvh(CommandTest):
         self.assertEqual(json.loads(self.good("info", "walk.trc", "--json").out)["format"], "BVH")
 
 
+ASF = """:units
+  length 0.45
+  angle deg
+:root
+  order TX TY TZ RX RY RZ
+  axis XYZ
+  position 0 0 0
+  orientation 0 0 0
+:bonedata
+  begin
+    id 1
+    name leg
+    direction 0 -1 0
+    length 30
+    axis 0 0 0 XYZ
+    dof rx
+  end
+:hierarchy
+  begin
+    root leg
+  end
+"""
+AMC = ":FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 30 0 0 0 0\nleg 0\n2\nroot 0 30 0 0 0 0\nleg -90\n"
+
+
+class Amc(CommandTest):
+    def test_the_skeleton_beside_it_makes_points(self):
+        self.write("01.asf", ASF)
+        self.write("01_02.amc", AMC)
+        said = self.good("convert", "01_02.amc", "a.csv", "--rate", "120").err
+        self.assertIn("its skeleton is 01.asf", said)
+        last = (self.folder / "a.csv").read_text().splitlines()[-1].split(",")
+        self.assertEqual(last[2], "leg_end")
+        for value, expected in zip(last[3:6], (0.0, 30 * 0.0254 / 0.45, 30 * 0.0254 / 0.45)):
+            self.assertAlmostEqual(float(value), expected, places=12)
+
+    def test_a_skeleton_can_be_given_or_be_missing(self):
+        self.write("walk.amc", AMC)
+        facts = json.loads(self.good("info", "walk.amc", "--json").out)
+        self.assertEqual((facts["labels"], facts["rate_hz"]), ([], None))
+        self.assertEqual([c["name"] for c in facts["channels"]], ["root_position_XYZ", "root_angles_XYZ", "leg_angles_X"])
+        (self.folder / "other").mkdir()
+        self.write("other/s.asf", ASF)
+        self.good("convert", "walk.amc", "a.c3d", "--rate", "120", "--skeleton", "other/s.asf")
+        self.assertEqual(json.loads(self.good("info", "a.c3d", "--json").out)["labels"], ["root", "leg_end"])
+
+    def test_what_is_wrong_is_said(self):
+        self.write("walk.amc", AMC)
+        self.write("s.asf", ASF.replace("root leg", "root arm"))
+        self.refused(2, ["walk.amc", "--rate"], "convert", "walk.amc", "a.csv")
+        self.refused(3, ["s.asf", "line 20", "'arm'"], "convert", "walk.amc", "a.csv", "--rate", "120")
+        self.refused(4, "no.asf", "convert", "walk.amc", "a.csv", "--rate", "120", "--skeleton", "no.asf")
+        self.refused(2, "--skeleton", "convert", self.c3d, "a.csv", "--skeleton", "s.asf")
+
+
 class Skeleton(CommandTest):
     """A motion and its model become a skeleton."""
 

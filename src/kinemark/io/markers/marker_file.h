@@ -13,7 +13,8 @@ namespace kinemark::io {
 
 /// Options of read_markers().
 struct MarkerReadOptions {
-  double rate_hz = 0.0;  ///< of the frames, for files that store none (Visual3D text); 0: not given
+  double rate_hz = 0.0;  ///< of the frames, for files that store none (Visual3D text, AMC); 0: not given
+  std::filesystem::path skeleton = {};  ///< .asf of an AMC; empty: the one beside it. Other formats have none
 };
 
 /// Read a marker file, C3D, TRC, NWB, CSV, Visual3D text (.v3d) or a text export of QTM, Motive or Vicon, in

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/io/animation/amc.h"
 #include "kinemark/io/animation/bvh.h"
 #include "kinemark/io/animation/glb.h"
 #include "kinemark/io/c3d/reader.h"
@@ -39,6 +40,10 @@ bool begins_with(std::string_view begin, std::string_view word) {
 }
 
 bool begins_trc(std::string_view begin) { return begins_with(begin, "PathFileType"); }
+
+bool begins_amc(std::string_view begin) {
+  return begin.starts_with("#!OML:ASF") || begin.find(":FULLY-SPECIFIED") != std::string_view::npos;
+}
 
 bool begins_bvh(std::string_view begin) { return begins_with(begin, "HIERARCHY"); }
 
@@ -154,6 +159,14 @@ constexpr std::array kFormats = {
                  .extension = ".bvh",
                  .begins = begins_bvh,
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_bvh(path); }},
+    MarkerFormat{.name = "AMC",
+                 .extension = ".amc",
+                 .begins = begins_amc,
+                 .read =
+                     [](const fs::path& path, ReadOptions options, Box) {
+                       return read_amc(path, {.rate_hz = options.rate_hz, .skeleton = options.skeleton});
+                     },
+                 .stores_rate = false},
     MarkerFormat{.name = "GLB",
                  .extension = ".glb",
                  .write = [](const fs::path& path, const data::Trial& trial,

@@ -81,7 +81,7 @@ void turn_y_up(const std::filesystem::path& path, data::Trial& trial) {
 }
 
 Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
-  auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
+  auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz, .skeleton = job.skeleton});
   if (!input) return std::unexpected(input.error());
   if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
   if (!job.rotate.empty()) {
@@ -116,6 +116,9 @@ Status check_kinds(const ConvertJob& job) {
                 fmt::format("{}: a motion of joint angles is made with the model that they are of: "
                             "kinemark convert Q.mot {} --model M.osim",
                             job.out.string(), job.out.filename().string()));
+  if (!job.skeleton.empty() && from != ".amc")
+    return fail(Code::usage,
+                fmt::format("--skeleton: {} has none beside it; it is for .amc files", job.in.string()));
   if (makes_skeleton || kind_of(from) == kind_of(to)) return {};
   return fail(Code::usage,
               fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
@@ -132,7 +135,8 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
   if (!job.selection.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
-  if (auto s = check_apart({job.out}, {job.in, job.model}); !s) return std::unexpected(s.error());
+  if (auto s = check_apart({job.out}, {job.in, job.model, job.skeleton}); !s)
+    return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   switch (kind_of(from)) {
     case Kind::model:

@@ -19,7 +19,7 @@ Result<MarkerInput> read_marker_input(const MarkerSource& source) {
   const double rate_hz = unknown                                                ? 1.0
                          : source.rate == RateRule::where_needed && !tells_none ? 0.0
                                                                                 : source.rate_hz;
-  auto trial = io::read_markers(source.path, {.rate_hz = rate_hz});
+  auto trial = io::read_markers(source.path, {.rate_hz = rate_hz, .skeleton = source.skeleton});
   if (!trial) return std::unexpected(trial.error());
   MarkerInput input{.trial = std::move(*trial), .file = {}, .rate_known = !unknown};
   const auto& markers = input.trial.markers;

@@ -27,11 +27,12 @@ enum class RateRule : std::uint8_t {
 
 /// A marker file to read (.c3d, .trc, .nwb, .csv or .v3d), and what is asked of it.
 struct MarkerSource {
-  std::filesystem::path path;       ///< file to read
-  double rate_hz = 0.0;             ///< of a file that tells none (.v3d); 0: not given
-  RateRule rate = RateRule::given;  ///< what becomes of rate_hz
-  bool needs_samples = false;       ///< refuse a file without markers or without frames
-  bool record = false;              ///< size and checksum, which reads the file once more
+  std::filesystem::path path;           ///< file to read
+  double rate_hz = 0.0;                 ///< of a file that tells none (.v3d, .amc); 0: not given
+  RateRule rate = RateRule::given;      ///< what becomes of rate_hz
+  std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
+  bool needs_samples = false;           ///< refuse a file without markers or without frames
+  bool record = false;                  ///< size and checksum, which reads the file once more
 };
 
 /// Markers as read, in metres.

@@ -51,40 +51,53 @@ std::span<const double> frame_of(const JointValues& values, std::size_t channels
   return {values.values.data() + at(frame) * channels, channels};
 }
 
-/// "Hips_angles_ZXY".
-std::string channel_name(const JointNode& joint) {
-  std::string name = joint.name + "_angles_";
-  for (const auto& channel : joint.channels)
-    if (channel.is_rotation) name += "XYZ"[channel.axis];
-  return name;
-}
+/// What of a joint becomes a channel: its rotations, or where it stands when nothing else shows that.
+struct JointColumns {
+  std::string name;  ///< "Hips_angles_ZXY"
+  data::ChannelKind kind = data::ChannelKind::angle;
+  std::vector<std::size_t> columns;  ///< of a frame's numbers
+};
 
-data::Channels angles_of(const JointTree& tree, const JointValues& values, double rate_hz) {
-  data::Channels out;
-  std::vector<std::vector<std::size_t>> columns;  // of each channel
+std::vector<JointColumns> channel_columns(const JointTree& tree) {
+  std::vector<JointColumns> out;
   std::size_t c = 0;
   for (const auto& joint : tree.joints) {
-    std::vector<std::size_t> rotations;
+    const bool turns = std::ranges::any_of(joint.channels, &JointChannel::is_rotation);
+    JointColumns found{.name = joint.name + (turns ? "_angles_" : "_position_"),
+                       .kind = turns ? data::ChannelKind::angle : data::ChannelKind::other,
+                       .columns = {}};
     for (const auto& channel : joint.channels) {
-      if (channel.is_rotation) rotations.push_back(c);
+      if (channel.is_rotation == turns) {
+        found.name += "XYZ"[channel.axis];
+        found.columns.push_back(c);
+      }
       ++c;
     }
-    if (rotations.empty()) continue;
-    out.names.push_back(channel_name(joint));
-    columns.push_back(std::move(rotations));
+    const bool shows = turns || !joint.is_point;
+    if (shows && !found.columns.empty()) out.push_back(std::move(found));
   }
+  return out;
+}
+
+data::Channels channels_of(const JointTree& tree, const JointValues& values, double rate_hz) {
+  data::Channels out;
+  const auto columns = channel_columns(tree);
   if (columns.empty()) return out;
+  for (const auto& joint : columns) {
+    out.names.push_back(joint.name);
+    out.kinds.push_back(joint.kind);
+    out.units.emplace_back(joint.kind == data::ChannelKind::angle ? "deg" : "");
+  }
   make_distinct(out.names);
-  out.kinds.assign(columns.size(), data::ChannelKind::angle);
-  out.units.assign(columns.size(), "deg");
   out.rate_hz = rate_hz;
   out.frames = values.frames;
   out.values.reserve(3 * columns.size() * at(values.frames));
+  const std::size_t width = tree.channel_count();
   for (std::int64_t f = 0; f < values.frames; ++f) {
-    const auto row = frame_of(values, c, f);
-    for (const auto& rotations : columns)
+    const auto row = frame_of(values, width, f);
+    for (const auto& joint : columns)
       for (std::size_t k = 0; k < 3; ++k)
-        out.values.push_back(k < rotations.size() ? row[rotations[k]] : kNaN);
+        out.values.push_back(k < joint.columns.size() ? row[joint.columns[k]] : kNaN);
   }
   return out;
 }
@@ -138,7 +151,7 @@ data::Trial trial_of(JointTree tree, JointValues values, double rate_hz, double 
                                          repeated.changed, repeated.example));
   trial.markers =
       data::Trajectories::all_missing(std::move(names), {.rate_hz = rate_hz, .frames = values.frames});
-  trial.channels = angles_of(tree, values, rate_hz);
+  trial.channels = channels_of(tree, values, rate_hz);
   Placer placer(tree);
   for (std::int64_t f = 0; f < values.frames; ++f) {
     const auto x = placer.place(frame_of(values, channels, f));
