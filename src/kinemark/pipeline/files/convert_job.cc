@@ -13,7 +13,9 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/resample.h"
 #include "kinemark/pipeline/files/turn.h"
 
 namespace kinemark::pipeline {
@@ -47,16 +49,26 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
 }
 
 Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
-  auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
-  if (!input) return std::unexpected(input.error());
-  if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
+  std::vector<data::Trial> trials;
+  std::vector<std::filesystem::path> files{job.in};
+  files.insert(files.end(), job.merged.begin(), job.merged.end());
+  for (const auto& file : files) {
+    auto input = read_marker_input({.path = file, .rate_hz = job.rate_hz});
+    if (!input) return std::unexpected(input.error());
+    trials.push_back(std::move(input->trial));
+  }
+  auto trial = merge_trials(std::move(trials));
+  if (!trial) return std::unexpected(trial.error());
+  if (auto s = take_selection(job.selection, *trial); !s) return fail_at(job.in.string(), s.error());
+  if (job.resample_hz != 0.0)
+    if (auto s = resample(*trial, job.resample_hz); !s) return fail_at(job.in.string(), s.error());
   if (!job.rotate.empty()) {
     const auto turning = parse_rotation(job.rotate);
     if (!turning) return std::unexpected(turning.error());
-    turn(input->trial, *turning);
+    turn(*trial, *turning);
   }
-  auto notes = input->trial.warnings;
-  if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
+  auto notes = trial->warnings;
+  if (auto s = io::write_markers(job.out, *trial, job.force, {}, &notes); !s)
     return std::unexpected(s.error());
   return notes;
 }
@@ -74,7 +86,12 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
   if (!job.selection.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
-  if (auto s = check_apart({job.out}, {job.in}); !s) return std::unexpected(s.error());
+  if ((!job.merged.empty() || job.resample_hz != 0.0) && kind_of(from) != Kind::markers)
+    return fail(Code::usage,
+                fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
+  std::vector<std::filesystem::path> inputs{job.in};
+  inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
+  if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   switch (kind_of(from)) {
     case Kind::model:
