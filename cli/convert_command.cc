@@ -77,6 +77,8 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
       "--merge", arguments->merge,
       "The files IN are of one recording: parts in time or sets of markers, to be one file OUT");
   command->add_option("--resample", job.resample_hz, "Write a marker file at this frame rate, Hz");
+  command->add_option("-m,--model", job.model,
+                      "Model (.osim) that a table of coordinates is of, which then becomes a .bvh or .glb");
   add_selection_options(*command, job.selection);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
