@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/motion_bids_files.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/turn.h"
 
@@ -46,7 +48,9 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
   return std::move(table->warnings);
 }
 
-Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
+/// @param written  gets the files of a format that has several
+Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
+                                                 std::vector<std::filesystem::path>& written) {
   auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
   if (!input) return std::unexpected(input.error());
   if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
@@ -56,6 +60,14 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
     turn(input->trial, *turning);
   }
   auto notes = input->trial.warnings;
+  if (ending_of(job.out) == ".tsv") {
+    auto files = write_motion_bids(job.out, input->trial, job.force, {job.in});
+    if (!files) return std::unexpected(files.error());
+    written = std::move(*files);
+    const auto lost = io::lost_in(*io::written_format(".tsv"), input->trial);
+    notes.insert(notes.end(), lost.begin(), lost.end());
+    return notes;
+  }
   if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
     return std::unexpected(s.error());
   return notes;
@@ -76,6 +88,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
     return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
   if (auto s = check_apart({job.out}, {job.in}); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
+  std::vector<std::filesystem::path> written = {job.out};
   switch (kind_of(from)) {
     case Kind::model:
       warnings = convert_model(job);
@@ -84,13 +97,13 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = convert_table(job);
       break;
     case Kind::markers:
-      warnings = convert_markers(job);
+      warnings = convert_markers(job, written);
       break;
   }
   if (!warnings) return std::unexpected(warnings.error());
   ConvertOutcome out;
   out.warnings = std::move(*warnings);
-  out.written = {job.out};
+  out.written = std::move(written);
   return out;
 }
 
