@@ -38,6 +38,7 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run);
 void add_track(CLI::App& app, const CommonOptions& common, Run& run);
 void add_joints(CLI::App& app, const CommonOptions& common, Run& run);
 void add_recover(CLI::App& app, const CommonOptions& common, Run& run);
+void add_run(CLI::App& app, const CommonOptions& common, Run& run);
 void add_report(CLI::App& app, const CommonOptions& common, Run& run);
 void add_help(CLI::App& app, const CommonOptions& common, Run& run);
 void add_completion(CLI::App& app, const CommonOptions& common, Run& run);

@@ -51,10 +51,11 @@ class Demo(unittest.TestCase):
     def run_demo(self, truth):
         """Exit status and words of the demo with commands that do nothing."""
         files = {"truth.mot": truth, "angles.mot": SOLVED, "angles_sd.sto": DEVIATIONS}
-        with Tree(files) as root, mock.patch.object(demo, "run") as run:
+        with Tree(files) as root, mock.patch.object(demo, "run") as run, mock.patch.object(demo, "study") as study:
             with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(out):
                 status = demo.main(["--out", str(root)])
             self.assertEqual([call.args[1] for call in run.call_args_list], ["simulate", "ik", "report"])
+            self.assertEqual(study.call_count, 1 if "lie within" in out.getvalue() else 0)
         return status, out.getvalue()
 
     def test_says_how_honest_the_bars_are_and_fails_when_they_are_not(self):

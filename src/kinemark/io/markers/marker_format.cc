@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/io/animation/bvh.h"
 #include "kinemark/io/bids/motion_bids.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
@@ -30,11 +31,16 @@ bool begins_c3d(std::string_view begin) {
   return begin.size() > 1 && begin[1] == '\x50' && begin.find('\0') != std::string_view::npos;
 }
 
-bool begins_trc(std::string_view begin) {
+/// A text that begins with `word`, or with a byte-order mark before it.
+bool begins_with(std::string_view begin, std::string_view word) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
-  return begin.starts_with("PathFileType");
+  return begin.starts_with(word);
 }
+
+bool begins_trc(std::string_view begin) { return begins_with(begin, "PathFileType"); }
+
+bool begins_bvh(std::string_view begin) { return begins_with(begin, "HIERARCHY"); }
 
 bool begins_nwb(std::string_view begin) { return begin.starts_with("\x89HDF\r\n\x1a\n"); }
 
@@ -157,6 +163,10 @@ constexpr std::array kFormats = {
                  .kept = kOfCsv,
                  .precision = "double, m"},
     MarkerFormat{.name = "Visual3D text", .extension = ".v3d", .read = read_v3d_trial, .stores_rate = false},
+    MarkerFormat{.name = "BVH",
+                 .extension = ".bvh",
+                 .begins = begins_bvh,
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_bvh(path); }},
 };
 
 std::vector<std::string> extensions(bool written) {

@@ -93,6 +93,21 @@ TomlFields& TomlFields::numbers(std::string_view key, std::vector<double>& out) 
   return *this;
 }
 
+TomlFields& TomlFields::texts(std::string_view key, std::vector<std::string>& out, Need need) {
+  constexpr std::string_view expected = "a list of texts in quotes";
+  const auto* node = find(key, need, expected);
+  if (node == nullptr) return *this;
+  const toml::array* array = node->as_array();
+  if (array == nullptr ||
+      !std::ranges::all_of(*array, [](const toml::node& each) { return each.is_string(); })) {
+    refuse(key, expected);
+    return *this;
+  }
+  out.clear();
+  for (const toml::node& each : *array) out.push_back(each.as_string()->get());
+  return *this;
+}
+
 TomlFields& TomlFields::vector(std::string_view key, Eigen::Ref<Eigen::VectorXd> out, Need need) {
   const auto expected = fmt::format("a list of {} numbers", out.size());
   if (const auto* node = find(key, need, expected)) {

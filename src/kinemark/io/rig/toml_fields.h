@@ -35,6 +35,8 @@ class TomlFields {
   TomlFields& text(std::string_view key, std::string& out, Need need = Need::optional);
   /// A list of finite numbers, of any length.
   TomlFields& numbers(std::string_view key, std::vector<double>& out);
+  /// A list of texts, of any length.
+  TomlFields& texts(std::string_view key, std::vector<std::string>& out, Need need = Need::optional);
   /// A vector of out.size() numbers, or a matrix of as many rows.
   TomlFields& vector(std::string_view key, Eigen::Ref<Eigen::VectorXd> out, Need need = Need::optional);
   /// A list of out.rows() lists of out.cols() numbers.

@@ -16,6 +16,7 @@
 #include "kinemark/core/version.h"
 #include "kinemark/io/number.h"
 #include "kinemark/io/rig/toml_text.h"
+#include "kinemark/pipeline/files/settings_table.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -59,6 +60,16 @@ std::string value_text(const std::string& value) {
   return is_plain_number(value) ? value : in_toml_quotes(value);
 }
 
+/// A key of TOML, in quotes where it needs them.
+std::string key_text(const std::string& name) {
+  const bool is_bare = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+  return is_bare ? name : in_toml_quotes(name);
+}
+
+}  // namespace
+
 Result<Settings> settings_of(const toml::table& table, const std::string& name) {
   Settings settings;
   for (const auto& [key, node] : table) {
@@ -92,16 +103,6 @@ Result<Settings> settings_of(const toml::table& table, const std::string& name) 
   std::ranges::stable_sort(settings.list, {}, &Setting::line);
   return settings;
 }
-
-/// A key of TOML, in quotes where it needs them.
-std::string key_text(const std::string& name) {
-  const bool is_bare = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_';
-  });
-  return is_bare ? name : in_toml_quotes(name);
-}
-
-}  // namespace
 
 Result<Settings> read_settings(const std::filesystem::path& path) {
   const auto table = io::read_toml(path);

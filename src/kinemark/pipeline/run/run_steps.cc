@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/run/run_steps.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "kinemark/core/name_pattern.h"
+#include "kinemark/io/number.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Lists = std::initializer_list<const std::vector<StepOptions>*>;
+
+/// The options of a step, those of the later lists in the place of those of the earlier ones.
+std::vector<Setting> options_of(const std::string& step, Lists lists) {
+  std::vector<Setting> out;
+  for (const auto* list : lists)
+    for (const auto& options : *list) {
+      if (options.step != step) continue;
+      for (const auto& setting : options.list) {
+        std::erase_if(out, [&](const Setting& before) { return before.name == setting.name; });
+        out.push_back(setting);
+      }
+    }
+  return out;
+}
+
+std::string replaced(std::string text, std::string_view what, const std::string& by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+/// A recording and the name of its folder.
+struct Found {
+  fs::path file;
+  std::string name;
+  const RunTrial* trial;
+};
+
+/// Plans one subject after the other.
+class Planner {
+ public:
+  explicit Planner(const RunFile& file)
+      : file_(file), base_("." / file.path.parent_path()), name_(file.path.string()) {}
+
+  Result<std::vector<RunStep>> plan() {
+    for (const auto& subject : file_.subjects)
+      if (auto s = plan_subject(subject); !s) return std::unexpected(s.error());
+    return std::move(steps_);
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  Status plan_subject(const RunSubject& subject) {
+    const fs::path folder = fs::path(file_.output) / subject.name;
+    const Lists lists = {&file_.options, &subject.options};
+    if (file_.does("joints")) {
+      RunStep step = begin(subject, "", "joints", folder);
+      const fs::path out = folder / "joints";
+      step.words.push_back(subject.functional);
+      step.words.push_back("--output=" + out.string());
+      step.inputs.emplace_back(subject.functional);
+      for (const char* made : {"centres.csv", "centres.c3d", "skeleton.json", "segments.toml"})
+        step.outputs.push_back(out / made);
+      (void)add(std::move(step), options_of("joints", lists), subject.name, subject.functional);
+    }
+    std::size_t scaled = kNone;
+    if (file_.does("scale")) scaled = plan_scale(subject, folder, options_of("scale", lists));
+    auto found = find_trials(subject);
+    if (!found) return std::unexpected(found.error());
+    for (const auto& each : *found)
+      if (auto s = plan_trial(subject, each, folder / each.name, scaled); !s) return s;
+    return {};
+  }
+
+  std::size_t plan_scale(const RunSubject& subject, const fs::path& folder,
+                         const std::vector<Setting>& options) {
+    RunStep step = begin(subject, "", "scale", folder);
+    if (!subject.static_trial.empty()) {
+      step.words.push_back("--static=" + subject.static_trial);
+      step.inputs.emplace_back(subject.static_trial);
+    }
+    if (!subject.functional.empty()) {
+      step.words.push_back("--markers=" + subject.functional);
+      step.inputs.emplace_back(subject.functional);
+    }
+    if (subject.mass_kg > 0.0) step.words.push_back("--mass=" + io::format_number(subject.mass_kg));
+    const fs::path out = folder / "model.osim";
+    step.words.push_back("--output=" + out.string());
+    step.outputs = {out, folder / "model_report.json"};
+    return add(std::move(step), options, subject.name, subject.static_trial);
+  }
+
+  Status plan_trial(const RunSubject& subject, const Found& found, const fs::path& folder,
+                    std::size_t scaled) {
+    const Lists lists = {&file_.options, &subject.options, &found.trial->options};
+    const auto options = [&](const std::string& step) { return options_of(step, lists); };
+    fs::path markers = found.file;
+    std::size_t cleaned = kNone;
+    if (file_.does("clean")) {
+      RunStep step = begin(subject, found.name, "clean", folder);
+      markers = folder / "clean.c3d";
+      step.words.insert(step.words.end(), {found.file.string(), markers.string()});
+      step.inputs.push_back(found.file);
+      step.outputs = {markers};
+      cleaned = add(std::move(step), options("clean"), subject.name, found.file.string());
+    }
+    for (const std::string solver : {"ik", "track"}) {
+      if (!file_.does(solver)) continue;
+      RunStep step = begin(subject, found.name, solver, folder);
+      auto settings = options(solver);
+      if (scaled != kNone) {
+        std::erase_if(settings, [](const Setting& s) { return s.name == "model"; });
+        step.words.push_back("--model=" + steps_[scaled].outputs.front().string());
+        step.inputs.push_back(steps_[scaled].outputs.front());
+        step.after.push_back(scaled);
+      } else if (std::ranges::none_of(
+                     settings, [](const Setting& s) { return s.name == "model" || s.name == "setup"; })) {
+        return fail(Code::bad_input,
+                    fmt::format("{}: no model for {} of subject '{}'; need the step 'scale', or model = "
+                                "\"FILE.osim\" under [{}]",
+                                name_, solver, subject.name, solver));
+      }
+      const fs::path out = folder / (solver + ".mot");
+      step.words.push_back("--markers=" + markers.string());
+      step.words.push_back("--output=" + out.string());
+      step.inputs.push_back(markers);
+      if (cleaned != kNone) step.after.push_back(cleaned);
+      step.outputs = {out, folder / (solver + "_report.json")};
+      const std::size_t solved = add(std::move(step), std::move(settings), subject.name, found.file.string());
+      if (solver == "ik" && file_.does("report"))
+        plan_report(subject, found, folder, solved, options("report"));
+    }
+    return {};
+  }
+
+  void plan_report(const RunSubject& subject, const Found& found, const fs::path& folder, std::size_t solved,
+                   const std::vector<Setting>& options) {
+    RunStep step = begin(subject, found.name, "report", folder);
+    step.inputs = steps_[solved].outputs;
+    step.outputs = {folder / "ik.html"};
+    step.words.push_back(step.inputs.front().string());
+    step.words.push_back("--output=" + step.outputs.front().string());
+    step.after = {solved};
+    (void)add(std::move(step), options, subject.name, found.file.string());
+  }
+
+  static RunStep begin(const RunSubject& subject, const std::string& trial, const std::string& name,
+                       const fs::path& folder) {
+    return {.subject = subject.name,
+            .trial = trial,
+            .name = name,
+            .words = {name},
+            .record = folder / (name + ".step.json")};
+  }
+
+  /// With its options behind its own words; every value that names a file is an input.
+  std::size_t add(RunStep step, const std::vector<Setting>& options, const std::string& subject,
+                  const std::string& trial) {
+    for (const auto& setting : options) {
+      if (setting.is_switch) {
+        if (setting.on) step.words.push_back("--" + setting.name), step.lines.push_back(setting.line);
+        continue;
+      }
+      for (const auto& given : setting.values) {
+        const std::string value = replaced(replaced(given, "{trial}", trial), "{subject}", subject);
+        step.words.push_back(fmt::format("--{}={}", setting.name, value));
+        step.lines.push_back(setting.line);
+        const auto behind = value.find('=');  // --images CAMERA=FILE
+        for (const auto& file : {value, behind == std::string::npos ? value : value.substr(behind + 1)}) {
+          std::error_code absent;
+          if (fs::is_regular_file(base_ / file, absent) &&
+              std::ranges::find(step.inputs, fs::path(file)) == step.inputs.end())
+            step.inputs.emplace_back(file);
+        }
+      }
+    }
+    steps_.push_back(std::move(step));
+    return steps_.size() - 1;
+  }
+
+  /// The recordings of a subject; one that is named stands for itself, also where a pattern fits it.
+  Result<std::vector<Found>> find_trials(const RunSubject& subject) const {
+    std::vector<Found> out;
+    std::set<fs::path> named;
+    for (const auto& trial : subject.trials)
+      if (!is_name_pattern(trial.file)) named.insert(trial.file);
+    std::map<std::string, fs::path> taken;
+    for (const auto& trial : subject.trials) {
+      auto files = files_of(trial);
+      if (!files) return std::unexpected(files.error());
+      for (auto& file : *files) {
+        if (is_name_pattern(trial.file) && named.contains(file)) continue;
+        const std::string name = file.stem().string();
+        if (const auto [other, is_new] = taken.emplace(name, file); !is_new && other->second == file)
+          continue;
+        else if (!is_new)
+          return fail(
+              Code::bad_input,
+              fmt::format("{}: line {}: {} and {} of subject '{}' would both be called '{}'; need "
+                          "recordings of different names",
+                          name_, trial.line, other->second.string(), file.string(), subject.name, name));
+        out.push_back({.file = std::move(file), .name = name, .trial = &trial});
+      }
+    }
+    return out;
+  }
+
+  /// The files that a name or a pattern stands for, in order.
+  Result<std::vector<fs::path>> files_of(const RunTrial& trial) const {
+    const fs::path given = trial.file;
+    if (!is_name_pattern(trial.file)) return std::vector<fs::path>{given};
+    if (is_name_pattern(given.parent_path().string()))
+      return fail(Code::bad_input,
+                  fmt::format("{}: line {}: '{}': * and ? are for the name of a file, not of "
+                              "its folder",
+                              name_, trial.line, trial.file));
+    std::vector<fs::path> out;
+    std::error_code error;
+    for (fs::directory_iterator entry(base_ / given.parent_path(), error);
+         !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      std::error_code ignored;
+      const std::string name = entry->path().filename().string();
+      if (!name.starts_with('.') && entry->is_regular_file(ignored) &&
+          matches_name_pattern(given.filename().string(), name))
+        out.push_back(given.parent_path() / name);
+    }
+    if (error)
+      return fail(Code::io, fmt::format("{}: line {}: '{}': the folder cannot be read ({})", name_,
+                                        trial.line, trial.file, error.message()));
+    if (out.empty())
+      return fail(Code::bad_input,
+                  fmt::format("{}: line {}: no file fits '{}'", name_, trial.line, trial.file));
+    std::ranges::sort(out);
+    return out;
+  }
+
+  const RunFile& file_;
+  fs::path base_;
+  std::string name_;
+  std::vector<RunStep> steps_;
+};
+
+}  // namespace
+
+Result<std::vector<RunStep>> plan_steps(const RunFile& file) { return Planner(file).plan(); }
+
+}  // namespace kinemark::pipeline

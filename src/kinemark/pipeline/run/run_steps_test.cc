@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/run/run_steps.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kinemark/io/file.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class PlanSteps : public ::testing::Test {
+ protected:
+  PlanSteps() {
+    fs::create_directories(scratch_ / "S");
+    for (const char* name : {"S/walk2.c3d", "S/walk1.c3d", "S/.walk3.c3d", "S/run.c3d", "S/move.c3d",
+                             "human.osim", "weights.xml"})
+      (void)io::write_text(scratch_ / name, name, true);
+    fs::create_directories(scratch_ / "S/walk9.c3d");
+  }
+
+  [[nodiscard]] Result<std::vector<RunStep>> plan(const std::string& text) const {
+    const auto file = parse_run_file(text, scratch_ / "s.toml");
+    if (!file) return std::unexpected(file.error());
+    return plan_steps(*file);
+  }
+
+  static std::vector<std::string> names(const std::vector<RunStep>& steps) {
+    std::vector<std::string> out;
+    for (const auto& step : steps) out.push_back(step.trial + "/" + step.name);
+    return out;
+  }
+
+  testing_support::ScratchFolder scratch_;
+};
+
+TEST_F(PlanSteps, EachStepComesBehindThoseThatItNeeds) {
+  const auto steps = plan(R"(
+steps = ["joints", "scale", "clean", "ik", "track", "report"]
+[scale]
+model = "human.osim"
+[[subject]]
+name = "A"
+functional = "S/move.c3d"
+mass = 71.5
+trials = ["S/walk1.c3d"]
+)")
+                         .value();
+  ASSERT_THAT(names(steps),
+              ElementsAre("/joints", "/scale", "walk1/clean", "walk1/ik", "walk1/report", "walk1/track"));
+  EXPECT_THAT(steps[0].words, ElementsAre("joints", "S/move.c3d", "--output=results/A/joints"));
+  EXPECT_THAT(steps[1].words, ElementsAre("scale", "--markers=S/move.c3d", "--mass=71.5",
+                                          "--output=results/A/model.osim", "--model=human.osim"));
+  EXPECT_THAT(steps[1].inputs, ElementsAre("S/move.c3d", "human.osim"));
+  EXPECT_THAT(steps[2].words, ElementsAre("clean", "S/walk1.c3d", "results/A/walk1/clean.c3d"));
+  EXPECT_THAT(steps[3].words,
+              ElementsAre("ik", "--model=results/A/model.osim", "--markers=results/A/walk1/clean.c3d",
+                          "--output=results/A/walk1/ik.mot"));
+  EXPECT_THAT(steps[3].after, ElementsAre(1U, 2U));
+  EXPECT_THAT(steps[4].after, ElementsAre(3U));
+  EXPECT_THAT(steps[4].inputs, ElementsAre("results/A/walk1/ik.mot", "results/A/walk1/ik_report.json"));
+  EXPECT_THAT(steps[5].after, ElementsAre(1U, 2U));
+  EXPECT_EQ(steps[3].record, "results/A/walk1/ik.step.json");
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (const std::size_t before : steps[i].after) EXPECT_LT(before, i);
+}
+
+TEST_F(PlanSteps, WithoutScaleAndCleanTheGivenFilesAreTaken) {
+  const auto steps = plan(R"(
+steps = ["ik"]
+output = "o"
+[ik]
+model = "human.osim"
+[[subject]]
+name = "A"
+trials = ["S/run.c3d"]
+)")
+                         .value();
+  ASSERT_EQ(steps.size(), 1U);
+  EXPECT_THAT(steps[0].words,
+              ElementsAre("ik", "--markers=S/run.c3d", "--output=o/A/run/ik.mot", "--model=human.osim"));
+  EXPECT_THAT(steps[0].inputs, ElementsAre("S/run.c3d", "human.osim"));
+  EXPECT_THAT(steps[0].after, IsEmpty());
+}
+
+TEST_F(PlanSteps, TheNarrowerOptionTakesThePlaceOfTheWider) {
+  const auto steps = plan(R"(
+steps = ["ik"]
+[ik]
+model = "human.osim"
+max-rms = 30
+weight = ["A=1", "B=1"]
+no-limits = true
+[[subject]]
+name = "A"
+trials = ["S/walk*.c3d"]
+[subject.ik]
+max-rms = 20
+no-limits = false
+[[subject.trial]]
+file = "S/walk2.c3d"
+[subject.trial.ik]
+max-rms = 10
+weight = "C=3"
+tasks = "weights.xml"
+)")
+                         .value();
+  ASSERT_THAT(names(steps), ElementsAre("walk1/ik", "walk2/ik")) << "hidden files and folders fit no pattern";
+  EXPECT_THAT(steps[0].words, Contains("--max-rms=20"));
+  EXPECT_THAT(steps[0].words, Contains("--weight=B=1"));
+  EXPECT_THAT(steps[0].words, Not(Contains("--no-limits"))) << "false takes a switch back";
+  EXPECT_THAT(steps[0].lines.size(), 4U) << "model, two weights, max-rms";
+  EXPECT_THAT(steps[1].words, Contains("--max-rms=10"));
+  EXPECT_THAT(steps[1].words, Not(Contains("--weight=A=1")));
+  EXPECT_THAT(steps[1].inputs, Contains(fs::path("weights.xml"))) << "a value that names a file is an input";
+}
+
+TEST_F(PlanSteps, PlaceholdersAndFilesBehindAnEqualsSign) {
+  const auto steps = plan(R"(
+steps = ["clean", "ik"]
+[ik]
+model = "human.osim"
+forces = "{trial}"
+images = "left=weights.xml"
+[clean]
+report = "pages-{subject}-{subject}.html"
+[[subject]]
+name = "A"
+trials = ["S/run.c3d"]
+)")
+                         .value();
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_THAT(steps[0].words, Contains("--report=pages-A-A.html"));
+  EXPECT_THAT(steps[1].words, Contains("--forces=S/run.c3d"))
+      << "the recording itself, not what clean made of it";
+  EXPECT_THAT(steps[1].inputs, Contains(fs::path("S/run.c3d")));
+  EXPECT_THAT(steps[1].inputs, Contains(fs::path("weights.xml")));
+}
+
+TEST_F(PlanSteps, WhatCannotBePlanned) {
+  const auto error = [&](const std::string& more) {
+    const auto steps = plan("steps = [\"clean\"]\n[[subject]]\nname = \"A\"\n" + more);
+    return steps ? "" : steps.error().message;
+  };
+  EXPECT_THAT(error("trials = [\"S/jump*.c3d\"]"), HasSubstr("line 2: no file fits 'S/jump*.c3d'"));
+  EXPECT_THAT(error("trials = [\"*/walk1.c3d\"]"), HasSubstr("not of its folder"));
+  EXPECT_THAT(error("trials = [\"none/*.c3d\"]"), HasSubstr("the folder cannot be read"));
+  EXPECT_THAT(error("trials = [\"S/walk1.c3d\", \"T/walk1.trc\"]"),
+              HasSubstr("S/walk1.c3d and T/walk1.trc of subject 'A' would both be called 'walk1'"));
+  EXPECT_EQ(error("trials = [\"S/walk1.c3d\", \"S/walk*.c3d\"]"), "") << "one file, named twice";
+  const auto none = plan("steps = [\"ik\"]\n[[subject]]\nname = \"A\"\ntrials = [\"S/run.c3d\"]\n");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("no model for ik of subject 'A'"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

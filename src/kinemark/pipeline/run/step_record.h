@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What was done in a step: a file beside its results, by which a run knows what need not be done again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/pipeline/run/run_steps.h"
+
+namespace kinemark::pipeline {
+
+/// A file and the checksum of its content.
+using HashedFile = std::pair<std::string, std::string>;
+
+/// What was done.
+struct StepRecord {
+  bool done = false;                ///< false: begun, and perhaps stopped half-way
+  std::string version;              ///< of the program
+  std::vector<std::string> words;   ///< of the command
+  std::vector<HashedFile> inputs;   ///< as they were when it began
+  std::vector<HashedFile> outputs;  ///< as they were when it was done
+  int exit_status = 0;              ///< 0, or 1: a quality gate was missed
+  std::vector<std::string> said;    ///< lines of the command
+};
+
+/// What is to be done with a step.
+enum class StepState : std::uint8_t {
+  current,   ///< nothing: its results are those of these inputs and options
+  due,       ///< it runs; what is there of its results was made by a run
+  occupied,  ///< a file is in the way that no run made, or that was changed since
+};
+
+/// As found, and the sentence about a file that is in the way.
+struct FoundState {
+  StepState state = StepState::due;
+  std::string sentence;  ///< of occupied
+  StepRecord record;     ///< of current
+};
+
+/// Look at a step's record and files. Code::io for an input that cannot be read, Code::bad_input for a record
+/// that is none. @param base  folder from which the step's paths count
+[[nodiscard]] Result<FoundState> find_state(const RunStep& step, const std::filesystem::path& base);
+
+/// Write that a step begins; its record replaces an older one. The record that mark_done() completes.
+[[nodiscard]] Result<StepRecord> mark_begun(const RunStep& step, const std::filesystem::path& base);
+
+/// Write that it is done. Code::bad_input, naming it, where an output is missing.
+[[nodiscard]] Status mark_done(const RunStep& step, const std::filesystem::path& base, StepRecord record);
+
+/// A record as text, and back; Code::bad_input for a text that is none.
+[[nodiscard]] std::string record_text(const StepRecord& record);
+[[nodiscard]] Result<StepRecord> parse_record(const std::string& text, const std::string& name);
+
+}  // namespace kinemark::pipeline
