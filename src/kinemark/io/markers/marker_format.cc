@@ -16,6 +16,7 @@
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
 #include "kinemark/io/text/vendor_exports.h"
+#include "kinemark/io/xdf/xdf.h"
 
 namespace kinemark::io {
 namespace {
@@ -136,6 +137,10 @@ constexpr std::array kFormats = {
                     WriteOptions o) { return write_mat(path, trial, {.force = o.force, .set = o.set}); },
         .kept = kOfMat,
         .precision = "double, m"},
+    MarkerFormat{.name = "XDF",
+                 .extension = ".xdf",
+                 .begins = is_xdf,
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_xdf(path); }},
     MarkerFormat{.name = "Qualisys TSV",
                  .extension = ".tsv",
                  .begins = begins_export<VendorExport::qtm>,
