@@ -3,13 +3,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """BVH files: where kinemark and three's BVHLoader, an unrelated reader, put the joints.
 
-Needs Node and npm, which fetches three into a scratch folder. Finds the program in KINEMARK_PROGRAM; prints rows
-"PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
+Files of all orders of rotation are read by both. Motions of models become BVH files, whose joints in three must be where
+OpenSim has the origins of the bodies.
+
+Needs Node and npm, which fetches three into a scratch folder, and Python with opensim. Finds the program in KINEMARK_PROGRAM
+and the recordings in KINEMARK_TEST_DATA; prints rows "PASS|FAIL|SKIP | check | asked | measured"; exit status 1 when one fails.
 """
 
 import csv
 import itertools
 import json
+import math
 import os
 import random
 import shutil
@@ -21,6 +25,12 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark")))
+DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
+MOTIONS = {
+    "gait2354": ("opensim-gait2354/subject01_simbody.osim", "opensim-gait2354/subject01_walk1_ik.mot"),
+    "Rajagopal": ("bmc-rajagopal-run/Scale/Rajagopal2015_scaled.osim", "bmc-rajagopal-run/IK/results/ik_output_run.mot"),
+    "Hamner": ("opensim-hamner-fullbody/subject02_registered.osim", "opensim-hamner-fullbody/subject02_running_ik.mot"),
+}
 PACKAGE = "three@0.187.0"
 MOST = 1e-4  # of the size of the skeleton; three computes in single precision
 METRES = 0.01
@@ -111,6 +121,54 @@ def made(seed, order, positions_everywhere, frames=20):
     return "\n".join(lines) + "\n"
 
 
+def origins_by_opensim(opensim, model_file, motion):
+    """[{body: origin in the ground, m} of each row] as OpenSim places the model along a motion."""
+    model = opensim.Model(str(model_file))
+    state = model.initSystem()
+    coordinates = [model.getCoordinateSet().get(i) for i in range(model.getCoordinateSet().getSize())]
+    bodies = [model.getBodySet().get(i) for i in range(model.getBodySet().getSize())]
+    lines = motion.read_text().split("endheader")[1].strip().splitlines()
+    columns = lines[0].split()
+    frames = []
+    for line in lines[1:]:
+        values = dict(zip(columns, map(float, line.split())))
+        for coordinate in coordinates:
+            if coordinate.isDependent(state) or coordinate.getName() not in values:
+                continue
+            turns = coordinate.getMotionType() == opensim.Coordinate.Rotational
+            coordinate.setValue(state, values[coordinate.getName()] * (math.pi / 180.0 if turns else 1.0), False)
+        model.assemble(state)
+        model.realizePosition(state)
+        frames.append({b.getName(): [b.getPositionInGround(state).get(i) for i in range(3)] for b in bodies})
+    return frames
+
+
+def check_motion(name, three, folder):
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    model, motion = (DATA / path for path in MOTIONS[name])
+    path = folder / f"{name}.bvh"
+    done = subprocess.run([PROGRAM, "convert", motion, path, "--model", model], capture_output=True, text=True, check=False)
+    if done.returncode:
+        return row(False, f"{name}: becomes a BVH", "exit status 0", done.stderr.strip())
+    truth = origins_by_opensim(opensim, model, motion)
+    names, frames = three.read(path)
+    ours = read_ours(path, folder)
+    size = max(distance(a, b) for a, b in itertools.combinations(truth[0].values(), 2))
+    worst, own, compared = 0.0, 0.0, 0
+    for f, (positions, bodies) in enumerate(zip(frames, truth)):
+        for joint, position in zip(names, positions):
+            if joint in bodies:
+                worst = max(worst, distance(bodies[joint], [METRES * v for v in position]))
+                own = max(own, distance(bodies[joint], ours[f, joint]))
+                compared += 1
+    row(compared == len(truth) * len(truth[0]) and len(frames) == len(truth) and worst <= MOST * size,
+        f"{name}: origins of bodies in its BVH, by three, against OpenSim's, of the skeleton's size",
+        f"at most {MOST:.0e}", f"{worst / size:.1e} ({compared} positions)")
+    row(own <= MOST * size, f"{name}: the same, read back by kinemark", f"at most {MOST:.0e}", f"{own / size:.1e}")
+
+
 def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         folder = Path(scratch)
@@ -122,6 +180,11 @@ def main():
         path = folder / "moving.bvh"
         path.write_text(made(7, "ZXY", True))
         compare("joints that move and turn", path, three, folder)
+        if not DATA.is_dir():
+            print("SKIP | motions of models as BVH | as OpenSim has them | no recordings")
+            return 1 if failed else 0
+        for name in MOTIONS:
+            check_motion(name, three, folder)
     return 1 if failed else 0
 
 

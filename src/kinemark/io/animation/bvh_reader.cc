@@ -143,7 +143,7 @@ Result<data::Trial> parse(std::string_view text) {
         "positions of joints below the root are those of the offsets in the first frame, and are taken in "
         "their place");
   }
-  auto choice = choose_unit(bvh_units(), extent_of(*tree, *values));
+  auto choice = choose_unit("the file states no unit of length", bvh_units(), extent_of(*tree, *values));
   warnings.push_back(std::move(choice.warning));
   auto trial =
       trial_of(std::move(*tree), std::move(*values), rate_of(*frame_time_s, *written), choice.unit.metres);

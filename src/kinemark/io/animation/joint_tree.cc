@@ -26,10 +26,12 @@ void place_joints(const JointTree& tree, std::span<const double> values, std::sp
     for (const JointChannel& channel : joint.channels) {
       check(next < values.size(), "place_joints() needs a number for every channel");
       const double value = values[next++];
-      if (channel.is_rotation)
-        turned *= math::axis_angle(Eigen::Vector3d::Unit(channel.axis), value);
-      else
+      if (!channel.is_rotation) {
         moved(channel.axis) += value;
+        continue;
+      }
+      const Eigen::Matrix3d turn = math::axis_angle(Eigen::Vector3d::Unit(channel.axis), value);
+      turned = joint.about_fixed_axes ? Eigen::Matrix3d(turn * turned) : Eigen::Matrix3d(turned * turn);
     }
     rotation[j] = joint.axes * turned * joint.axes.transpose();
     x[j] = moved;

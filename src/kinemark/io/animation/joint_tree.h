@@ -25,8 +25,9 @@ struct JointNode {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();    ///< in the parent's axes, in units of the file
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< those that the channels turn about, in the joint's
   std::vector<JointChannel> channels;                  ///< in the order of the file
-  bool stands_for_offset = false;                      ///< what moves it is instead of its offset, not beside
-  bool is_point = true;                                ///< false: nothing stands where it is
+  bool about_fixed_axes = false;   ///< each rotation after the ones before it, about axes that stay
+  bool stands_for_offset = false;  ///< what moves it is instead of its offset, not beside
+  bool is_point = true;            ///< false: nothing stands where it is
 };
 
 /// Joints, parents before their children.
@@ -40,8 +41,8 @@ struct JointTree {
 /// @param values   of one frame: channel_count() numbers, rad and units of the file
 /// @param x        J, gets the positions, in units of the file
 /// @param rotation J, scratch: gets world_from_joint
-/// A joint's rotation is axes * R1 * R2 * R3 * axes^T by its channels in their order. O(J), allocates
-/// nothing.
+/// A joint's rotation is axes * R1 * R2 * R3 * axes^T by its channels in their order, axes * R3 * R2 * R1 *
+/// axes^T about fixed axes. O(J), allocates nothing.
 void place_joints(const JointTree& tree, std::span<const double> values, std::span<Eigen::Vector3d> x,
                   std::span<Eigen::Matrix3d> rotation);
 

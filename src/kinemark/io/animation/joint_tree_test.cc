@@ -77,6 +77,16 @@ TEST(PlaceJoints, AxesOfTheirOwnTurnWithTheAngles) {
   EXPECT_LT((place(tree, {0, 0, 0, 0, 0, 0, 0}).x[2] - Vector3d(0, 5, 0)).norm(), 1e-12);
 }
 
+TEST(PlaceJoints, AboutFixedAxesTheOrderIsTheOtherOne) {
+  JointTree fixed = arm(), turned = arm();
+  fixed.joints[0].about_fixed_axes = true;
+  turned.joints[0].channels = {{false, 0}, {false, 1}, {false, 2}, {true, 1}, {true, 0}, {true, 2}};
+  const auto a = place(fixed, {0, 0, 0, 0.3, -0.8, 1.1, 0.5}),
+             b = place(turned, {0, 0, 0, 1.1, -0.8, 0.3, 0.5});
+  EXPECT_LT((a.x[2] - b.x[2]).norm(), 1e-12);
+  EXPECT_GT((a.x[2] - place(arm(), {0, 0, 0, 0.3, -0.8, 1.1, 0.5}).x[2]).norm(), 0.1);
+}
+
 TEST(PlaceJoints, PositionsAddToTheOffsetOrStandForIt) {
   JointTree tree = arm();
   tree.joints[1].channels = {{false, 1}};

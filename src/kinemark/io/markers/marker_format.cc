@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinemark/io/animation/bvh.h"
+#include "kinemark/io/animation/glb.h"
 #include "kinemark/io/bids/motion_bids.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
@@ -172,6 +173,11 @@ constexpr std::array kFormats = {
                  .extension = ".bvh",
                  .begins = begins_bvh,
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_bvh(path); }},
+    MarkerFormat{.name = "GLB",
+                 .extension = ".glb",
+                 .write = [](const fs::path& path, const data::Trial& trial,
+                             WriteOptions o) { return write_glb(path, trial, o.force); },
+                 .precision = "float, m"},
 };
 
 std::vector<std::string> extensions(bool written) {

@@ -8,15 +8,21 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/io/animation/bvh.h"
+#include "kinemark/io/animation/glb.h"
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/merge_trials.h"
+#include "kinemark/pipeline/files/model_motion.h"
 #include "kinemark/pipeline/files/motion_bids_files.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/resample.h"
 #include "kinemark/pipeline/files/turn.h"
+#include "kinemark/pipeline/files/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -48,45 +54,114 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
   return std::move(table->warnings);
 }
 
+/// The motion of a model's bodies.
+Result<std::vector<std::string>> convert_motion(const ConvertJob& job) {
+  auto motion = read_model_motion(job.model, job.in);
+  if (!motion) return std::unexpected(motion.error());
+  const bool is_bvh = ending_of(job.out) == ".bvh";
+  const auto write =
+      is_bvh
+          ? io::write_bvh
+          : static_cast<Status (*)(const std::filesystem::path&, const io::PoseTree&, bool)>(io::write_glb);
+  if (auto s = write(job.out, motion->poses, job.force); !s) return std::unexpected(s.error());
+  if (is_bvh) motion->notes.emplace_back("lengths are in cm and y is up, which a .bvh file cannot say");
+  return std::move(motion->notes);
+}
+
+/// A scene has y up: a recording whose vertical is known is turned, which is said.
+void turn_y_up(const std::filesystem::path& path, data::Trial& trial) {
+  auto vertical = vertical_of_plates(trial);
+  if (!vertical) vertical = vertical_of_screen(path);
+  if (!vertical) {
+    trial.warnings.emplace_back(
+        "which way is up is not known and y is taken, as a .glb has it; --rotate turns a recording, \"x "
+        "-90\" from z up");
+    return;
+  }
+  if (vertical->up == Eigen::Vector3d::UnitY()) return;
+  turn(trial, rotation_between(vertical->up, Eigen::Vector3d::UnitY()));
+  trial.warnings.push_back(fmt::format("the recording was turned: {} is up by {}, and y in a .glb",
+                                       name_of_direction(vertical->up), vertical->from));
+}
+
 /// @param written  gets the files of a format that has several
 Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
                                                  std::vector<std::filesystem::path>& written) {
-  auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz});
-  if (!input) return std::unexpected(input.error());
-  if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
+  std::vector<data::Trial> trials;
+  std::vector<std::filesystem::path> files{job.in};
+  files.insert(files.end(), job.merged.begin(), job.merged.end());
+  for (const auto& file : files) {
+    auto input = read_marker_input({.path = file, .rate_hz = job.rate_hz});
+    if (!input) return std::unexpected(input.error());
+    trials.push_back(std::move(input->trial));
+  }
+  auto trial = merge_trials(std::move(trials));
+  if (!trial) return std::unexpected(trial.error());
+  if (auto s = take_selection(job.selection, *trial); !s) return fail_at(job.in.string(), s.error());
+  if (job.resample_hz != 0.0)
+    if (auto s = resample(*trial, job.resample_hz); !s) return fail_at(job.in.string(), s.error());
   if (!job.rotate.empty()) {
     const auto turning = parse_rotation(job.rotate);
     if (!turning) return std::unexpected(turning.error());
-    turn(input->trial, *turning);
+    turn(*trial, *turning);
+  } else if (ending_of(job.out) == ".glb") {
+    turn_y_up(job.in, *trial);
   }
-  auto notes = input->trial.warnings;
+  auto notes = trial->warnings;
   if (ending_of(job.out) == ".tsv") {
-    auto files = write_motion_bids(job.out, input->trial, job.force, {job.in});
-    if (!files) return std::unexpected(files.error());
-    written = std::move(*files);
-    const auto lost = io::lost_in(*io::written_format(".tsv"), input->trial);
+    auto made = write_motion_bids(job.out, *trial, job.force, files);
+    if (!made) return std::unexpected(made.error());
+    written = std::move(*made);
+    const auto lost = io::lost_in(*io::written_format(".tsv"), *trial);
     notes.insert(notes.end(), lost.begin(), lost.end());
     return notes;
   }
-  if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
+  if (auto s = io::write_markers(job.out, *trial, job.force, {}, &notes); !s)
     return std::unexpected(s.error());
   return notes;
 }
 
 }  // namespace
 
-Result<ConvertOutcome> run_convert(const ConvertJob& job) {
-  const std::string from = ending_of(job.in);
-  if (kind_of(from) != kind_of(ending_of(job.out)))
+namespace {
+
+/// Whether these files go together, with a model or without.
+Status check_kinds(const ConvertJob& job) {
+  const std::string from = ending_of(job.in), to = ending_of(job.out);
+  const bool makes_skeleton = kind_of(from) == Kind::table && (to == ".bvh" || to == ".glb");
+  if (!job.model.empty() && !makes_skeleton)
+    return fail(
+        Code::usage,
+        fmt::format("--model: {} as {} needs none; it is for a table of coordinates (.mot, .sto) that "
+                    "becomes a .bvh or .glb",
+                    job.in.string(), job.out.string()));
+  if (job.model.empty() && (to == ".bvh" || makes_skeleton))
     return fail(Code::usage,
-                fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
-                            job.in.string(), job.out.string()));
+                fmt::format("{}: a motion of joint angles is made with the model that they are of: "
+                            "kinemark convert Q.mot {} --model M.osim",
+                            job.out.string(), job.out.filename().string()));
+  if (makes_skeleton || kind_of(from) == kind_of(to)) return {};
+  return fail(Code::usage,
+              fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
+                          job.in.string(), job.out.string()));
+}
+
+}  // namespace
+
+Result<ConvertOutcome> run_convert(const ConvertJob& job) {
+  if (auto s = check_kinds(job); !s) return std::unexpected(s.error());
+  const std::string from = ending_of(job.in);
   if (!job.rotate.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only marker files can be turned", job.in.string()));
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
   if (!job.selection.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
-  if (auto s = check_apart({job.out}, {job.in}); !s) return std::unexpected(s.error());
+  if ((!job.merged.empty() || job.resample_hz != 0.0) && kind_of(from) != Kind::markers)
+    return fail(Code::usage,
+                fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
+  std::vector<std::filesystem::path> inputs{job.in, job.model};
+  inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
+  if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   std::vector<std::filesystem::path> written = {job.out};
   switch (kind_of(from)) {
@@ -94,7 +169,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = convert_model(job);
       break;
     case Kind::table:
-      warnings = convert_table(job);
+      warnings = job.model.empty() ? convert_table(job) : convert_motion(job);
       break;
     case Kind::markers:
       warnings = convert_markers(job, written);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -13,18 +14,23 @@ namespace kinemark::pipeline {
 
 /// What `kinemark convert` is asked to do.
 struct ConvertJob : JobSettings {
-  std::filesystem::path in;   ///< file to convert
-  std::filesystem::path out;  ///< its ending names the format
-  double rate_hz = 0.0;       ///< of marker files that tell none (.v3d); 0: not given
-  Selection selection;        ///< of a marker file
-  std::string rotate;         ///< turns markers and force plates, "x -90"; empty: as they are
+  std::filesystem::path in;                   ///< file to convert
+  std::filesystem::path out;                  ///< its ending names the format
+  std::vector<std::filesystem::path> merged;  ///< with `in`, where these are files of one recording
+  double resample_hz = 0.0;                   ///< frame rate of a marker file to write; 0: as it is
+  double rate_hz = 0.0;                       ///< of marker files that tell none (.v3d); 0: not given
+  Selection selection;                        ///< of a marker file
+  std::string rotate;                         ///< turns markers and force plates, "x -90"; empty: as they are
+  std::filesystem::path
+      model;  ///< .osim that a table is the motion of, to make a skeleton of it; empty: none
 };
 
 /// Warnings: what was odd about the input and what the new format cannot hold.
 struct ConvertOutcome : JobOutcome {};
 
 /// Read one file and write it in the format that `out` ends in; both must be of one kind (markers, tables or
-/// models), else Code::usage. Fails as reader and writer of the formats.
+/// models), else Code::usage; but a table becomes a .bvh or .glb with the model that it is the motion of.
+/// Fails as reader and writer of the formats.
 [[nodiscard]] Result<ConvertOutcome> run_convert(const ConvertJob& job);
 
 }  // namespace kinemark::pipeline

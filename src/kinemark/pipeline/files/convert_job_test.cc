@@ -128,5 +128,26 @@ TEST_F(ConvertFile, ABadInputLeavesNoOutput) {
   EXPECT_FALSE(std::filesystem::exists(at("never.trc")));
 }
 
+TEST_F(ConvertFile, AMotionBecomesASkeletonWithItsModelOnly) {
+  ConvertJob job;
+  job.in = at("in/truth.mot");
+  job.out = at("walk.bvh");
+  EXPECT_THAT(run_convert(job).error().message, HasSubstr("made with the model that they are of"));
+  job.model = at("in/model.osim");
+  const auto outcome = run_convert(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains("lengths are in cm and y is up, which a .bvh file cannot say"));
+  const auto skeleton = io::read_markers(at("walk.bvh")).value();
+  EXPECT_EQ(skeleton.markers.frames(), io::read_table(job.in).value().rows());
+  for (const auto& body : io::read_osim(job.model).value().bodies)
+    EXPECT_GE(skeleton.markers.find(body.name), 0);
+  job.out = at("walk.sto");
+  EXPECT_EQ(run_convert(job).error().code, Code::usage) << "a table needs no model";
+  job.model.clear();
+  job.in = at("in/markers.c3d");
+  job.out = at("markers.bvh");
+  EXPECT_EQ(run_convert(job).error().code, Code::usage);
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

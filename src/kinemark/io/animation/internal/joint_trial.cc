@@ -91,13 +91,12 @@ data::Channels angles_of(const JointTree& tree, const JointValues& values, doubl
 
 }  // namespace
 
-UnitChoice choose_unit(const std::vector<FileUnit>& units, double extent) {
+UnitChoice choose_unit(std::string_view why, const std::vector<FileUnit>& units, double extent) {
   const auto off = [&](const FileUnit& unit) { return std::abs(std::log(extent * unit.metres / kPerson_m)); };
   FileUnit unit = extent > 0.0 ? *std::ranges::min_element(units, {}, off) : units.front();
   const double size_m = extent * unit.metres;
   std::string warning =
-      fmt::format("the file states no unit of length; {} is taken, which makes the skeleton {:.3g} m large",
-                  unit.name, size_m);
+      fmt::format("{}; {} is taken, which makes the skeleton {:.3g} m large", why, unit.name, size_m);
   if (!(size_m >= kLeastPerson_m && size_m <= kMostPerson_m))
     warning += fmt::format(": no person, for which {} to {} m were expected", kLeastPerson_m, kMostPerson_m);
   return {std::move(unit), std::move(warning)};

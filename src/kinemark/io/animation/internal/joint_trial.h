@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/core/array.h"
@@ -30,7 +31,7 @@ struct UnitChoice {
   FileUnit unit;
   std::string warning;
 };
-[[nodiscard]] UnitChoice choose_unit(const std::vector<FileUnit>& units, double extent);
+[[nodiscard]] UnitChoice choose_unit(std::string_view why, const std::vector<FileUnit>& units, double extent);
 
 /// Longest side of the box around the points of the first frame that has a number for every channel, in units
 /// of the file; 0 where there is none.
