@@ -225,7 +225,7 @@ def sample_of(form, scratch):
         copy = scratch / f"sample{form['ending']}"
         copy.write_bytes(data)
         found = look(copy, rate, scratch)
-        if not isinstance(found, str) and found["labels"] and len(found["positions"]) > 0 and not found["missing"].all():
+        if not isinstance(found, str) and found["labels"] and len(found["positions"]) > 1 and not found["missing"].all():
             return copy, rate
     return None
 
