@@ -155,7 +155,7 @@ std::optional<fs::path> find_sidecar(const fs::path& path, std::string_view endi
   const std::string name = path.filename().string();
   const std::string stem = name.substr(0, name.size() - kEnding.size());
   std::error_code ignored;
-  const fs::path same = path.parent_path() / fmt::format("{}_{}", stem, ending);
+  fs::path same = path.parent_path() / fmt::format("{}_{}", stem, ending);
   if (fs::exists(same, ignored)) return same;
   const auto parts = split(stem);
   const std::set<std::string> entities(parts.begin(), parts.end());
