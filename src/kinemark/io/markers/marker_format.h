@@ -56,6 +56,7 @@ struct MarkerFormat {
   Read read = nullptr;         ///< null: not read. `box_m` around the samples, where the reader knows it
   Write write = nullptr;       ///< null: not written
   bool stores_rate = true;     ///< false: a rate must be given to read it
+  bool one_file = true;        ///< false: several files, which `convert` alone writes; `write` refuses them
   std::array<Kept, kParts> kept{};  ///< of each part, by the writer
   std::string_view precision;       ///< of coordinates in a file that is written, for the documentation
 
@@ -71,7 +72,7 @@ struct MarkerFormat {
 /// Extensions of files that are read, each once, in the order of the table.
 [[nodiscard]] std::vector<std::string> read_extensions();
 
-/// Extensions of files that are written.
+/// Extensions of files that are written, of formats of one file.
 [[nodiscard]] std::vector<std::string> written_extensions();
 
 }  // namespace kinemark::io

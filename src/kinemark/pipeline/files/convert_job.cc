@@ -10,6 +10,7 @@
 
 #include "kinemark/io/animation/bvh.h"
 #include "kinemark/io/animation/glb.h"
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
@@ -17,6 +18,7 @@
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/model_motion.h"
+#include "kinemark/pipeline/files/motion_bids_files.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/resample.h"
 #include "kinemark/pipeline/files/turn.h"
@@ -82,7 +84,9 @@ void turn_y_up(const std::filesystem::path& path, data::Trial& trial) {
                                        name_of_direction(vertical->up), vertical->from));
 }
 
-Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
+/// @param written  gets the files of a format that has several
+Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
+                                                 std::vector<std::filesystem::path>& written) {
   std::vector<data::Trial> trials;
   std::vector<std::filesystem::path> files{job.in};
   files.insert(files.end(), job.merged.begin(), job.merged.end());
@@ -104,6 +108,14 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
     turn_y_up(job.in, *trial);
   }
   auto notes = trial->warnings;
+  if (ending_of(job.out) == ".tsv") {
+    auto made = write_motion_bids(job.out, *trial, job.force, files);
+    if (!made) return std::unexpected(made.error());
+    written = std::move(*made);
+    const auto lost = io::lost_in(*io::written_format(".tsv"), *trial);
+    notes.insert(notes.end(), lost.begin(), lost.end());
+    return notes;
+  }
   if (auto s = io::write_markers(job.out, *trial, job.force, {}, &notes); !s)
     return std::unexpected(s.error());
   return notes;
@@ -151,6 +163,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
   if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
+  std::vector<std::filesystem::path> written = {job.out};
   switch (kind_of(from)) {
     case Kind::model:
       warnings = convert_model(job);
@@ -159,13 +172,13 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = job.model.empty() ? convert_table(job) : convert_motion(job);
       break;
     case Kind::markers:
-      warnings = convert_markers(job);
+      warnings = convert_markers(job, written);
       break;
   }
   if (!warnings) return std::unexpected(warnings.error());
   ConvertOutcome out;
   out.warnings = std::move(*warnings);
-  out.written = {job.out};
+  out.written = std::move(written);
   return out;
 }
 
