@@ -200,14 +200,15 @@ void hamner(const fs::path& data) {
   job.markers = folder / "subject02_running.trc";
   job.output = scratch.path() / "Q.mot";
   const auto summary = pipeline::run_ik(job).value().summary;
-  const auto places = io::read_table(scratch.path() / "Q_marker_locations.sto").value();
+  const auto locations = io::read_table(scratch.path() / "Q_marker_locations.sto").value();
   double apart = 0.0;
-  for (std::int64_t row = 0; row < std::min(places.rows(), table.rows()); ++row)
+  for (std::int64_t row = 0; row < std::min(locations.rows(), table.rows()); ++row)
     for (std::size_t k = 0; k < table.columns.size(); ++k)
-      apart = std::max(apart, std::abs(places(row, places.find(table.columns[k])) -
+      apart = std::max(apart, std::abs(locations(row, locations.find(table.columns[k])) -
                                        table(row, static_cast<std::int64_t>(k))));
-  print_row(places.rows() == table.rows() && apart <= 1e-4, "opensim-hamner, marker locations of the setup",
-            "all of OpenSim's, within 0.1 mm", fmt::format("{} rows, {:.2g} m", places.rows(), apart));
+  print_row(locations.rows() == table.rows() && apart <= 1e-4,
+            "opensim-hamner, marker locations of the setup", "all of OpenSim's, within 0.1 mm",
+            fmt::format("{} rows, {:.2g} m", locations.rows(), apart));
   const auto bicep =
       std::ranges::find(summary.markers, "L.Bicep", [](const report::MarkerRow& m) { return m.name; });
   const bool found = bicep != summary.markers.end() && !bicep->used;
