@@ -145,7 +145,7 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
       ->default_str("least-squares")
       ->group("Estimate");
   command
-      ->add_flag("--marker-locations", job.marker_locations,
+      ->add_flag("--locations", job.marker_locations,
                  "Also write Q_marker_locations.sto: where the model's markers are, m")
       ->group("Output");
   command

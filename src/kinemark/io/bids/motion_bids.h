@@ -24,8 +24,12 @@ namespace kinemark::io {
 
 /// The three texts of a recording, and how they are called in messages.
 struct MotionTexts {
-  std::string_view motion, channels, json;
-  std::string motion_name = "motion.tsv", channels_name = "channels.tsv", json_name = "motion.json";
+  std::string_view motion;                     ///< the table, without a header
+  std::string_view channels;                   ///< what its columns are
+  std::string_view json;                       ///< rate and words for missing values
+  std::string motion_name = "motion.tsv";      ///< for messages
+  std::string channels_name = "channels.tsv";  ///< for messages
+  std::string json_name = "motion.json";       ///< for messages
 };
 /// The same from memory.
 [[nodiscard]] Result<data::Trial> parse_motion_bids(const MotionTexts& texts);
