@@ -13,13 +13,27 @@ namespace {
 
 struct ConvertArguments {
   pipeline::ConvertJob job;
+  bool merge = false;
   ManyArguments many;
 };
+
+/// Files of one recording into one.
+int merge_files(const CommonOptions& common, ConvertArguments& arguments) {
+  auto& job = arguments.job;
+  auto list = pipeline::list_inputs(arguments.many.inputs, pipeline::marker_endings());
+  if (!list) return report_error(list.error());
+  for (const auto& note : list->notes) say(common, fmt::format("note: {}", note));
+  job.in = list->files.front();
+  job.merged.assign(list->files.begin() + 1, list->files.end());
+  job.out = arguments.many.output;
+  return run_job(common, "files", job, pipeline::run_convert, print_written);
+}
 
 int run_command(const CommonOptions& common, ConvertArguments& arguments) {
   auto& job = arguments.job;
   auto& many = arguments.many;
   if (auto s = many.split_output(); !s) return report_error(s.error());
+  if (arguments.merge) return merge_files(common, arguments);
   if (!many.are_many()) {
     job.in = many.inputs.front();
     job.out = many.output;
@@ -61,6 +75,10 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
                       "Skeleton (.asf) of an .amc; the one beside it when absent");
   command->add_option("--rotate", job.rotate,
                       "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
+  command->add_flag(
+      "--merge", arguments->merge,
+      "The files IN are of one recording: parts in time or sets of markers, to be one file OUT");
+  command->add_option("--resample", job.resample_hz, "Write a marker file at this frame rate, Hz");
   command->add_option("-m,--model", job.model,
                       "Model (.osim) that a table of coordinates is of, which then becomes a .bvh or .glb");
   add_selection_options(*command, job.selection);

@@ -145,6 +145,10 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
       ->default_str("least-squares")
       ->group("Estimate");
   command
+      ->add_flag("--locations", job.marker_locations,
+                 "Also write Q_marker_locations.sto: where the model's markers are, m")
+      ->group("Output");
+  command
       ->add_flag("--torques", job.torques,
                  "Also write Q_tau.sto and Q_tau_sd.sto (N m, N); --forces implies it")
       ->group("Estimate");

@@ -21,7 +21,7 @@ constexpr std::array kValues = {
            "segments",
            "FILE"},
     Values{"out man-pages", "FOLDER"},
-    Values{"rate cutoff half-gain", "HZ"},
+    Values{"rate cutoff half-gain resample", "HZ"},
     Values{"duration start end max-gap longest-gap", "S"},
     Values{"step", "MS"},
     Values{"noise max-rms max-offset max-gap-sd place-prior stagger loss-scale", "MM"},

@@ -13,11 +13,10 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
-#include "kinemark/model/state.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
+#include "kinemark/pipeline/motion/marker_locations.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
@@ -173,23 +172,18 @@ void hamner(const fs::path& data) {
   const auto c = solve(folder / "subject02_registered.osim", folder / "subject02_running.trc",
                        folder / "Setup_IK.xml", folder / "subject02_running_ik.mot");
   const auto table = io::read_table(folder / "ik_model_marker_locations.sto").value();
-  model::Workspace w(c.model);
+  data::JointMotion motion;
+  motion.time = {.rate_hz = 60.0, .t0_s = 0.0, .frames = table.rows()};
+  for (std::int64_t row = 0; row < table.rows(); ++row)
+    for (const auto& coordinate : c.model.description().coordinates)
+      motion.q.push_back(c.answer(row, c.answer.find(coordinate.name)) *
+                         (coordinate.is_rotation ? kRadPerDeg : 1.0));
+  const auto moved = pipeline::marker_locations_table(c.model, motion);
   double worst = 0.0;
-  for (std::int64_t row = 0; row < table.rows(); ++row) {
-    Eigen::VectorXd q(c.model.coordinate_count());
-    for (int k = 0; k < q.size(); ++k) {
-      const auto& coordinate = c.model.description().coordinates[static_cast<std::size_t>(k)];
-      q[k] = c.answer(row, c.answer.find(coordinate.name)) * (coordinate.is_rotation ? kRadPerDeg : 1.0);
-    }
-    model::kinematics(c.model, w, model::state_from_coordinates(c.model, q));
-    for (int m = 0; m < c.model.marker_count(); ++m) {
-      const auto& name = c.model.description().markers[static_cast<std::size_t>(m)].name;
-      const auto column = table.find(name + "_tx");
-      if (column < 0) continue;
-      for (int axis = 0; axis < 3; ++axis)
-        worst = std::max(worst, std::abs(w.marker(axis, m) - table(row, column + axis)));
-    }
-  }
+  for (std::int64_t row = 0; row < table.rows(); ++row)
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+      worst = std::max(worst, std::abs(moved(row, moved.find(table.columns[k])) -
+                                       table(row, static_cast<std::int64_t>(k))));
   print_row(worst <= 1e-6, "opensim-hamner, forward kinematics of OpenSim's angles",
             "within 1e-6 m of OpenSim's markers", fmt::format("{:.2g} m", worst));
   print_cost("opensim-hamner, cost", c);
@@ -200,6 +194,13 @@ void hamner(const fs::path& data) {
   job.markers = folder / "subject02_running.trc";
   job.output = scratch.path() / "Q.mot";
   const auto summary = pipeline::run_ik(job).value().summary;
+  const auto locations = io::read_table(scratch.path() / "Q_marker_locations.sto").value();
+  const auto absent = std::ranges::count_if(
+      table.columns, [&](const std::string& column) { return locations.find(column) < 0; });
+  print_row(absent == 0 && locations.rows() >= table.rows(), "opensim-hamner, marker locations of the setup",
+            "all columns and frames of OpenSim's table",
+            fmt::format("{} columns of {} absent, {} rows for {}", absent, table.columns.size(),
+                        locations.rows(), table.rows()));
   const auto bicep =
       std::ranges::find(summary.markers, "L.Bicep", [](const report::MarkerRow& m) { return m.name; });
   const bool found = bicep != summary.markers.end() && !bicep->used;

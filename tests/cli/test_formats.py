@@ -51,6 +51,21 @@ class Markers(CommandTest):
         self.assertIn("1 group of parameters cannot be stored", self.good("convert", "other.c3d", "copy.trc").err)
         self.assertNotIn("groups of parameters", self.good("convert", self.c3d, "own.trc").err)
 
+    def test_motion_bids_is_a_set_with_a_name_of_its_own(self):
+        name = "study/sub-01/motion/sub-01_task-walk_tracksys-omc_motion.tsv"
+        stem = name.removesuffix("motion.tsv")
+        ran = self.good("convert", self.c3d, name, "--json")
+        written = json.loads(ran.out)["written"]
+        self.assertEqual(len(written), 6)
+        self.assertEqual(self.facts(name), self.facts(self.c3d))
+        self.refused(4, "_motion.tsv", "convert", self.c3d, name)
+        self.good("convert", self.c3d, name, "--force")
+        for wrong in ("study/sub-01/motion/walk.tsv", "walk_motion.tsv", "study/sub-02/motion/sub-01_task-walk_tracksys-omc_motion.tsv"):
+            self.refused(2, "sub-LABEL[/ses-LABEL]/motion/sub-LABEL", "convert", self.c3d, wrong)
+        self.refused(2, "kinemark convert writes", "clean", self.c3d, name.replace("walk", "clean"))
+        (self.folder / f"{stem}channels.tsv").unlink()
+        self.refused(3, ["has no channels.tsv", "_motion.tsv"], "info", name)
+
     def test_every_format_becomes_every_other_with_the_same_facts(self):
         expected = self.facts(self.c3d)
         self.assertGreater(expected["missing"], 0)

@@ -177,7 +177,7 @@ class Joints(CommandTest):
         self.refused(2, ["knee", "hinge"], "joints", "arm.csv", "--kind", "knee")
         self.refused(2, "-1 mm", "joints", "arm.csv", "--noise", -1)
         for name in ("x.mot", "x.v3d", "x.osim", "no/folder/x.xyz"):
-            self.refused(2, [name, ".c3d, .trc, .nwb, .mat and .csv"], "joints", "arm.csv", "-o", name)
+            self.refused(2, [name, ".c3d, .trc, .nwb, .mat, .csv and .glb"], "joints", "arm.csv", "-o", name)
         self.refused(4, "none.c3d", "joints", "none.c3d")
         self.write("bad.c3d", "not a C3D file")
         self.refused(3, "bad.c3d", "joints", "bad.c3d")

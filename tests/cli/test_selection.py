@@ -4,7 +4,7 @@
 
 import json
 
-from support import CommandTest, real_file
+from support import CommandTest, read_csv, real_file
 
 
 class SelectionTest(CommandTest):
@@ -47,6 +47,41 @@ class SelectionTest(CommandTest):
         self.refused(2, "OLD=NEW", "convert", self.trc, "a.trc", "--rename", label)
         self.refused(2, "only of marker files", "convert", self.truth, "a.sto", "--drop", "knee*")
         self.assertFalse((self.folder / "a.trc").exists())
+
+    def test_parts_are_merged_into_the_file_that_they_are_of(self):
+        whole = self.info(self.c3d)
+        middle = whole["first_frame"] + whole["frames"] // 2
+        left = ",".join(label for label in whole["labels"] if label.startswith("L"))
+        self.good("convert", self.c3d, "a.c3d", "--frames", f"-{middle}")
+        self.good("convert", self.c3d, "b.c3d", "--frames", f"{middle - 5}-")
+        self.good("convert", "b.c3d", "left.c3d", "--select", left)
+        self.good("convert", "b.c3d", "right.c3d", "--drop", left)
+        self.good("convert", "a.c3d", "left.c3d", "right.c3d", "again.csv", "--merge")
+        self.good("convert", self.c3d, "whole.csv")
+        samples = [{(row["frame"], row["marker"]): (row["x_m"], row["z_m"], row["state"]) for row in read_csv(self.folder / name)}
+                   for name in ("whole.csv", "again.csv")]
+        self.assertEqual(samples[0], samples[1])
+
+    def test_another_rate_keeps_the_path_and_says_what_was_made(self):
+        before = self.info(self.c3d)
+        ran = self.good("convert", self.c3d, "fast.csv", "--resample", f"{4 * before['rate_hz']}")
+        self.assertNotIn("folded", ran.err)
+        states = {row["state"] for row in read_csv(self.folder / "fast.csv")}
+        self.assertLessEqual({"measured", "interpolated"}, states)
+        self.good("convert", "fast.csv", "back.csv", "--resample", f"{before['rate_hz']}")
+        self.good("convert", self.c3d, "whole.csv")
+        rows = [read_csv(self.folder / name) for name in ("whole.csv", "back.csv")]
+        self.assertEqual([[row[key] for key in ("marker", "x_m", "y_m", "z_m", "state")] for row in rows[0]],
+                         [[row[key] for key in ("marker", "x_m", "y_m", "z_m", "state")] for row in rows[1]])
+
+    def test_what_cannot_be_merged_or_resampled_is_said(self):
+        other = self.c3d.with_name("other.c3d")
+        self.good("convert", self.c3d, other, "--resample", "50", "--force")
+        self.refused(3, "need one rate", "convert", self.c3d, other, "x.c3d", "--merge")
+        self.refused(2, "only marker files", "convert", self.truth, "x.sto", "--resample", "50")
+        self.refused(2, "--resample", "convert", self.c3d, "x.c3d", "--resample", "nan")
+        self.refused(2, "--resample", "convert", self.c3d, "x.c3d", "--resample", "-3")
+        self.refused(4, "absent.c3d", "convert", self.c3d, "absent.c3d", "x.c3d", "--merge")
 
     def test_a_real_file_keeps_events_analog_and_frame_numbers(self):
         source = real_file("btk-others/PiG_Motion3_FF.c3d")

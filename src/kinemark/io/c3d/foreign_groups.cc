@@ -58,6 +58,15 @@ std::string_view stem(std::string_view name) {
   return name.substr(0, name.find_last_not_of("0123456789") + 1);
 }
 
+/// "ANGLE_UNITS" where there are ANGLES: the units of channels, which are written anew.
+bool is_unit_of_channels(const C3dParameters& parameters, std::string_view name) {
+  constexpr std::string_view kUnits = "_UNITS";
+  if (!name.ends_with(kUnits)) return false;
+  const auto type =
+      std::ranges::find(kC3dPointTypes, name.substr(0, name.size() - kUnits.size()), &C3dPointType::singular);
+  return type != kC3dPointTypes.end() && !parameters.texts("POINT", type->list).empty();
+}
+
 /// Lists of points that are no markers; they are channels of the trial.
 bool lists_channels(const C3dParameters& parameters, std::string_view name) {
   const auto pairs = parameters.texts("POINT", "TYPE_GROUPS");
@@ -72,7 +81,8 @@ bool is_carried(const C3dParameters& parameters, const C3dGroup& group, const C3
   if (anew == kWrittenAnew.end()) return true;
   const auto name = stem(p.name);
   return !among(anew->parameters, name) && p.name != kC3dResidualsParameter &&
-         !(group.name == "POINT" && lists_channels(parameters, name));
+         !(group.name == "POINT" &&
+           (lists_channels(parameters, name) || is_unit_of_channels(parameters, name)));
 }
 
 /// Bytes of a group or parameter at most, with lengths, pointer, type and sizes.

@@ -145,6 +145,23 @@ TEST(ForeignGroups, OfGroupsThatAreWrittenAnewTheRestIsCarried) {
   EXPECT_EQ(found[1].parameters[0].name, "BOARDS");
 }
 
+TEST(ForeignGroups, UnitsOfChannelsAreTheTrialsWhereThereAreAny) {
+  std::vector<std::string> warnings;
+  C3dParameters p = groups({"POINT"});
+  for (const char* name : {"ANGLE_UNITS", "POWER_UNITS", "ODD_UNITS"})
+    p.group("POINT").parameters.push_back(stored(name));
+  p.group("POINT").parameters.push_back({.name = "ANGLES",
+                                         .type = C3dType::text,
+                                         .dims = {5, 1},
+                                         .texts = {"LKnee"},
+                                         .stored = {.name = "ANGLES"}});
+  const auto found = find_foreign_groups(p, warnings);
+  ASSERT_THAT(names_of(found), ElementsAre("POINT"));
+  ASSERT_EQ(found[0].parameters.size(), 2U);
+  EXPECT_EQ(found[0].parameters[0].name, "POWER_UNITS");
+  EXPECT_EQ(found[0].parameters[1].name, "ODD_UNITS");
+}
+
 TEST(ForeignGroups, TheRestOfAWrittenGroupStandsInItOnce) {
   const ScratchFolder folder;
   data::Trial trial = internal::simulate_trial({});

@@ -46,6 +46,16 @@ std::string residuals(const data::Trial& trial) {
   return some ? "reconstruction residuals" : "";
 }
 
+/// Whether every covariance is one standard deviation, the same in all directions.
+bool all_round(const Array<double>& covariance) {
+  for (std::size_t i = 0; i + 5 < covariance.size(); i += 6) {
+    const double* c = &covariance[i];
+    const bool round = c[0] == c[3] && c[0] == c[5] && c[1] == 0.0 && c[2] == 0.0 && c[4] == 0.0;
+    if (!round && !std::isnan(c[0])) return false;
+  }
+  return true;
+}
+
 std::string channels(const data::Channels& c) {
   if (c.count() == 0) return "";
   return c.count() == 1 ? fmt::format("1 channel that is no marker ({})", c.names.front())
@@ -110,6 +120,9 @@ std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& 
     if (format.keeps(words.part) == Kept::whole) continue;
     const std::string what = held(trial, words.part);
     if (what.empty()) continue;
+    // What a format in part keeps may be all that there is.
+    const bool in_part = format.keeps(words.part) == Kept::in_part;
+    if (in_part && words.part == Part::covariance && all_round(trial.markers.covariance)) continue;
     out.push_back(format.keeps(words.part) == Kept::none
                       ? fmt::format("{} cannot be stored in a {} file", what, format.extension)
                       : fmt::format("{} are {} in a {} file", what, words.in_part, format.extension));

@@ -96,7 +96,13 @@ Result<data::Trial> read_markers(const std::filesystem::path& path, const Marker
 
 Status check_marker_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  if (written_format(extension) != nullptr) return {};
+  const MarkerFormat* format = written_format(extension);
+  if (format != nullptr && format->one_file) return {};
+  if (format != nullptr)
+    return fail(Code::usage,
+                fmt::format("{}: a recording of {} is several files, which kinemark convert writes; write "
+                            "another format here and convert it",
+                            path.string(), format->name));
   const auto written = written_extensions();
   return fail(Code::usage, fmt::format("{}: {} is not written as a marker file; supported are {}",
                                        path.string(), named(extension), join_names(written, written.size())));

@@ -150,5 +150,19 @@ TEST(MarkerFile, TheSameRecordingAgreesInBothFormats) {
           << "the TRC is rounded to 0.01 mm per axis; frame " << f << " marker " << m;
 }
 
+TEST(MarkerFile, ARecordingOfSeveralFilesIsForConvertAlone) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .frames = 1});
+  for (const auto& status :
+       {check_marker_format("a_motion.tsv"), write_markers(scratch / "a_motion.tsv", trial, false)}) {
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, Code::usage);
+    EXPECT_THAT(status.error().message,
+                HasSubstr("a recording of Motion-BIDS is several files, which kinemark convert writes"));
+  }
+  EXPECT_EQ(scratch.count_files(), 0);
+}
+
 }  // namespace
 }  // namespace kinemark::io

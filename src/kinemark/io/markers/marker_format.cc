@@ -9,6 +9,7 @@
 #include "kinemark/io/animation/amc.h"
 #include "kinemark/io/animation/bvh.h"
 #include "kinemark/io/animation/glb.h"
+#include "kinemark/io/bids/motion_bids.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/matlab/mat.h"
@@ -17,6 +18,7 @@
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
 #include "kinemark/io/text/vendor_exports.h"
+#include "kinemark/io/xdf/xdf.h"
 
 namespace kinemark::io {
 namespace {
@@ -85,6 +87,11 @@ Result<data::Trial> read_export(const fs::path& path, ReadOptions, Box) {
   return read_vendor_export(path, which);
 }
 
+/// Several files: pipeline::write_motion_bids() lets them appear together.
+Status refuse_several(const fs::path& path, const data::Trial&, WriteOptions) {
+  return check_marker_format(path);
+}
+
 Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOptions options) {
   NwbMetadata metadata;
   metadata.set = options.set;
@@ -98,6 +105,7 @@ using enum Kept;
 constexpr std::array<Kept, kParts> kOfC3d = {whole, in_part, none, whole, whole, whole, whole, whole, whole};
 constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, none, none, none, none, none, none};
 constexpr std::array<Kept, kParts> kOfCsv = kOfNwb;
+constexpr std::array<Kept, kParts> kOfBids = {none, none, none, none, whole, none, none, none, none};
 constexpr std::array<Kept, kParts> kOfMat = {whole, whole, whole, whole, whole, whole, whole, whole, none};
 
 constexpr std::array kFormats = {
@@ -135,10 +143,21 @@ constexpr std::array kFormats = {
                     WriteOptions o) { return write_mat(path, trial, {.force = o.force, .set = o.set}); },
         .kept = kOfMat,
         .precision = "double, m"},
+    MarkerFormat{.name = "XDF",
+                 .extension = ".xdf",
+                 .begins = is_xdf,
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_xdf(path); }},
     MarkerFormat{.name = "Qualisys TSV",
                  .extension = ".tsv",
                  .begins = begins_export<VendorExport::qtm>,
                  .read = read_export<VendorExport::qtm>},
+    MarkerFormat{.name = "Motion-BIDS",
+                 .extension = ".tsv",
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_motion_bids(path); },
+                 .write = refuse_several,
+                 .one_file = false,
+                 .kept = kOfBids,
+                 .precision = "double, m"},
     MarkerFormat{.name = "Motive CSV",
                  .extension = ".csv",
                  .begins = begins_export<VendorExport::motive>,
@@ -177,7 +196,7 @@ constexpr std::array kFormats = {
 std::vector<std::string> extensions(bool written) {
   std::vector<std::string> out;
   for (const MarkerFormat& f : kFormats)
-    if ((written ? f.write != nullptr : f.read != nullptr) &&
+    if ((written ? f.write != nullptr && f.one_file : f.read != nullptr) &&
         std::ranges::find(out, f.extension) == out.end())
       out.emplace_back(f.extension);
   return out;

@@ -30,7 +30,7 @@ enum class Part : std::uint8_t {
   force_plates,
   groups,  ///< of parameters that nothing here reads
 };
-inline constexpr std::size_t kParts = 9;
+inline constexpr std::size_t kParts = 9;  ///< number of them
 
 /// How much of a part a format keeps.
 enum class Kept : std::uint8_t { none, in_part, whole };
@@ -44,9 +44,12 @@ struct MarkerWriteOptions {
 
 /// One format of marker files: a row of the table that messages, help and documentation are made from.
 struct MarkerFormat {
+  /// True for the beginning of such a file, its first 512 bytes.
   using Recognise = bool (*)(std::string_view begin);
+  /// Reads a file; `box_m` around the samples, where the reader knows it.
   using Read = Result<data::Trial> (*)(const std::filesystem::path& path, const MarkerReadOptions& options,
                                        Eigen::AlignedBox3d& box_m);
+  /// Writes a file, whole or not at all.
   using Write = Status (*)(const std::filesystem::path& path, const data::Trial& trial,
                            const MarkerWriteOptions& options);
 
@@ -56,9 +59,11 @@ struct MarkerFormat {
   Read read = nullptr;         ///< null: not read. `box_m` around the samples, where the reader knows it
   Write write = nullptr;       ///< null: not written
   bool stores_rate = true;     ///< false: a rate must be given to read it
+  bool one_file = true;        ///< false: several files, which `convert` alone writes; `write` refuses them
   std::array<Kept, kParts> kept{};  ///< of each part, by the writer
   std::string_view precision;       ///< of coordinates in a file that is written, for the documentation
 
+  /// How much of a part the writer keeps.
   [[nodiscard]] Kept keeps(Part part) const { return kept[static_cast<std::size_t>(part)]; }
 };
 
@@ -71,7 +76,7 @@ struct MarkerFormat {
 /// Extensions of files that are read, each once, in the order of the table.
 [[nodiscard]] std::vector<std::string> read_extensions();
 
-/// Extensions of files that are written.
+/// Extensions of files that are written, of formats of one file.
 [[nodiscard]] std::vector<std::string> written_extensions();
 
 }  // namespace kinemark::io

@@ -10,13 +10,17 @@
 
 #include "kinemark/io/animation/bvh.h"
 #include "kinemark/io/animation/glb.h"
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/model_motion.h"
+#include "kinemark/pipeline/files/motion_bids_files.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/resample.h"
 #include "kinemark/pipeline/files/turn.h"
 #include "kinemark/pipeline/files/vertical.h"
 
@@ -80,19 +84,39 @@ void turn_y_up(const std::filesystem::path& path, data::Trial& trial) {
                                        name_of_direction(vertical->up), vertical->from));
 }
 
-Result<std::vector<std::string>> convert_markers(const ConvertJob& job) {
-  auto input = read_marker_input({.path = job.in, .rate_hz = job.rate_hz, .skeleton = job.skeleton});
-  if (!input) return std::unexpected(input.error());
-  if (auto s = take_selection(job.selection, input->trial); !s) return fail_at(job.in.string(), s.error());
+/// @param written  gets the files of a format that has several
+Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
+                                                 std::vector<std::filesystem::path>& written) {
+  std::vector<data::Trial> trials;
+  std::vector<std::filesystem::path> files{job.in};
+  files.insert(files.end(), job.merged.begin(), job.merged.end());
+  for (const auto& file : files) {
+    auto input = read_marker_input({.path = file, .rate_hz = job.rate_hz, .skeleton = job.skeleton});
+    if (!input) return std::unexpected(input.error());
+    trials.push_back(std::move(input->trial));
+  }
+  auto trial = merge_trials(std::move(trials));
+  if (!trial) return std::unexpected(trial.error());
+  if (auto s = take_selection(job.selection, *trial); !s) return fail_at(job.in.string(), s.error());
+  if (job.resample_hz != 0.0)
+    if (auto s = resample(*trial, job.resample_hz); !s) return fail_at(job.in.string(), s.error());
   if (!job.rotate.empty()) {
     const auto turning = parse_rotation(job.rotate);
     if (!turning) return std::unexpected(turning.error());
-    turn(input->trial, *turning);
+    turn(*trial, *turning);
   } else if (ending_of(job.out) == ".glb") {
-    turn_y_up(job.in, input->trial);
+    turn_y_up(job.in, *trial);
   }
-  auto notes = input->trial.warnings;
-  if (auto s = io::write_markers(job.out, input->trial, job.force, {}, &notes); !s)
+  auto notes = trial->warnings;
+  if (ending_of(job.out) == ".tsv") {
+    auto made = write_motion_bids(job.out, *trial, job.force, files);
+    if (!made) return std::unexpected(made.error());
+    written = std::move(*made);
+    const auto lost = io::lost_in(*io::written_format(".tsv"), *trial);
+    notes.insert(notes.end(), lost.begin(), lost.end());
+    return notes;
+  }
+  if (auto s = io::write_markers(job.out, *trial, job.force, {}, &notes); !s)
     return std::unexpected(s.error());
   return notes;
 }
@@ -135,9 +159,14 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
   if (!job.selection.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
-  if (auto s = check_apart({job.out}, {job.in, job.model, job.skeleton}); !s)
-    return std::unexpected(s.error());
+  if ((!job.merged.empty() || job.resample_hz != 0.0) && kind_of(from) != Kind::markers)
+    return fail(Code::usage,
+                fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
+  std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton};
+  inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
+  if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
+  std::vector<std::filesystem::path> written = {job.out};
   switch (kind_of(from)) {
     case Kind::model:
       warnings = convert_model(job);
@@ -146,13 +175,13 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = job.model.empty() ? convert_table(job) : convert_motion(job);
       break;
     case Kind::markers:
-      warnings = convert_markers(job);
+      warnings = convert_markers(job, written);
       break;
   }
   if (!warnings) return std::unexpected(warnings.error());
   ConvertOutcome out;
   out.warnings = std::move(*warnings);
-  out.written = {job.out};
+  out.written = std::move(written);
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -13,12 +14,14 @@ namespace kinemark::pipeline {
 
 /// What `kinemark convert` is asked to do.
 struct ConvertJob : JobSettings {
-  std::filesystem::path in;        ///< file to convert
-  std::filesystem::path out;       ///< its ending names the format
-  double rate_hz = 0.0;            ///< of marker files that tell none (.v3d, .amc); 0: not given
-  std::filesystem::path skeleton;  ///< .asf of an .amc; empty: the one beside it
-  Selection selection;             ///< of a marker file
-  std::string rotate;              ///< turns markers and force plates, "x -90"; empty: as they are
+  std::filesystem::path in;                   ///< file to convert
+  std::filesystem::path out;                  ///< its ending names the format
+  std::vector<std::filesystem::path> merged;  ///< with `in`, where these are files of one recording
+  double resample_hz = 0.0;                   ///< frame rate of a marker file to write; 0: as it is
+  double rate_hz = 0.0;                       ///< of marker files that tell none (.v3d, .amc); 0: not given
+  std::filesystem::path skeleton;             ///< .asf of an .amc; empty: the one beside it
+  Selection selection;                        ///< of a marker file
+  std::string rotate;                         ///< turns markers and force plates, "x -90"; empty: as they are
   std::filesystem::path
       model;  ///< .osim that a table is the motion of, to make a skeleton of it; empty: none
 };

@@ -50,7 +50,7 @@ data::Table table(std::vector<std::string> columns, std::vector<double> values) 
   return out;
 }
 
-TEST(MoveModel, PlacesBodiesByDegreesAndMetres) {
+TEST(MoveModel, PutsBodiesByDegreesAndMetres) {
   const auto motion = move_model(leg(), table({"slide", "knee", "hip"}, {0, 0, 0, 0.1, -90, 90})).value();
   EXPECT_THAT(motion.notes, IsEmpty());
   const auto& poses = motion.poses;

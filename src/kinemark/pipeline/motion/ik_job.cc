@@ -13,6 +13,7 @@
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
+#include "kinemark/pipeline/motion/marker_locations.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -149,6 +150,7 @@ Status complete(IkJob& job) {
 Result<Staging> stage_files(const IkJob& job) {
   std::vector<fs::path> further;
   if (!job.report.empty()) further.push_back(job.report);
+  if (job.marker_locations) further.push_back(beside(job.output, "_marker_locations.sto"));
   if (job.torques) further.push_back(beside(job.output, "_tau.sto"));
   if (job.torques && job.options.error_bars) further.push_back(beside(job.output, "_tau_sd.sto"));
   std::vector<fs::path> read{job.setup, job.tasks, job.coordinates};
@@ -182,6 +184,9 @@ Result<IkOutcome> run_ik(IkJob job) {
     return std::unexpected(s.error());
   // Write.
   auto files = internal::motion_files(job, motion, outcome.summary);
+  if (job.marker_locations)
+    files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
+                               [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
       return report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &solved});

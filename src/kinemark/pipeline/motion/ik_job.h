@@ -25,6 +25,8 @@ struct IkJob : MotionJob {
   std::filesystem::path report;                    ///< page to write as well
   motion::IkOptions options;                       ///< of the least squares
   Estimator estimator = Estimator::least_squares;  ///< which estimator
+  bool marker_locations =
+      false;             ///< also Q_marker_locations.sto; a setup's report_marker_locations implies it
   bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
 };
 

@@ -120,6 +120,7 @@ Status apply_setup(IkJob& job) {
   job.coordinates = setup->coordinate_file;
   job.setup_notes = setup->notes;
   job.setup_parts = setup->parts;
+  job.marker_locations = job.marker_locations || setup->report_marker_locations;
   if (job.output.empty() && !setup->output_motion_file.empty()) {
     if (auto s = check_below(job.setup, setup->output_motion_file, "output_motion_file"); !s) return s;
     job.output = setup->output_motion_file;

@@ -37,9 +37,9 @@ enum class StepState : std::uint8_t {
 
 /// As found, and the sentence about a file that is in the way.
 struct FoundState {
-  StepState state = StepState::due;
-  std::string sentence;  ///< of occupied
-  StepRecord record;     ///< of current
+  StepState state = StepState::due;  ///< what is to be done
+  std::string sentence;              ///< of occupied
+  StepRecord record;                 ///< of current
 };
 
 /// Look at a step's record and files. Code::io for an input that cannot be read, Code::bad_input for a record
@@ -52,8 +52,9 @@ struct FoundState {
 /// Write that it is done. Code::bad_input, naming it, where an output is missing.
 [[nodiscard]] Status mark_done(const RunStep& step, const std::filesystem::path& base, StepRecord record);
 
-/// A record as text, and back; Code::bad_input for a text that is none.
+/// A record as text.
 [[nodiscard]] std::string record_text(const StepRecord& record);
+/// The record of a text; Code::bad_input for one that is none. @param name  of the file, for the message
 [[nodiscard]] Result<StepRecord> parse_record(const std::string& text, const std::string& name);
 
 }  // namespace kinemark::pipeline

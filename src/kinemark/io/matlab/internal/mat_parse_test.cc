@@ -40,10 +40,11 @@ std::string message(const std::string& variable) {
 /// x = [1 2 3] of doubles that are stored as bytes, name and numbers in short elements.
 std::string short_array(bool big) {
   std::string out = words({14, 48}, big) + words({6, 8, 6, 0}, big) + words({5, 8, 1, 3}, big);
-  const auto narrow = [&](std::uint32_t type, std::uint32_t size, const char* bytes) {
-    return words({size << 16 | type}, big) + std::string(bytes, 4);
+  const auto narrow = [&](std::uint32_t type, std::uint32_t size, std::string bytes) {
+    bytes.resize(4, '\0');
+    return words({size << 16 | type}, big) + bytes;
   };
-  return out + narrow(1, 1, "x\0\0\0") + narrow(2, 3, "\1\2\3\0");
+  return out + narrow(1, 1, "x") + narrow(2, 3, "\1\2\3");
 }
 
 TEST(MatParse, ReadsShortElementsAndNumbersNarrowerThanTheirClass) {
