@@ -130,7 +130,8 @@ def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         folder = Path(scratch)
         ours = read_points(amc, folder, "--rate", "120")
-        markers = read_points(folder_of_data / "cmu_02_05.c3d", folder, "--rotate", "x -90")
+        # This laboratory writes the axes y, z, x of its C3D files as x, y, z of its AMC files.
+        markers = read_points(folder_of_data / "cmu_02_05.c3d", folder, "--rotate", "x -90 y -90")
     worst, compared = 0.0, 0
     for frame, points in zip(motion, ours):
         for name, position in placed(*skeleton, frame).items():
