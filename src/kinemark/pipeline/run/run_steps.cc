@@ -42,6 +42,12 @@ std::string replaced(std::string text, std::string_view what, const std::string&
   return text;
 }
 
+/// A file as a word of a command, which is no option even where its name begins like one.
+std::string word_of(const fs::path& file) {
+  const std::string name = file.string();
+  return name.starts_with('-') ? "./" + name : name;
+}
+
 /// A recording and the name of its folder.
 struct Found {
   fs::path file;
@@ -70,7 +76,7 @@ class Planner {
     if (file_.does("joints")) {
       RunStep step = begin(subject, "", "joints", folder);
       const fs::path out = folder / "joints";
-      step.words.push_back(subject.functional);
+      step.words.push_back(word_of(subject.functional));
       step.words.push_back("--output=" + out.string());
       step.inputs.emplace_back(subject.functional);
       for (const char* made : {"centres.csv", "centres.c3d", "skeleton.json", "segments.toml"})
@@ -113,7 +119,7 @@ class Planner {
     if (file_.does("clean")) {
       RunStep step = begin(subject, found.name, "clean", folder);
       markers = folder / "clean.c3d";
-      step.words.insert(step.words.end(), {found.file.string(), markers.string()});
+      step.words.insert(step.words.end(), {word_of(found.file), word_of(markers)});
       step.inputs.push_back(found.file);
       step.outputs = {markers};
       cleaned = add(std::move(step), options("clean"), subject.name, found.file.string());
@@ -152,7 +158,7 @@ class Planner {
     RunStep step = begin(subject, found.name, "report", folder);
     step.inputs = steps_[solved].outputs;
     step.outputs = {folder / "ik.html"};
-    step.words.push_back(step.inputs.front().string());
+    step.words.push_back(word_of(step.inputs.front()));
     step.words.push_back("--output=" + step.outputs.front().string());
     step.after = {solved};
     (void)add(std::move(step), options, subject.name, found.file.string());
@@ -197,7 +203,7 @@ class Planner {
     std::vector<Found> out;
     std::set<fs::path> named;
     for (const auto& trial : subject.trials)
-      if (!is_name_pattern(trial.file)) named.insert(trial.file);
+      if (!is_name_pattern(trial.file)) named.insert(fs::path(trial.file).lexically_normal());
     std::map<std::string, fs::path> taken;
     for (const auto& trial : subject.trials) {
       auto files = files_of(trial);
@@ -221,7 +227,7 @@ class Planner {
 
   /// The files that a name or a pattern stands for, in order.
   Result<std::vector<fs::path>> files_of(const RunTrial& trial) const {
-    const fs::path given = trial.file;
+    const fs::path given = fs::path(trial.file).lexically_normal();
     if (!is_name_pattern(trial.file)) return std::vector<fs::path>{given};
     if (is_name_pattern(given.parent_path().string()))
       return fail(Code::bad_input,

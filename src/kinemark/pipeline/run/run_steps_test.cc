@@ -146,6 +146,13 @@ trials = ["S/run.c3d"]
   EXPECT_THAT(steps[1].inputs, Contains(fs::path("weights.xml")));
 }
 
+TEST_F(PlanSteps, AFileWhoseNameBeginsLikeAnOptionIsNone) {
+  const auto steps =
+      plan("steps = [\"clean\"]\noutput = \"-o\"\n[[subject]]\nname = \"A\"\ntrials = [\"-x.c3d\"]\n")
+          .value();
+  EXPECT_THAT(steps.at(0).words, ElementsAre("clean", "./-x.c3d", "./-o/A/-x/clean.c3d"));
+}
+
 TEST_F(PlanSteps, WhatCannotBePlanned) {
   const auto error = [&](const std::string& more) {
     const auto steps = plan("steps = [\"clean\"]\n[[subject]]\nname = \"A\"\n" + more);
@@ -157,6 +164,8 @@ TEST_F(PlanSteps, WhatCannotBePlanned) {
   EXPECT_THAT(error("trials = [\"S/walk1.c3d\", \"T/walk1.trc\"]"),
               HasSubstr("S/walk1.c3d and T/walk1.trc of subject 'A' would both be called 'walk1'"));
   EXPECT_EQ(error("trials = [\"S/walk1.c3d\", \"S/walk*.c3d\"]"), "") << "one file, named twice";
+  EXPECT_EQ(error("trials = [\"S/walk1.c3d\", \"./S/../S/walk1.c3d\"]"), "")
+      << "one file, written in two ways";
   const auto none = plan("steps = [\"ik\"]\n[[subject]]\nname = \"A\"\ntrials = [\"S/run.c3d\"]\n");
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().message, HasSubstr("no model for ik of subject 'A'"));
