@@ -21,7 +21,8 @@ const std::string kSkeleton =
     "a\nend\n";
 const std::string kFrames = ":DEGREES\n1\nroot 0 0 0 0 0 0\na 1\n2\nroot 0 0 0 0 0 0\na 2\n";
 
-std::string sentence(const std::string& amc, std::optional<std::string> asf, Code code = Code::bad_input) {
+std::string sentence(const std::string& amc, const std::optional<std::string>& asf,
+                     Code code = Code::bad_input) {
   const auto trial = parse_amc(amc, "h.amc", asf, "h.asf", 120.0);
   EXPECT_FALSE(trial) << amc.substr(0, 200) << asf.value_or("").substr(0, 400);
   if (trial) return "";
