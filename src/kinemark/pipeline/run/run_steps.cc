@@ -146,7 +146,7 @@ class Planner {
       step.inputs.push_back(markers);
       if (cleaned != kNone) step.after.push_back(cleaned);
       step.outputs = {out, folder / (solver + "_report.json")};
-      const std::size_t solved = add(std::move(step), std::move(settings), subject.name, found.file.string());
+      const std::size_t solved = add(std::move(step), settings, subject.name, found.file.string());
       if (solver == "ik" && file_.does("report"))
         plan_report(subject, found, folder, solved, options("report"));
     }
@@ -211,9 +211,9 @@ class Planner {
       for (auto& file : *files) {
         if (is_name_pattern(trial.file) && named.contains(file)) continue;
         const std::string name = file.stem().string();
-        if (const auto [other, is_new] = taken.emplace(name, file); !is_new && other->second == file)
-          continue;
-        else if (!is_new)
+        const auto [other, is_new] = taken.emplace(name, file);
+        if (!is_new && other->second == file) continue;
+        if (!is_new)
           return fail(
               Code::bad_input,
               fmt::format("{}: line {}: {} and {} of subject '{}' would both be called '{}'; need "
