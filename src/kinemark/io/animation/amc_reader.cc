@@ -242,7 +242,7 @@ Result<data::Trial> parse_amc(std::string_view amc, std::string_view amc_name,
                          units_of(skeleton.length), extent_of(skeleton.tree, values));
     warnings.push_back(choice.warning);
   }
-  auto trial = trial_of(std::move(skeleton.tree), std::move(values), rate_hz, choice.unit.metres);
+  auto trial = trial_of(std::move(skeleton.tree), values, rate_hz, choice.unit.metres);
   trial.source = amc_name;
   trial.format = "AMC";
   trial.first_frame = reader.first_frame();

@@ -145,8 +145,7 @@ Result<data::Trial> parse(std::string_view text) {
   }
   auto choice = choose_unit("the file states no unit of length", bvh_units(), extent_of(*tree, *values));
   warnings.push_back(std::move(choice.warning));
-  auto trial =
-      trial_of(std::move(*tree), std::move(*values), rate_of(*frame_time_s, *written), choice.unit.metres);
+  auto trial = trial_of(std::move(*tree), *values, rate_of(*frame_time_s, *written), choice.unit.metres);
   trial.format = "BVH";
   trial.warnings.insert(trial.warnings.begin(), warnings.begin(), warnings.end());
   return trial;

@@ -138,7 +138,7 @@ Status check_points(const JointTree& tree, std::int64_t frames, std::size_t byte
                                            frames, points, bytes));
 }
 
-data::Trial trial_of(JointTree tree, JointValues values, double rate_hz, double metres_per_unit) {
+data::Trial trial_of(JointTree tree, const JointValues& values, double rate_hz, double metres_per_unit) {
   const std::size_t channels = tree.channel_count();
   data::Trial trial;
   std::vector<std::size_t> points;

@@ -41,8 +41,7 @@ struct UnitChoice {
 [[nodiscard]] Status check_points(const JointTree& tree, std::int64_t frames, std::size_t bytes);
 
 /// Points in metres, missing where a number is, and the angles as channels. Names that repeat get a number.
-/// @param values  are used up
-[[nodiscard]] data::Trial trial_of(JointTree tree, JointValues values, double rate_hz,
+[[nodiscard]] data::Trial trial_of(JointTree tree, const JointValues& values, double rate_hz,
                                    double metres_per_unit);
 
 }  // namespace kinemark::io::animation
