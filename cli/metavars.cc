@@ -39,7 +39,7 @@ constexpr std::array kValues = {
     Values{"cutoff-rule detector estimator filter flicker gaps interpolation kind loss method outliers "
            "upsampled scene SHELL",
            "NAME"},
-    Values{"lock marker level", "NAME"},
+    Values{"lock marker level bodies", "NAME"},
     Values{"COMMAND", "NAME"},
     Values{"weight coordinate-weight rest intensity", "NAME=VALUE"},
     Values{"images", "CAMERA=FILE"},

@@ -30,7 +30,7 @@ void run(const Biquad& s, std::vector<double>& x) {
 }  // namespace
 
 std::vector<Biquad> butterworth_lowpass(int order, double cutoff) {
-  check(order >= 2 && order <= 20 && order % 2 == 0, "a Butterworth filter has an even order, 2 to 20");
+  check(order >= 1 && order <= 20, "a Butterworth filter has an order of 1 to 20");
   check(cutoff > 0.0 && cutoff < 0.5, "a cut-off lies between 0 and half the sampling rate");
   const double w = std::tan(M_PI * cutoff);  // prewarped, with z = (1 + s) / (1 - s)
   std::vector<Biquad> sections;
@@ -41,6 +41,7 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff) {
     const double b = w * w / a0;
     sections.push_back({b, 2.0 * b, b, 2.0 * (w * w - 1.0) / a0, (1.0 - damping + w * w) / a0});
   }
+  if (order % 2 == 1) sections.push_back({w / (1.0 + w), w / (1.0 + w), 0.0, (w - 1.0) / (1.0 + w), 0.0});
   return sections;
 }
 

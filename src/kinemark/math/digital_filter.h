@@ -12,8 +12,9 @@ struct Biquad {
   double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;  ///< a0 is 1
 };
 
-/// Low-pass Butterworth filter of even order as order / 2 sections, by the bilinear transform.
-/// @param order   2, 4, ... 20
+/// Low-pass Butterworth filter as sections of second order, the last one of first order where the order is
+/// odd, by the bilinear transform.
+/// @param order   1 to 20
 /// @param cutoff  -3 dB of one pass, in units of the sampling rate, inside (0, 0.5)
 [[nodiscard]] std::vector<Biquad> butterworth_lowpass(int order, double cutoff);
 

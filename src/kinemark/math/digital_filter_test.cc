@@ -28,7 +28,7 @@ TEST(DigitalFilter, BothWaysEqualsScipysFiltfilt) {
 }
 
 TEST(DigitalFilter, AmplitudeIsButterworths) {
-  for (const int order : {2, 4, 6, 10}) {
+  for (const int order : {1, 2, 3, 4, 6, 9, 10}) {
     const double cutoff = 0.07;
     const auto sections = butterworth_lowpass(order, cutoff);
     for (const double f : {0.0, 0.03, 0.07, 0.12, 0.3}) {
@@ -92,7 +92,7 @@ TEST(DigitalFilter, ShortInputs) {
 }
 
 TEST(DigitalFilter, RefusesWhatIsNoFilter) {
-  EXPECT_THROW((void)butterworth_lowpass(3, 0.1), ContractError);
+  EXPECT_THROW((void)butterworth_lowpass(0, 0.1), ContractError);
   EXPECT_THROW((void)butterworth_lowpass(2, 0.5), ContractError);
   EXPECT_THROW((void)butterworth_lowpass(2, std::nan("")), ContractError);
   EXPECT_THROW((void)two_pass_cutoff(2, 0.0), ContractError);

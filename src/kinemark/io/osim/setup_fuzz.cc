@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as each of OpenSim's files that say what to do (IK setup and tasks, scale setup, factors, marker
-// set): an answer or one sentence.
+// Any bytes as each of OpenSim's files that say what to do (IK setup and tasks, setups of scaling and of
+// analyses, factors, marker set): an answer or one sentence.
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
 
+#include "kinemark/io/osim/analysis_setup.h"
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "support/scratch.h"
@@ -38,6 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto tasks = io::read_ik_tasks(path); sane(tasks)) check_tasks(*tasks);
   if (const auto setup = io::read_ik_setup(path); sane(setup)) check_tasks(setup->tasks);
   if (const auto setup = io::read_scale_setup(path); sane(setup)) check_tasks(setup->tasks);
+  sane(io::read_analysis_setup(path));
   sane(io::read_scale_set(path));
   sane(io::read_marker_set(path));
   return 0;

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/io/number.h"
+#include "kinemark/pipeline/files/outcome_json.h"
+#include "kinemark/pipeline/motion/analysis_job.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct AnalyzeArguments {
+  pipeline::AnalysisJob job;
+  std::vector<std::string> points;
+  bool no_error_bars = false;
+};
+
+/// NAME=BODY:X,Y,Z
+Result<pipeline::AnalysisPoint> parse_point(const std::string& text) {
+  const auto wrong =
+      fail(Code::usage, fmt::format("'{}' is not NAME=BODY:X,Y,Z with X, Y, Z in metres", text));
+  const auto equals = text.find('='), colon = text.rfind(':');
+  if (equals == std::string::npos || colon == std::string::npos || equals == 0 || colon <= equals + 1)
+    return wrong;
+  pipeline::AnalysisPoint point{.name = text.substr(0, equals),
+                                .body = text.substr(equals + 1, colon - equals - 1)};
+  std::size_t begin = colon + 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto end = axis < 2 ? text.find(',', begin) : text.size();
+    if (end == std::string::npos) return wrong;
+    const auto value = io::parse_number(text.substr(begin, end - begin));
+    if (!value || !std::isfinite(*value)) return wrong;
+    point.x_in_body[axis] = *value;
+    begin = end + 1;
+  }
+  return point;
+}
+
+void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome& outcome) {
+  for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
+  say(common, fmt::format("{} rows at {:g} Hz from {:g} s.", outcome.time.frames, outcome.time.rate_hz,
+                          outcome.time.t0_s));
+  say_written(common, outcome);
+  if (!common.json) return;
+  auto json = pipeline::outcome_json(outcome);
+  json["rows"] = outcome.time.frames;
+  json["rate_hz"] = outcome.time.rate_hz;
+  json["facts"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : outcome.facts) json["facts"][name] = value;
+  print_result(json.dump(2) + "\n");
+}
+
+int run_command(const CommonOptions& common, const AnalyzeArguments& arguments) {
+  auto job = arguments.job;
+  job.error_bars = !arguments.no_error_bars;
+  for (const auto& text : arguments.points) {
+    auto point = parse_point(text);
+    if (!point) return report_error(point.error());
+    job.points.push_back(std::move(*point));
+  }
+  return run_job(common, "files", job, pipeline::run_analysis, print_outcome);
+}
+
+void add_options(CLI::App& command, AnalyzeArguments& a) {
+  auto& job = a.job;
+  command.add_option("IN", job.motion,
+                     "Motion: .mot or .sto of coordinates, with Q_sd.sto beside it if there is one");
+  command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
+  command
+      .add_option("--forces", job.forces,
+                  "External forces, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
+      ->group("Input");
+  command
+      .add_option("--setup", job.setup,
+                  "OpenSim AnalyzeTool or InverseDynamicsTool setup; other options take precedence")
+      ->group("Input");
+  command.add_option("--start", job.first_time_s, "First time to write, s")->group("Input");
+  command.add_option("--end", job.last_time_s, "Last time to write, s")->group("Input");
+  command.add_option("-o,--output", job.output, "Folder for the results")
+      ->type_name("FOLDER")
+      ->group("Output");
+  command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations")->group("Output");
+  command.add_option("--bodies", job.bodies, "Bodies to follow, center_of_mass among them; all when absent")
+      ->delimiter(',')
+      ->group("What");
+  command
+      .add_option("--point", a.points,
+                  "Point of a body to follow, in metres: heel=calcn_r:0.01,0.02,0.03. Repeatable.")
+      ->type_name("NAME=BODY:X,Y,Z")
+      ->expected(1)
+      ->group("What");
+  command.add_flag("--torques", job.torques, "Inverse dynamics too (N m, N); --forces implies it")
+      ->group("What");
+  command
+      .add_option(
+          "--cutoff", job.cutoff_hz,
+          "Low-pass of the coordinates beforehand, as OpenSim's, Hz; 0: none, each is smoothed by itself")
+      ->capture_default_str()
+      ->group("Rates");
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
+  auto* command = app.add_subcommand(
+      "analyze", "What bodies and points do along a motion: positions, velocities, accelerations, torques");
+  command->footer(
+      "Writes into the folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
+      "NAME_BodyKinematics_pos,\n_vel, _acc_global.sto (mass centres, body-fixed X-Y-Z angles), "
+      "NAME_PointKinematics_POINT_pos, _vel, _acc.sto,\nNAME_inverse_dynamics.sto, beside each its standard "
+      "deviations (_sd.sto), and NAME_analysis.json. Degrees, metres, seconds, N m.");
+  const auto arguments = std::make_shared<AnalyzeArguments>();
+  add_options(*command, *arguments);
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+#include "kinemark/data/table.h"
+#include "kinemark/model/model.h"
+
+namespace kinemark::pipeline {
+
+/// Coordinates of a model through time, as a table has them: F frames, n coordinates.
+struct CoordinateRows {
+  TimeBase time;                   ///< F = time.frames
+  std::vector<Eigen::VectorXd> q;  ///< F, each of n numbers in the model's order; rad and m, all finite
+  Array<std::uint8_t> is_filled;   ///< F x n; 1: the table has no number there
+  std::vector<std::string> notes;  ///< what was filled and taken, one sentence each
+};
+
+/// A coordinate without a column keeps its default value; one that is coupled to another is left to the
+/// coupling. Cells without a number are filled on a straight line between those around them, and hold the
+/// nearest one at the ends. O(F n).
+///
+/// Code::bad_input: fewer than two rows, rows that are not evenly spaced to a hundredth of a frame, no column
+/// that is a coordinate, a coordinate without any number.
+[[nodiscard]] Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Table& table);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What follows from a motion and its model: rates of the coordinates, where bodies and points are and how
+// they move, torques. What OpenSim's AnalyzeTool and InverseDynamicsTool compute, each number with its
+// deviation.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/pipeline/files/job_settings.h"
+
+namespace kinemark::pipeline {
+
+/// A point of a body that is to be followed.
+struct AnalysisPoint {
+  std::string name, body;                               ///< body of the model, or "ground"
+  Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();  ///< m
+};
+
+/// What `kinemark analyze` is asked to do.
+struct AnalysisJob : JobSettings {
+  std::filesystem::path motion;  ///< .mot or .sto of coordinates; Q_sd.sto beside it is read if it is there
+  std::filesystem::path model;   ///< .osim
+  std::filesystem::path forces;  ///< external forces on the body, .c3d or ExternalLoads .xml; empty: none
+  std::filesystem::path setup;   ///< AnalyzeTool or InverseDynamicsTool; empty: none
+  std::filesystem::path output;  ///< folder
+  std::vector<std::string> bodies;    ///< to follow; empty: as the setup says, else all
+  std::vector<AnalysisPoint> points;  ///< to follow, besides those of the setup
+  bool torques = false;               ///< inverse dynamics too; `forces` implies it
+  bool error_bars = true;             ///< standard deviations too
+  double cutoff_hz = 0.0;  ///< low-pass of the coordinates beforehand; 0: as the setup says, else none
+  double first_time_s = -std::numeric_limits<double>::infinity();  ///< infinite: as the setup says
+  double last_time_s = std::numeric_limits<double>::infinity();    ///< infinite: as the setup says
+};
+
+/// What `kinemark analyze` answers.
+struct AnalysisOutcome : JobOutcome {
+  TimeBase time;                                           ///< of the rows that were written
+  std::vector<data::InputFile> inputs;                     ///< all that were read
+  std::vector<std::pair<std::string, std::string>> facts;  ///< of method and torques, for the record
+};
+
+/// Compute and write, into the folder `output` under OpenSim's names, with NAME the setup's or the motion's:
+/// NAME_Kinematics_{q,u,dudt}.sto, NAME_BodyKinematics_{pos,vel,acc}_global.sto,
+/// NAME_PointKinematics_POINT_{pos,vel,acc}.sto, NAME_inverse_dynamics.sto, beside each its deviations
+/// (..._sd.sto), and NAME_analysis.json. Rates come from the whole motion; rows are those from first to last
+/// time, with a setup from the row at or before its first time, as OpenSim takes them.
+///
+/// A low-pass is OpenSim's (Butterworth of third order, run both ways, -3 dB of one pass at the cut-off).
+/// What it leaves of the noise is not known, so that there are no deviations then.
+///
+/// Code::usage for what is not named or does not exist in the model; Code::bad_input for files that do not
+/// fit; Code::io as Staging. Fails as inverse_dynamics() where torques are asked for.
+[[nodiscard]] Result<AnalysisOutcome> run_analysis(const AnalysisJob& job);
+
+}  // namespace kinemark::pipeline
