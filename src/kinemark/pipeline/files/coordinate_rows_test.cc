@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/coordinate_rows.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "kinemark/core/units.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kBlank = std::numeric_limits<double>::quiet_NaN();
+
+/// An angle and a length.
+model::Model chain() {
+  data::ModelDescription m{.name = "chain"};
+  m.bodies = {{.name = "a", .mass = 1.0}, {.name = "b", .mass = 1.0}};
+  m.coordinates = {{.name = "turn", .default_value = 0.2},
+                   {.name = "slide", .is_rotation = false, .default_value = 0.5}};
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  m.joints = {{.name = "one", .child_body_idx = 0, .axes = {{.axis = x, .coordinate_idx = 0}}},
+              {.name = "two",
+               .parent_body_idx = 0,
+               .child_body_idx = 1,
+               .axes = {{.is_rotation = false, .axis = x, .coordinate_idx = 1}}}};
+  return model::Model::compile(m).value();
+}
+
+data::Table rows(std::vector<std::string> columns, const std::vector<double>& values) {
+  data::Table out{.in_degrees = true, .columns = std::move(columns)};
+  for (std::size_t r = 0; r < values.size() / out.columns.size(); ++r)
+    out.time_s.push_back(1.0 + 0.01 * static_cast<double>(r));
+  out.values.assign(values.begin(), values.end());
+  return out;
+}
+
+TEST(CoordinateRows, ColumnsInAnyOrderDegreesAndMetres) {
+  const auto read =
+      coordinate_rows(chain(), rows({"slide", "other", "turn"}, {0.1, 9, 90, 0.2, 9, -45})).value();
+  EXPECT_NEAR(read.time.rate_hz, 100.0, 1e-9);
+  EXPECT_EQ(read.time.t0_s, 1.0);
+  EXPECT_EQ(read.time.frames, 2);
+  EXPECT_NEAR(read.q[0][0], 90 * kRadPerDeg, 1e-15);
+  EXPECT_EQ(read.q[1][1], 0.2);
+  EXPECT_THAT(read.is_filled, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(read.notes, IsEmpty());
+}
+
+TEST(CoordinateRows, WhatIsBlankIsFilledAndMarked) {
+  const auto read =
+      coordinate_rows(chain(), rows({"turn", "slide"}, {kBlank, 1, 10, kBlank, 20, kBlank, kBlank, 4}))
+          .value();
+  EXPECT_NEAR(read.q[0][0], 10 * kRadPerDeg, 1e-15) << "the nearest at the beginning";
+  EXPECT_NEAR(read.q[3][0], 20 * kRadPerDeg, 1e-15) << "and at the end";
+  EXPECT_NEAR(read.q[1][1], 2.0, 1e-12) << "a straight line between";
+  EXPECT_NEAR(read.q[2][1], 3.0, 1e-12);
+  EXPECT_THAT(read.is_filled, ElementsAre(1, 0, 0, 1, 0, 1, 1, 0));
+  EXPECT_THAT(read.notes, ElementsAre("4 cells without a number were filled from those around them"));
+}
+
+TEST(CoordinateRows, WhatIsAbsentKeepsItsDefault) {
+  const auto read = coordinate_rows(chain(), rows({"turn"}, {1, 2})).value();
+  EXPECT_EQ(read.q[1][1], 0.5);
+  EXPECT_THAT(read.is_filled, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(read.notes,
+              ElementsAre(HasSubstr("1 coordinate of the model has no column and keeps the default "
+                                    "value: slide")));
+}
+
+TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
+  const auto refused = [](const data::Table& table) {
+    const auto read = coordinate_rows(chain(), table);
+    return read ? std::string() : read.error().message;
+  };
+  EXPECT_THAT(refused(rows({"turn"}, {1})), HasSubstr("holds 1 row; a motion needs two rows"));
+  EXPECT_THAT(refused(rows({"knee"}, {1, 2})),
+              HasSubstr("none of its columns is a coordinate of model 'chain'"));
+  EXPECT_THAT(refused(rows({"turn", "slide"}, {1, kBlank, 2, kBlank})),
+              HasSubstr("coordinate 'slide' has no number in any row"));
+  auto uneven = rows({"turn"}, {1, 2, 3, 4});
+  uneven.time_s[2] += 0.003;
+  EXPECT_THAT(refused(uneven), HasSubstr("row 3 is at 1.023 s"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

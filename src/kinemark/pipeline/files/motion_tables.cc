@@ -44,7 +44,7 @@ data::Table coordinate_columns(const data::JointMotion& motion, const Array<doub
 data::Table forces_table(const data::JointMotion& motion, const Array<double>& values, std::string name) {
   data::Table table = empty_table(motion, std::move(name));
   for (std::size_t c = 0; c < motion.coordinates.size(); ++c)
-    table.columns.push_back(motion.coordinates[c] + (motion.is_rotation[c] ? "_moment" : "_force"));
+    table.columns.push_back(motion.coordinates[c] + (file_unit(motion, c) != 1.0 ? "_moment" : "_force"));
   table.values = values;
   return table;
 }

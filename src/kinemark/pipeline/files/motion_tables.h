@@ -22,8 +22,8 @@ namespace kinemark::pipeline {
 /// What the error of each coordinate cannot exceed, degrees or metres; NaN where not determined.
 [[nodiscard]] data::Table bounds_table(const data::JointMotion& motion);
 
-/// Generalised forces, one column per coordinate ("knee_moment" in N m, "pelvis_tx_force" in N), and one
-/// standard deviation of each.
+/// Generalised forces, one column per coordinate: "knee_moment" in N m, "pelvis_tx_force" in N; OpenSim says
+/// "_force" of a rotation that keeps radians too, and so do we.
 [[nodiscard]] data::Table torques_table(const data::JointMotion& motion);
 /// The standard deviations in a table of the same shape; NaN where not known.
 [[nodiscard]] data::Table torque_deviations_table(const data::JointMotion& motion);

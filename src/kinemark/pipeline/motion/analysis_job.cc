@@ -86,6 +86,20 @@ void low_pass(double cutoff_hz, data::JointMotion& motion) {
   }
 }
 
+/// Coupled coordinates follow those that drive them.
+void couple(const model::Model& model, Motion& read) {
+  auto& motion = read.motion;
+  for (const int c : model.coordinate_order()) {
+    const auto& coordinate = model.coordinates()[at(c)];
+    if (coordinate.source < 0) continue;
+    for (std::int64_t f = 0; f < motion.frames(); ++f) {
+      const auto to = motion.index(f, c), from = motion.index(f, coordinate.source);
+      motion.q[to] = coordinate.coupling(motion.q[from]).f;
+      read.is_filled[to] = read.is_filled[from];
+    }
+  }
+}
+
 Result<Motion> read_motion(const AnalysisPlan& plan, const model::Model& model, AnalysisOutcome& out) {
   auto table = io::read_table(plan.motion);
   if (!table) return std::unexpected(table.error());
@@ -113,6 +127,7 @@ Result<Motion> read_motion(const AnalysisPlan& plan, const model::Model& model, 
     if (!deviations) return std::unexpected(deviations.error());
     if (*deviations) set_deviations(**deviations, model.description(), motion);
   }
+  couple(model, read);
   motion.determined.assign(motion.q.size(), 1);
   for (std::size_t i = 0; i < motion.q.size(); ++i)
     motion.determined[i] = read.is_filled[i] == 0 && (motion.q_sd.empty() || !std::isnan(motion.q_sd[i]));
@@ -143,14 +158,35 @@ RowRange rows_in(const AnalysisPlan& plan, const TimeBase& time) {
   return rows;
 }
 
+/// Derivatives of a coordinate (order 0), its speed (1) or acceleration (2) by q, qd, qdd of the one that it
+/// is coupled to; without the coupling's third derivative.
+Eigen::Vector3d coupled_derivatives(const math::ScalarFunction& coupling, double q, double qd, double qdd,
+                                    int order) {
+  const auto at_q = coupling(q);
+  if (order == 0) return {at_q.df, 0.0, 0.0};
+  if (order == 1) return {at_q.ddf * qd, at_q.df, 0.0};
+  return {at_q.ddf * qdd, 2.0 * at_q.ddf * qd, at_q.df};
+}
+
 /// Standard deviation of q, qd or qdd of every coordinate; NaN where it is not determined.
-Array<double> deviations_of(const Motion& read, int order) {
-  constexpr std::array kDiagonal{0, 3, 5};
-  Array<double> sd(read.motion.q.size());
-  for (std::size_t i = 0; i < sd.size(); ++i)
-    sd[i] = read.motion.determined[i] == 0
-                ? kNaN
-                : std::sqrt(read.errors.covariance[6 * i + at(kDiagonal[at(order)])]);
+Array<double> deviations_of(const model::Model& model, const Motion& read, int order) {
+  const auto& motion = read.motion;
+  Array<double> sd(motion.q.size(), kNaN);
+  for (std::int64_t c = 0; c < motion.size(); ++c) {
+    const auto& coordinate = model.coordinates()[at(c)];
+    const auto from = coordinate.source >= 0 ? coordinate.source : c;
+    for (std::int64_t f = 0; f < motion.frames(); ++f) {
+      const auto i = motion.index(f, from);
+      if (motion.determined[i] == 0) continue;
+      const auto p = motion::covariance_as_held(motion, read.errors, f, from);
+      Eigen::Matrix3d covariance;
+      covariance << p[0], p[1], p[2], p[1], p[3], p[4], p[2], p[4], p[5];
+      const Eigen::Vector3d by = from == c ? Eigen::Vector3d(Eigen::Vector3d::Unit(order))
+                                           : coupled_derivatives(coordinate.coupling, motion.q[i],
+                                                                 motion.qd[i], motion.qdd[i], order);
+      sd[motion.index(f, c)] = std::sqrt(std::max(0.0, by.dot(covariance * by)));
+    }
+  }
   return sd;
 }
 
@@ -171,7 +207,7 @@ class Results {
             return coordinate_rates_table(kNames[at(k)], read_.motion, v, plan_.coordinates,
                                           plan_.kinematics_in_degrees, rows_);
           },
-          *values[at(k)], deviations_of(read_, k));
+          *values[at(k)], deviations_of(model_, read_, k));
   }
 
   void add_bodies(const motion::BodyMotion& bodies) {

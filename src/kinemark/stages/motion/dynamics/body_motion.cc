@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kinemark/core/index.h"
@@ -128,7 +129,7 @@ class Follower {
 };
 
 /// Lower triangular factor of a covariance of q, qd, qdd, given as its upper triangle by rows.
-Matrix3d factor(const double* upper) {
+Matrix3d factor(const std::array<double, 6>& upper) {
   Matrix3d p;
   p << upper[0], upper[1], upper[2], upper[1], upper[3], upper[4], upper[2], upper[4], upper[5];
   // A Cholesky factor column by column, with what rounding makes negative taken as 0.
@@ -146,7 +147,7 @@ Matrix3d factor(const double* upper) {
 class FrameFollower {
  public:
   FrameFollower(const model::Model& model, const data::JointMotion& motion, const BodyMotionOptions& options,
-         const RateErrors& errors, const Array<std::uint8_t>& is_filled, BodyMotion& out)
+                const RateErrors& errors, const Array<std::uint8_t>& is_filled, BodyMotion& out)
       : model_(model),
         motion_(motion),
         errors_(errors),
@@ -176,7 +177,7 @@ class FrameFollower {
       if (filled || (bars_ && !motion_.determined.empty() && motion_.determined[i] == 0))
         withdraw(c, filled ? value : nullptr);
       else if (bars_)
-        spread(c, errors_.covariance.data() + 6 * i);
+        spread(c, covariance_as_held(motion_, errors_, f, c));
     }
     if (!bars_) return;
     double* sd = out_.sd.data() + out_.index(f, 0, 0);
@@ -207,7 +208,7 @@ class FrameFollower {
     return high_;
   }
 
-  void spread(int c, const double* covariance) {
+  void spread(int c, const std::array<double, 6>& covariance) {
     if (std::isnan(covariance[0])) return withdraw(c, nullptr);
     const Matrix3d l = factor(covariance);
     for (int k = 0; k < 3; ++k) {
@@ -240,8 +241,8 @@ class FrameFollower {
 };
 
 Status check_followed(const model::Model& model, const data::JointMotion& motion,
-                   const BodyMotionOptions& options, const RateErrors& errors,
-                   const Array<std::uint8_t>& is_filled) {
+                      const BodyMotionOptions& options, const RateErrors& errors,
+                      const Array<std::uint8_t>& is_filled) {
   if (auto status = motion.validate(); !status) return status;
   if (motion.size() != model.coordinate_count())
     return fail(Code::bad_input, fmt::format("the motion has {} coordinates, the model {}", motion.size(),
@@ -266,7 +267,8 @@ Status check_followed(const model::Model& model, const data::JointMotion& motion
 Result<BodyMotion> body_motion(const model::Model& model, const data::JointMotion& motion,
                                const BodyMotionOptions& options, const RateErrors& errors,
                                const Array<std::uint8_t>& is_filled) {
-  if (auto s = check_followed(model, motion, options, errors, is_filled); !s) return std::unexpected(s.error());
+  if (auto s = check_followed(model, motion, options, errors, is_filled); !s)
+    return std::unexpected(s.error());
   BodyMotion out{
       .time = motion.time, .bodies = std::ssize(options.body_idx), .points = std::ssize(options.points)};
   const auto size = at(3 * motion.frames() * out.columns());

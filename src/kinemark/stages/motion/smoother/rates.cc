@@ -53,6 +53,7 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
                 fmt::format("the motion has {} frames; rates of change need {} or more", F, kFewestSamples));
   RateErrors errors;
   errors.covariance.assign(at(6 * F * n), kNaN);
+  errors.noise_scale.assign(at(n), 0.0);
   Array<double> v(at(F * n), 0.0), a(at(F * n), 0.0);
   std::vector<double> y(at(F)), sd;
   for (std::int64_t c = 0; c < n; ++c) {
@@ -74,6 +75,7 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
       if (!motion.determined.empty() && motion.determined[i] == 0) sd[at(f)] = kNaN;
     }
     const auto smooth = smooth_coordinate(y, sd, motion.time.rate_hz);
+    errors.noise_scale[at(c)] = smooth.noise_scale;
     for (std::int64_t f = 0; f < F; ++f) {
       const auto i = motion.index(f, c);
       v[i] = smooth.rate[f];
@@ -88,6 +90,17 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
     couple_rates(model, motion);
   }
   return errors;
+}
+
+std::array<double, 6> covariance_as_held(const data::JointMotion& motion, const RateErrors& errors,
+                                         std::int64_t frame, std::int64_t coordinate) {
+  const auto i = motion.index(frame, coordinate);
+  std::array<double, 6> out{};
+  std::copy_n(errors.covariance.begin() + 6 * static_cast<std::ptrdiff_t>(i), 6, out.begin());
+  const double scale = errors.noise_scale.empty() ? 0.0 : errors.noise_scale[at(coordinate)];
+  const double sd = motion.q_sd.empty() ? scale : motion.q_sd[i];
+  out[0] = std::max(out[0], sd * sd);
+  return out;
 }
 
 }  // namespace kinemark::motion
