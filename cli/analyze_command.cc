@@ -90,12 +90,13 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
   command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations")->group("Output");
   command.add_option("--bodies", job.bodies, "Bodies to follow, center_of_mass among them; all when absent")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group("What");
   command
       .add_option("--point", a.points,
                   "Point of a body to follow, in metres: heel=calcn_r:0.01,0.02,0.03. Repeatable.")
       ->type_name("NAME=BODY:X,Y,Z")
-      ->expected(1)
+      ->allow_extra_args(false)
       ->group("What");
   command.add_flag("--torques", job.torques, "Inverse dynamics too (N m, N); --forces implies it")
       ->group("What");

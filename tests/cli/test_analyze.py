@@ -25,7 +25,7 @@ class AnalyzeTest(CommandTest):
         return ["analyze", "in/truth.mot", "--model", "in/model.osim", *more]
 
     def test_the_way_of_the_readme(self):
-        done = self.good(*self.analyze("-o", "out", "--torques", "--point", "toe=calcn_r:0.15,0,0"))
+        done = self.good(*self.analyze("-o", "out", "--torques", "--point", "toe=calcn_r:0.15,0,0", "--point", "still=ground:0,0,0"))
         self.assertIn("rows at 100 Hz from 0 s.", done.err)
         names = {path.name for path in (self.folder / "out").iterdir()}
         for name in ("Kinematics_q", "Kinematics_u", "Kinematics_dudt", "BodyKinematics_pos_global", "BodyKinematics_vel_global",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "kinemark/core/counted.h"
@@ -110,6 +111,12 @@ struct Numbers {
   std::int64_t rows = 0;
 };
 
+/// Whether a cell stands for a missing number: the word itself, or the same number written otherwise.
+bool is_missing(std::string_view cell, std::optional<double> number, std::string_view missing) {
+  const auto word = parse_number(missing);
+  return cell == missing || !number || !std::isfinite(*number) || (word && *word == *number);
+}
+
 Status parse_row(std::string_view row, std::size_t width, std::string_view missing, Array<double>& out) {
   std::size_t count = 0;
   for (bool more = true; more; ++count) {
@@ -123,7 +130,7 @@ Status parse_row(std::string_view row, std::size_t width, std::string_view missi
     if (!number && cell != missing && cell != "n/a" && !cell.empty())
       return fail(Code::bad_input, fmt::format("column {}: '{}'; expected a number or {}", count + 1,
                                                printable(cell, 40), printable(missing, 40)));
-    out.push_back(number && cell != missing && std::isfinite(*number) ? *number : kNaN);
+    out.push_back(is_missing(cell, number, missing) ? kNaN : *number);
   }
   if (count != width)
     return fail(Code::bad_input, fmt::format("{}; channels.tsv names {}", counted(count, "column"), width));

@@ -49,6 +49,16 @@ TEST(MotionReader, ColumnsAreFoundByTheirRowsInAnyOrder) {
       ElementsAre(HasSubstr("r1, foot"), HasSubstr("column l1 puts frame 2 at 0.2 s and the rate at 0.111")));
 }
 
+TEST(MotionReader, AMissingValueIsANumberHoweverItIsWritten) {
+  const auto trial =
+      parse("-999.0\t3000\t2000\t1\t0\t4\t5\t6\t7\r\n-9.99e2\t-998.9\t1\t1\t0.011\t4\t5\t6\t7\r\n");
+  ASSERT_TRUE(trial) << trial.error().message;
+  EXPECT_FALSE(trial->markers.present(0, 0));
+  EXPECT_FALSE(trial->markers.present(1, 0));
+  const auto near = parse("1\t-998.9\t2\t1\t0\t4\t5\t6\t7\n");
+  EXPECT_TRUE(near->markers.present(0, 0)) << "another number is a measurement";
+}
+
 TEST(MotionReader, WhatDoesNotFitIsRefusedWithItsLine) {
   const std::string row = "1\t2\t3\t4\t5\t6\t7\t8\t9\n";
   EXPECT_EQ(message(parse(row)), "read");

@@ -46,6 +46,11 @@ const MarkerFormat* format_of(std::string_view begin, const std::string& extensi
   return found == formats.end() || found->read == nullptr ? nullptr : &*found;
 }
 
+bool is_read(const std::string& extension) {
+  const auto known = read_extensions();
+  return std::ranges::find(known, extension) != known.end();
+}
+
 std::string names_without_rate() {
   std::vector<std::string> names;
   for (const MarkerFormat& f : marker_formats())
@@ -70,6 +75,11 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
   if (!size) return std::unexpected(size.error());
   const std::string extension = lower_extension(path);
   const MarkerFormat* format = format_of({begin.data(), *size}, extension);
+  if (format == nullptr && *size == 0)
+    return fail(Code::bad_input, fmt::format("{}: is empty", path.string()));
+  if (format == nullptr && is_read(extension))
+    return fail(Code::bad_input,
+                fmt::format("{}: does not begin as a {} file does", path.string(), extension));
   if (format == nullptr)
     return fail(Code::not_supported, fmt::format("{}: {} is not read as a marker file; supported are {}",
                                                  path.string(), named(extension), names_of_read_formats()));

@@ -137,6 +137,49 @@ TEST(HostileMat, FieldsOfOtherKindsAreRefusedOrPassedOver) {
     }
 }
 
+/// One marker, two frames at 100 Hz from 0 s, with one field replaced or added.
+std::string two_frames(const std::string& field, const std::string& value,
+                       const std::string& name = "trial") {
+  using namespace internal;
+  MatFields all = {{"kinemark", mat_number(1)},
+                   {"rate", mat_number(100)},
+                   {"start", mat_number(0)},
+                   {"first_frame", mat_number(1)},
+                   {"frames", mat_number(2)},
+                   {"time", mat_numbers(std::vector<double>{0, 0.01}, {2, 1})},
+                   {"labels", mat_texts(std::vector<std::string>{"a"})},
+                   {"data", mat_numbers(std::vector<double>{1, 4, 2, 5, 3, 6}, {2, 1, 3})},
+                   {"status", mat_numbers(std::vector<double>{1, 1}, {2, 1})}};
+  const auto same = std::ranges::find(all, field, &std::pair<std::string, std::string>::first);
+  if (same != all.end())
+    same->second = value;
+  else
+    all.emplace_back(field, value);
+  return mat_struct(all, name);
+}
+
+std::string said(const std::vector<std::string>& variables) {
+  const auto file = testing::mat_file(variables);
+  const auto trial = parse_mat(std::as_bytes(std::span(file)), "f.mat");
+  if (!trial) return trial.error().message;
+  return trial->warnings.empty() ? "read" : trial->warnings.front();
+}
+
+TEST(HostileMat, UnitsAndTimesThatSayOtherwiseAreRefused) {
+  using namespace internal;
+  EXPECT_EQ(said({two_frames("units", mat_text("m"))}), "read");
+  EXPECT_THAT(said({two_frames("units", mat_text("mm"))}), HasSubstr("is 'mm'; expected m"));
+  EXPECT_THAT(said({two_frames("time", mat_numbers(std::vector<double>{0, 0.02}, {2, 1}))}),
+              HasSubstr("is 0.02 s in row 2; 100 Hz from 0 s need 0.01"));
+  EXPECT_THAT(said({two_frames("start", mat_number(5))}), HasSubstr("is 0 s in row 1"));
+}
+
+TEST(HostileMat, OfSeveralRecordingsTheFirstIsReadAndTheOthersSaid) {
+  using namespace internal;
+  EXPECT_THAT(said({two_frames("units", mat_text("m"), "walk"), two_frames("units", mat_text("m"), "jog")}),
+              HasSubstr("of several recordings 'walk' is read; not read: jog"));
+}
+
 TEST(HostileMat, ANameForTheTerminalIsMadeSafe) {
   using namespace internal;
   const std::string file = testing::mat_file({mat_struct({{"a", mat_number(1)}}, "x\x1b[31m\n")});

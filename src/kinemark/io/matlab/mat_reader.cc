@@ -31,10 +31,21 @@ bool has_version_5(std::string_view begin) {
 
 Result<data::Trial> read_variables(const std::vector<internal::MatArray>& variables) {
   std::vector<std::string> names;
+  const internal::MatArray* found = nullptr;
+  std::vector<std::string> others;
   for (const auto& variable : variables) {
-    if (internal::is_own_struct(variable)) return internal::read_own_struct(variable);
-    if (internal::is_qtm_struct(variable)) return internal::read_qtm_struct(variable);
+    const bool is_recording = internal::is_own_struct(variable) || internal::is_qtm_struct(variable);
+    if (is_recording && found) others.push_back(printable(variable.name, 63));
+    if (is_recording && !found) found = &variable;
     if (!variable.name.empty()) names.push_back(printable(variable.name, 63));
+  }
+  if (found) {
+    auto trial = internal::is_own_struct(*found) ? internal::read_own_struct(*found)
+                                                 : internal::read_qtm_struct(*found);
+    if (trial && !others.empty())
+      trial->warnings.push_back(fmt::format("of several recordings '{}' is read; not read: {}",
+                                            printable(found->name, 63), join_some(others, kNamesInMessage)));
+    return trial;
   }
   return fail(Code::not_supported, fmt::format("holds {}{}; expected a struct of kinemark or one that QTM "
                                                "exported, with Trajectories and FrameRate",

@@ -54,6 +54,17 @@ PointKinematicsAnalysis read_point(XmlFile& file, pugi::xml_node node) {
           .x_in_body = file.vector3(node, "point")};
 }
 
+/// What an analysis says of time, which is the tool's here.
+void note_times(XmlFile& file, pugi::xml_node node, AnalysisSetup& setup) {
+  const bool ends = file.number(node, "start_time", setup.time_begin_s) > setup.time_begin_s ||
+                    file.number(node, "end_time", setup.time_end_s) < setup.time_end_s;
+  if (ends || file.number(node, "step_interval", 1.0) > 1.0)
+    setup.notes.push_back(fmt::format(
+        "{}: <start_time>, <end_time> and <step_interval> of {} are passed over; all rows between the "
+        "tool's times are written",
+        file.name(), in_quotes(name_or(node, node.name()))));
+}
+
 void read_analysis(XmlFile& file, pugi::xml_node node, AnalysisSetup& setup) {
   if (!file.flag(node, "on", true)) return;
   const std::string_view tag = node.name();
@@ -80,7 +91,9 @@ void read_analysis(XmlFile& file, pugi::xml_node node, AnalysisSetup& setup) {
         fmt::format("{}: {} is passed over; Kinematics, BodyKinematics, PointKinematics and InverseDynamics "
                     "are computed",
                     file.name(), in_quotes(name_or(node, std::string(tag)))));
+    return;
   }
+  note_times(file, node, setup);
 }
 
 void read_analyze_tool(XmlFile& file, pugi::xml_node tool, AnalysisSetup& setup) {

@@ -97,6 +97,20 @@ TEST_F(AnalysisSetups, WhatIsSwitchedOffDoesNotCountAndWhatIsUnknownIsSaid) {
   EXPECT_TRUE(std::isinf(setup.time_begin_s));
 }
 
+TEST_F(AnalysisSetups, TimesOfAnAnalysisWithinThoseOfTheToolAreSaid) {
+  const auto notes = [&](const std::string& times) {
+    return analyze("<initial_time>0.5</initial_time><final_time>1</final_time>",
+                   "<Kinematics name=\"k\">" + times + "</Kinematics>")
+        .value()
+        .notes;
+  };
+  EXPECT_THAT(notes("<start_time>0</start_time><end_time>2</end_time><step_interval>1</step_interval>"),
+              IsEmpty());
+  EXPECT_THAT(notes("<start_time>0.6</start_time>"), ElementsAre(HasSubstr("of 'k' are passed over")));
+  EXPECT_THAT(notes("<end_time>0.9</end_time>"), ElementsAre(HasSubstr("of 'k' are passed over")));
+  EXPECT_THAT(notes("<step_interval>10</step_interval>"), ElementsAre(HasSubstr("of 'k' are passed over")));
+}
+
 TEST_F(AnalysisSetups, AnInverseDynamicsTool) {
   const auto setup = read(R"(<InverseDynamicsTool name="id"><time_range>0.1 0.9</time_range>
       <external_loads_file>loads.xml</external_loads_file><coordinates_file>q.mot</coordinates_file>

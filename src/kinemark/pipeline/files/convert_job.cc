@@ -98,8 +98,8 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
   auto trial = merge_trials(std::move(trials));
   if (!trial) return std::unexpected(trial.error());
   if (auto s = take_selection(job.selection, *trial); !s) return fail_at(job.in.string(), s.error());
-  if (job.resample_hz != 0.0)
-    if (auto s = resample(*trial, job.resample_hz); !s) return fail_at(job.in.string(), s.error());
+  if (job.resample_hz)
+    if (auto s = resample(*trial, *job.resample_hz); !s) return fail_at(job.in.string(), s.error());
   if (!job.rotate.empty()) {
     const auto turning = parse_rotation(job.rotate);
     if (!turning) return std::unexpected(turning.error());
@@ -159,7 +159,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
   if (!job.selection.empty() && kind_of(from) != Kind::markers)
     return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
-  if ((!job.merged.empty() || job.resample_hz != 0.0) && kind_of(from) != Kind::markers)
+  if ((!job.merged.empty() || job.resample_hz) && kind_of(from) != Kind::markers)
     return fail(Code::usage,
                 fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
   std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton};

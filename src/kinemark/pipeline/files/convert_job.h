@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct ConvertJob : JobSettings {
   std::filesystem::path in;                   ///< file to convert
   std::filesystem::path out;                  ///< its ending names the format
   std::vector<std::filesystem::path> merged;  ///< with `in`, where these are files of one recording
-  double resample_hz = 0.0;                   ///< frame rate of a marker file to write; 0: as it is
+  std::optional<double> resample_hz;          ///< frame rate of a marker file to write; none: as it is
   double rate_hz = 0.0;                       ///< of marker files that tell none (.v3d, .amc); 0: not given
   std::filesystem::path skeleton;             ///< .asf of an .amc; empty: the one beside it
   Selection selection;                        ///< of a marker file

@@ -10,12 +10,26 @@
 #include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
+#include "kinemark/math/statistics.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 constexpr std::size_t kNamed = 6;
+
+/// The row whose step from the one before is farthest from the usual one.
+std::string uneven_rows(const data::Table& table) {
+  std::vector<double> steps;
+  for (std::int64_t r = 1; r < table.rows(); ++r)
+    steps.push_back(table.time_s[at(r)] - table.time_s[at(r - 1)]);
+  const double usual = math::median(steps);
+  const auto far = std::ranges::max_element(steps, {}, [&](double step) { return std::abs(step - usual); });
+  return fmt::format(
+      "row {} is at {:.9g} s, {:.6g} s after the one before; rows that are evenly spaced are needed, "
+      "here by {:.6g} s",
+      far - steps.begin() + 2, table.time_s[at(far - steps.begin() + 1)], *far, usual);
+}
 
 Result<TimeBase> even_time(const data::Table& table) {
   const auto rows = table.rows();
@@ -26,10 +40,7 @@ Result<TimeBase> even_time(const data::Table& table) {
       .rate_hz = static_cast<double>(rows - 1) / span_s, .t0_s = table.time_s.front(), .frames = rows};
   for (std::int64_t r = 0; r < rows; ++r)
     if (std::abs(table.time_s[at(r)] - time.time_s(r)) * time.rate_hz > 0.01)
-      return fail(Code::bad_input,
-                  fmt::format("row {} is at {:.9g} s; rows that are evenly spaced, here by {:.6g} s, "
-                              "are needed, and the first that is not is this one",
-                              r + 1, table.time_s[at(r)], 1.0 / time.rate_hz));
+      return fail(Code::bad_input, uneven_rows(table));
   return time;
 }
 
@@ -57,6 +68,29 @@ std::int64_t fill(std::vector<double>& column) {
   return filled;
 }
 
+/// Columns of coupled coordinates that do not follow their couplings, to 1e-3 rad or m.
+void note_couplings(const model::Model& model, const data::Table& table, CoordinateRows& out) {
+  for (int c = 0; c < model.coordinate_count(); ++c) {
+    const auto& coordinate = model.coordinates()[at(c)];
+    const auto& name = model.description().coordinates[at(c)].name;
+    const auto column = coordinate.source < 0 ? -1 : table.find(name);
+    if (column < 0) continue;
+    const double unit = column_unit(table, model.description(), c);
+    double furthest = 0.0;
+    for (std::int64_t r = 0; r < table.rows(); ++r) {
+      const double told = unit * table(r, column);
+      if (std::isfinite(told))
+        furthest =
+            std::max(furthest, std::abs(told - coordinate.coupling(out.q[at(r)][coordinate.source]).f));
+    }
+    if (furthest > 1e-3)
+      out.notes.push_back(
+          fmt::format("'{}' is coupled to '{}' and follows it; its own column is up to {:.3g} {} from that",
+                      name, model.description().coordinates[at(coordinate.source)].name, furthest,
+                      model.description().coordinates[at(c)].is_rotation ? "rad" : "m"));
+  }
+}
+
 }  // namespace
 
 Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Table& table) {
@@ -67,6 +101,7 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
   out.is_filled.assign(at(table.rows() * model.coordinate_count()), 0);
   Eigen::VectorXd q(model.coordinate_count());
   for (int c = 0; c < model.coordinate_count(); ++c) q[c] = description.coordinates[at(c)].default_value;
+  out.is_assumed.assign(at(model.coordinate_count()), false);
   out.q.assign(at(table.rows()), q);
   std::vector<std::string> absent;
   std::int64_t filled = 0;
@@ -75,6 +110,7 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
     const auto column = table.find(name);
     if (model.coordinates()[at(c)].source >= 0) continue;
     if (column < 0) {
+      out.is_assumed[at(c)] = !description.coordinates[at(c)].locked;
       absent.push_back(name);
       continue;
     }
@@ -92,6 +128,7 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
   if (std::ssize(absent) == model.coordinate_count())
     return fail(Code::bad_input,
                 fmt::format("none of its columns is a coordinate of model '{}'", description.name));
+  note_couplings(model, table, out);
   if (!absent.empty())
     out.notes.push_back(fmt::format("{} of the model {} no column and {} the default value: {}",
                                     counted(std::ssize(absent), "coordinate"),

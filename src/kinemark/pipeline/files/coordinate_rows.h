@@ -20,12 +20,13 @@ struct CoordinateRows {
   TimeBase time;                   ///< F = time.frames
   std::vector<Eigen::VectorXd> q;  ///< F, each of n numbers in the model's order; rad and m, all finite
   Array<std::uint8_t> is_filled;   ///< F x n; 1: the table has no number there
+  std::vector<bool> is_assumed;  ///< n; true: no column, it may move, and its default value is an assumption
   std::vector<std::string> notes;  ///< what was filled and taken, one sentence each
 };
 
 /// A coordinate without a column keeps its default value; one that is coupled to another is left to the
-/// coupling. Cells without a number are filled on a straight line between those around them, and hold the
-/// nearest one at the ends. O(F n).
+/// coupling, with a note where its column tells otherwise. Cells without a number are filled on a straight
+/// line between those around them, and hold the nearest one at the ends. O(F n).
 ///
 /// Code::bad_input: fewer than two rows, rows that are not evenly spaced to a hundredth of a frame, no column
 /// that is a coordinate, a coordinate without any number.

@@ -74,6 +74,30 @@ TEST(CoordinateRows, WhatIsAbsentKeepsItsDefault) {
                                     "value: slide")));
 }
 
+TEST(CoordinateRows, WhatIsAssumedIsMarkedUnlessItCannotMove) {
+  const auto read = coordinate_rows(chain(), rows({"turn"}, {1, 2})).value();
+  EXPECT_THAT(read.is_assumed, ElementsAre(false, true));
+  auto description = chain().description();
+  description.coordinates[1].locked = true;
+  const auto locked = model::Model::compile(description).value();
+  EXPECT_THAT(coordinate_rows(locked, rows({"turn"}, {1, 2})).value().is_assumed, ElementsAre(false, false));
+}
+
+TEST(CoordinateRows, AColumnThatDoesNotFollowItsCouplingIsSaid) {
+  auto description = chain().description();
+  description.couplings.push_back({.name = "c",
+                                   .dependent_idx = 1,
+                                   .independent_idx = 0,
+                                   .function = math::ScalarFunction::linear(0.5, 0.0)});
+  const auto coupled = model::Model::compile(description).value();
+  const double turn = 0.5 * kRadPerDeg;
+  EXPECT_THAT(coordinate_rows(coupled, rows({"turn", "slide"}, {1, turn, 2, 2 * turn})).value().notes,
+              IsEmpty());
+  EXPECT_THAT(
+      coordinate_rows(coupled, rows({"turn", "slide"}, {1, turn, 2, 0.3})).value().notes,
+      ElementsAre(HasSubstr("'slide' is coupled to 'turn' and follows it; its own column is up to 0.283 m")));
+}
+
 TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
   const auto refused = [](const data::Table& table) {
     const auto read = coordinate_rows(chain(), table);
@@ -84,9 +108,14 @@ TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
               HasSubstr("none of its columns is a coordinate of model 'chain'"));
   EXPECT_THAT(refused(rows({"turn", "slide"}, {1, kBlank, 2, kBlank})),
               HasSubstr("coordinate 'slide' has no number in any row"));
+  auto hole = rows({"turn"}, {1, 2, 3, 4, 5, 6});
+  for (std::size_t r = 4; r < 6; ++r) hole.time_s[r] += 0.2;
+  EXPECT_THAT(refused(hole),
+              HasSubstr("row 5 is at 1.24 s, 0.21 s after the one before; rows that are evenly "
+                        "spaced are needed, here by 0.01 s"));
   auto uneven = rows({"turn"}, {1, 2, 3, 4});
   uneven.time_s[2] += 0.003;
-  EXPECT_THAT(refused(uneven), HasSubstr("row 3 is at 1.023 s"));
+  EXPECT_THAT(refused(uneven), HasSubstr("row 3 is at 1.023 s, 0.013 s after the one before"));
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST(MoveModel, RowsMustBeEvenlySpaced) {
   auto uneven = table({"hip"}, {0, 1, 2});
   uneven.time_s[1] += 0.001;
   EXPECT_THAT(move_model(leg(), uneven).error().message,
-              HasSubstr("row 2 is at 0.511 s; rows that are evenly spaced"));
+              HasSubstr("row 2 is at 0.511 s, 0.011 s after the one before; rows that are evenly spaced"));
 }
 
 TEST(ReadModelMotion, NamesTheFile) {

@@ -130,7 +130,8 @@ Result<Motion> read_motion(const AnalysisPlan& plan, const model::Model& model, 
   couple(model, read);
   motion.determined.assign(motion.q.size(), 1);
   for (std::size_t i = 0; i < motion.q.size(); ++i)
-    motion.determined[i] = read.is_filled[i] == 0 && (motion.q_sd.empty() || !std::isnan(motion.q_sd[i]));
+    motion.determined[i] = read.is_filled[i] == 0 && !rows->is_assumed[i % at(motion.size())] &&
+                           (motion.q_sd.empty() || !std::isnan(motion.q_sd[i]));
   auto errors = motion::estimate_rates(model, motion);
   if (!errors) return fail_at(plan.motion.string(), errors.error());
   read.errors = std::move(*errors);

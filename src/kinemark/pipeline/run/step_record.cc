@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -72,10 +73,41 @@ Result<std::string> changed_output(const StepRecord& record, const fs::path& bas
   return std::string();
 }
 
-bool all_there(const std::vector<fs::path>& files, const fs::path& base) {
-  for (const auto& file : files)
-    if (!is_there(base / file)) return false;
+bool all_there(const StepRecord& record, const std::vector<fs::path>& outputs, const fs::path& base) {
+  return std::ranges::all_of(outputs, [&](const auto& file) { return is_there(base / file); }) &&
+         std::ranges::all_of(record.outputs, [&](const auto& file) { return is_there(base / file.first); });
+}
+
+bool holds(const std::vector<HashedFile>& files, const std::string& name) {
+  return std::ranges::find(files, name, &HashedFile::first) != files.end();
+}
+
+/// Whether the files of the step, and those that its results named, are as they were.
+Result<bool> same_inputs(const StepRecord& record, const RunStep& step, const fs::path& base) {
+  const auto own = hashed(step.inputs, base);
+  if (!own) return std::unexpected(own.error());
+  if (record.inputs.size() < own->size() || !std::equal(own->begin(), own->end(), record.inputs.begin()))
+    return false;
+  for (std::size_t i = own->size(); i < record.inputs.size(); ++i) {
+    const auto hash = hash_file(base / record.inputs[i].first);
+    if (!hash || hash->hex != record.inputs[i].second) return false;
+  }
   return true;
+}
+
+/// Results of the last time that stayed: beside those of this time they would tell of another.
+Status remove_stale(const std::vector<HashedFile>& before, const std::vector<HashedFile>& now,
+                    const fs::path& base) {
+  for (const auto& [file, hash] : before) {
+    if (holds(now, file) || !is_there(base / file)) continue;
+    const auto content = hash_file(base / file);
+    if (!content || content->hex != hash) continue;
+    std::error_code error;
+    if (!fs::remove(base / file, error) || error)
+      return fail(Code::io,
+                  fmt::format("{}: is of the last time and cannot be removed ({})", file, error.message()));
+  }
+  return {};
 }
 
 }  // namespace
@@ -135,10 +167,10 @@ Result<FoundState> find_state(const RunStep& step, const fs::path& base) {
         fmt::format("{}: was changed since the run made it; move it away, or give --force", *changed);
     return out;
   }
-  const auto inputs = hashed(step.inputs, base);
-  if (!inputs) return std::unexpected(inputs.error());
-  if (record->version != kVersion || record->words != step.words || record->inputs != *inputs ||
-      !all_there(step.outputs, base))
+  const auto same = same_inputs(*record, step, base);
+  if (!same) return std::unexpected(same.error());
+  if (record->version != kVersion || record->words != step.words || !*same ||
+      !all_there(*record, step.outputs, base))
     return out;
   out.state = StepState::current;
   out.record = std::move(*record);
@@ -150,6 +182,8 @@ Result<StepRecord> mark_begun(const RunStep& step, const fs::path& base) {
   auto inputs = hashed(step.inputs, base);
   if (!inputs) return std::unexpected(inputs.error());
   record.inputs = std::move(*inputs);
+  bool recorded = false;
+  if (auto last = read_record(base / step.record, recorded)) record.outputs = std::move(last->outputs);
   if (auto s = io::write_text(base / step.record, record_text(record), true); !s)
     return std::unexpected(s.error());
   return record;
@@ -159,9 +193,18 @@ Status mark_done(const RunStep& step, const fs::path& base, StepRecord record) {
   for (const auto& file : step.outputs)
     if (!is_there(base / file))
       return fail(Code::bad_input, fmt::format("{}: was not written by '{}'", file.string(), step.name));
-  auto outputs = hashed(step.outputs, base);
+  auto files = step.outputs;
+  const auto written = written_files(record.said);
+  for (const auto& file : written)
+    if (std::ranges::find(files, file) == files.end() && is_there(base / file)) files.push_back(file);
+  auto outputs = hashed(files, base);
   if (!outputs) return std::unexpected(outputs.error());
+  // A command that was told to be quiet does not say what it wrote.
+  if (!written.empty())
+    if (auto s = remove_stale(record.outputs, *outputs, base); !s) return s;
   record.outputs = std::move(*outputs);
+  for (auto& input : named_inputs(files, base))
+    if (!holds(record.inputs, input.first)) record.inputs.push_back(std::move(input));
   record.done = true;
   return io::write_text(base / step.record, record_text(record), true);
 }

@@ -11,21 +11,20 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/run/run_steps.h"
+#include "kinemark/pipeline/run/step_files.h"
 
 namespace kinemark::pipeline {
 
-/// A file and the checksum of its content.
-using HashedFile = std::pair<std::string, std::string>;
-
 /// What was done.
 struct StepRecord {
-  bool done = false;                ///< false: begun, and perhaps stopped half-way
-  std::string version;              ///< of the program
-  std::vector<std::string> words;   ///< of the command
-  std::vector<HashedFile> inputs;   ///< as they were when it began
-  std::vector<HashedFile> outputs;  ///< as they were when it was done
-  int exit_status = 0;              ///< 0, or 1: a quality gate was missed
-  std::vector<std::string> said;    ///< lines of the command
+  bool done = false;               ///< false: begun, and perhaps stopped half-way
+  std::string version;             ///< of the program
+  std::vector<std::string> words;  ///< of the command
+  std::vector<HashedFile> inputs;  ///< those of the step as it began, then those that its results name
+  std::vector<HashedFile>
+      outputs;          ///< as they were when it was done; of one that began: those of the last time
+  int exit_status = 0;  ///< 0, or 1: a quality gate was missed
+  std::vector<std::string> said;  ///< lines of the command
 };
 
 /// What is to be done with a step.
@@ -49,7 +48,9 @@ struct FoundState {
 /// Write that a step begins; its record replaces an older one. The record that mark_done() completes.
 [[nodiscard]] Result<StepRecord> mark_begun(const RunStep& step, const std::filesystem::path& base);
 
-/// Write that it is done. Code::bad_input, naming it, where an output is missing.
+/// Write that it is done, with all files that the command said it wrote. Those of the last time that it did
+/// not write again are removed, unless they were changed. Code::bad_input, naming it, where an output is
+/// missing.
 [[nodiscard]] Status mark_done(const RunStep& step, const std::filesystem::path& base, StepRecord record);
 
 /// A record as text.

@@ -7,6 +7,7 @@
 
 #include "kinemark/core/version.h"
 #include "kinemark/io/file.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -67,6 +68,60 @@ TEST_F(Step, IsDueAgainWhenAResultIsGone) {
   run_it();
   fs::remove(scratch_ / "out.c3d");
   EXPECT_EQ(state(), StepState::due);
+}
+
+TEST_F(Step, EveryFileThatTheCommandWroteCounts) {
+  auto record = mark_begun(step_, scratch_.path()).value();
+  put("out.c3d", "result");
+  put("out_sd.sto", "deviations");
+  record.said = {"note: x", "wrote out.c3d", "wrote out_sd.sto", "wrote gone.sto"};
+  ASSERT_TRUE(mark_done(step_, scratch_.path(), record));
+  EXPECT_EQ(state(), StepState::current);
+  put("out_sd.sto", "changed");
+  EXPECT_EQ(state(), StepState::occupied);
+  fs::remove(scratch_ / "out_sd.sto");
+  EXPECT_EQ(state(), StepState::due);
+}
+
+TEST_F(Step, WhatItsResultsWereMadeFromCountsToo) {
+  put("tasks.xml", "weights");
+  auto record = mark_begun(step_, scratch_.path()).value();
+  const auto hash = hash_file(scratch_ / "tasks.xml").value().hex;
+  put("out.c3d", "result");
+  put("out_report.json",
+      R"({"inputs": [{"path": "tasks.xml", "hash_kind": "XXH3-64", "hash": ")" + hash + "\"}]}");
+  record.said = {"wrote out.c3d", "wrote out_report.json"};
+  ASSERT_TRUE(mark_done(step_, scratch_.path(), record));
+  EXPECT_EQ(state(), StepState::current);
+  put("tasks.xml", "other weights");
+  EXPECT_EQ(state(), StepState::due);
+  put("tasks.xml", "weights");
+  EXPECT_EQ(state(), StepState::current);
+  fs::remove(scratch_ / "tasks.xml");
+  EXPECT_EQ(state(), StepState::due);
+}
+
+TEST_F(Step, ResultsOfTheLastTimeThatAreNotMadeAgainGo) {
+  const auto run = [&](const std::vector<std::string>& said) {
+    auto record = mark_begun(step_, scratch_.path()).value();
+    put("out.c3d", "result");
+    record.said = said;
+    ASSERT_TRUE(mark_done(step_, scratch_.path(), record));
+  };
+  put("out_sd.sto", "deviations");
+  put("out_bound.sto", "bounds");
+  run({"wrote out.c3d", "wrote out_sd.sto", "wrote out_bound.sto"});
+  put("out_bound.sto", "mine now");
+  put("out_mine.sto", "mine");
+  ASSERT_TRUE(mark_begun(step_, scratch_.path())) << "a run that was killed forgets nothing";
+  run({"wrote out.c3d"});
+  EXPECT_FALSE(fs::exists(scratch_ / "out_sd.sto"));
+  EXPECT_TRUE(fs::exists(scratch_ / "out_bound.sto")) << "somebody changed it";
+  EXPECT_TRUE(fs::exists(scratch_ / "out_mine.sto"));
+  put("out_sd.sto", "deviations");
+  run({"wrote out.c3d", "wrote out_sd.sto"});
+  run({});
+  EXPECT_TRUE(fs::exists(scratch_ / "out_sd.sto")) << "a quiet command does not say what it wrote";
 }
 
 TEST_F(Step, WhatWasBegunIsDueWhateverIsThere) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {
@@ -16,6 +17,24 @@ namespace {
 constexpr std::int64_t kMostFrames = std::int64_t{1} << 52;
 constexpr auto kLastState = data::SampleState::rejected;
 constexpr auto kLastKind = data::ChannelKind::other;
+
+/// The column of times, which others may have changed, is that of rate and start, to a hundredth of a frame.
+Status check_times(const MatPlace& times, double rate_hz, double start_s) {
+  if (!times || !times.array->is_numeric()) return {};
+  const auto seconds = times.array->numbers();
+  for (std::size_t f = 0; f < seconds.size(); ++f)
+    if (!(std::abs((seconds[f] - start_s) * rate_hz - static_cast<double>(f)) < 0.01))
+      return times.bad(fmt::format("is {} s in row {}; {} Hz from {} s need {}", seconds[f], f + 1, rate_hz,
+                                   start_s, start_s + static_cast<double>(f) / rate_hz));
+  return {};
+}
+
+/// Positions are in metres, whatever else the struct may say.
+Status check_units(const MatPlace& units) {
+  if (!units || units.text() == "m") return {};
+  return units.bad(
+      fmt::format("is '{}'; expected m, in which positions are read", printable(units.text(), 20)));
+}
 
 /// Rate, clock, frame numbers and labels.
 Status read_clock(const MatPlace& in, data::Trial& trial) {
@@ -33,6 +52,7 @@ Status read_clock(const MatPlace& in, data::Trial& trial) {
   if (!frames) return std::unexpected(frames.error());
   auto labels = in("labels").texts();
   if (!labels) return std::unexpected(labels.error());
+  if (auto s = check_times(times, *rate, *start); !s) return s;
   trial.first_frame = *first;
   trial.markers.time = {.rate_hz = *rate, .t0_s = *start, .frames = *frames};
   trial.markers.names = std::move(*labels);
@@ -202,6 +222,7 @@ Result<data::Trial> read_own_struct(const MatArray& array) {
   data::Trial trial;
   trial.units_in_file = "m";
   trial.software = in("software").text();
+  if (auto s = check_units(in("units")); !s) return std::unexpected(s.error());
   if (auto s = read_clock(in, trial); !s) return std::unexpected(s.error());
   if (auto s = read_samples(in, trial); !s) return std::unexpected(s.error());
   if (auto s = read_channels(in("channels"), trial.markers.frames(), trial.channels); !s)

@@ -64,6 +64,8 @@ void find_markers(const pugi::xml_node& info, XdfHeader& out) {
             {XdfMarker{.name = name, .channel = {}, .unit = name_of_bytes(channel.child_value("unit"))}, 0});
       }
       auto& [marker, seen] = found[place->second];
+      if (const auto unit = name_of_bytes(channel.child_value("unit")); seen != 0 && unit != marker.unit)
+        marker.unit += " and " + unit;
       marker.channel[static_cast<std::size_t>(axis)] = at;
       seen |= 1 << axis;
     }
