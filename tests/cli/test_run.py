@@ -100,6 +100,54 @@ class RunTest(CommandTest):
         self.assertEqual(sorted(state for state, _ in steps.values()).count("there already"), 12)
         self.assertIn("0.1 mm", self.steps(status=1)["S 02", "walk 1", "ik"][1], "a missed gate is not forgotten")
 
+    def one_trial(self, options=""):
+        self.write("study.toml", f"""steps = ["ik", "report"]
+[ik]
+model = "model.osim"
+{options}
+[[subject]]
+name = "S01"
+trials = ["S01/walk1.c3d"]
+""")
+        return self.folder / "results/S01/walk1"
+
+    def test_results_that_options_leave_out_go(self):
+        folder = self.one_trial()
+        self.assertEqual(self.states(), ["good", "good"])
+        self.assertTrue((folder / "ik_sd.sto").exists())
+        self.one_trial("no-error-bars = true")
+        self.assertEqual(self.states(), ["good", "good"])
+        self.assertFalse((folder / "ik_sd.sto").exists())
+        self.one_trial()
+        self.assertEqual(self.states(), ["good", "good"])
+        self.assertTrue((folder / "ik_sd.sto").exists())
+
+    def test_every_file_of_a_step_counts(self):
+        folder = self.one_trial()
+        self.states()
+        (folder / "ik_marker_errors.sto").unlink()
+        self.assertIn("good", self.states())
+        self.assertTrue((folder / "ik_marker_errors.sto").exists())
+        (folder / "ik_sd.sto").write_text("mine\n")
+        failed = self.steps(status=4)[("S01", "walk1", "ik")]
+        self.assertEqual(failed[0], "failed")
+        self.assertIn("ik_sd.sto: was changed since the run made it", failed[1])
+
+    def test_files_that_a_setup_names_count(self):
+        names = [name for name in json.loads(self.good("info", "--json", "S01/walk1.c3d").out)["labels"]][:6]
+        tasks = "".join(f'<IKMarkerTask name="{n}"><apply>true</apply><weight>%s</weight></IKMarkerTask>' for n in names)
+        write = lambda weight: self.write("tasks.xml", '<OpenSimDocument Version="40000"><IKTaskSet><objects>' +
+                                          tasks % ((weight,) * len(names)) + "</objects></IKTaskSet></OpenSimDocument>")
+        write(1)
+        self.write("setup.xml", '<OpenSimDocument Version="40000"><InverseKinematicsTool><IKTaskSet file="tasks.xml"/>'
+                                "</InverseKinematicsTool></OpenSimDocument>")
+        self.one_trial('setup = "setup.xml"')
+        ik = ("S01", "walk1", "ik")
+        self.assertEqual(self.steps()[ik][0], "good")
+        self.assertEqual(self.steps()[ik][0], "there already")
+        write(2)
+        self.assertEqual(self.steps()[ik][0], "good")
+
     def test_a_broken_recording_stops_the_run_or_costs_its_own_steps(self):
         self.write("S01/walk1.c3d", b"not a C3D file at all" * 100)
         steps = self.steps(status=3)

@@ -17,6 +17,8 @@ namespace kinemark::pipeline {
 namespace {
 
 constexpr std::size_t kNamed = 6;
+constexpr double kMost = 1e6;              // rad or m
+constexpr double kManyTurns = 4.0 * M_PI;  // rad
 
 /// The row whose step from the one before is farthest from the usual one.
 std::string uneven_rows(const data::Table& table) {
@@ -31,6 +33,15 @@ std::string uneven_rows(const data::Table& table) {
       far - steps.begin() + 2, table.time_s[at(far - steps.begin() + 1)], *far, usual);
 }
 
+/// How far a time may be from where it belongs: a hundredth of a step, or what printing it with so few digits
+/// costs.
+double time_slack_s(const data::Table& table, double step_s) {
+  for (const double unit : {1e-2, 1e-3, 1e-4, 1e-5})
+    if (std::ranges::all_of(table.time_s, [&](double t) { return std::abs(std::remainder(t, unit)) < 1e-9; }))
+      return std::min(std::max(0.01 * step_s, 1.01 * unit), 0.1 * step_s);
+  return 0.01 * step_s;
+}
+
 Result<TimeBase> even_time(const data::Table& table) {
   const auto rows = table.rows();
   if (rows < 2)
@@ -38,8 +49,9 @@ Result<TimeBase> even_time(const data::Table& table) {
   const double span_s = table.time_s.back() - table.time_s.front();
   const TimeBase time{
       .rate_hz = static_cast<double>(rows - 1) / span_s, .t0_s = table.time_s.front(), .frames = rows};
+  const double slack_s = time_slack_s(table, 1.0 / time.rate_hz);
   for (std::int64_t r = 0; r < rows; ++r)
-    if (std::abs(table.time_s[at(r)] - time.time_s(r)) * time.rate_hz > 0.01)
+    if (std::abs(table.time_s[at(r)] - time.time_s(r)) > slack_s)
       return fail(Code::bad_input, uneven_rows(table));
   return time;
 }
@@ -104,6 +116,7 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
   out.is_assumed.assign(at(model.coordinate_count()), false);
   out.q.assign(at(table.rows()), q);
   std::vector<std::string> absent;
+  bool turns = false;
   std::int64_t filled = 0;
   for (int c = 0; c < model.coordinate_count(); ++c) {
     const std::string& name = description.coordinates[at(c)].name;
@@ -123,12 +136,25 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
     if (n < 0) return fail(Code::bad_input, fmt::format("coordinate '{}' has no number in any row", name));
     filled += n;
     const double unit = column_unit(table, description, c);
-    for (std::size_t r = 0; r < values.size(); ++r) out.q[r][c] = unit * values[r];
+    for (std::size_t r = 0; r < values.size(); ++r) {
+      out.q[r][c] = unit * values[r];
+      if (std::abs(out.q[r][c]) > kMost)
+        return fail(Code::bad_input, fmt::format("row {}, column '{}': {:g} is no value of a coordinate",
+                                                 r + 1, name, values[r]));
+    }
+    turns =
+        turns || (description.coordinates[at(c)].is_rotation && unit == 1.0 &&
+                  *std::ranges::max_element(values, {}, [](double v) { return std::abs(v); }) > kManyTurns);
   }
   if (std::ssize(absent) == model.coordinate_count())
     return fail(Code::bad_input,
                 fmt::format("none of its columns is a coordinate of model '{}'", description.name));
   note_couplings(model, table, out);
+  if (turns && !table.degrees_stated)
+    out.notes.push_back(
+        "the file does not say inDegrees, and its angles were taken for radians; they are several turns "
+        "large: if "
+        "they are degrees, write inDegrees=yes above endheader");
   if (!absent.empty())
     out.notes.push_back(fmt::format("{} of the model {} no column and {} the default value: {}",
                                     counted(std::ssize(absent), "coordinate"),

@@ -28,8 +28,9 @@ struct CoordinateRows {
 /// coupling, with a note where its column tells otherwise. Cells without a number are filled on a straight
 /// line between those around them, and hold the nearest one at the ends. O(F n).
 ///
-/// Code::bad_input: fewer than two rows, rows that are not evenly spaced to a hundredth of a frame, no column
-/// that is a coordinate, a coordinate without any number.
+/// Code::bad_input: fewer than two rows, rows that are not evenly spaced to a hundredth of a frame (or to the
+/// digits that their times have), no column that is a coordinate, a coordinate without any number, or beyond
+/// a million.
 [[nodiscard]] Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Table& table);
 
 }  // namespace kinemark::pipeline

@@ -98,6 +98,32 @@ TEST(CoordinateRows, AColumnThatDoesNotFollowItsCouplingIsSaid) {
       ElementsAre(HasSubstr("'slide' is coupled to 'turn' and follows it; its own column is up to 0.283 m")));
 }
 
+TEST(CoordinateRows, TimesMayBeRoundedToTheirDigits) {
+  auto table = rows({"turn"}, {1, 2, 3, 4});
+  table.time_s = {0.4, 0.417, 0.433, 0.45};  // 60 Hz, to the millisecond
+  const auto read = coordinate_rows(chain(), table);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_NEAR(read->time.rate_hz, 60.0, 1e-9);
+  table.time_s = {0.4, 0.417000001, 0.433, 0.45};
+  EXPECT_FALSE(coordinate_rows(chain(), table)) << "these digits are not of rounding";
+  table.time_s = {0.4, 0.42, 0.433, 0.45};
+  EXPECT_FALSE(coordinate_rows(chain(), table)) << "3 ms off";
+}
+
+TEST(CoordinateRows, DegreesThatAreNotSaidAreNoticed) {
+  auto table = rows({"turn", "slide"}, {30, 90, 60, 90});
+  table.in_degrees = false;
+  table.degrees_stated = false;
+  EXPECT_THAT(coordinate_rows(chain(), table).value().notes,
+              ElementsAre(HasSubstr("were taken for radians")));
+  table.values = {1, 90, 2, 90};
+  EXPECT_THAT(coordinate_rows(chain(), table).value().notes, IsEmpty())
+      << "small angles; lengths do not count";
+  table.values = {30, 1, 60, 1};
+  table.degrees_stated = true;
+  EXPECT_THAT(coordinate_rows(chain(), table).value().notes, IsEmpty()) << "the file says radians";
+}
+
 TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
   const auto refused = [](const data::Table& table) {
     const auto read = coordinate_rows(chain(), table);
@@ -108,6 +134,8 @@ TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
               HasSubstr("none of its columns is a coordinate of model 'chain'"));
   EXPECT_THAT(refused(rows({"turn", "slide"}, {1, kBlank, 2, kBlank})),
               HasSubstr("coordinate 'slide' has no number in any row"));
+  EXPECT_THAT(refused(rows({"turn", "slide"}, {1, 2, 3, 1e300})),
+              HasSubstr("row 2, column 'slide': 1e+300 is no"));
   auto hole = rows({"turn"}, {1, 2, 3, 4, 5, 6});
   for (std::size_t r = 4; r < 6; ++r) hole.time_s[r] += 0.2;
   EXPECT_THAT(refused(hole),

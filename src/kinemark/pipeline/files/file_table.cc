@@ -150,6 +150,8 @@ std::string trial_table(const ManyOutcome& outcome) {
   std::string totals = count(outcome.trials.size(), "recording") + ":";
   for (const auto& [status, n] : counts)
     totals += fmt::format("{} {} {}", totals.back() == ':' ? "" : ",", n, to_string(status));
+  if (counts.contains(TrialStatus::there))
+    totals += "\nWhat was there already is as it was, whatever the options now; --force makes it anew.";
   return aligned(rows) + totals + "\n";
 }
 

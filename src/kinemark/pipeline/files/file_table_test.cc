@@ -102,7 +102,9 @@ TEST(TrialTable, HasALineForEachRecordingAndTheTotals) {
             "in/a.c3d   good           1.23  out/a.trc  odd (and 2 more)\n"
             "in/b.c3d   there already        out/b.trc  \n"
             "in/c.c3d   failed         0.50             " +
-                printable_sentence("c: is\nbad") + "\n3 recordings: 1 good, 1 there already, 1 failed\n");
+                printable_sentence("c: is\nbad") +
+                "\n3 recordings: 1 good, 1 there already, 1 failed\n"
+                "What was there already is as it was, whatever the options now; --force makes it anew.\n");
 }
 
 TEST(TrialsJson, HasTheSame) {

@@ -44,17 +44,34 @@ std::string contacts_of(const std::string& wrench, const std::vector<motion::Con
   return text.empty() ? "on nothing" : "on " + text;
 }
 
+double largest_force_n(const data::Wrench& wrench) {
+  double most = 0.0;
+  for (std::size_t i = 0; i + 2 < wrench.force.size(); i += 3)
+    if (const double size = Eigen::Map<const Vector3d>(wrench.force.data() + i).norm(); size > most)
+      most = size;
+  return most;
+}
+
 void tell_forces(const data::Wrenches& wrenches, const motion::DynamicsSummary& dynamics,
-                 TorqueAccount& account) {
+                 double contact_force_n, TorqueAccount& account) {
   std::int64_t unknown = 0;
   for (std::int64_t f = 0; f < wrenches.frames(); ++f) {
     bool all = true;
     for (const auto& wrench : wrenches.items) all = all && known(wrench, f);
     unknown += !all;
   }
-  for (const auto& wrench : wrenches.items)
+  for (const auto& wrench : wrenches.items) {
     account.facts.emplace_back("force of " + wrench.name,
                                contacts_of(wrench.name, dynamics.contacts, wrenches.time));
+    const double most_n = largest_force_n(wrench);
+    const auto acts = [&](const auto& contact) { return contact.wrench == wrench.name; };
+    if (most_n > contact_force_n && std::ranges::none_of(dynamics.contacts, acts))
+      account.warnings.push_back(
+          fmt::format("the force of '{}', up to {:.0f} N, acts on no body: none of the model's feet comes "
+                      "near it, and the torques are "
+                      "without it",
+                      wrench.name, most_n));
+  }
   account.facts.emplace_back("forces not known for", length(unknown, wrenches.time));
 }
 
@@ -141,7 +158,7 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
     return with_forces ? fail_at(forces.string(), dynamics.error()) : std::unexpected(dynamics.error());
   account.warnings.insert(account.warnings.end(), dynamics->warnings.begin(), dynamics->warnings.end());
   if (with_forces) {
-    tell_forces(external.wrenches, *dynamics, account);
+    tell_forces(external.wrenches, *dynamics, options.contact_force_n, account);
     tell_unmeasured(*dynamics, motion.time, account);
   }
   if (!with_forces) check_posture(model, *dynamics, account);

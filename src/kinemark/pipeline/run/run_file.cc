@@ -22,6 +22,9 @@ namespace {
 
 constexpr std::size_t kLargestRunFile = 16UL << 20;  // bytes
 
+/// An option of the whole run: what a step says is how the run knows what it wrote.
+constexpr std::string_view kQuiet = "quiet";
+
 /// Options that the run gives itself, step by step.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOwn = {{{"joints", "output"},
                                                                                  {"scale", "output"},
@@ -102,11 +105,15 @@ class Reader {
                                                  name_, line_of(*table), step));
       auto settings = settings_of(*table, name_);
       if (!settings) return std::unexpected(settings.error());
-      for (const auto& setting : settings->list)
+      for (const auto& setting : settings->list) {
+        if (setting.name == kQuiet)
+          return fail(Code::bad_input, fmt::format("{}: line {}: '{}' is an option of the run, not of a step",
+                                                   name_, setting.line, setting.name));
         if (std::ranges::find(kOwn, std::pair<std::string_view, std::string_view>(step, setting.name)) !=
             kOwn.end())
           return fail(Code::bad_input, fmt::format("{}: line {}: '{}' of {} is given by the run itself",
                                                    name_, setting.line, setting.name, step));
+      }
       into.push_back({.step = std::string(step), .list = std::move(settings->list)});
     }
     return {};

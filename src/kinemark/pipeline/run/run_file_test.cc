@@ -130,6 +130,8 @@ TEST(RunFile, OptionsInTheWrongPlace) {
               StartsWith("s.toml: line 2: options of 'ik', which is not among the steps"));
   EXPECT_THAT(error_of("steps = [\"ik\"]\n[ik]\noutput = \"x.mot\"\n" + std::string(kSubject)),
               HasSubstr("line 3: 'output' of ik is given by the run itself"));
+  EXPECT_THAT(error_of("steps = [\"ik\"]\n[ik]\nquiet = true\n" + std::string(kSubject)),
+              HasSubstr("line 3: 'quiet' is an option of the run, not of a step"));
   EXPECT_THAT(error_of(with("[clean.deep]\nx = 1\n" + std::string(kSubject))),
               HasSubstr("line 2: 'deep' is a table"));
   EXPECT_THAT(error_of(with("clean = 3\n" + std::string(kSubject))), HasSubstr("clean must be a table"));

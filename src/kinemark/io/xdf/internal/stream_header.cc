@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/utf8.h"
+#include "kinemark/io/length_unit.h"
 #include "kinemark/io/number.h"
 
 namespace kinemark::io::internal {
@@ -47,6 +48,14 @@ std::pair<std::string, int> coordinate_of(const pugi::xml_node& channel, bool mo
   return {marker.empty() ? name : marker, axis};
 }
 
+/// A marker's axes may name its unit or not; two that differ are both named, which is no unit of length.
+void add_unit(const std::string& unit, std::string& of_marker) {
+  if (of_marker.empty())
+    of_marker = unit;
+  else if (!unit.empty() && unit != of_marker && metres_per_unit(unit) != metres_per_unit(of_marker))
+    of_marker += " and " + unit;
+}
+
 void find_markers(const pugi::xml_node& info, XdfHeader& out) {
   const bool mocap = lower(out.type) == "mocap";
   std::map<std::string, std::size_t, std::less<>> index;
@@ -64,8 +73,8 @@ void find_markers(const pugi::xml_node& info, XdfHeader& out) {
             {XdfMarker{.name = name, .channel = {}, .unit = name_of_bytes(channel.child_value("unit"))}, 0});
       }
       auto& [marker, seen] = found[place->second];
-      if (const auto unit = name_of_bytes(channel.child_value("unit")); seen != 0 && unit != marker.unit)
-        marker.unit += " and " + unit;
+      if (const auto unit = name_of_bytes(channel.child_value("unit")); seen != 0)
+        add_unit(unit, marker.unit);
       marker.channel[static_cast<std::size_t>(axis)] = at;
       seen |= 1 << axis;
     }

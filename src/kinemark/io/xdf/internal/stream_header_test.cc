@@ -33,6 +33,20 @@ std::string typed(const std::string& marker, const std::string& type) {
 
 std::string labelled(const std::string& label) { return "<label>" + label + "</label>"; }
 
+TEST(StreamHeader, TheAxesOfAMarkerShareAUnit) {
+  const auto unit_of = [](const char* x, const char* y, const char* z) {
+    const auto axis = [](const char* type, const char* unit) {
+      return "<marker>A</marker><type>" + std::string(type) + "</type><unit>" + unit + "</unit>";
+    };
+    return header({axis("PositionX", x), axis("PositionY", y), axis("PositionZ", z)}).value().markers[0].unit;
+  };
+  EXPECT_EQ(unit_of("mm", "mm", "mm"), "mm");
+  EXPECT_EQ(unit_of("mm", "millimeters", ""), "mm") << "the same, or not said";
+  EXPECT_EQ(unit_of("", "m", "m"), "m");
+  EXPECT_EQ(unit_of("mm", "m", "mm"), "mm and m") << "which no reader takes for a length";
+  EXPECT_EQ(unit_of("mm", "mm", "furlong"), "mm and furlong");
+}
+
 TEST(StreamHeader, CoordinatesMayComeInAnyOrderAmongOthers) {
   const auto found = header({typed("A", "PositionZ"), typed("A", "OrientationX"), typed("B", "PositionX"),
                              typed("A", "positiony"), typed("A", "PositionX"), typed("B", "PositionY")});

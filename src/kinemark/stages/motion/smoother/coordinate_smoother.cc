@@ -156,24 +156,18 @@ VectorXd weights_of(std::span<const double> sd, Index frames) {
 }
 
 /// Covariance of value, rate and acceleration from that of three neighbouring frames.
+/// @param band  of the F frames with one more at each end, which nobody saw: what lies beyond the ends is not
+///              known better than the prior has it
 void fill_covariance(const Eigen::Matrix4Xd& band, double variance, double rate_hz, Eigen::MatrixXd& out) {
-  const Index F = band.cols();
+  const Index F = band.cols() - 2;
   out.resize(6, F);
   const double r = rate_hz;
+  Eigen::Matrix3d T;
+  T << 0.0, 1.0, 0.0, -0.5 * r, 0.0, 0.5 * r, r * r, -2.0 * r * r, r * r;
   for (Index f = 0; f < F; ++f) {
-    const Index first = std::clamp<Index>(f - 1, 0, F - 3);
-    Eigen::Matrix3d window, T;
+    Eigen::Matrix3d window;
     for (Index i = 0; i < 3; ++i)
-      for (Index j = i; j < 3; ++j) window(i, j) = window(j, i) = band(j - i, first + i);
-    T.setZero();
-    T(0, f - first) = 1.0;
-    if (f == 0)
-      T.row(1) << -1.5 * r, 2.0 * r, -0.5 * r;
-    else if (f == F - 1)
-      T.row(1) << 0.5 * r, -2.0 * r, 1.5 * r;
-    else
-      T.row(1) << -0.5 * r, 0.0, 0.5 * r;
-    T.row(2) << r * r, -2.0 * r * r, r * r;
+      for (Index j = i; j < 3; ++j) window(i, j) = window(j, i) = band(j - i, f + i);
     const Eigen::Matrix3d C = variance * (T * window * T.transpose());
     math::pack_symmetric3(C, out.col(f).data());
   }
@@ -229,7 +223,9 @@ SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const 
   out.known = true;
   out.noise_scale = std::sqrt(variance) / usual;
   out.step_sd = std::sqrt(variance * ratio);
-  fill_covariance(band.inverse_band(), variance, rate_hz, out.covariance);
+  VectorXd wide = VectorXd::Zero(F + 2);
+  wide.segment(1, F) = weight;
+  fill_covariance(Band(wide, ratio).inverse_band(), variance, rate_hz, out.covariance);
   five_point_rates(x, rate_hz, out.rate, out.acceleration);
   out.value = x.array() + mean;
   return out;
