@@ -41,7 +41,8 @@ void add_run(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command =
       app.add_subcommand("run", "A whole study: the steps that a file names, for all its recordings");
   command->footer(
-      "STUDY.toml names subjects, recordings, steps (joints, scale, clean, ik, track, report) and their "
+      "STUDY.toml names subjects, recordings, steps (joints, scale, clean, ik, track, analyze, report) and "
+      "their "
       "options:\n"
       "docs/formats/run.md. What is done already, with the same options and inputs, is not done again.");
   const auto job = std::make_shared<pipeline::RunJob>();

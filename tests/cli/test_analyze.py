@@ -39,10 +39,10 @@ class AnalyzeTest(CommandTest):
 
     def test_what_was_done_as_json(self):
         done = self.good(*self.analyze("-o", "out", "--json", "--quiet"))
-        told = json.loads(done.out)
-        self.assertEqual(len(told["written"]), 13)
-        self.assertEqual(told["rate_hz"], 100)
-        self.assertEqual(told["facts"]["deviations"], "from the noise found in each coordinate")
+        done_json = json.loads(done.out)
+        self.assertEqual(len(done_json["written"]), 13)
+        self.assertEqual(done_json["rate_hz"], 100)
+        self.assertEqual(done_json["facts"]["deviations"], "from the noise found in each coordinate")
         record = json.loads((self.folder / "out/truth_analysis.json").read_text())
         self.assertEqual([i["role"] for i in record["inputs"]], ["model", "motion"])
         self.assertIn("analyze in/truth.mot", record["command"])
@@ -84,8 +84,8 @@ class AnalyzeTest(CommandTest):
 
     def test_its_tables_are_read_by_the_others(self):
         self.good(*self.analyze("-o", "out"))
-        told = json.loads(self.good("info", "--json", "out/truth_BodyKinematics_pos_global.sto").out)
-        self.assertIn("rows", json.dumps(told))
+        done_json = json.loads(self.good("info", "--json", "out/truth_BodyKinematics_pos_global.sto").out)
+        self.assertIn("rows", json.dumps(done_json))
         self.good("convert", "out/truth_Kinematics_q.sto", "again.bvh", "--model", "in/model.osim")
 
     def test_what_is_wrong_is_one_sentence_and_leaves_nothing(self):

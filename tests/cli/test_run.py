@@ -122,6 +122,16 @@ trials = ["S01/walk1.c3d"]
         self.assertEqual(self.states(), ["good", "good"])
         self.assertTrue((folder / "ik_sd.sto").exists())
 
+    def test_the_motion_of_a_step_is_analysed(self):
+        folder = self.one_trial()
+        study = (self.folder / "study.toml").read_text()
+        self.write("study.toml", study.replace('"report"]', '"analyze"]') + '\n[analyze]\npoint = "knee=tibia_r:0,0,0"\n')
+        self.assertEqual(self.states(), ["good", "good"])
+        self.assertTrue((folder / "analysis/ik_PointKinematics_knee_acc_sd.sto").exists())
+        self.assertEqual(self.states(), ["there already", "there already"])
+        (folder / "analysis/ik_PointKinematics_knee_acc_sd.sto").unlink()
+        self.assertEqual(self.states(), ["good", "there already"])
+
     def test_every_file_of_a_step_counts(self):
         folder = self.one_trial()
         self.states()

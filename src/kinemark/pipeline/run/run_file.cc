@@ -26,7 +26,7 @@ constexpr std::size_t kLargestRunFile = 16UL << 20;  // bytes
 constexpr std::string_view kQuiet = "quiet";
 
 /// Options that the run gives itself, step by step.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOwn = {{{"joints", "output"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kOwn = {{{"joints", "output"},
                                                                                  {"scale", "output"},
                                                                                  {"scale", "static"},
                                                                                  {"scale", "markers"},
@@ -36,6 +36,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOwn = {
                                                                                  {"ik", "report"},
                                                                                  {"track", "output"},
                                                                                  {"track", "markers"},
+                                                                                 {"analyze", "output"},
                                                                                  {"report", "output"}}};
 
 std::string line_of(const toml::node& node) { return fmt::format("line {}", node.source().begin.line); }
@@ -166,6 +167,8 @@ class Reader {
       return needs("has no functional motion for 'joints'; need functional = \"FILE\"");
     if (out_.does("scale") && s.static_trial.empty() && s.functional.empty())
       return needs("has nothing to scale by; need static = \"FILE\", functional = \"FILE\", or both");
+    if (out_.does("analyze") && !out_.does("ik") && !out_.does("track"))
+      return needs("has no 'ik' and no 'track' whose motion 'analyze' could take");
     if (out_.does("report") && !out_.does("ik")) return needs("has no 'ik' that 'report' could show");
     return {};
   }

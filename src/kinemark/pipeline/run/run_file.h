@@ -15,8 +15,8 @@
 namespace kinemark::pipeline {
 
 /// Steps that a run file may name, in the order in which they are done; each is the command of that name.
-inline constexpr std::array<std::string_view, 6> kSteps = {"joints", "scale", "clean",
-                                                           "ik",     "track", "report"};
+inline constexpr std::array<std::string_view, 7> kSteps = {"joints", "scale",   "clean", "ik",
+                                                           "track",  "analyze", "report"};
 
 /// Options of one step.
 struct StepOptions {

@@ -147,9 +147,40 @@ class Planner {
       if (cleaned != kNone) step.after.push_back(cleaned);
       step.outputs = {out, folder / (solver + "_report.json")};
       const std::size_t solved = add(std::move(step), settings, subject.name, found.file.string());
+      if (file_.does("analyze") && (solver == "ik" || !file_.does("ik")))
+        if (auto s = plan_analyze(subject, found, folder, solved, options("analyze")); !s) return s;
       if (solver == "ik" && file_.does("report"))
         plan_report(subject, found, folder, solved, options("report"));
     }
+    return {};
+  }
+
+  /// What follows from the motion of `solved`, with its model unless the options name one.
+  Status plan_analyze(const RunSubject& subject, const Found& found, const fs::path& folder,
+                      std::size_t solved, const std::vector<Setting>& options) {
+    RunStep step = begin(subject, found.name, "analyze", folder);
+    const RunStep& solver = steps_[solved];
+    const fs::path motion = solver.outputs.front(), out = folder / "analysis";
+    step.words.push_back(word_of(motion));
+    const auto has = [&](std::string_view name) {
+      return std::ranges::find(options, name, &Setting::name) != options.end();
+    };
+    if (!has("model")) {
+      const auto model =
+          std::ranges::find_if(solver.words, [](const auto& w) { return w.starts_with("--model="); });
+      if (model == solver.words.end())
+        return fail(Code::bad_input, fmt::format("{}: no model for analyze of subject '{}'; need model = "
+                                                 "\"FILE.osim\" under [analyze]",
+                                                 name_, subject.name));
+      step.words.push_back(*model);
+      step.inputs.emplace_back(model->substr(model->find('=') + 1));
+    }
+    step.words.push_back("--output=" + out.string());
+    step.inputs.insert(step.inputs.end(), solver.outputs.begin(), solver.outputs.end());
+    // A setup gives its files a name of its own.
+    if (!has("setup")) step.outputs = {out / (motion.stem().string() + "_analysis.json")};
+    step.after = {solved};
+    (void)add(std::move(step), options, subject.name, found.file.string());
     return {};
   }
 

@@ -43,6 +43,40 @@ class PlanSteps : public ::testing::Test {
   testing_support::ScratchFolder scratch_;
 };
 
+TEST_F(PlanSteps, WhatIsAnalysedIsTheMotionOfTheSolverWithItsModel) {
+  const auto of = [&](const std::string& steps, const std::string& tables) {
+    return plan("steps = [" + steps + "]\n" + tables +
+                "[[subject]]\nname = \"A\"\ntrials = [\"S/walk1.c3d\"]\n");
+  };
+  const auto steps =
+      of("\"analyze\", \"track\", \"ik\", \"report\"",
+         "[ik]\nmodel = \"human.osim\"\n[track]\nmodel = \"human.osim\"\n[analyze]\ntorques = true\n")
+          .value();
+  ASSERT_THAT(names(steps), ElementsAre("walk1/ik", "walk1/analyze", "walk1/report", "walk1/track"));
+  EXPECT_THAT(steps[1].words, ElementsAre("analyze", "results/A/walk1/ik.mot", "--model=human.osim",
+                                          "--output=results/A/walk1/analysis", "--torques"));
+  EXPECT_THAT(steps[1].inputs,
+              ElementsAre("human.osim", "results/A/walk1/ik.mot", "results/A/walk1/ik_report.json"));
+  EXPECT_THAT(steps[1].outputs, ElementsAre("results/A/walk1/analysis/ik_analysis.json"));
+  EXPECT_THAT(steps[1].after, ElementsAre(0U));
+  const auto tracked = of("\"track\", \"analyze\"", "[track]\nmodel = \"human.osim\"\n").value();
+  EXPECT_EQ(tracked[1].words[1], "results/A/walk1/track.mot");
+  const auto own =
+      of("\"ik\", \"analyze\"",
+         "[ik]\nmodel = \"human.osim\"\n[analyze]\nmodel = \"other.osim\"\nsetup = \"weights.xml\"\n")
+          .value();
+  EXPECT_THAT(own[1].words, Not(Contains("--model=human.osim")));
+  EXPECT_THAT(own[1].outputs, IsEmpty()) << "a setup gives them a name of its own";
+  EXPECT_THAT(own[1].inputs, Contains("weights.xml"));
+  const auto none = of("\"ik\", \"analyze\"", "[ik]\nsetup = \"weights.xml\"\n");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("no model for analyze of subject 'A'"));
+  const auto alone = of("\"analyze\"", "");
+  ASSERT_FALSE(alone);
+  EXPECT_THAT(alone.error().message,
+              HasSubstr("has no 'ik' and no 'track' whose motion 'analyze' could take"));
+}
+
 TEST_F(PlanSteps, EachStepComesBehindThoseThatItNeeds) {
   const auto steps = plan(R"(
 steps = ["joints", "scale", "clean", "ik", "track", "report"]

