@@ -20,12 +20,16 @@
 #include "support/scratch.h"
 #include "support/test_data.h"
 
-namespace kinemark::io {
+namespace kinemark::pipeline {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using io::read_osim;
+using io::SimpleTree;
+using io::simplify;
+using io::write_robot;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct Difference {
@@ -177,4 +181,4 @@ TEST(RobotInMujoco, ModelsWithSplinesAreWithinTheirFits) {
 }
 
 }  // namespace
-}  // namespace kinemark::io
+}  // namespace kinemark::pipeline
