@@ -31,6 +31,10 @@ std::string amount(double value, bool is_rotation) {
                      : fmt::format("{:.3g} mm", value * 1e3);
 }
 
+PolynomialFit line(const math::ScalarFunction& function) {
+  return {.coefficients = {function.offset(), function.slope()}};
+}
+
 class Simplifier {
  public:
   Simplifier(const data::ModelDescription& model, int degree)
@@ -143,7 +147,7 @@ class Simplifier {
                     SimpleChain& chain) {
     const auto [low, high] = range(leader);
     const bool is_line = leader == axis.coordinate_idx && axis.function.is_linear();
-    auto fit = fit_polynomial(function, low, high, is_line ? 1 : degree_);
+    auto fit = is_line ? line(axis.function) : fit_polynomial(function, low, high, degree_);
     std::string name = fmt::format("{}_{}", joint.name, &axis - joint.axes.data() + 1);
     while (!names_.insert(name).second) name += '_';
     if (fit.largest_error > kNoError)
@@ -216,8 +220,9 @@ class Simplifier {
         continue;
       }
       const auto [low, high] = range(c.independent_idx);
-      auto fit = fit_polynomial([&c](double q) { return c.function(q).f; }, low, high,
-                                c.function.is_linear() ? 1 : degree_);
+      auto fit = c.function.is_linear()
+                     ? line(c.function)
+                     : fit_polynomial([&c](double q) { return c.function(q).f; }, low, high, degree_);
       if (fit.largest_error > kNoError)
         out_.lost.push_back(fmt::format(
             "coordinate '{}' follows '{}' by a polynomial of degree {}, at most {} off", name, leader,

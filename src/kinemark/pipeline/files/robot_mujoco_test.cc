@@ -70,7 +70,7 @@ class Comparison {
       model::coordinate_jacobian(model, w, q, rates);
       const MatrixXd judge_rates = take_posture(q, rates, *data);
       mj_forward(judge_.get(), data.get());
-      compare_places(w, *data, worst);
+      compare_positions(w, *data, worst);
       model::mass_matrix(model, w, M);
       RowMajor full(judge_->nv, judge_->nv);
       mj_fullM(judge_.get(), full.data(), data->qM);
@@ -124,7 +124,7 @@ class Comparison {
     return out;
   }
 
-  void compare_places(const model::Workspace& w, const mjData& data, Difference& worst) const {
+  void compare_positions(const model::Workspace& w, const mjData& data, Difference& worst) const {
     for (std::size_t b = 0; b < description_.bodies.size(); ++b) {
       const int id = mj_name2id(judge_.get(), mjOBJ_BODY, description_.bodies[b].name.c_str());
       EXPECT_GE(id, 0) << description_.bodies[b].name;
