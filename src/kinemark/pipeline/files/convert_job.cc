@@ -14,6 +14,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/io/robot/robot_file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/merge_trials.h"
@@ -35,9 +36,21 @@ Kind kind_of(const std::string& ending) {
   return Kind::markers;
 }
 
+/// Formats of models for robots and physics programs, which are written and not read.
+bool is_robot(const std::string& ending) {
+  return ending == ".urdf" || ending == ".xml" || ending == ".mjcf";
+}
+
 Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
   const auto document = io::OsimDocument::read(job.in);
   if (!document) return std::unexpected(document.error());
+  if (is_robot(ending_of(job.out))) {
+    auto lost = io::write_robot(job.out, document->model(), job.force);
+    if (!lost) return std::unexpected(lost.error());
+    auto notes = document->model().warnings;
+    notes.insert(notes.end(), lost->begin(), lost->end());
+    return notes;
+  }
   auto text = document->format({.model = document->model(), .factors = {}, .paths = {}});
   if (!text) return fail_at(job.out.string(), text.error());
   if (auto s = io::write_osim_text(job.out, text->text, {.force = job.force}); !s)
@@ -143,7 +156,8 @@ Status check_kinds(const ConvertJob& job) {
   if (!job.skeleton.empty() && from != ".amc")
     return fail(Code::usage,
                 fmt::format("--skeleton: {} has none beside it; it is for .amc files", job.in.string()));
-  if (makes_skeleton || kind_of(from) == kind_of(to)) return {};
+  if (kind_of(from) == Kind::model && is_robot(to)) return {};
+  if (makes_skeleton || (kind_of(from) == kind_of(to) && !is_robot(to))) return {};
   return fail(Code::usage,
               fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
                           job.in.string(), job.out.string()));
