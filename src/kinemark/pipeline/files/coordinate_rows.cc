@@ -90,10 +90,10 @@ void note_couplings(const model::Model& model, const data::Table& table, Coordin
     const double unit = column_unit(table, model.description(), c);
     double furthest = 0.0;
     for (std::int64_t r = 0; r < table.rows(); ++r) {
-      const double told = unit * table(r, column);
-      if (std::isfinite(told))
+      const double stated = unit * table(r, column);
+      if (std::isfinite(stated))
         furthest =
-            std::max(furthest, std::abs(told - coordinate.coupling(out.q[at(r)][coordinate.source]).f));
+            std::max(furthest, std::abs(stated - coordinate.coupling(out.q[at(r)][coordinate.source]).f));
     }
     if (furthest > 1e-3)
       out.notes.push_back(
