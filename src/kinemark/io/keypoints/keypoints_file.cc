@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/io/keypoints/keypoints_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -37,6 +38,15 @@ Result<Writer> writer_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool begins_keypoints(std::string_view begin) {
+  if (begin.starts_with("scorer,")) return true;
+  constexpr std::array<std::string_view, 6> kKeys = {"\"people\"",      "\"instance_info\"", "\"meta_info\"",
+                                                     "\"annotations\"", "\"keypoints\"",     "\"images\""};
+  return begins_json(begin) && std::ranges::any_of(kKeys, [&](std::string_view key) {
+           return begin.find(key) != std::string_view::npos;
+         });
+}
 
 Result<Keypoints> read_keypoints(const std::filesystem::path& path, const KeypointsOptions& options) {
   const auto writer = writer_of(path);

@@ -53,6 +53,15 @@ TEST_F(KeypointsFile, FilesThatAreReadAreNamed) {
   EXPECT_EQ(keypoints_files(folder_ / "absent.json").error().code, Code::io);
 }
 
+TEST_F(KeypointsFile, ItsBeginningTellsAFileOfPoints) {
+  for (const char* begin : {"scorer,net,net\n", R"({"version":1.3,"people":[]})", R"({"meta_info": {)",
+                            R"([{"frame_id": 0, "instances": [{"keypoints": [)", R"( {"images": [)"})
+    EXPECT_TRUE(begins_keypoints(begin)) << begin;
+  for (const char* begin :
+       {"", "frame,time_s,marker,x_m,y_m,z_m\n", R"({"SamplingFrequency": 100})", "scorers\n", R"("people")"})
+    EXPECT_FALSE(begins_keypoints(begin)) << begin;
+}
+
 TEST_F(KeypointsFile, WhatIsWrongIsSaidWithTheFile) {
   EXPECT_THAT(read_keypoints(write("x.json", "{\"a\":\n")).error().message,
               HasSubstr("x.json: line 2: is no JSON"));

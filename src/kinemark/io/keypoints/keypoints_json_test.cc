@@ -85,7 +85,7 @@ TEST(Mmpose, WhatMakesNoSenseIsNamedWithItsFrame) {
               HasSubstr("names 2 points; a person has 1"));
 }
 
-/// Two images of a person with two points;  and  are her values.
+/// Three images, of a person with two points in the first and the last.
 std::string coco(const std::string& first, const std::string& second, const std::string& more = "") {
   return R"({"info": {"year": 2026}, "annotations": [
     {"id": 1, "image_id": 30, "category_id": 1, "bbox": [1, 2, 3, 4], "keypoints": )" +

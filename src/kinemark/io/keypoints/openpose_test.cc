@@ -32,7 +32,7 @@ std::string person(double begin, const std::string& number = "-1", const std::st
 std::string frame(const std::string& people) { return R"({"version":1.3,"people":[)" + people + "]}\n"; }
 
 /// What add() or finish() says of these frames.
-std::string sentence(const std::vector<std::string>& texts, const KeypointsOptions& options = {}) {
+std::string refusal(const std::vector<std::string>& texts, const KeypointsOptions& options = {}) {
   OpenPoseFrames frames(options);
   for (std::size_t f = 0; f < texts.size(); ++f)
     if (auto s = frames.add(static_cast<std::int64_t>(f), texts[f]); !s) return s.error().message;
@@ -90,7 +90,7 @@ TEST(OpenPose, PeopleAreChosenByTheirNumberWhereTheyHaveOne) {
   const auto both = [](const char* first, const char* second) {
     return frame(person(100.0, first) + "," + person(200.0, second));
   };
-  EXPECT_EQ(sentence({both("-1", "-1")}), "shows 2 people; choose one with --person");
+  EXPECT_EQ(refusal({both("-1", "-1")}), "shows 2 people; choose one with --person");
   OpenPoseFrames by_place({.person = 2});
   ASSERT_TRUE(by_place.add(0, both("-1", "-1")));
   EXPECT_EQ(by_place.finish()->at(0, 0).x(), 200.0);
@@ -103,26 +103,25 @@ TEST(OpenPose, PeopleAreChosenByTheirNumberWhereTheyHaveOne) {
 }
 
 TEST(OpenPose, WhatIsNoFrameIsRefused) {
-  EXPECT_THAT(sentence({""}), HasSubstr("is no frame of OpenPose"));
-  EXPECT_THAT(sentence({R"({"instances": []})"}), HasSubstr("is no frame of OpenPose"));
-  EXPECT_THAT(sentence({R"({"people": [)"}), HasSubstr("line 1: is no JSON"));
-  EXPECT_THAT(sentence({frame("7")}), HasSubstr("person 1: is no object"));
-  EXPECT_THAT(sentence({frame("{}")}), HasSubstr("person 1: has no pose_keypoints_2d"));
-  EXPECT_THAT(sentence({frame(R"({"pose_keypoints_2d":[1,2]})")}),
+  EXPECT_THAT(refusal({""}), HasSubstr("is no frame of OpenPose"));
+  EXPECT_THAT(refusal({R"({"instances": []})"}), HasSubstr("is no frame of OpenPose"));
+  EXPECT_THAT(refusal({R"({"people": [)"}), HasSubstr("line 1: is no JSON"));
+  EXPECT_THAT(refusal({frame("7")}), HasSubstr("person 1: is no object"));
+  EXPECT_THAT(refusal({frame("{}")}), HasSubstr("person 1: has no pose_keypoints_2d"));
+  EXPECT_THAT(refusal({frame(R"({"pose_keypoints_2d":[1,2]})")}),
               HasSubstr("is no list of x, y and confidence"));
-  EXPECT_THAT(sentence({frame(R"({"pose_keypoints_2d":["1",2,3]})")}), HasSubstr("is no list of x, y"));
-  EXPECT_THAT(sentence({frame(R"({"pose_keypoints_2d":{"a":1}})")}), HasSubstr("is no list of x, y"));
-  EXPECT_THAT(sentence({frame(R"({"pose_keypoints_2d":[],"pose_keypoints_3d":[1,2,3,1]})")}),
+  EXPECT_THAT(refusal({frame(R"({"pose_keypoints_2d":["1",2,3]})")}), HasSubstr("is no list of x, y"));
+  EXPECT_THAT(refusal({frame(R"({"pose_keypoints_2d":{"a":1}})")}), HasSubstr("is no list of x, y"));
+  EXPECT_THAT(refusal({frame(R"({"pose_keypoints_2d":[],"pose_keypoints_3d":[1,2,3,1]})")}),
               HasSubstr("pose_keypoints_3d alone, points in three dimensions"));
-  EXPECT_THAT(sentence({frame(R"({"pose_keypoints_2d":[9,2,1,3,4,1]})")}),
+  EXPECT_THAT(refusal({frame(R"({"pose_keypoints_2d":[9,2,1,3,4,1]})")}),
               HasSubstr("people have points of body 2;"));
-  EXPECT_THAT(sentence({frame(person(10.0)), frame(R"({"pose_keypoints_2d":)" + triples(18, 1.0) + "}")}),
+  EXPECT_THAT(refusal({frame(person(10.0)), frame(R"({"pose_keypoints_2d":)" + triples(18, 1.0) + "}")}),
               HasSubstr("person 1 has points of body 18; those before have body 25"));
-  EXPECT_THAT(sentence({frame("")}), HasSubstr("1 frames, but none shows anybody"));
-  EXPECT_THAT(sentence({frame(person(10.0))}, {.min_likelihood = 2.0, .person = {}}),
+  EXPECT_THAT(refusal({frame("")}), HasSubstr("1 frames, but none shows anybody"));
+  EXPECT_THAT(refusal({frame(person(10.0))}, {.min_likelihood = 2.0, .person = {}}),
               HasSubstr("likelihood is 2"));
-  EXPECT_EQ(sentence({frame(R"({"pose_keypoints_2d":)" + triples(18, 10.0) + "}")}),
-            "read without complaint");
+  EXPECT_EQ(refusal({frame(R"({"pose_keypoints_2d":)" + triples(18, 10.0) + "}")}), "read without complaint");
 }
 
 class OpenPoseFolder : public ::testing::Test {
