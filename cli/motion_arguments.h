@@ -46,13 +46,20 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command
       .add_option("--images", a.images,
-                  "Points that a camera of the rig saw, CAMERA=FILE.csv as DeepLabCut writes it. Repeatable.")
+                  "Points that a camera of the rig saw, CAMERA=FILE: .csv as DeepLabCut writes it, .json of "
+                  "OpenPose (or its "
+                  "folder), MMPose or COCO. Repeatable.")
       ->group("Images");
   command.add_option("--image-noise", job.images.noise_sd_px, "Noise of a point per axis, px")
       ->capture_default_str()
       ->group("Images");
   command.add_option("--min-likelihood", job.images.min_likelihood, "Less likely points are not seen")
       ->capture_default_str()
+      ->group("Images");
+  command
+      .add_option(
+          "--person", job.images.person,
+          "Which person of images that show several: the file's number, else the place in the frame from 1")
       ->group("Images");
   command.add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
   command.add_option("--weight", a.weights, "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")

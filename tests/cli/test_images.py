@@ -50,7 +50,7 @@ class Camera:
         )
 
 
-class Images(CommandTest):
+class Filmed(CommandTest):
     """The right arm is seen by cameras alone; all other markers are recorded in 3D."""
 
     @classmethod
@@ -107,6 +107,8 @@ class Images(CommandTest):
     def track(self, output, markers, *more):
         return ["track", "-m", self.model, "-t", markers, "-o", output, *more]
 
+
+class Images(Filmed):
     def pair(self):
         return ["--rig", self.filmed / "rig.toml", "--images", "left=left.csv", "--images", "right=right.csv"]
 

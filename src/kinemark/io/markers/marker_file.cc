@@ -14,6 +14,7 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/markers/plausible.h"
@@ -73,6 +74,12 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
   std::array<char, 512> begin{};
   const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
   if (!size) return std::unexpected(size.error());
+  if (begins_keypoints({begin.data(), *size}))
+    return fail(
+        Code::not_supported,
+        fmt::format("{}: holds points in the images of a camera, in pixels, and no positions of markers; "
+                    "give it to ik or track with --rig and --images CAMERA=FILE",
+                    path.string()));
   const std::string extension = lower_extension(path);
   const MarkerFormat* format = format_of({begin.data(), *size}, extension);
   if (format == nullptr && *size == 0)

@@ -92,6 +92,22 @@ TEST(MarkerFile, OtherFilesAreAnsweredWithWhatIsSupported) {
   EXPECT_THAT(status.error().message, HasSubstr("supported are .c3d, .trc, .nwb, "));
 }
 
+TEST(MarkerFile, PointsInPixelsAreNoMarkers) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_text(scratch / "left.csv", "scorer,n,n\nbodyparts,A,A\ncoords,x,y\n0,1,2\n", false));
+  ASSERT_TRUE(write_text(scratch / "left.json", R"({"images": [{"id": 1}]})", false));
+  ASSERT_TRUE(write_text(scratch / "v_0_keypoints.json", R"({"version":1.3,"people":[]})", false));
+  for (const char* name : {"left.csv", "left.json", "v_0_keypoints.json"}) {
+    const auto read = read_markers(scratch / name);
+    ASSERT_FALSE(read) << name;
+    EXPECT_EQ(read.error().code, Code::not_supported);
+    EXPECT_THAT(read.error().message,
+                HasSubstr(std::string(name) + ": holds points in the images of a camera"));
+  }
+  ASSERT_TRUE(write_text(scratch / "other.json", R"({"a": 1})", false));
+  EXPECT_THAT(read_markers(scratch / "other.json").error().message, HasSubstr("a .json file is not read"));
+}
+
 TEST(MarkerFile, Visual3dTextNeedsARateAndOthersRefuseOne) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(write_text(scratch / "a.V3D",

@@ -144,6 +144,8 @@ class KeypointsParser {
 }  // namespace
 
 Status KeypointsOptions::check() const {
+  if (person && *person < 0)
+    return fail(Code::usage, fmt::format("person {} cannot be; need a number from 0", *person));
   if (min_likelihood >= 0.0 && min_likelihood <= 1.0) return {};
   return fail(Code::usage, fmt::format("the least likelihood is {}; need 0 to 1", min_likelihood));
 }

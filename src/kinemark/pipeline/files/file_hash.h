@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "kinemark/core/result.h"
@@ -20,9 +21,17 @@ struct FileHash {
 /// Size and checksum of a file, read once in blocks.
 [[nodiscard]] Result<FileHash> hash_file(const std::filesystem::path& path);
 
-/// The same as a run's record has it.
+/// Size and checksum of files one after the other, as of one file with all their bytes.
+[[nodiscard]] Result<FileHash> hash_files(std::span<const std::filesystem::path> paths);
+
+/// Size and checksum of a file as a run's record has them.
 /// @param role  "markers", "model", "setup", ...
 [[nodiscard]] Result<data::InputFile> record_input(const std::string& role,
                                                    const std::filesystem::path& path);
+
+/// The same for what several files tell together, recorded under one path, such as their folder.
+[[nodiscard]] Result<data::InputFile> record_inputs(const std::string& role,
+                                                    const std::filesystem::path& path,
+                                                    std::span<const std::filesystem::path> files);
 
 }  // namespace kinemark::pipeline

@@ -31,6 +31,21 @@ TEST(HashFile, ReadsInBlocksWithTheSameResultAsAnyOtherSplit) {
   EXPECT_NE(hash_file(scratch / "other").value().hex, whole.hex) << "the last byte counts";
 }
 
+TEST(HashFile, SeveralFilesCountAsOneWithAllTheirBytes) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "a", "a", false));
+  ASSERT_TRUE(io::write_text(scratch / "bc", "bc", false));
+  const std::vector<std::filesystem::path> both{scratch / "a", scratch / "bc"};
+  const auto record = record_inputs("images", "folder", both).value();
+  EXPECT_EQ(record.hash, "78af5f94892f3950") << "of \"abc\"";
+  EXPECT_EQ(record.bytes, 3);
+  EXPECT_EQ(record.path, "folder");
+  const std::vector<std::filesystem::path> turned{scratch / "bc", scratch / "a"};
+  EXPECT_NE(hash_files(turned).value().hex, record.hash);
+  const std::vector<std::filesystem::path> lacking{scratch / "a", scratch / "absent"};
+  EXPECT_EQ(hash_files(lacking).error().code, Code::io);
+}
+
 TEST(HashFile, SaysWhatCannotBeRead) {
   const testing_support::ScratchFolder scratch;
   const auto absent = hash_file(scratch / "absent");

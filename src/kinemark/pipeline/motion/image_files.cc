@@ -10,8 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/io/rig/rig_file.h"
-#include "kinemark/io/text/keypoints_csv.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -33,6 +33,10 @@ Result<data::Camera> pinhole_camera(const data::Rig& rig, const ImageFiles& file
 
 }  // namespace
 
+io::KeypointsOptions ImageFiles::points_options() const {
+  return {.min_likelihood = min_likelihood, .person = person};
+}
+
 Status ImageFiles::check() const {
   if (!any()) return {};
   if (rig.empty()) return fail(Code::usage, "images need the rig of their cameras; give --rig");
@@ -44,7 +48,7 @@ Status ImageFiles::check() const {
       return fail(Code::usage, fmt::format("camera '{}' has two files of images", camera));
   if (!(noise_sd_px > 0.0 && std::isfinite(noise_sd_px)))
     return fail(Code::usage, fmt::format("the image noise is {} px; it must be more than 0", noise_sd_px));
-  return io::KeypointsOptions{.min_likelihood = min_likelihood}.check();
+  return points_options().check();
 }
 
 std::string describe_images(const ImageFiles& files) {
@@ -63,7 +67,7 @@ Result<data::ImageTracks> read_images(const ImageFiles& files, const TimeBase& t
     auto camera = pinhole_camera(*rig, files, name);
     if (!camera) return std::unexpected(camera.error());
     tracks.cameras.push_back(std::move(*camera));
-    auto read = io::read_keypoints_csv(path, {.min_likelihood = files.min_likelihood});
+    auto read = io::read_keypoints(path, files.points_options());
     if (!read) return std::unexpected(read.error());
     if (read->frames() != time.frames)
       return fail(Code::bad_input, fmt::format("{}: has {} frames; the markers have {}", path.string(),

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/image_tracks.h"
+#include "kinemark/io/text/keypoints_csv.h"
 
 namespace kinemark::pipeline {
 
@@ -16,15 +19,18 @@ struct ImageFiles {
   /// The points of one camera.
   struct OfCamera {
     std::string camera;            ///< name in the rig
-    std::filesystem::path points;  ///< CSV of labelled points
+    std::filesystem::path points;  ///< file or folder of labelled points
   };
-  std::filesystem::path rig;      ///< rig.toml
-  std::vector<OfCamera> cameras;  ///< none: no images
-  double noise_sd_px = 1.0;       ///< of a point, per axis; > 0
-  double min_likelihood = 0.6;    ///< 0 to 1: less likely points are not seen
+  std::filesystem::path rig;           ///< rig.toml
+  std::vector<OfCamera> cameras;       ///< none: no images
+  double noise_sd_px = 1.0;            ///< of a point, per axis; > 0
+  double min_likelihood = 0.6;         ///< 0 to 1: less likely points are not seen
+  std::optional<std::int64_t> person;  ///< in files of several people; without: the only one
 
   /// Whether images are to be used.
   [[nodiscard]] bool any() const { return !cameras.empty() || !rig.empty(); }
+  /// How the files are read.
+  [[nodiscard]] io::KeypointsOptions points_options() const;
   /// Both a rig and cameras, each once; numbers in range.
   [[nodiscard]] Status check() const;
 };

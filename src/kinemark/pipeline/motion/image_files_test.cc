@@ -87,6 +87,22 @@ TEST_F(ReadImages, FilesHaveTheFramesOfTheMarkers) {
   EXPECT_EQ(read_images(files_, kTwoFrames).error().code, Code::io);
 }
 
+TEST_F(ReadImages, ReadsDocumentsOfJsonAndChoosesThePerson) {
+  write("l.json",
+        R"([{"frame_id": 0, "instances": [{"keypoints": [[10, 20]]}, {"keypoints": [[30, 40]]}]},
+            {"frame_id": 1, "instances": [{"keypoints": [[11, 21]]}]}])");
+  files_.cameras = {{"left", folder_ / "l.json"}};
+  EXPECT_THAT(sentence(), HasSubstr("l.json: frame 0: shows 2 people; choose one with --person"));
+  files_.person = 2;
+  const auto tracks = read_images(files_, kTwoFrames);
+  ASSERT_TRUE(tracks) << tracks.error().message;
+  EXPECT_THAT(tracks->names, ElementsAre("keypoint_0"));
+  EXPECT_EQ(tracks->at(0, 0, 0), Eigen::Vector2d(30.0, 40.0));
+  EXPECT_TRUE(tracks->at(1, 0, 0).array().isNaN().all()) << "frame 1 shows one person";
+  files_.person = -1;
+  EXPECT_EQ(files_.check().error().code, Code::usage);
+}
+
 TEST_F(ReadImages, AskedForWhatCannotBeIsUsage) {
   EXPECT_TRUE(ImageFiles{}.check()) << "no images is nothing wrong";
   const auto refused = [](const ImageFiles& files) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/version.h"
+#include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -35,7 +36,9 @@ Status add_images(const MotionJob& job, MotionInputs& inputs) {
   if (!file) return std::unexpected(file.error());
   inputs.files.push_back(std::move(*file));
   for (const auto& [camera, points] : job.images.cameras) {
-    file = record_input("images", points);
+    const auto files = io::keypoints_files(points);
+    if (!files) return std::unexpected(files.error());
+    file = record_inputs("images", points, *files);
     if (!file) return std::unexpected(file.error());
     inputs.files.push_back(std::move(*file));
   }

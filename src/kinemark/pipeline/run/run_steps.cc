@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "kinemark/core/name_pattern.h"
+#include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/io/number.h"
 
 namespace kinemark::pipeline {
@@ -204,6 +205,18 @@ class Planner {
             .record = folder / (name + ".step.json")};
   }
 
+  /// The frames of OpenPose that a folder of them, or one of them, stands for. What cannot be read is left to
+  /// the step.
+  void add_frames(const fs::path& points, std::vector<fs::path>& inputs) const {
+    const auto frames = io::keypoints_files(base_ / points);
+    if (!frames) return;
+    std::error_code absent;
+    const auto folder = fs::is_directory(base_ / points, absent) ? points : points.parent_path();
+    std::set<fs::path> known(inputs.begin(), inputs.end());
+    for (const auto& frame : *frames)
+      if (known.insert(folder / frame.filename()).second) inputs.push_back(folder / frame.filename());
+  }
+
   /// With its options behind its own words; every value that names a file is an input.
   std::size_t add(RunStep step, const std::vector<Setting>& options, const std::string& subject,
                   const std::string& trial) {
@@ -223,6 +236,8 @@ class Planner {
               std::ranges::find(step.inputs, fs::path(file)) == step.inputs.end())
             step.inputs.emplace_back(file);
         }
+        if (setting.name == "images" && behind != std::string::npos)
+          add_frames(value.substr(behind + 1), step.inputs);
       }
     }
     steps_.push_back(std::move(step));

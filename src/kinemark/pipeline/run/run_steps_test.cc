@@ -180,6 +180,28 @@ trials = ["S/run.c3d"]
   EXPECT_THAT(steps[1].inputs, Contains(fs::path("weights.xml")));
 }
 
+TEST_F(PlanSteps, FramesOfOpenPoseAreInputsEachAndOneStandsForAll) {
+  fs::create_directories(scratch_ / "frames");
+  for (const char* name : {"frames/v_0_keypoints.json", "frames/v_1_keypoints.json"})
+    ASSERT_TRUE(io::write_text(scratch_ / name, R"({"version":1.3,"people":[]})", true));
+  for (const char* points : {"frames", "frames/v_1_keypoints.json"}) {
+    const auto steps = plan(std::string(R"(
+steps = ["ik"]
+[ik]
+model = "human.osim"
+images = "left=)") + points +
+                            R"("
+[[subject]]
+name = "A"
+trials = ["S/run.c3d"]
+)")
+                           .value();
+    ASSERT_EQ(steps.size(), 1U);
+    EXPECT_THAT(steps[0].inputs, Contains(fs::path("frames/v_0_keypoints.json")).Times(1)) << points;
+    EXPECT_THAT(steps[0].inputs, Contains(fs::path("frames/v_1_keypoints.json")).Times(1)) << points;
+  }
+}
+
 TEST_F(PlanSteps, AFileWhoseNameBeginsLikeAnOptionIsNone) {
   const auto steps =
       plan("steps = [\"clean\"]\noutput = \"-o\"\n[[subject]]\nname = \"A\"\ntrials = [\"-x.c3d\"]\n")
