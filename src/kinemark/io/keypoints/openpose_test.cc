@@ -155,7 +155,7 @@ TEST_F(OpenPoseFolder, AFolderOrAnyOfItsFilesIsTheVideo) {
   EXPECT_EQ(files[2].number, 12);
 }
 
-TEST_F(OpenPoseFolder, TwoVideosAreToldApart) {
+TEST_F(OpenPoseFolder, TwoVideosAreKeptApart) {
   write("a_1_keypoints.json", frame(person(1.0)));
   write("b_1_keypoints.json", frame(person(2.0)));
   EXPECT_THAT(sentence_of(folder_ / ""), HasSubstr("holds frames of 'a_' and of 'b_'; give one file"));

@@ -33,8 +33,8 @@ struct Keypoints {
 /// Options of read_keypoints_csv().
 struct KeypointsOptions {
   double min_likelihood = 0.6;  ///< 0 to 1: points less likely are not seen
-  /// Which person, in files of several: by the number that the file gives her, else by her place in each frame,
-  /// from 1. Without: the only one.
+  /// Which person, in files of several: by the number that the file gives her, else by her place in each
+  /// frame, from 1. Without: the only one.
   std::optional<std::int64_t> person;
 
   /// min_likelihood lies in [0, 1], the number is not negative.
