@@ -3,6 +3,7 @@
 """Images of calibrated cameras as goals: `track --rig --images`, `ik --estimator smoother --rig --images`."""
 
 import csv
+import json
 import math
 import random
 import tempfile
@@ -185,3 +186,90 @@ class Images(Filmed):
 
 if __name__ == "__main__":
     unittest.main()
+
+
+class Keypoints(Filmed):
+    """The same points as CSV and as JSON of others give the same angles, to the last bit."""
+
+    NAMES = {"RUPA": "RShoulder", "RELB": "RElbow", "RWRA": "RWrist"}
+    BODY25 = {"RShoulder": 2, "RElbow": 3, "RWrist": 4}
+
+    def setUp(self):
+        super().setUp()
+        model = self.model.read_text()
+        for marker, name in self.NAMES.items():
+            self.assertIn(f'"{marker}"', model)
+            model = model.replace(f'"{marker}"', f'"{name}"')
+        self.write("model.osim", model)
+        self.recorded_without(ARM)
+        lines = self.film(self.cameras[0], dark=range(50, 60), names=tuple(self.NAMES)).read_text().splitlines()
+        for marker, name in self.NAMES.items():
+            lines[1] = lines[1].replace(marker, name)
+        self.write("left.csv", "\n".join(lines) + "\n")
+        names = lines[1].split(",")[1::3]
+        self.frames = []
+        for line in lines[3:]:
+            cells = [float(cell) for cell in line.split(",")[1:]]
+            self.frames.append({name: cells[3 * i: 3 * i + 3] for i, name in enumerate(names)})
+
+    def solve(self, images, *more, status=0):
+        ran = self.good("track", "-m", "model.osim", "-t", "markers.csv", "-o", "q.mot", "--rig", self.filmed / "rig.toml",
+                        "--images", f"left={images}", "--force", "--quiet", *more, status=status)
+        self.assertEqual(ran.err, "")
+        names, rows = table(self.folder / "q.mot")
+        return names, rows
+
+    def persons(self, frame):
+        """The person of a frame behind another one, whose points are elsewhere."""
+        return [{name: (1.0, 2.0, 0.9) for name in frame}, frame]
+
+    def coco(self, people):
+        annotations = []
+        for i, frame in enumerate(self.frames):
+            for k, person in enumerate(people(frame)):
+                flat = [value for x, y, score in person.values() for value in (x, y, 2 if score >= 0.6 else 0)]
+                annotations.append({"id": 10 * i + k, "image_id": i + 1, "category_id": 1, "keypoints": flat})
+        return {"images": [{"id": i + 1, "file_name": f"{i:06}.png"} for i in range(len(self.frames))],
+                "annotations": annotations, "categories": [{"id": 1, "name": "person", "keypoints": list(self.frames[0])}]}
+
+    def mmpose(self, people):
+        frames = [{"frame_id": i, "instances": [{"keypoints": [[x, y] for x, y, _ in person.values()],
+                                                 "keypoint_scores": [score for _, _, score in person.values()]}
+                                                for person in people(frame)]} for i, frame in enumerate(self.frames)]
+        return {"meta_info": {"keypoint_id2name": {str(i): name for i, name in enumerate(self.frames[0])}}, "instance_info": frames}
+
+    def openpose(self, people, folder):
+        (self.folder / folder).mkdir()
+        for i, frame in enumerate(self.frames):
+            persons = []
+            for person in people(frame):
+                flat = [0.0] * 75
+                for name, place in self.BODY25.items():
+                    flat[3 * place: 3 * place + 3] = person[name]
+                persons.append({"person_id": [-1], "pose_keypoints_2d": flat})
+            self.write(f"{folder}/walk_{i:012}_keypoints.json", json.dumps({"version": 1.3, "people": persons}))
+
+    def test_json_gives_what_csv_gives(self):
+        expected = self.solve("left.csv")
+        one = lambda frame: [frame]
+        self.write("coco.json", json.dumps(self.coco(one)))
+        self.write("mmpose.json", json.dumps(self.mmpose(one)))
+        self.openpose(one, "openpose")
+        for images in ("coco.json", "mmpose.json", "openpose", "openpose/walk_000000000007_keypoints.json"):
+            self.assertEqual(self.solve(images), expected, images)
+
+    def test_one_of_several_people_is_chosen(self):
+        expected = self.solve("left.csv")
+        self.write("coco.json", json.dumps(self.coco(self.persons)))
+        self.write("mmpose.json", json.dumps(self.mmpose(self.persons)))
+        self.openpose(self.persons, "openpose")
+        for images in ("coco.json", "mmpose.json", "openpose"):
+            self.refused(3, "--person", "track", "-m", "model.osim", "-t", "markers.csv", "-o", "new.mot", "--rig",
+                         self.filmed / "rig.toml", "--images", f"left={images}")
+            self.assertEqual(self.solve(images, "--person", "2"), expected, images)
+            self.assertNotEqual(self.solve(images, "--person", "1", status=1), expected, images)
+
+    def test_points_in_pixels_are_no_markers(self):
+        self.write("coco.json", json.dumps(self.coco(lambda frame: [frame])))
+        for command in (["info", "coco.json"], ["convert", "coco.json", "out.c3d"]):
+            self.refused(3, "--images", *command)
