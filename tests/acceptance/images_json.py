@@ -80,7 +80,7 @@ def write_openpose(subject, folder, numbered):
     folder.mkdir()
     for f in range(FRAMES):
         people = []
-        for number, values in ((3, subject.values[f]), (8, subject.other(f))):
+        for number, values in ((8, subject.other(f)), (3, subject.values[f])):
             points = numpy.zeros((len(COCO18), 3))
             points[: len(ARM)] = values
             person = {"person_id": [number if numbered else -1], "pose_keypoints_2d": points.ravel().tolist()}

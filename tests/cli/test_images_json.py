@@ -4,6 +4,7 @@
 
 import csv
 import json
+import re
 import unittest
 
 import test_images
@@ -67,7 +68,7 @@ class JsonOfImages(test_images.Filmed):
         """A copy of a text with the arm's names as the first of MPI."""
         text = name.read_text()
         for ours, theirs in zip(NAMES, MPI):
-            text = text.replace(f'"{ours}"', f'"{theirs}"').replace(f",{ours},", f",{theirs},").replace(f",{ours},", f",{theirs},")
+            text = re.sub(rf'(?<=[",]){ours}(?=[",\n])', theirs, text)
         return self.write(into, text)
 
     def test_documents_give_what_the_table_gives(self):
