@@ -6,12 +6,23 @@ import json
 import unittest
 from xml.etree import ElementTree
 
-from support import CommandTest
+from support import CommandTest, real_file
 
 
 class Robots(CommandTest):
     def masses(self, name, tag, key):
         return sum(float(node.get(key)) for node in ElementTree.parse(self.folder / name).getroot().iter(tag) if node.get(key))
+
+    def changed_model(self, changes):
+        """The model with other settings of coordinates, {coordinate: {tag: text}}."""
+        tree = ElementTree.parse(self.model)
+        for node in tree.iter("Coordinate"):
+            for tag, text in changes.pop(node.get("name"), {}).items():
+                found = node.find(tag)
+                (ElementTree.SubElement(node, tag) if found is None else found).text = text
+        self.assertEqual(changes, {})
+        tree.write(self.folder / "changed.osim")
+        return "changed.osim"
 
     def test_a_scaled_model_keeps_its_mass_in_both(self):
         self.good("scale", "-m", self.model, "-t", self.c3d, "-o", "scaled.osim", "--mass", 60)
@@ -34,6 +45,25 @@ class Robots(CommandTest):
         self.assertIn("'L F<HD>' is 'L_F_HD_'", out.err)
         names = [site.get("name") for site in ElementTree.parse(self.folder / "odd.xml").getroot().iter("site")]
         self.assertIn("L_F_HD_", names)
+
+    def test_limits_are_kept_and_locked_coordinates_fixed(self):
+        changes = {"knee_angle_r": {"clamped": "true", "range": "-0.25 1.5"}, "hip_flexion_r": {"locked": "true"}}
+        self.good("convert", self.changed_model(changes), "a.urdf")
+        joints = {joint.get("name"): joint for joint in ElementTree.parse(self.folder / "a.urdf").getroot().iter("joint")}
+        self.assertNotIn("hip_flexion_r", joints)
+        self.assertEqual(joints["knee_angle_r"].get("type"), "revolute")
+        limit = joints["knee_angle_r"].find("limit")
+        self.assertEqual((limit.get("lower"), limit.get("upper")), ("-0.25", "1.5"))
+
+    def test_a_fit_says_how_far_it_is_off(self):
+        model = real_file("opensim-gait2354/gait2354_simbody.osim")
+        self.assertRegex(self.good("convert", model, "a.urdf").err, r"'knee_r': its translation 2 follows 'knee_angle_r' .* 4\.89 mm off")
+        self.assertRegex(self.good("convert", model, "a.xml").err, r"'knee_r': its translation 2 follows 'knee_angle_r' .* 0\.279 mm off")
+
+    def test_a_file_that_is_there_is_kept(self):
+        self.write("a.urdf", "mine")
+        self.refused(4, "a.urdf", "convert", self.model, "a.urdf")
+        self.assertEqual((self.folder / "a.urdf").read_text(), "mine")
 
     def test_markers_cannot_become_a_robot_nor_a_robot_a_model(self):
         self.refused(2, "different kinds of file", "convert", self.c3d, "a.urdf")

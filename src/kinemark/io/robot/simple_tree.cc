@@ -35,6 +35,12 @@ PolynomialFit line(const math::ScalarFunction& function) {
   return {.coefficients = {function.offset(), function.slope()}};
 }
 
+/// What follows a coordinate that has a joint.
+struct Led {
+  int leader_idx = 0;
+  std::function<double(double)> function;  ///< of the leader
+};
+
 class Simplifier {
  public:
   Simplifier(const data::ModelDescription& model, int degree)
@@ -72,10 +78,17 @@ class Simplifier {
     return model_.coordinates[at(index)];
   }
 
+  /// Whether it is locked, or follows one that is.
+  [[nodiscard]] bool is_held(int index) const {
+    if (coordinate(index).locked) return true;
+    const auto* coupling = coupling_of(index);
+    return coupling != nullptr && (coupling->function.is_constant() || is_held(coupling->independent_idx));
+  }
+
   /// Whether it stays as it is without a loss.
   [[nodiscard]] bool is_still(const AxisDescription& axis) const {
     const auto rests = [&](int c, const math::ScalarFunction& f) {
-      return c < 0 || f.is_constant() || coordinate(c).locked;
+      return c < 0 || f.is_constant() || is_held(c);
     };
     return rests(axis.coordinate_idx, axis.function) &&
            rests(axis.second_coordinate_idx, axis.second_function);
@@ -127,40 +140,49 @@ class Simplifier {
     return found == model_.couplings.end() ? nullptr : &*found;
   }
 
-  /// A function of the nearest coordinate up the couplings that has a joint; none where no such one is.
-  [[nodiscard]] std::optional<std::pair<int, std::function<double(double)>>> led(
-      const AxisDescription& axis) const {
-    if (axis.second_coordinate_idx >= 0) return std::nullopt;
-    int leader = axis.coordinate_idx;
-    std::function<double(double)> function = [&axis](double q) { return axis.function(q).f; };
+  /// The same function of the nearest coordinate up the couplings that has a joint; none where no such one
+  /// is.
+  [[nodiscard]] std::optional<Led> led(int leader, std::function<double(double)> function) const {
     while (owner_[at(leader)] == nullptr) {
       const auto* coupling = coupling_of(leader);
       if (coupling == nullptr) return std::nullopt;
       function = [inner = std::move(function), coupling](double q) { return inner(coupling->function(q).f); };
       leader = coupling->independent_idx;
     }
-    return std::pair{leader, std::move(function)};
+    return Led{leader, std::move(function)};
   }
 
-  void add_follower(const data::JointDescription& joint, const AxisDescription& axis, int leader,
-                    const std::function<double(double)>& function, const Vector3d& direction,
-                    SimpleChain& chain) {
-    const auto [low, high] = range(leader);
-    const bool is_line = leader == axis.coordinate_idx && axis.function.is_linear();
-    auto fit = is_line ? line(axis.function) : fit_polynomial(function, low, high, degree_);
+  [[nodiscard]] std::optional<Led> led(const AxisDescription& axis) const {
+    if (axis.second_coordinate_idx >= 0) return std::nullopt;
+    return led(axis.coordinate_idx, [&axis](double q) { return axis.function(q).f; });
+  }
+
+  /// A line stays as it is where no other function comes between.
+  [[nodiscard]] PolynomialFit fit(const Led& led, int followed_idx,
+                                  const math::ScalarFunction& function) const {
+    if (led.leader_idx == followed_idx && function.is_linear()) return line(function);
+    const auto [low, high] = range(led.leader_idx);
+    return fit_polynomial(led.function, low, high, degree_);
+  }
+
+  void add_follower(const data::JointDescription& joint, const AxisDescription& axis, const Led& led,
+                    const Vector3d& direction, SimpleChain& chain) {
+    const int leader = led.leader_idx;
+    auto fitted = fit(led, axis.coordinate_idx, axis.function);
     std::string name = fmt::format("{}_{}", joint.name, &axis - joint.axes.data() + 1);
     while (!names_.insert(name).second) name += '_';
-    if (fit.largest_error > kNoError)
-      out_.lost.push_back(fmt::format(
-          "joint '{}': its {} {} follows '{}' by a polynomial of degree {}, at most {} off", joint.name,
-          axis.is_rotation ? "rotation" : "translation", &axis - joint.axes.data() + 1,
-          coordinate(leader).name, fit.coefficients.size() - 1, amount(fit.largest_error, axis.is_rotation)));
+    if (fitted.largest_error > kNoError)
+      out_.lost.push_back(
+          fmt::format("joint '{}': its {} {} follows '{}' by a polynomial of degree {}, at most {} off",
+                      joint.name, axis.is_rotation ? "rotation" : "translation",
+                      &axis - joint.axes.data() + 1, coordinate(leader).name, fitted.coefficients.size() - 1,
+                      amount(fitted.largest_error, axis.is_rotation)));
     chain.joints.push_back({.name = name,
                             .is_rotation = axis.is_rotation,
                             .axis = direction,
-                            .default_value = fit(default_q_[at(leader)])});
+                            .default_value = fitted(default_q_[at(leader)])});
     out_.couplings.push_back(
-        {.dependent = name, .independent = coordinate(leader).name, .function = std::move(fit)});
+        {.dependent = name, .independent = coordinate(leader).name, .function = std::move(fitted)});
   }
 
   /// Adds the joint of an axis; what is left to turn or move by for good.
@@ -176,8 +198,8 @@ class Simplifier {
                               .default_value = default_q_[at(c)]});
       return axis.function.offset();
     }
-    if (const auto function = led(axis)) {
-      add_follower(joint, axis, function->first, function->second, direction, chain);
+    if (const auto followed = led(axis)) {
+      add_follower(joint, axis, *followed, direction, chain);
       return 0.0;
     }
     out_.lost.push_back(
@@ -213,21 +235,21 @@ class Simplifier {
     for (const auto& c : model_.couplings) {
       if (owner_[at(c.dependent_idx)] == nullptr) continue;
       const std::string& name = coordinate(c.dependent_idx).name;
-      const std::string& leader = coordinate(c.independent_idx).name;
-      if (owner_[at(c.independent_idx)] == nullptr) {
-        out_.lost.push_back(fmt::format(
-            "coordinate '{}' follows '{}', which has no joint of its own, and is free here", name, leader));
+      const auto followed = led(c.independent_idx, [&c](double q) { return c.function(q).f; });
+      if (!followed) {
+        out_.lost.push_back(
+            fmt::format("coordinate '{}' follows '{}', which has no joint of its own, and is free here", name,
+                        coordinate(c.independent_idx).name));
         continue;
       }
-      const auto [low, high] = range(c.independent_idx);
-      auto fit = c.function.is_linear()
-                     ? line(c.function)
-                     : fit_polynomial([&c](double q) { return c.function(q).f; }, low, high, degree_);
-      if (fit.largest_error > kNoError)
-        out_.lost.push_back(fmt::format(
-            "coordinate '{}' follows '{}' by a polynomial of degree {}, at most {} off", name, leader,
-            fit.coefficients.size() - 1, amount(fit.largest_error, coordinate(c.dependent_idx).is_rotation)));
-      out_.couplings.push_back({.dependent = name, .independent = leader, .function = std::move(fit)});
+      const std::string& leader = coordinate(followed->leader_idx).name;
+      auto fitted = fit(*followed, c.independent_idx, c.function);
+      if (fitted.largest_error > kNoError)
+        out_.lost.push_back(
+            fmt::format("coordinate '{}' follows '{}' by a polynomial of degree {}, at most {} off", name,
+                        leader, fitted.coefficients.size() - 1,
+                        amount(fitted.largest_error, coordinate(c.dependent_idx).is_rotation)));
+      out_.couplings.push_back({.dependent = name, .independent = leader, .function = std::move(fitted)});
     }
   }
 

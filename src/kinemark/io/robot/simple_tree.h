@@ -52,7 +52,8 @@ struct SimpleTree {
 /// fitted over the coordinate's range (of one without limits: half a turn, or 1 m, to both sides); a fit that
 /// is off by more than 1e-9 is said with its largest error. Axes of two coordinates, or of one that has no
 /// joint, are held in the default posture, which is said with the most that they move. So are closed loops.
-/// Axes of locked coordinates are still. The model must have passed validate(). O(bodies^2).
+/// Axes of locked coordinates, and of those that follow them, are still. The model must have passed
+/// validate(). O(bodies^2).
 [[nodiscard]] SimpleTree simplify(const data::ModelDescription& model, int degree);
 
 }  // namespace kinemark::io

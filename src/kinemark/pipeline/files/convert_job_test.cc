@@ -98,6 +98,33 @@ TEST_F(ConvertFile, TablesAndModelsComeThroughUnchanged) {
             io::read_osim(at("in/model.osim")).value().coordinates.size());
 }
 
+TEST_F(ConvertFile, AModelBecomesARobotAndSaysWhatThatLoses) {
+  const auto as_mjcf = convert(at("in/model.osim"), at("robot.xml"), false);
+  ASSERT_TRUE(as_mjcf) << as_mjcf.error().message;
+  EXPECT_THAT(as_mjcf->written, ElementsAre(at("robot.xml")));
+  EXPECT_THAT(as_mjcf->warnings, Not(Contains(HasSubstr("cannot be stored"))));
+  const auto as_urdf = convert(at("in/model.osim"), at("robot.URDF"), false);
+  ASSERT_TRUE(as_urdf) << "capital letters are fine";
+  EXPECT_THAT(as_urdf->warnings, Contains(HasSubstr("cannot be stored in a .urdf file")));
+  const auto again = convert(at("in/model.osim"), at("robot.xml"), false);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, Code::io);
+  EXPECT_TRUE(convert(at("in/model.osim"), at("robot.xml"), true));
+}
+
+TEST_F(ConvertFile, OnlyAModelBecomesARobotAndNoRobotIsRead) {
+  for (const char* in : {"in/markers.c3d", "in/truth.mot"}) {
+    const auto refused = convert(at(in), at("no.urdf"), false);
+    ASSERT_FALSE(refused) << in;
+    EXPECT_EQ(refused.error().code, Code::usage) << in;
+  }
+  ASSERT_TRUE(convert(at("in/model.osim"), at("read.mjcf"), true));
+  const auto back = convert(at("read.mjcf"), at("back.urdf"), false);
+  ASSERT_FALSE(back);
+  EXPECT_EQ(back.error().code, Code::usage);
+  EXPECT_FALSE(std::filesystem::exists(at("no.urdf")) || std::filesystem::exists(at("back.urdf")));
+}
+
 TEST_F(ConvertFile, DifferentKindsAreAMisuse) {
   ASSERT_TRUE(io::write_text(at("a.v3d"),
                              "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
