@@ -21,9 +21,9 @@ namespace kinemark::io {
 /// number) and, where they are, `hand_left_keypoints_2d`, `hand_right_keypoints_2d` and `face_keypoints_2d`.
 class OpenPoseFrames {
  public:
-  explicit OpenPoseFrames(const KeypointsOptions& options);
-  OpenPoseFrames(OpenPoseFrames&&) noexcept;             ///< takes the frames over
-  OpenPoseFrames& operator=(OpenPoseFrames&&) noexcept;  ///< takes the frames over
+  explicit OpenPoseFrames(const KeypointsOptions& options);  ///< of no frame yet
+  OpenPoseFrames(OpenPoseFrames&&) noexcept;                 ///< takes the frames over
+  OpenPoseFrames& operator=(OpenPoseFrames&&) noexcept;      ///< takes the frames over
   ~OpenPoseFrames();
 
   /// The next frame; numbers rise, and frames that are left out show nobody. Anything but such a frame, and

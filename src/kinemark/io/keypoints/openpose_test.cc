@@ -11,7 +11,6 @@
 namespace kinemark::io {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// A list of triples: x of point m is begin + m, y is 2 x, the score is the same for all.

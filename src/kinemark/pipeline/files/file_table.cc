@@ -151,7 +151,7 @@ std::string trial_table(const ManyOutcome& outcome) {
   for (const auto& [status, n] : counts)
     totals += fmt::format("{} {} {}", totals.back() == ':' ? "" : ",", n, to_string(status));
   if (counts.contains(TrialStatus::there))
-    totals += "\nWhat was there already is as it was, whatever the options now; --force makes it anew.";
+    totals += "; what was there already is as it was, whatever the options now (--force makes it anew)";
   return aligned(rows) + totals + "\n";
 }
 

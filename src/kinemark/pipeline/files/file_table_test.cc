@@ -103,8 +103,8 @@ TEST(TrialTable, HasALineForEachRecordingAndTheTotals) {
             "in/b.c3d   there already        out/b.trc  \n"
             "in/c.c3d   failed         0.50             " +
                 printable_sentence("c: is\nbad") +
-                "\n3 recordings: 1 good, 1 there already, 1 failed\n"
-                "What was there already is as it was, whatever the options now; --force makes it anew.\n");
+                "\n3 recordings: 1 good, 1 there already, 1 failed; what was there already "
+                "is as it was, whatever the options now (--force makes it anew)\n");
 }
 
 TEST(TrialsJson, HasTheSame) {

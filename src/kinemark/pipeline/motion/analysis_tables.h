@@ -21,8 +21,10 @@ struct RowRange {
   [[nodiscard]] std::int64_t size() const { return last - first; }  ///< number of rows
 };
 
-/// A value for each coordinate and frame, one column each. @param per_radian  degrees instead of radians
-/// @param values  F x n, in rad, m and their rates @param columns  indices of coordinates
+/// A value for each coordinate and frame, one column each.
+/// @param values      F x n, in rad, m and their rates
+/// @param columns     indices of coordinates
+/// @param in_degrees  rotations in degrees instead of radians
 [[nodiscard]] data::Table coordinate_rates_table(std::string name, const data::JointMotion& motion,
                                                  const Array<double>& values, const std::vector<int>& columns,
                                                  bool in_degrees, const RowRange& rows);
