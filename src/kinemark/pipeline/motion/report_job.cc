@@ -79,39 +79,66 @@ std::string set_of(const data::Table& table) {
   return line == table.header.end() ? "" : line->second;
 }
 
-}  // namespace
+/// What a solved trial consists of, and what it was made from.
+struct SolvedFiles {
+  fs::path base;
+  Json json;
+  report::IkRun run;
+};
 
-Result<ReportOutcome> run_report(const ReportJob& job) {
-  std::string stem = job.solved.stem().string();
-  if (job.solved.extension() == ".json" && stem.ends_with("_report")) stem.resize(stem.size() - 7);
-  const fs::path base = job.solved.parent_path() / (stem + ".mot");
-  const auto json = read_json(beside(base, "_report.json"));
+Result<SolvedFiles> read_solved(const fs::path& solved) {
+  std::string stem = solved.stem().string();
+  if (solved.extension() == ".json" && stem.ends_with("_report")) stem.resize(stem.size() - 7);
+  const fs::path base = solved.parent_path() / (stem + ".mot");
+  auto json = read_json(beside(base, "_report.json"));
   if (!json) return std::unexpected(json.error());
   auto run = report::run_from_json(*json);
   if (!run) return fail_at(beside(base, "_report.json").string(), run.error());
+  return SolvedFiles{base, std::move(*json), std::move(*run)};
+}
+
+Result<std::string> page_of_files(SolvedFiles files) {
+  const fs::path& base = files.base;
   const auto coordinates = io::read_table(base);
   if (!coordinates) return std::unexpected(coordinates.error());
   const auto deviations = io::read_table(beside(base, "_sd.sto"));
   if (!deviations && fs::exists(beside(base, "_sd.sto"))) return std::unexpected(deviations.error());
   const auto errors = io::read_table(beside(base, "_marker_errors.sto"));
   if (!errors) return std::unexpected(errors.error());
-  std::vector<SetMember> members{{beside(base, "_report.json"), set_of(*json)}, {base, set_of(*coordinates)}};
+  std::vector<SetMember> members{{beside(base, "_report.json"), set_of(files.json)},
+                                 {base, set_of(*coordinates)}};
   if (deviations) members.push_back({beside(base, "_sd.sto"), set_of(*deviations)});
   members.push_back({beside(base, "_marker_errors.sto"), set_of(*errors)});
   if (auto s = check_same_set(members); !s) return std::unexpected(s.error());
+  const auto motion =
+      motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(files.json));
+  if (!motion) return fail_at(base.string(), motion.error());
+  const auto states = recorded_states(files.run, *motion);
+  auto summary = report::summarize(std::move(files.run), *motion, states ? &*states : nullptr);
+  if (!summary) return fail_at(base.string(), summary.error());
+  return report::report_html(
+      {.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
+}
+
+}  // namespace
+
+Result<std::string> solved_page(const fs::path& solved) {
+  auto files = read_solved(solved);
+  if (!files) return std::unexpected(files.error());
+  return page_of_files(std::move(*files));
+}
+
+Result<ReportOutcome> run_report(const ReportJob& job) {
+  auto files = read_solved(job.solved);
+  if (!files) return std::unexpected(files.error());
+  const fs::path& base = files->base;
   std::vector<fs::path> inputs{base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
                                beside(base, "_report.json")};
-  for (const auto& input : run->inputs) inputs.emplace_back(input.path);
+  for (const auto& input : files->run.inputs) inputs.emplace_back(input.path);
   if (auto s = check_apart({job.page}, inputs); !s) return std::unexpected(s.error());
-  const auto motion =
-      motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(*json));
-  if (!motion) return fail_at(base.string(), motion.error());
-  const auto states = recorded_states(*run, *motion);
-  auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
-  if (!summary) return fail_at(base.string(), summary.error());
-  const std::string html =
-      report::report_html({.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
-  if (auto s = io::write_text(job.page, html, job.force); !s) return std::unexpected(s.error());
+  const auto html = page_of_files(std::move(*files));
+  if (!html) return std::unexpected(html.error());
+  if (auto s = io::write_text(job.page, *html, job.force); !s) return std::unexpected(s.error());
   ReportOutcome out;
   out.written = {job.page};
   return out;
