@@ -109,7 +109,7 @@ std::optional<Response> Entrance::ask(const Request& request) {
     response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"kinemark\"");
     return response;
   }
-  if (!only_reads(request) && !request.upgrade) {
+  if (!only_reads(request) && request.method != "GET") {
     auto response = sentence_page(405, "This server only shows; it takes GET and HEAD.");
     response.headers.emplace_back("Allow", "GET, HEAD");
     return response;

@@ -47,11 +47,11 @@ std::string table_row(const TrialRow& row, bool shows_folder) {
   std::string text = fmt::format("<tr><th scope=\"row\"><a href=\"/trial/{}\">{}</a>", row.number,
                                  html_text(row.name.empty() ? "(no name)" : row.name));
   if (shows_folder) text += fmt::format("<small>{}</small>", html_text(row.folder));
-  text += "</th>" + cell(row.kind, false) + count_cell(row.markers) + count_cell(row.frames);
+  text += fmt::format("</th><td>{}</td>", verdict_text(row)) + cell(row.kind, false) + count_cell(row.markers) + count_cell(row.frames);
   text += cell(row.rate_hz ? fmt::format("{:.5g}", *row.rate_hz) : "");
   text += cell(row.duration_s ? fmt::format("{:.2f}", *row.duration_s) : "");
   text += cell(measured_text(row));
-  text += fmt::format("<td>{}</td><td class=\"said\">{}</td></tr>\n", verdict_text(row), html_text(row.said));
+  text += fmt::format("<td class=\"said\">{}</td></tr>\n", html_text(row.said));
   return text;
 }
 
@@ -69,10 +69,10 @@ std::string summary_of(const std::vector<TrialRow>& rows) {
 }
 
 constexpr std::string_view kHeads =
-    "<thead><tr><th scope=\"col\">Trial</th><th scope=\"col\">Kind</th><th scope=\"col\" class=\"number\">"
+    "<thead><tr><th scope=\"col\">Trial</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th scope=\"col\" class=\"number\">"
     "Markers</th><th scope=\"col\" class=\"number\">Frames</th><th scope=\"col\" class=\"number\">Rate, Hz"
     "</th><th scope=\"col\" class=\"number\">Duration, s</th><th scope=\"col\" class=\"number\">Measured</th>"
-    "<th scope=\"col\">Verdict</th><th scope=\"col\">Findings</th></tr></thead>\n";
+    "<th scope=\"col\">Findings</th></tr></thead>\n";
 
 }  // namespace
 

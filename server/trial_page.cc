@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -25,8 +26,12 @@ using studies::html_text;
 
 constexpr std::size_t kTextLetters = 300;
 
-/// "first_time_s" as people read it.
+/// "rate_hz" as people read it: "rate, Hz".
 std::string title_of(std::string key) {
+  constexpr std::array<std::array<std::string_view, 2>, 3> kUnits = {
+      {{"_hz", ", Hz"}, {"_s", ", s"}, {"_kg", ", kg"}}};
+  for (const auto& [suffix, unit] : kUnits)
+    if (key.ends_with(suffix)) key.replace(key.size() - suffix.size(), suffix.size(), unit);
   std::ranges::replace(key, '_', ' ');
   return key;
 }
@@ -76,7 +81,7 @@ std::string facts_page(const pipeline::InfoOutcome& info) {
       html_text(value_text(json["kind"])), html_text(name));
   text += warnings_section(info.warnings);
   text += "<section>\n<h2>What it holds</h2>\n<div class=\"table\" role=\"region\" aria-label=\"What it holds\" "
-          "tabindex=\"0\">\n<table>\n<tbody>\n";
+          "tabindex=\"0\">\n<table class=\"held\">\n<tbody>\n";
   std::string lists;
   for (const auto& [key, value] : json.items()) {
     if (key == "warnings" || key == "kind" || key == "file") continue;
