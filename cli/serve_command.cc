@@ -28,7 +28,8 @@ struct ServeArguments {
 };
 
 Result<server::Keys> make_keys(const ServeArguments& arguments, std::uint16_t port) {
-  server::Keys keys{.hosts = server::own_hosts(arguments.bind, port), .cookie = fmt::format("kinemark_{}", port)};
+  server::Keys keys{.hosts = server::own_hosts(arguments.bind, port),
+                    .cookie = fmt::format("kinemark_{}", port)};
   for (auto* key : {&keys.token, &keys.opening, &keys.session}) {
     auto secret = server::new_secret();
     if (!secret) return std::unexpected(secret.error());
@@ -73,9 +74,10 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       "Prints one line, the address with the token that lets a browser in, and answers until Ctrl-C.");
   const auto arguments = std::make_shared<ServeArguments>();
   command
-      ->add_option("FILE", arguments->given,
-                   ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
-                   "at again when the page is reloaded")
+      ->add_option(
+          "FILE", arguments->given,
+          ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
+          "at again when the page is reloaded")
       ->required();
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
@@ -83,7 +85,8 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--bind", arguments->bind, "Address of this machine to listen on: 127.0.0.1 or ::1")
       ->capture_default_str();
   command->add_flag("--no-open", arguments->no_open, "Open no browser, in a desktop session either");
-  command->callback([&common, arguments, &run] { run = [&common, arguments] { return serve(common, *arguments); }; });
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return serve(common, *arguments); }; });
 }
 
 }  // namespace kinemark::cli

@@ -16,8 +16,8 @@ TEST(BindAddress, OfThisMachineAloneIsTaken) {
 }
 
 TEST(BindAddress, ThatOthersReachIsRefusedWithWhatToDo) {
-  for (const char* address : {"0.0.0.0", "192.168.1.7", "10.0.0.1", "128.0.0.1", "126.255.255.255", "::", "fe80::1",
-                              "::ffff:127.0.0.1", "::2"}) {
+  for (const char* address : {"0.0.0.0", "192.168.1.7", "10.0.0.1", "128.0.0.1", "126.255.255.255",
+                              "::", "fe80::1", "::ffff:127.0.0.1", "::2"}) {
     const auto status = check_bind_address(address);
     ASSERT_FALSE(status) << address;
     EXPECT_EQ(status.error().code, Code::usage);
@@ -29,8 +29,8 @@ TEST(BindAddress, ThatOthersReachIsRefusedWithWhatToDo) {
 
 TEST(BindAddress, IsANumberNotAName) {
   using namespace std::string_view_literals;
-  for (const auto address : {"localhost"sv, ""sv, "127.1"sv, "127.0.0.1:80"sv, "[::1]"sv, "127.0.0.01x"sv, " ::1"sv,
-                             "127.0.0.1\0.evil"sv, "::1%lo"sv}) {
+  for (const auto address : {"localhost"sv, ""sv, "127.1"sv, "127.0.0.1:80"sv, "[::1]"sv, "127.0.0.01x"sv,
+                             " ::1"sv, "127.0.0.1\0.evil"sv, "::1%lo"sv}) {
     const auto status = check_bind_address(address);
     ASSERT_FALSE(status) << address;
     EXPECT_THAT(status.error().message, HasSubstr("is not an IP address; need 127.0.0.1 or ::1"));
@@ -48,7 +48,8 @@ TEST(OwnHosts, AnotherLoopbackAddressIsNotLocalhost) {
 }
 
 TEST(OwnHosts, Port80MayBeLeftOut) {
-  EXPECT_THAT(own_hosts("127.0.0.1", 80), ElementsAre("127.0.0.1:80", "localhost:80", "127.0.0.1", "localhost"));
+  EXPECT_THAT(own_hosts("127.0.0.1", 80),
+              ElementsAre("127.0.0.1:80", "localhost:80", "127.0.0.1", "localhost"));
 }
 
 }  // namespace

@@ -64,11 +64,11 @@ TEST(Desktop, WaylandIsOneToo) {
 
 TEST(Desktop, TheBrowserGetsTheAddressAsOneWord) {
   const testing_support::ScratchFolder scratch;
-  ASSERT_TRUE(io::write_text(scratch / "xdg-open",
-                             "#!/bin/sh\nprintf '%s|%s' \"$#\" \"$1\" > \"" + (scratch / "got.part").string() +
-                                 "\"\nmv \"" + (scratch / "got.part").string() + "\" \"" + (scratch / "got").string() +
-                                 "\"\n",
-                             false));
+  ASSERT_TRUE(io::write_text(
+      scratch / "xdg-open",
+      "#!/bin/sh\nprintf '%s|%s' \"$#\" \"$1\" > \"" + (scratch / "got.part").string() + "\"\nmv \"" +
+          (scratch / "got.part").string() + "\" \"" + (scratch / "got").string() + "\"\n",
+      false));
   ASSERT_EQ(::chmod((scratch / "xdg-open").c_str(), 0700), 0);
   const Variable path("PATH", (scratch.path().string() + ":/usr/bin:/bin").c_str());
   ASSERT_TRUE(open_browser("http://127.0.0.1:1/?token=a b;echo"));

@@ -99,9 +99,9 @@ std::optional<Response> Entrance::ask(const Request& request) {
   if (request.method == "GET" && !request.upgrade && request.target.starts_with(kTokenQuery) &&
       takes_token(std::string_view(request.target).substr(kTokenQuery.size()))) {
     Response response{.status = 303, .admitted = true};
-    response.headers = {{"Location", "/"},
-                        {"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", keys_.cookie,
-                                                   keys_.session)}};
+    response.headers = {
+        {"Location", "/"},
+        {"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", keys_.cookie, keys_.session)}};
     return response;
   }
   if (!knows_session(request)) {

@@ -30,10 +30,8 @@ class AskEntrance : public ::testing::Test {
  protected:
   /// Of somebody who has the cookie.
   static Request known(const std::string& target = "/") {
-    return {.method = "GET",
-            .target = target,
-            .host = kHost,
-            .cookie = std::string("kinemark_8123=") + kSession};
+    return {
+        .method = "GET", .target = target, .host = kHost, .cookie = std::string("kinemark_8123=") + kSession};
   }
   static Request unknown(const std::string& target = "/") {
     return {.method = "GET", .target = target, .host = kHost};
@@ -62,8 +60,9 @@ TEST_F(AskEntrance, LetsInWhoHasTheCookie) {
 }
 
 TEST_F(AskEntrance, AForeignHostIsMisdirectedWhateverItHas) {
-  for (const char* host : {"evil.example:8123", "127.0.0.1", "127.0.0.1:81", "127.0.0.1:8123.evil.example", "", "localhost",
-                           "127.0.0.1:8123, 127.0.0.1:8123", " 127.0.0.1:8123", "[::1]:8123", "user@127.0.0.1:8123"}) {
+  for (const char* host :
+       {"evil.example:8123", "127.0.0.1", "127.0.0.1:81", "127.0.0.1:8123.evil.example", "", "localhost",
+        "127.0.0.1:8123, 127.0.0.1:8123", " 127.0.0.1:8123", "[::1]:8123", "user@127.0.0.1:8123"}) {
     auto request = known();
     request.host = host;
     EXPECT_EQ(status(request), 421) << host;
@@ -81,8 +80,8 @@ TEST_F(AskEntrance, AnythingButReadingNeedsOurOrigin) {
     auto request = known();
     request.method = method;
     EXPECT_EQ(status(request), 403) << method;
-    for (const char* origin : {"http://evil.example", "null", "", "https://127.0.0.1:8123", "http://127.0.0.1",
-                               "http://127.0.0.1:8123/", "http://localhost:8123"}) {
+    for (const char* origin : {"http://evil.example", "null", "", "https://127.0.0.1:8123",
+                               "http://127.0.0.1", "http://127.0.0.1:8123/", "http://localhost:8123"}) {
       request.origin = origin;
       EXPECT_EQ(status(request), 403) << method << " from " << origin;
     }
@@ -139,15 +138,15 @@ TEST_F(AskEntrance, TheTokenIsExchangedForACookieAndLeavesTheAddress) {
     EXPECT_EQ(response.status, 303);
     EXPECT_TRUE(response.admitted);
     EXPECT_EQ(header(response, "Location"), "/");
-    EXPECT_EQ(header(response, "Set-Cookie"), std::string("kinemark_8123=") + kSession +
-                                                  "; Path=/; HttpOnly; SameSite=Strict");
+    EXPECT_EQ(header(response, "Set-Cookie"),
+              std::string("kinemark_8123=") + kSession + "; Path=/; HttpOnly; SameSite=Strict");
     EXPECT_THAT(header(response, "Set-Cookie"), Not(HasSubstr(kToken)));
   }
 }
 
 TEST_F(AskEntrance, AWrongTokenIsNoToken) {
   for (const char* token : {"", "1", "11111111111111111111111111111112", "1111111111111111111111111111111",
-                                  "111111111111111111111111111111111", "33333333333333333333333333333333"})
+                            "111111111111111111111111111111111", "33333333333333333333333333333333"})
     EXPECT_EQ(status(unknown(std::string("/?token=") + token)), 401) << token;
   EXPECT_EQ(status(unknown(std::string("/?token=") + kToken + "&x=1")), 401);
   EXPECT_EQ(status(unknown(std::string("/trial/1?token=") + kToken)), 401);
@@ -172,8 +171,9 @@ TEST_F(AskEntrance, AProgramSendsTheTokenItself) {
   auto request = unknown("/api/trials");
   request.authorization = std::string("Bearer ") + kToken;
   EXPECT_EQ(status(request), 0);
-  for (const std::string& wrong : {std::string("Bearer ") + kOpening, std::string("Bearer ") + kSession,
-                                  std::string("Basic ") + kToken, std::string(kToken), std::string("Bearer ")}) {
+  for (const std::string& wrong :
+       {std::string("Bearer ") + kOpening, std::string("Bearer ") + kSession, std::string("Basic ") + kToken,
+        std::string(kToken), std::string("Bearer ")}) {
     request.authorization = wrong;
     EXPECT_EQ(status(request), 401) << wrong;
   }

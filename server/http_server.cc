@@ -59,8 +59,8 @@ Request request_of(const http::request<http::string_body>& message) {
           .origin = joined(message, http::field::origin),
           .cookie = joined(message, http::field::cookie).value_or(""),
           .authorization = joined(message, http::field::authorization).value_or(""),
-          .upgrade = beast::websocket::is_upgrade(message) ||
-                     message.find(http::field::upgrade) != message.end()};
+          .upgrade =
+              beast::websocket::is_upgrade(message) || message.find(http::field::upgrade) != message.end()};
 }
 
 /// Status for a request that cannot be read; 0: nobody waits for a response.
@@ -119,9 +119,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (message.count(http::field::host) > 1) return refuse(400);
     stream_.expires_never();
     books_.handler(request_of(message), [self = shared_from_this()](Response response) {
-      asio::post(self->stream_.get_executor(), [self, response = std::move(response)]() mutable {
-        self->write(std::move(response));
-      });
+      asio::post(self->stream_.get_executor(),
+                 [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
     });
   }
 
@@ -262,8 +261,9 @@ Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& addres
   auto server = std::make_unique<BeastServer>(limits);
   if (!error) error = server->open({numeric, port});
   if (error)
-    return fail(Code::io, fmt::format("{} port {}: cannot be listened on ({}); --port 0 takes any that is free",
-                                      address, port, error.message()));
+    return fail(Code::io,
+                fmt::format("{} port {}: cannot be listened on ({}); --port 0 takes any that is free",
+                            address, port, error.message()));
   return server;
 }
 

@@ -118,8 +118,9 @@ TEST_F(HttpThread, UnderstandsWhatDecides) {
   start();
   EXPECT_THAT(ask(get("/a?b", "Origin: http://o\r\nCookie: c=1\r\nAuthorization: Bearer t\r\n")),
               ::testing::EndsWith("GET|/a?b|x|http://o|c=1|Bearer t|plain"));
-  EXPECT_THAT(ask(get("/", "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Key: x\r\n"
-                           "Sec-WebSocket-Version: 13\r\n")),
+  EXPECT_THAT(ask(get("/",
+                      "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Key: x\r\n"
+                      "Sec-WebSocket-Version: 13\r\n")),
               ::testing::EndsWith("|upgrade"));
   EXPECT_THAT(ask("GET / HTTP/1.0\r\n\r\n"), ::testing::EndsWith("GET|/|none|none|||plain"));
   EXPECT_THAT(ask(get("/", "Origin: http://a\r\nOrigin: http://b\r\nCookie: c=1\r\nCookie: c=2\r\n")),
@@ -184,7 +185,8 @@ TEST_F(HttpThread, WhatIsTooLongIsRefusedWithItsStatus) {
               StartsWith("HTTP/1.1 413"));
   EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 18446744073709551615\r\n\r\n"),
               StartsWith("HTTP/1.1 413"));
-  EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nffffff\r\n" + std::string(200, 'a')),
+  EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nffffff\r\n" +
+                  std::string(200, 'a')),
               StartsWith("HTTP/1.1 413"));
   EXPECT_EQ(asked_, 0);
   EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 100\r\n\r\n" + std::string(100, 'a')),
@@ -193,11 +195,12 @@ TEST_F(HttpThread, WhatIsTooLongIsRefusedWithItsStatus) {
 
 TEST_F(HttpThread, WhatIsNoHttpIsRefused) {
   start();
-  for (const std::string& text : {"\x16\x03\x01\x02\x01\x01\xfc\x03\x03 TLS\r\n\r\n", "GET\r\n\r\n", "GET / FTP/1.1\r\n\r\n",
-                                 "GET / HTTP/1.1\r\nHost\r\n\r\n", "GET / HTTP/1.1\r\n: x\r\n\r\n",
-                                 "GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
-                                 "GET / HTTP/1.1\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
-                                 "GET /\x01 HTTP/1.1\r\nHost: x\r\n\r\n"})
+  for (const std::string& text :
+       {"\x16\x03\x01\x02\x01\x01\xfc\x03\x03 TLS\r\n\r\n", "GET\r\n\r\n", "GET / FTP/1.1\r\n\r\n",
+        "GET / HTTP/1.1\r\nHost\r\n\r\n", "GET / HTTP/1.1\r\n: x\r\n\r\n",
+        "GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
+        "GET / HTTP/1.1\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
+        "GET /\x01 HTTP/1.1\r\nHost: x\r\n\r\n"})
     EXPECT_THAT(ask(text), StartsWith("HTTP/1.1 400")) << text;
   EXPECT_EQ(asked_, 0);
 }

@@ -47,7 +47,8 @@ std::string table_row(const TrialRow& row, bool shows_folder) {
   std::string text = fmt::format("<tr><th scope=\"row\"><a href=\"/trial/{}\">{}</a>", row.number,
                                  html_text(row.name.empty() ? "(no name)" : row.name));
   if (shows_folder) text += fmt::format("<small>{}</small>", html_text(row.folder));
-  text += fmt::format("</th><td>{}</td>", verdict_text(row)) + cell(row.kind, false) + count_cell(row.markers) + count_cell(row.frames);
+  text += fmt::format("</th><td>{}</td>", verdict_text(row)) + cell(row.kind, false) +
+          count_cell(row.markers) + count_cell(row.frames);
   text += cell(row.rate_hz ? fmt::format("{:.5g}", *row.rate_hz) : "");
   text += cell(row.duration_s ? fmt::format("{:.2f}", *row.duration_s) : "");
   text += cell(measured_text(row));
@@ -69,7 +70,8 @@ std::string summary_of(const std::vector<TrialRow>& rows) {
 }
 
 constexpr std::string_view kHeads =
-    "<thead><tr><th scope=\"col\">Trial</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th scope=\"col\" class=\"number\">"
+    "<thead><tr><th scope=\"col\">Trial</th><th scope=\"col\">Verdict</th><th scope=\"col\">Kind</th><th "
+    "scope=\"col\" class=\"number\">"
     "Markers</th><th scope=\"col\" class=\"number\">Frames</th><th scope=\"col\" class=\"number\">Rate, Hz"
     "</th><th scope=\"col\" class=\"number\">Duration, s</th><th scope=\"col\" class=\"number\">Measured</th>"
     "<th scope=\"col\">Findings</th></tr></thead>\n";
@@ -92,9 +94,10 @@ std::string page_foot() {
 
 std::string error_page(std::string_view title, std::string_view sentence) {
   return page_head(title, false) +
-         fmt::format("<header><p class=\"brand\"><b>kinemark</b></p><h1>{}</h1><p class=\"model\">"
-                     "<a href=\"/\">All trials</a></p></header>\n<main><p class=\"broken\">{}</p></main>\n",
-                     html_text(title), html_text(printable_sentence(sentence))) +
+         fmt::format(
+             "<header><p class=\"brand\"><b>kinemark</b></p><h1>{}</h1><p class=\"model\">"
+             "<a href=\"/\">All trials</a></p></header>\n<main><p class=\"broken\">{}</p></main>\n",
+             html_text(title), html_text(printable_sentence(sentence))) +
          page_foot();
 }
 
@@ -106,8 +109,9 @@ std::string list_page(const std::vector<TrialRow>& rows, const std::vector<std::
   text += "<header><p class=\"brand\"><b>kinemark</b> trials</p><h1>Trials</h1>";
   if (folders.size() == 1 && !folders.begin()->empty())
     text += fmt::format("<p class=\"model\">{}</p>", html_text(*folders.begin()));
-  text += fmt::format("</header>\n<main id=\"trials\"{}>\n<section>\n<p class=\"lead\" role=\"status\">{}</p>\n",
-                      reads ? " data-reading" : "", summary_of(rows));
+  text +=
+      fmt::format("</header>\n<main id=\"trials\"{}>\n<section>\n<p class=\"lead\" role=\"status\">{}</p>\n",
+                  reads ? " data-reading" : "", summary_of(rows));
   for (const auto& note : notes)
     text += fmt::format("<p class=\"broken\">{}</p>\n", html_text(printable_sentence(note)));
   if (!rows.empty()) {

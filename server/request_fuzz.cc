@@ -36,7 +36,9 @@ kinemark::server::Request parse(std::string_view text) {
   return request;
 }
 
-bool holds(const std::string& text, std::string_view secret) { return text.find(secret) != std::string::npos; }
+bool holds(const std::string& text, std::string_view secret) {
+  return text.find(secret) != std::string::npos;
+}
 
 }  // namespace
 
@@ -57,7 +59,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (response && response->status != 303 && response->admitted) std::abort();
   if (response && response->body && response->body->find("<script") != std::string::npos) std::abort();
   const Route route = find_route(request.target);
-  if (route.target == Target::trial_page && request.target != "/trial/" + std::to_string(route.number)) std::abort();
+  if (route.target == Target::trial_page && request.target != "/trial/" + std::to_string(route.number))
+    std::abort();
   if (route.target != Target::trial_page && route.number != 0) std::abort();
   if (route.target != Target::none && request.target.find("..") != std::string::npos) std::abort();
   return 0;

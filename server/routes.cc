@@ -11,12 +11,11 @@
 namespace kinemark::server {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Target>, 5> kTargets = {
-    {{"/", Target::list_page},
-     {"/api/trials", Target::list_json},
-     {"/style.css", Target::style},
-     {"/list.css", Target::list_style},
-     {"/list.js", Target::list_script}}};
+constexpr std::array<std::pair<std::string_view, Target>, 5> kTargets = {{{"/", Target::list_page},
+                                                                          {"/api/trials", Target::list_json},
+                                                                          {"/style.css", Target::style},
+                                                                          {"/list.css", Target::list_style},
+                                                                          {"/list.js", Target::list_script}}};
 constexpr std::string_view kTrial = "/trial/";
 
 }  // namespace

@@ -26,17 +26,37 @@ TEST(Routes, OfTrialsHaveANumber) {
 }
 
 TEST(Routes, NumbersAreSpeltInOneWay) {
-  for (const char* target : {"/trial/", "/trial", "/trial/0", "/trial/01", "/trial/-1", "/trial/+1", "/trial/1.0",
-                             "/trial/ 1", "/trial/1/", "/trial/1?x", "/trial/%31", "/trial/4294967296",
-                             "/trial/99999999999999999999", "/trial/0x1", "/trial/one", "/trial/1#2"})
+  for (const char* target :
+       {"/trial/", "/trial", "/trial/0", "/trial/01", "/trial/-1", "/trial/+1", "/trial/1.0", "/trial/ 1",
+        "/trial/1/", "/trial/1?x", "/trial/%31", "/trial/4294967296", "/trial/99999999999999999999",
+        "/trial/0x1", "/trial/one", "/trial/1#2"})
     EXPECT_EQ(find_route(target).target, Target::none) << target;
 }
 
 TEST(Routes, NoPathIsPutTogether) {
-  for (const char* target :
-       {"", "*", "//", "/..", "/../", "/trial/../style.css", "/./style.css", "/style.css/..", "/%2e%2e/etc/passwd",
-        "/..%2f..%2fetc%2fpasswd", "/etc/passwd", "/trial/../../etc/passwd", "/style.css?", "/STYLE.CSS", "/list.js.map",
-        "http://127.0.0.1:1/", "/\\..\\..", "/?", "/?token=", "/api/trials/", "/api", "/favicon.ico", "file:///etc/passwd"})
+  for (const char* target : {"",
+                             "*",
+                             "//",
+                             "/..",
+                             "/../",
+                             "/trial/../style.css",
+                             "/./style.css",
+                             "/style.css/..",
+                             "/%2e%2e/etc/passwd",
+                             "/..%2f..%2fetc%2fpasswd",
+                             "/etc/passwd",
+                             "/trial/../../etc/passwd",
+                             "/style.css?",
+                             "/STYLE.CSS",
+                             "/list.js.map",
+                             "http://127.0.0.1:1/",
+                             "/\\..\\..",
+                             "/?",
+                             "/?token=",
+                             "/api/trials/",
+                             "/api",
+                             "/favicon.ico",
+                             "file:///etc/passwd"})
     EXPECT_EQ(find_route(target).target, Target::none) << target;
   EXPECT_EQ(find_route(std::string_view("/style.css\0x", 12)).target, Target::none);
   EXPECT_EQ(find_route(std::string_view("/trial/1\0", 9)).target, Target::none);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/trial_files.h"
 
-#include <gmock/gmock.h>
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <sys/stat.h>
 
 #include <array>
@@ -63,9 +63,10 @@ TEST_F(FilesOfTrials, NumbersAreThoseOfTheListAndNoOthers) {
 }
 
 TEST_F(FilesOfTrials, WhatBelongsToAnotherFileIsNoTrialOfItsOwn) {
-  for (const char* name : {"q.mot", "q_sd.sto", "q_marker_errors.sto", "q_report.json", "q_tau.sto", "q_tau_sd.sto",
-                           "q_bound.sto", "q_rank.sto", "q_marker_locations.sto", "w.c3d", "w_derivatives.sto",
-                           "alone_sd.sto", "forces.sto", "model.osim", "counts.mcap", ".hidden.trc", "notes.txt"})
+  for (const char* name :
+       {"q.mot", "q_sd.sto", "q_marker_errors.sto", "q_report.json", "q_tau.sto", "q_tau_sd.sto",
+        "q_bound.sto", "q_rank.sto", "q_marker_locations.sto", "w.c3d", "w_derivatives.sto", "alone_sd.sto",
+        "forces.sto", "model.osim", "counts.mcap", ".hidden.trc", "notes.txt"})
     write(name);
   EXPECT_THAT(names(TrialFiles({folder_}).list()),
               ElementsAre("alone_sd.sto", "counts.mcap", "forces.sto", "q.mot", "w.c3d"));

@@ -80,8 +80,9 @@ std::string facts_page(const pipeline::InfoOutcome& info) {
       "<p class=\"model\"><a href=\"/\">All trials</a></p></header>\n<main>\n",
       html_text(value_text(json["kind"])), html_text(name));
   text += warnings_section(info.warnings);
-  text += "<section>\n<h2>What it holds</h2>\n<div class=\"table\" role=\"region\" aria-label=\"What it holds\" "
-          "tabindex=\"0\">\n<table class=\"held\">\n<tbody>\n";
+  text +=
+      "<section>\n<h2>What it holds</h2>\n<div class=\"table\" role=\"region\" aria-label=\"What it holds\" "
+      "tabindex=\"0\">\n<table class=\"held\">\n<tbody>\n";
   std::string lists;
   for (const auto& [key, value] : json.items()) {
     if (key == "warnings" || key == "kind" || key == "file") continue;

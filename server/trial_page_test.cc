@@ -13,9 +13,9 @@
 namespace kinemark::server {
 namespace {
 
+using pipeline::IkJob;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using pipeline::IkJob;
 
 class PageOfTrial : public pipeline::testing::RecordedTest<IkJob> {};
 
@@ -35,7 +35,8 @@ TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
   const auto plain = pipeline::solved_page(at("Q.mot")).value();
   EXPECT_THAT(*page.html, HasSubstr("<script nonce=\""));
   EXPECT_THAT(*page.html, HasSubstr("<style nonce=\""));
-  EXPECT_EQ(page.html->size(), plain.size() + 2 * std::string(R"( nonce="00112233445566778899aabbccddeeff")").size());
+  EXPECT_EQ(page.html->size(),
+            plain.size() + 2 * std::string(R"( nonce="00112233445566778899aabbccddeeff")").size());
   EXPECT_THAT(page.policy, Not(HasSubstr("unsafe")));
   EXPECT_NE(page.policy, make_trial_page(at("Q.mot"))->policy) << "another nonce for another page";
 }
@@ -49,7 +50,8 @@ TEST_F(PageOfTrial, OfASolvedTrialWhoseFilesAreOfTwoRunsIsASentence) {
 }
 
 TEST_F(PageOfTrial, OfOtherFiles) {
-  EXPECT_THAT(*make_trial_page(at("in/truth.mot"))->html, HasSubstr("<th scope=\"row\">rows</th><td>30</td>"));
+  EXPECT_THAT(*make_trial_page(at("in/truth.mot"))->html,
+              HasSubstr("<th scope=\"row\">rows</th><td>30</td>"));
   EXPECT_THAT(*make_trial_page(at("in/model.osim"))->html, HasSubstr("mass, kg"));
   EXPECT_EQ(make_trial_page(at("absent.trc")).error().code, Code::io);
 }
@@ -77,9 +79,10 @@ TEST(Shielded, OnlyTheFirstStyleAndTheLastScriptMayRun) {
       "<style>a</style><script type=\"application/json\">1</script><script type=\"module\">evil</script>"
       "<style>evil</style><script type=\"module\">ours</script>";
   const auto page = shielded(html, "N");
-  EXPECT_EQ(*page.html,
-            "<style nonce=\"N\">a</style><script type=\"application/json\">1</script><script type=\"module\">evil"
-            "</script><style>evil</style><script nonce=\"N\" type=\"module\">ours</script>");
+  EXPECT_EQ(
+      *page.html,
+      "<style nonce=\"N\">a</style><script type=\"application/json\">1</script><script type=\"module\">evil"
+      "</script><style>evil</style><script nonce=\"N\" type=\"module\">ours</script>");
   EXPECT_THAT(page.policy, HasSubstr("script-src 'nonce-N'; style-src 'nonce-N'"));
   EXPECT_THAT(page.policy, HasSubstr("default-src 'none'"));
 }

@@ -79,9 +79,8 @@ void describe_markers(const fs::path& path, TrialRow& row) {
   row.markers = markers.markers();
   set_length(markers.frames(), input->rate_known ? std::optional(markers.time.rate_hz) : std::nullopt, row);
   if (const auto samples = markers.state.size(); samples > 0)
-    row.measured =
-        static_cast<double>(std::ranges::count(markers.state, data::SampleState::measured)) /
-        static_cast<double>(samples);
+    row.measured = static_cast<double>(std::ranges::count(markers.state, data::SampleState::measured)) /
+                   static_cast<double>(samples);
   say_first(input->trial.warnings, row);
   const Json report = report_beside(path);
   const auto set = pipeline::set_in(path);
@@ -98,8 +97,9 @@ void describe_solved(const fs::path& path, const Json& report, TrialRow& row) {
   const auto frames = number_at(report, "frames");
   if (frames) set_length(static_cast<std::int64_t>(*frames), number_at(report, "rate_hz"), row);
   if (const auto markers = report.find("markers"); markers != report.end() && markers->is_array())
-    row.markers = std::ranges::count_if(
-        *markers, [](const Json& marker) { return marker.is_object() && marker.value("used", Json()) == true; });
+    row.markers = std::ranges::count_if(*markers, [](const Json& marker) {
+      return marker.is_object() && marker.value("used", Json()) == true;
+    });
   say_first(pipeline::find_strangers(path), row);
 }
 

@@ -12,9 +12,9 @@
 namespace kinemark::server {
 namespace {
 
+using pipeline::IkJob;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using pipeline::IkJob;
 
 class DescribeTrial : public pipeline::testing::RecordedTest<IkJob> {};
 
@@ -56,15 +56,16 @@ TEST_F(DescribeTrial, OfASolvedTrialSaysTheVerdictOfItsReport) {
 }
 
 TEST_F(DescribeTrial, AReportThatIsNoneMakesNoVerdict) {
-  for (const char* report : {"", "[]", "{\"schema\": 1}", "{\"schema\": \"other\", \"verdict\": \"good\"}", "{{{"}) {
+  for (const char* report :
+       {"", "[]", "{\"schema\": 1}", "{\"schema\": \"other\", \"verdict\": \"good\"}", "{{{"}) {
     ASSERT_TRUE(io::write_text(at("T.mot"), io::read_text(at("in/truth.mot")).value(), true));
     ASSERT_TRUE(io::write_text(at("T_report.json"), report, true));
     EXPECT_FALSE(is_solved(at("T.mot"))) << report;
     EXPECT_EQ(describe_trial(at("T.mot")).kind, "table") << report;
   }
-  ASSERT_TRUE(io::write_text(at("T_report.json"),
-                             R"({"schema": "kinemark.ik_report", "verdict": "<b>", "frames": "many", "markers": 7})",
-                             true));
+  ASSERT_TRUE(io::write_text(
+      at("T_report.json"),
+      R"({"schema": "kinemark.ik_report", "verdict": "<b>", "frames": "many", "markers": 7})", true));
   const auto row = describe_trial(at("T.mot"));
   EXPECT_EQ(row.kind, "solved trial");
   EXPECT_THAT(row.verdict, IsEmpty());

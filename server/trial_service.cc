@@ -129,9 +129,10 @@ void TrialService::send_list(bool as_json, const Reply& reply) {
   const auto listing = files_.list();
   std::vector<TrialRow> rows;
   for (const auto& trial : listing.trials) rows.push_back(row_of(trial));
-  if (!as_json) return send_page({std::make_shared<const std::string>(list_page(rows, listing.notes)),
-                                  std::string(kOwnPolicy)},
-                                 reply);
+  if (!as_json)
+    return send_page(
+        {std::make_shared<const std::string>(list_page(rows, listing.notes)), std::string(kOwnPolicy)},
+        reply);
   nlohmann::ordered_json json{{"trials", nlohmann::ordered_json::array()}, {"notes", listing.notes}};
   for (const auto& row : rows) json["trials"].push_back(row_json(row));
   send_text(pipeline::json_text(json) + "\n", "application/json", reply);

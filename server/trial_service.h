@@ -22,8 +22,8 @@ namespace kinemark::server {
 
 /// What is served, to whom, and who reads it.
 struct ServiceOptions {
-  std::vector<std::filesystem::path> given;  ///< files and folders
-  Keys keys;                                 ///< what lets in
+  std::vector<std::filesystem::path> given;                             ///< files and folders
+  Keys keys;                                                            ///< what lets in
   std::function<Result<Page>(const std::filesystem::path&)> make_page;  ///< as make_trial_page()
   std::function<TrialRow(const std::filesystem::path&)> describe;       ///< as describe_trial()
   std::size_t most_page_bytes = 256UL << 20;                            ///< of pages that are kept

@@ -30,11 +30,11 @@ class TrialServiceThread : public ::testing::Test {
   void TearDown() override { service_.reset(); }
 
   void start() {
-    service_ = std::make_unique<TrialService>(ServiceOptions{
-        .given = {folder_},
-        .keys = {.hosts = {"127.0.0.1:1"}, .token = "t", .session = "s", .cookie = "c"},
-        .make_page = [this](const std::filesystem::path& path) { return make(path); },
-        .describe = [this](const std::filesystem::path& path) { return describe_(path); }});
+    service_ = std::make_unique<TrialService>(
+        ServiceOptions{.given = {folder_},
+                       .keys = {.hosts = {"127.0.0.1:1"}, .token = "t", .session = "s", .cookie = "c"},
+                       .make_page = [this](const std::filesystem::path& path) { return make(path); },
+                       .describe = [this](const std::filesystem::path& path) { return describe_(path); }});
   }
   Result<Page> make(const std::filesystem::path& path) {
     ++made_;
@@ -56,9 +56,7 @@ class TrialServiceThread : public ::testing::Test {
     return future;
   }
   Response get(const std::string& target) { return ask(target).get(); }
-  nlohmann::json trials() {
-    return nlohmann::json::parse(*get("/api/trials").body)["trials"];
-  }
+  nlohmann::json trials() { return nlohmann::json::parse(*get("/api/trials").body)["trials"]; }
   /// The list once everything in it is read.
   nlohmann::json read_trials() {
     for (;;) {
@@ -226,8 +224,8 @@ TEST_F(TrialServiceThread, AReaderThatThrowsSpoilsItsRowAlone) {
 }
 
 TEST_F(TrialServiceThread, WhatThereIsNotIs404) {
-  for (const char* target : {"/trial/3", "/trial/0", "/trial/1/", "/../etc/passwd", "/trial/../a.trc", "/a.trc",
-                             "/favicon.ico", "/?x"}) {
+  for (const char* target : {"/trial/3", "/trial/0", "/trial/1/", "/../etc/passwd", "/trial/../a.trc",
+                             "/a.trc", "/favicon.ico", "/?x"}) {
     const auto response = get(target);
     EXPECT_EQ(response.status, 404) << target;
     EXPECT_TRUE(response.admitted);
