@@ -60,8 +60,8 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
                                 .keys = std::move(*keys),
                                 .make_page = server::make_trial_page,
                                 .describe = server::describe_trial});
-  (*http)->run([&service](const server::Request& request, server::Reply reply) {
-    service.handle(request, std::move(reply));
+  (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
+    service.handle(request, reply);
   });
   return 0;
 }

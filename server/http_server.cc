@@ -179,7 +179,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (keep_alive_) return read();
     // What comes in still must be taken, or the system drops the response with it.
     error_code ignored;
-    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    (void)stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     stream_.expires_after(books_.limits.farewell);
     drain();
   }
@@ -212,10 +212,10 @@ class BeastServer final : public HttpServer {
 
   [[nodiscard]] error_code open(const tcp::endpoint& endpoint) {
     error_code error;
-    acceptor_.open(endpoint.protocol(), error);
-    if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor_.bind(endpoint, error);
-    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    (void)acceptor_.open(endpoint.protocol(), error);
+    if (!error) (void)acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) (void)acceptor_.bind(endpoint, error);
+    if (!error) (void)acceptor_.listen(asio::socket_base::max_listen_connections, error);
     return error;
   }
 
@@ -239,7 +239,7 @@ class BeastServer final : public HttpServer {
         return;
       }
       error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
+      (void)socket.set_option(tcp::no_delay(true), ignored);
       while (books_.strangers.size() >= books_.limits.strangers) books_.strangers.front()->close();
       std::make_shared<Connection>(std::move(socket), books_)->read();
       accept();

@@ -23,9 +23,10 @@ constexpr std::string_view kTrial = "/trial/";
 Route find_route(std::string_view target) {
   if (target.starts_with(kTrial)) {
     const auto digits = target.substr(kTrial.size());
-    const auto* const last = digits.data() + digits.size();
+    const char* const first = digits.data();
+    const char* const last = first + digits.size();
     std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), last, number);
+    const auto [end, error] = std::from_chars(first, last, number);
     const bool whole = !digits.empty() && digits.front() != '0' && error == std::errc() && end == last;
     return whole ? Route{Target::trial_page, number} : Route{};
   }

@@ -96,7 +96,7 @@ TrialService::TrialService(ServiceOptions options)
       row_worker_(kMostRows),
       page_worker_(kMostRequests) {}
 
-void TrialService::handle(const Request& request, Reply reply) {
+void TrialService::handle(const Request& request, const Reply& reply) {
   if (auto response = entrance_.ask(request)) {
     add_safe_headers(*response);
     reply(std::move(*response));

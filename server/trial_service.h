@@ -37,7 +37,7 @@ class TrialService {
 
   /// Answer a request. Returns at once; `reply` may be called before that, or later from another thread, or
   /// never where the service ends first.
-  void handle(const Request& request, Reply reply);
+  void handle(const Request& request, const Reply& reply);
 
  private:
   void send_list(bool as_json, const Reply& reply);
