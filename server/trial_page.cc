@@ -112,7 +112,7 @@ Page shielded(std::string html, std::string_view nonce) {
 
 Result<Page> make_trial_page(const std::filesystem::path& path) {
   if (is_solved(path)) {
-    auto html = pipeline::solved_page(path);
+    auto html = pipeline::page_of(path);
     if (!html) return std::unexpected(html.error());
     const auto nonce = new_secret();
     if (!nonce) return std::unexpected(nonce.error());

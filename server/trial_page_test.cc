@@ -32,7 +32,7 @@ TEST_F(PageOfTrial, OfMarkersShowsWhatTheFileHolds) {
 TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
   ASSERT_TRUE(pipeline::run_ik(job("Q.mot")));
   const auto page = make_trial_page(at("Q.mot")).value();
-  const auto plain = pipeline::solved_page(at("Q.mot")).value();
+  const auto plain = pipeline::page_of(at("Q.mot")).value();
   EXPECT_THAT(*page.html, HasSubstr("<script nonce=\""));
   EXPECT_THAT(*page.html, HasSubstr("<style nonce=\""));
   EXPECT_EQ(page.html->size(),

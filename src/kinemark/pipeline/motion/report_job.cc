@@ -122,7 +122,7 @@ Result<std::string> page_of_files(SolvedFiles files) {
 
 }  // namespace
 
-Result<std::string> solved_page(const fs::path& solved) {
+Result<std::string> page_of(const fs::path& solved) {
   auto files = read_solved(solved);
   if (!files) return std::unexpected(files.error());
   return page_of_files(std::move(*files));

@@ -21,7 +21,7 @@ struct ReportOutcome : JobOutcome {};
 
 /// The page of a solved trial as HTML, as run_report() writes it.
 /// @param solved  Q.mot or Q_report.json; the rest lies beside it
-[[nodiscard]] Result<std::string> solved_page(const std::filesystem::path& solved);
+[[nodiscard]] Result<std::string> page_of(const std::filesystem::path& solved);
 
 /// Make the page of a solved trial from its files. The gap map shows the states of the recording when the
 /// file named in Q_report.json is still there. Code::io for a file that is missing or a page that exists,

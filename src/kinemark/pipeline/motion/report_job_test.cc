@@ -50,6 +50,7 @@ TEST_F(RunReport, AReportMadeLaterIsTheReportMadeAtOnce) {
   EXPECT_NEAR(static_cast<double>(once.size()), static_cast<double>(later.size()),
               0.05 * static_cast<double>(once.size()));
   EXPECT_EQ(once.find("http://"), later.find("http://"));
+  EXPECT_EQ(page_of(at("R.mot")).value(), io::read_text(at("later.html")).value()) << "without writing";
   EXPECT_EQ(page(at("R.mot"), at("later.html")).error().code, Code::io) << "exists already";
 }
 
