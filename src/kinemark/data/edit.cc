@@ -135,6 +135,8 @@ Result<EditKind> parse_edit_kind(std::string_view name) {
 }
 
 Status Edit::check() const {
+  for (const auto& [what, text] : {std::pair{"the id", &id}, {"the time", &made}, {"the author", &author}})
+    if (auto s = check_name(*this, what, *text, false); !s) return s;
   switch (kind) {
     case EditKind::relabel:
     case EditKind::swap:
