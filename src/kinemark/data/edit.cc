@@ -201,7 +201,8 @@ std::string describe(const Edit& edit) {
 }
 
 std::string place_of(const Edit& edit) {
-  return edit.line > 0 ? fmt::format("line {}", edit.line) : fmt::format("edit '{}'", edit.id);
+  if (edit.line > 0) return fmt::format("line {}", edit.line);
+  return edit.id.empty() ? "new edit" : fmt::format("edit '{}'", edit.id);
 }
 
 Result<std::vector<std::size_t>> EditList::in_force() const {

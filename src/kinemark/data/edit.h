@@ -103,7 +103,7 @@ struct Region {
   friend bool operator==(const Region&, const Region&) = default;  ///< the same name and frames
 };
 
-/// Where an edit stands, for the beginning of a message: "line 7", else "edit 'id'".
+/// Where an edit stands, for the beginning of a message: "line 7", else "edit 'id'", else "new edit".
 [[nodiscard]] std::string place_of(const Edit& edit);
 
 }  // namespace kinemark::data

@@ -126,7 +126,6 @@ Result<EditOutcome> run_edit(const EditJob& job) {
     if (auto s = place_edit(job, input->trial, edit); !s) return std::unexpected(s.error());
     if (auto s = edit.check(); !s) return fail(Code::usage, s.error().message);
     outcome.list.edits.push_back(std::move(edit));
-    if (outcome.list.edits.back().id.empty()) outcome.list.edits.back().id = "new";
   }
   auto in_force = outcome.list.edits_in_force();
   if (!in_force) return fail_at(outcome.journal.string(), in_force.error());
@@ -141,7 +140,6 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   if (!job.edit) return outcome;
   // Tried: now it is made.
   auto edit = std::move(outcome.list.edits.back());
-  edit.id = job.edit->id;
   const auto before = outcome.list.edits.size() - 1;
   auto journal = io::EditJournal::open(outcome.journal, *recording, job.force);
   if (!journal) return std::unexpected(journal.error());
