@@ -45,12 +45,12 @@ TEST(ApplyEdits, NothingChangesNothing) {
 }
 
 TEST(ApplyEdits, OperationsWorkOnWhatTheEarlierOnesLeft) {
-  const auto out = edited({{.kind = EditKind::relabel, .marker = "*12", .other = "LHEE"},
+  const auto out = edited({{.kind = EditKind::relabel, .marker = "RKNE", .other = "LHEE"},
                            {.kind = EditKind::cut, .marker = "LHEE", .first_frame = 650, .last_frame = 654},
                            {.kind = EditKind::fill, .marker = "LHEE", .first_frame = 650, .last_frame = 654, .method = "cubic"}});
-  EXPECT_EQ(out.trial.markers.find("*12"), -1);
-  EXPECT_EQ(out.trial.markers.made_by(150, 5), "cubic");
-  EXPECT_NEAR((out.trial.markers.x(151, 5) - moving_trial().markers.x(151, 5)).norm(), 0.0, 1e-4);
+  EXPECT_EQ(out.trial.markers.find("RKNE"), -1);
+  EXPECT_EQ(out.trial.markers.made_by(150, 4), "cubic");
+  EXPECT_NEAR((out.trial.markers.x(151, 4) - moving_trial().markers.x(151, 4)).norm(), 0.0, 1e-4);
 }
 
 TEST(ApplyEdits, AFailureNamesItsLine) {
