@@ -105,18 +105,34 @@ Status check_recording(const std::filesystem::path& journal, const data::EditedR
 
 Result<EditJournal> EditJournal::open(const std::filesystem::path& path,
                                       const data::EditedRecording& recording, bool force) {
+  EditJournal journal(path);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
-    const auto made = write_text(path, with_sum(format_recording(recording)) + "\n", false);
-    if (!made && !std::filesystem::exists(path, ignored)) return std::unexpected(made.error());
+    journal.list_.recording = recording;
+    return journal;
   }
   if (auto s = check_regular(path); !s) return std::unexpected(s.error());
-  EditJournal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC));
-  if (journal.fd_ < 0) return std::unexpected(journal.failed("cannot be written", errno).error());
-  if (locked_by_another(journal.fd_))
-    return fail(Code::io, fmt::format("{}: is being edited by another program", path.string()));
+  if (auto s = journal.lock(); !s) return std::unexpected(s.error());
   if (auto s = journal.read(recording, force); !s) return std::unexpected(s.error());
   return journal;
+}
+
+Status EditJournal::lock() {
+  fd_ = ::open(path_.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
+  if (fd_ < 0) return failed("cannot be written", errno);
+  if (locked_by_another(fd_))
+    return fail(Code::io, fmt::format("{}: is being edited by another program", path_.string()));
+  return {};
+}
+
+Status EditJournal::begin(std::string_view line) {
+  const auto first = with_sum(format_recording(list_.recording)) + "\n";
+  if (auto s = write_text(path_, first + std::string(line), false); !s) return s;
+  bytes_ = first.size() + line.size();
+  lines_ = 2;
+  auto locked = lock();
+  broken_ = !locked;
+  return locked;
 }
 
 Status EditJournal::read(const data::EditedRecording& recording, bool force) {
@@ -170,6 +186,7 @@ Status EditJournal::write_line(std::string_view line) {
   if (broken_)
     return fail(Code::io,
                 fmt::format("{}: an earlier failure left it unknown what is in it; open it again", path_.string()));
+  if (fd_ < 0) return begin(line);
   if (bytes_ + line.size() > kMostBytes)
     return fail(Code::io, fmt::format("{}: is full; {} bytes are the most", path_.string(), kMostBytes));
   const int error = write_all(fd_, line);
@@ -195,7 +212,7 @@ Status EditJournal::append(data::Edit edit) {
     return fail(Code::bad_input,
                 fmt::format("{}: id '{}' is an earlier operation's", path_.string(), edit.id));
   }
-  edit.line = lines_ + 1;
+  edit.line = std::max(lines_, 1) + 1;
   list_.edits.push_back(std::move(edit));
   const auto in_force = list_.in_force();
   Status done;

@@ -43,7 +43,7 @@ struct EditsRead {
 /// a failure the file is as it was; where not even that can be had, further calls fail.
 class EditJournal {
  public:
-  /// Open a journal; one that is not there is made with its first line. An unfinished last line goes.
+  /// Open a journal; one that is not there is made by the first append(). An unfinished last line goes.
   /// Code::bad_input for a journal of another recording, unless `force`, and as read_edits(); Code::io where
   /// it cannot be read or written, or another program has it open.
   [[nodiscard]] static Result<EditJournal> open(const std::filesystem::path& path,
@@ -65,13 +65,15 @@ class EditJournal {
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }  ///< as EditsRead
 
  private:
-  EditJournal(std::filesystem::path path, int fd) : path_(std::move(path)), fd_(fd) {}
+  explicit EditJournal(std::filesystem::path path) : path_(std::move(path)) {}
+  Status lock();
+  Status begin(std::string_view line);
   Status read(const data::EditedRecording& recording, bool force);
   Status write_line(std::string_view line);
   Status failed(std::string_view what, int error) const;
 
   std::filesystem::path path_;
-  int fd_ = -1;
+  int fd_ = -1;  ///< -1: there is no file yet
   bool broken_ = false;  ///< what is in the file is not known
   std::size_t bytes_ = 0;
   int lines_ = 0;

@@ -73,6 +73,8 @@ TEST_F(EditJournalTest, HoldsWhatWasAppended) {
 
 TEST_F(EditJournalTest, IsOnlyAppendedTo) {
   auto journal = open();
+  EXPECT_FALSE(std::filesystem::exists(path_)) << "who only looks makes no file";
+  ASSERT_TRUE(journal.append(cut_of("first")));
   std::string before = text();
   const auto check_grown = [&] {
     const auto now = text();
@@ -107,12 +109,15 @@ TEST_F(EditJournalTest, RefusesWhatCannotBeAndStaysAsItWas) {
 
 TEST_F(EditJournalTest, OneWriterAtATime) {
   auto journal = open();
+  auto meanwhile = open();
+  ASSERT_TRUE(journal.append(cut_of("0")));
+  EXPECT_THAT(meanwhile.append(cut_of("1")).error().message, HasSubstr("exists already"));
   const auto second = EditJournal::open(path_, kWalk);
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, Code::io);
   EXPECT_THAT(second.error().message, HasSubstr("is being edited by another program"));
   ASSERT_TRUE(journal.append(cut_of("A"))) << "the first goes on";
-  EXPECT_EQ(read_edits(path_)->list.edits.size(), 1U) << "reading needs no lock";
+  EXPECT_EQ(read_edits(path_)->list.edits.size(), 2U) << "reading needs no lock";
   EditJournal moved = std::move(journal);
   EXPECT_FALSE(EditJournal::open(path_, kWalk)) << "the lock goes with the journal";
   ASSERT_TRUE(moved.append(cut_of("B")));
@@ -196,9 +201,10 @@ TEST_F(EditJournalTest, DamageInTheMiddleIsRefusedWithItsLine) {
 }
 
 TEST_F(EditJournalTest, NoFileNoFolderNoRight) {
-  const auto absent = EditJournal::open(scratch_.path() / "no" / "x_edits.jsonl", kWalk);
-  ASSERT_FALSE(absent);
-  EXPECT_EQ(absent.error().code, Code::io);
+  auto absent = EditJournal::open(scratch_.path() / "no" / "x_edits.jsonl", kWalk);
+  ASSERT_TRUE(absent) << absent.error().message;
+  EXPECT_EQ(absent->append(cut_of("A")).error().code, Code::io);
+  EXPECT_THAT(absent->list().edits, IsEmpty());
   const auto folder = EditJournal::open(scratch_.path(), kWalk);
   ASSERT_FALSE(folder);
   EXPECT_THAT(folder.error().message, HasSubstr(scratch_.path().string()));
