@@ -104,8 +104,10 @@ std::string list_text(const pipeline::EditOutcome& outcome) {
     const auto& edit = outcome.list.edits[i];
     const bool is_history = edit.kind == EditKind::undo || edit.kind == EditKind::redo;
     const bool undone = !is_history && counts && !std::ranges::binary_search(*counts, i);
-    text += printable(fmt::format("{:>4}  {:<20}  {}{}{}", edit.id, edit.made, describe(edit),
-                                  undone ? " (undone)" : "", edit.author.empty() ? "" : ", by " + edit.author)) + "\n";
+    text +=
+        printable(fmt::format("{:>4}  {:<20}  {}{}{}", edit.id, edit.made, describe(edit),
+                              undone ? " (undone)" : "", edit.author.empty() ? "" : ", by " + edit.author)) +
+        "\n";
   }
   return text;
 }
@@ -134,10 +136,12 @@ int run_command(const CommonOptions& common, EditArguments& arguments) {
 }  // namespace
 
 void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
-  auto* command = app.add_subcommand("edit", "Labels, samples, gaps and events changed by hand, beside the file");
+  auto* command =
+      app.add_subcommand("edit", "Labels, samples, gaps and events changed by hand, beside the file");
   command->footer(
       "One operation a call is appended to the journal NAME_edits.jsonl beside the recording, which itself\n"
-      "is only read; 'clean --edits' and 'convert --edits' apply it. WHEN is a frame by the file's own number,\n"
+      "is only read; 'clean --edits' and 'convert --edits' apply it. WHEN is a frame by the file's own "
+      "number,\n"
       "120, or a time on its clock, 1.5s.");
   const auto arguments = std::make_shared<EditArguments>();
   auto& job = arguments->job;
@@ -162,7 +166,8 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
   };
   count("--undo", arguments->undo, "The last operations in force no longer count");
   count("--redo", arguments->redo, "The last that were undone count again");
-  command->add_flag("--list", arguments->list, "Show all operations, append none")->group("Operation, one of");
+  command->add_flag("--list", arguments->list, "Show all operations, append none")
+      ->group("Operation, one of");
   const auto when = [&](const char* name, std::string& value, const char* text) {
     command->add_option(name, value, text)->type_name("WHEN")->group("Where and how");
   };
@@ -180,8 +185,7 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--author", arguments->author, "Who edits, for the journal")
       ->type_name("NAME")
       ->group("Where and how");
-  command->add_option("--rate", job.rate_hz,
-                      "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
+  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }

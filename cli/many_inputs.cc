@@ -71,8 +71,8 @@ void add_many_options(CLI::App& command, ManyArguments& arguments) {
 
 Status check_edits(const std::filesystem::path& edits) {
   if (edits.empty() || edits == pipeline::kEditsBeside) return {};
-  return fail(Code::usage, fmt::format("--edits: {} is of one recording; need 'beside' with several",
-                                       edits.string()));
+  return fail(Code::usage,
+              fmt::format("--edits: {} is of one recording; need 'beside' with several", edits.string()));
 }
 
 int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,

@@ -42,9 +42,8 @@ Status check_range(const Edit& edit) {
       return fail(Code::bad_input,
                   fmt::format("{}: frame {} is none of a recording", to_string(edit.kind), *frame));
   if (edit.first_frame && edit.last_frame && *edit.first_frame > *edit.last_frame)
-    return fail(Code::bad_input,
-                fmt::format("{} of frames {} to {}: the first lies behind the last", to_string(edit.kind),
-                            *edit.first_frame, *edit.last_frame));
+    return fail(Code::bad_input, fmt::format("{} of frames {} to {}: the first lies behind the last",
+                                             to_string(edit.kind), *edit.first_frame, *edit.last_frame));
   const bool one = edit.first_frame || edit.last_frame, both = edit.first_frame && edit.last_frame;
   if (edit.kind == EditKind::crop && !one) return fail(Code::bad_input, "crop needs a first or a last frame");
   if (edit.kind == EditKind::region && !both)
@@ -69,9 +68,8 @@ Status check_event(const Edit& edit) {
   if (auto s = check_name(edit, "a context", edit.context, false); !s) return s;
   for (const double time_s : {edit.time_s, edit.to_s})
     if (!(std::abs(time_s) <= kLatestTime_s))
-      return fail(Code::bad_input,
-                  fmt::format("{} of event '{}': {} is no time of a recording, in s", to_string(edit.kind),
-                              edit.label, time_s));
+      return fail(Code::bad_input, fmt::format("{} of event '{}': {} is no time of a recording, in s",
+                                               to_string(edit.kind), edit.label, time_s));
   return {};
 }
 
@@ -157,8 +155,8 @@ Status Edit::check() const {
     case EditKind::undo:
     case EditKind::redo:
       if (count >= 1 && count <= kMostSteps) return {};
-      return fail(Code::bad_input, fmt::format("{} of {} operations; need 1 to {}", data::to_string(kind),
-                                               count, kMostSteps));
+      return fail(Code::bad_input,
+                  fmt::format("{} of {} operations; need 1 to {}", data::to_string(kind), count, kMostSteps));
   }
   return {};
 }

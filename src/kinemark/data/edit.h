@@ -97,9 +97,9 @@ struct EditList {
 
 /// A stretch of frames with a name, in the file's own numbers, both ends included.
 struct Region {
-  std::string name;              ///< unique
-  std::int64_t first_frame = 0;  ///< number of its first frame
-  std::int64_t last_frame = 0;   ///< number of its last frame
+  std::string name;                                                ///< unique
+  std::int64_t first_frame = 0;                                    ///< number of its first frame
+  std::int64_t last_frame = 0;                                     ///< number of its last frame
   friend bool operator==(const Region&, const Region&) = default;  ///< the same name and frames
 };
 

@@ -42,12 +42,15 @@ TEST(Edit, EveryKindIsDescribedWithWhatItNeeds) {
             "swap of 'A' and 'B', from frame 120 on");
   EXPECT_EQ(describe({.kind = EditKind::relabel, .marker = "*1", .other = "LASI", .last_frame = 9}),
             "relabel of '*1' to 'LASI', up to frame 9");
-  EXPECT_EQ(describe({.kind = EditKind::fill, .marker = "A", .first_frame = 3, .last_frame = 5, .method = "pchip"}),
-            "fill of 'A', frames 3 to 5 by pchip");
+  EXPECT_EQ(
+      describe({.kind = EditKind::fill, .marker = "A", .first_frame = 3, .last_frame = 5, .method = "pchip"}),
+      "fill of 'A', frames 3 to 5 by pchip");
   EXPECT_EQ(describe({.kind = EditKind::cut, .marker = "A", .first_frame = 3, .last_frame = 3}),
             "cut of 'A', frame 3");
-  EXPECT_EQ(describe({.kind = EditKind::move_event, .label = "Foot Off", .context = "Left", .time_s = 1.25, .to_s = 2}),
-            "move event 'Foot Off' (Left) at 1.25 s to 2 s");
+  EXPECT_EQ(
+      describe(
+          {.kind = EditKind::move_event, .label = "Foot Off", .context = "Left", .time_s = 1.25, .to_s = 2}),
+      "move event 'Foot Off' (Left) at 1.25 s to 2 s");
   EXPECT_EQ(describe({.kind = EditKind::region, .first_frame = 1, .last_frame = 2, .name = "gait"}),
             "region 'gait', frames 1 to 2");
   EXPECT_EQ(describe(undo(2)), "undo of 2 operations");
@@ -59,11 +62,15 @@ TEST(Edit, WhatIsMissingOrNoneIsSaid) {
   EXPECT_THAT(why_not({.kind = EditKind::swap, .marker = "A", .other = "A"}), HasSubstr("changes nothing"));
   EXPECT_THAT(why_not({.kind = EditKind::relabel, .marker = "A"}), HasSubstr("needs a new name"));
   EXPECT_THAT(why_not({.kind = EditKind::crop}), HasSubstr("a first or a last frame"));
-  EXPECT_THAT(why_not({.kind = EditKind::region, .first_frame = 1, .name = "x"}), HasSubstr("a first and a last frame"));
-  EXPECT_THAT(why_not({.kind = EditKind::region, .first_frame = 1, .last_frame = 2}), HasSubstr("needs a name"));
+  EXPECT_THAT(why_not({.kind = EditKind::region, .first_frame = 1, .name = "x"}),
+              HasSubstr("a first and a last frame"));
+  EXPECT_THAT(why_not({.kind = EditKind::region, .first_frame = 1, .last_frame = 2}),
+              HasSubstr("needs a name"));
   EXPECT_THAT(why_not({.kind = EditKind::mark_event}), HasSubstr("mark needs a label"));
-  EXPECT_THAT(why_not({.kind = EditKind::mark_event, .label = "x", .time_s = NAN}), HasSubstr("no time of a recording"));
-  EXPECT_THAT(why_not({.kind = EditKind::move_event, .label = "x", .to_s = INFINITY}), HasSubstr("no time of a recording"));
+  EXPECT_THAT(why_not({.kind = EditKind::mark_event, .label = "x", .time_s = NAN}),
+              HasSubstr("no time of a recording"));
+  EXPECT_THAT(why_not({.kind = EditKind::move_event, .label = "x", .to_s = INFINITY}),
+              HasSubstr("no time of a recording"));
   EXPECT_THAT(why_not(undo(0)), HasSubstr("undo of 0 operations"));
   auto backwards = cut_of("A");
   backwards.first_frame = 5, backwards.last_frame = 4;

@@ -55,8 +55,8 @@ Result<EditsRead> parse_edits(std::string_view text, const std::string& name) {
     const auto end = text.find('\n');
     if (end == std::string_view::npos) {
       if (named)
-        out.notes.push_back(fmt::format("{}: line {} was not written to its end and is left out", name,
-                                        out.lines + 1));
+        out.notes.push_back(
+            fmt::format("{}: line {} was not written to its end and is left out", name, out.lines + 1));
       break;
     }
     auto line = text.substr(0, end);
@@ -66,7 +66,8 @@ Result<EditsRead> parse_edits(std::string_view text, const std::string& name) {
     const auto where = fmt::format("{}: line {}", name, out.lines);
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.size() > kLongestLine)
-      return fail(Code::bad_input, fmt::format("{}: {} bytes; need {} at most", where, line.size(), kLongestLine));
+      return fail(Code::bad_input,
+                  fmt::format("{}: {} bytes; need {} at most", where, line.size(), kLongestLine));
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     if (!named) {
       auto recording = parse_recording(line);
@@ -83,8 +84,8 @@ Result<EditsRead> parse_edits(std::string_view text, const std::string& name) {
     out.list.edits.push_back(std::move(*edit));
   }
   if (!named)
-    return fail(Code::bad_input, fmt::format("{}: line 1: needs {{\"kinemark_edits\": 1, \"recording\": {{...}}}}",
-                                             name));
+    return fail(Code::bad_input,
+                fmt::format("{}: line 1: needs {{\"kinemark_edits\": 1, \"recording\": {{...}}}}", name));
   if (const auto in_force = out.list.in_force(); !in_force) return fail_at(name, in_force.error());
   return out;
 }
@@ -184,8 +185,8 @@ Status EditJournal::failed(std::string_view what, int error) const {
 
 Status EditJournal::write_line(std::string_view line) {
   if (broken_)
-    return fail(Code::io,
-                fmt::format("{}: an earlier failure left it unknown what is in it; open it again", path_.string()));
+    return fail(Code::io, fmt::format("{}: an earlier failure left it unknown what is in it; open it again",
+                                      path_.string()));
   if (fd_ < 0) return begin(line);
   if (bytes_ + line.size() > kMostBytes)
     return fail(Code::io, fmt::format("{}: is full; {} bytes are the most", path_.string(), kMostBytes));

@@ -52,8 +52,8 @@ class EditJournal {
   EditJournal& operator=(EditJournal&& other) noexcept;  ///< closes its own and takes the other over
   ~EditJournal();
 
-  /// Append an operation. One without an id gets the number of operations before it, plus one. Code::bad_input
-  /// where it does not check(), its id is taken, or there is less to undo or redo; Code::io.
+  /// Append an operation. One without an id gets the number of operations before it, plus one.
+  /// Code::bad_input where it does not check(), its id is taken, or there is less to undo or redo; Code::io.
   [[nodiscard]] Status append(data::Edit edit);
   /// Append undo of the last operations in force.
   [[nodiscard]] Status undo(int count = 1, std::string made = {});
@@ -73,7 +73,7 @@ class EditJournal {
   Status failed(std::string_view what, int error) const;
 
   std::filesystem::path path_;
-  int fd_ = -1;  ///< -1: there is no file yet
+  int fd_ = -1;          ///< -1: there is no file yet
   bool broken_ = false;  ///< what is in the file is not known
   std::size_t bytes_ = 0;
   int lines_ = 0;

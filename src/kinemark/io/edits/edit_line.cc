@@ -78,9 +78,8 @@ Json value_of(const Edit& edit, std::string_view key) {
 /// The object, and what is wrong with it. Objects end with their checksum if they have one.
 Result<Json> parse_object(std::string_view line) {
   constexpr std::size_t kSumBytes = kSumKey.size() + kSumDigits + 2;
-  const bool summed =
-      line.size() > kSumBytes && line.substr(line.size() - kSumBytes).starts_with(kSumKey) &&
-      line.ends_with("\"}");
+  const bool summed = line.size() > kSumBytes && line.substr(line.size() - kSumBytes).starts_with(kSumKey) &&
+                      line.ends_with("\"}");
   std::string object(summed ? line.substr(0, line.size() - kSumBytes) : line);
   if (summed) object += '}';
   auto json = Json::parse(object, nullptr, false);
@@ -123,10 +122,11 @@ class Taker {
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
   void missing(std::string_view key) { say(fmt::format("needs \"{}\"", key)); }
   void wrong(std::string_view key, std::string_view needed) {
-    say(fmt::format("\"{}\" is {}; need {}", key,
-                    printable(json_[std::string(key)].dump(-1, ' ', false, Json::error_handler_t::replace),
-                              60),
-                    needed));
+    const Json& value = json_[std::string(key)];
+    const auto shown = value.is_structured()
+                           ? std::string(value.type_name())  // as deep as the line is long
+                           : printable(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
+    say(fmt::format("\"{}\" is {}; need {}", key, shown, needed));
   }
   void say(std::string sentence) {
     if (!error_) error_ = std::move(sentence);
@@ -136,8 +136,8 @@ class Taker {
     if (error_) return fail(Code::bad_input, *error_);
     for (const auto& [key, value] : json_.items())
       if (std::ranges::find(taken_, key) == taken_.end())
-        return fail(Code::bad_input,
-                    fmt::format("\"{}\" is none of its values, which are {}", printable(key, 60), join(known)));
+        return fail(Code::bad_input, fmt::format("\"{}\" is none of its values, which are {}",
+                                                 printable(key, 60), join(known)));
     return {};
   }
 
@@ -242,8 +242,8 @@ Result<data::EditedRecording> parse_recording(std::string_view line) {
   taker.text("hash", out.hash);
   taker.text("hash_kind", hash_kind);
   if (auto s = taker.finish({"name", "bytes", "hash", "hash_kind"}); !s) return std::unexpected(s.error());
-  const bool digits = out.hash.size() == kSumDigits &&
-                      out.hash.find_first_not_of("0123456789abcdef") == std::string::npos;
+  const bool digits =
+      out.hash.size() == kSumDigits && out.hash.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (hash_kind != "XXH3-64" || !digits || bytes.value_or(-1) < 0)
     return fail(Code::bad_input, "the recording needs its bytes and its XXH3-64 hash of 16 digits");
   out.bytes = *bytes;

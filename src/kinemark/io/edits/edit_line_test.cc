@@ -18,7 +18,12 @@ using ::testing::Not;
 std::vector<Edit> one_of_each() {
   return {
       {.kind = EditKind::relabel, .marker = "*12", .other = "LASI", .id = "1"},
-      {.kind = EditKind::swap, .marker = "A", .other = "B", .first_frame = -3, .id = "2", .author = "Größe \"q\""},
+      {.kind = EditKind::swap,
+       .marker = "A",
+       .other = "B",
+       .first_frame = -3,
+       .id = "2",
+       .author = "Größe \"q\""},
       {.kind = EditKind::cut, .marker = "A\\B", .first_frame = 1, .last_frame = 2},
       {.kind = EditKind::fill, .marker = "A", .method = "pchip", .made = "2026-11-24T09:30:00Z"},
       {.kind = EditKind::unfill, .marker = "A", .last_frame = 7},
@@ -89,10 +94,14 @@ TEST(EditLine, SaysWhatIsWrong) {
   EXPECT_THAT(refused(R"({"do":"erase"})"), HasSubstr("operation 'erase'"));
   EXPECT_THAT(refused(R"({"do":"cut"})"), HasSubstr("cut needs a marker"));
   EXPECT_THAT(refused(R"({"do":"cut","marker":5})"), HasSubstr("\"marker\" is 5; need text"));
-  EXPECT_THAT(refused(R"({"do":"cut","marker":"A","frst":1})"),
-              HasSubstr("\"frst\" is none of its values, which are do, id, made, author, marker, first, last"));
+  const std::string deep = std::string(30'000, '[') + std::string(30'000, ']');
+  EXPECT_THAT(refused(R"({"do":"cut","marker":)" + deep + "}"), HasSubstr("\"marker\" is array; need text"));
+  EXPECT_THAT(
+      refused(R"({"do":"cut","marker":"A","frst":1})"),
+      HasSubstr("\"frst\" is none of its values, which are do, id, made, author, marker, first, last"));
   EXPECT_THAT(refused(R"({"do":"cut","marker":"A","first":1.5})"), HasSubstr("need a whole number"));
-  EXPECT_THAT(refused(R"({"do":"cut","marker":"A","first":18446744073709551615})"), HasSubstr("need a whole number"));
+  EXPECT_THAT(refused(R"({"do":"cut","marker":"A","first":18446744073709551615})"),
+              HasSubstr("need a whole number"));
   EXPECT_THAT(refused(R"({"do":"cut","marker":"A","first":9000000000})"), HasSubstr("none of a recording"));
   EXPECT_THAT(refused(R"({"do":"mark","label":"x"})"), HasSubstr("needs \"time_s\""));
   EXPECT_THAT(refused(R"({"do":"mark","label":"x","time_s":1e999})"), HasSubstr("no JSON object"));
@@ -111,8 +120,9 @@ TEST(EditLine, NamesTheRecording) {
   EXPECT_THAT(why(R"({"do":"cut","marker":"A"})"), HasSubstr("as the first line"));
   EXPECT_THAT(why(R"({"kinemark_edits":2,"recording":{}})"), HasSubstr("edits of version 2"));
   EXPECT_THAT(why(R"({"kinemark_edits":1})"), HasSubstr("needs the \"recording\""));
-  EXPECT_THAT(why(R"({"kinemark_edits":1,"recording":{"name":"a","bytes":1,"hash":"x","hash_kind":"XXH3-64"}})"),
-              HasSubstr("hash of 16 digits"));
+  EXPECT_THAT(
+      why(R"({"kinemark_edits":1,"recording":{"name":"a","bytes":1,"hash":"x","hash_kind":"XXH3-64"}})"),
+      HasSubstr("hash of 16 digits"));
   EXPECT_THAT(why(R"({"kinemark_edits":1,"recording":{"bytes":-1}})"), HasSubstr("needs its bytes"));
 }
 

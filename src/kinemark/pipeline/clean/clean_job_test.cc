@@ -185,7 +185,8 @@ TEST_F(RunClean, EditsComeFirstAndAreInTheRecord) {
   auto journal = io::EditJournal::open(at("in_edits.jsonl"), identify_recording(at("in.c3d")).value());
   ASSERT_TRUE(journal) << journal.error().message;
   ASSERT_TRUE(journal->append({.kind = data::EditKind::relabel, .marker = "HEAD", .other = "TOP"}));
-  ASSERT_TRUE(journal->append({.kind = data::EditKind::cut, .marker = "WRB", .first_frame = 51, .last_frame = 60}));
+  ASSERT_TRUE(
+      journal->append({.kind = data::EditKind::cut, .marker = "WRB", .first_frame = 51, .last_frame = 60}));
   auto edited = job("edited.c3d");
   edited.edits = kEditsBeside;
   edited.filter.method = trajectory::FilterMethod::none;

@@ -109,12 +109,9 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
     if (!input) return std::unexpected(input.error());
     trials.push_back(std::move(input->trial));
   }
-  const auto edits = take_edits({.edits = job.edits,
-                                 .recording = job.in,
-                                 .force = job.force,
-                                 .seed = job.seed,
-                                 .threads = job.threads},
-                                trials.front());
+  const auto edits = take_edits(
+      {.edits = job.edits, .recording = job.in, .force = job.force, .seed = job.seed, .threads = job.threads},
+      trials.front());
   if (!edits) return std::unexpected(edits.error());
   auto trial = merge_trials(std::move(trials));
   if (!trial) return std::unexpected(trial.error());

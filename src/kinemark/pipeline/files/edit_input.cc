@@ -60,11 +60,10 @@ Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial) {
   taken.in_force = in_force->size();
   taken.digest = io::digest_of(*in_force);
   taken.regions = std::move(edited->regions);
-  for (const auto& note : edited->notes)
-    taken.notes.push_back(fmt::format("{}: {}", path.string(), note));
+  for (const auto& note : edited->notes) taken.notes.push_back(fmt::format("{}: {}", path.string(), note));
   taken.notes.push_back(fmt::format("{} of {} {} applied",
-                                    counted(static_cast<std::int64_t>(taken.in_force), "edit"),
-                                    path.string(), taken.in_force == 1 ? "was" : "were"));
+                                    counted(static_cast<std::int64_t>(taken.in_force), "edit"), path.string(),
+                                    taken.in_force == 1 ? "was" : "were"));
   return taken;
 }
 

@@ -3,7 +3,6 @@
 // Edits of a recording as an input of jobs: the journal beside the recording, read, matched and applied.
 #pragma once
 
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

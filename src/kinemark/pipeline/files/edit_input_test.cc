@@ -64,9 +64,10 @@ TEST_F(EditInputTest, TakesWhatIsInForce) {
   EXPECT_EQ(taken->file->role, "edits");
   EXPECT_EQ(taken->file->hash, hash_file(journal_)->hex);
   EXPECT_THAT(taken->notes, ElementsAre(HasSubstr("2 edits of")));
-  EXPECT_THAT(edit_options(*taken),
-              ElementsAre(std::pair<std::string, std::string>("edits in force", "2, XXH3-64 " + taken->digest),
-                          std::pair<std::string, std::string>("region 'gait'", "frames 520 to 530")));
+  EXPECT_THAT(
+      edit_options(*taken),
+      ElementsAre(std::pair<std::string, std::string>("edits in force", "2, XXH3-64 " + taken->digest),
+                  std::pair<std::string, std::string>("region 'gait'", "frames 520 to 530")));
 }
 
 TEST_F(EditInputTest, BesideMayBeAbsentANameMayNot) {
@@ -100,7 +101,8 @@ TEST_F(EditInputTest, WhatCannotBeAppliedIsNamedWithItsLine) {
   const auto before = trajectory::testing::bytes_of(trial_);
   const auto wrong = take(journal_);
   ASSERT_FALSE(wrong);
-  EXPECT_THAT(wrong.error().message, HasSubstr("walk_edits.jsonl: line 3: cut: no marker is named 'RKNN'; nearest: RKNE"));
+  EXPECT_THAT(wrong.error().message,
+              HasSubstr("walk_edits.jsonl: line 3: cut: no marker is named 'RKNN'; nearest: RKNE"));
   EXPECT_EQ(trajectory::testing::bytes_of(trial_), before) << "all or nothing";
 }
 

@@ -62,8 +62,7 @@ Result<double> time_of(const std::string& text, const data::Trial& trial) {
 Result<std::int64_t> frame_of(const std::string& text, const data::Trial& trial, bool is_first) {
   const auto moment = parse_moment(text, trial);
   if (!moment) return std::unexpected(moment.error());
-  const double frame =
-      is_first ? std::ceil(moment->frame - kSlack) : std::floor(moment->frame + kSlack);
+  const double frame = is_first ? std::ceil(moment->frame - kSlack) : std::floor(moment->frame + kSlack);
   return trial.first_frame + static_cast<std::int64_t>(frame);
 }
 
@@ -129,9 +128,8 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   }
   auto in_force = outcome.list.edits_in_force();
   if (!in_force) return fail_at(outcome.journal.string(), in_force.error());
-  auto edited =
-      trajectory::apply_edits(trajectory::EditedTrial{.trial = std::move(input->trial)}, *in_force,
-                              {.seed = job.seed, .threads = job.threads, .progress = job.progress});
+  auto edited = trajectory::apply_edits(trajectory::EditedTrial{.trial = std::move(input->trial)}, *in_force,
+                                        {.seed = job.seed, .threads = job.threads, .progress = job.progress});
   if (!edited) return fail_at(outcome.journal.string(), edited.error());
   outcome.warnings.insert(outcome.warnings.end(), edited->notes.begin(), edited->notes.end());
   outcome.regions = std::move(edited->regions);
@@ -144,7 +142,8 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   auto journal = io::EditJournal::open(outcome.journal, *recording, job.force);
   if (!journal) return std::unexpected(journal.error());
   if (journal->list().edits.size() != before)
-    return fail(Code::io, fmt::format("{}: another program edited it meanwhile; try again", outcome.journal.string()));
+    return fail(Code::io,
+                fmt::format("{}: another program edited it meanwhile; try again", outcome.journal.string()));
   if (auto s = journal->append(std::move(edit)); !s) return std::unexpected(s.error());
   outcome.list = journal->list();
   in_force = outcome.list.edits_in_force();
@@ -167,12 +166,8 @@ nlohmann::ordered_json edit_json(const EditOutcome& outcome) {
   for (const auto& region : outcome.regions)
     regions.push_back({{"name", region.name}, {"first", region.first_frame}, {"last", region.last_frame}});
   const auto depth = outcome.list.depth();
-  return {{"journal", outcome.journal.string()},
-          {"digest", outcome.digest},
-          {"edits", std::move(edits)},
-          {"regions", std::move(regions)},
-          {"undo", depth.undo},
-          {"redo", depth.redo},
+  return {{"journal", outcome.journal.string()}, {"digest", outcome.digest}, {"edits", std::move(edits)},
+          {"regions", std::move(regions)},       {"undo", depth.undo},       {"redo", depth.redo},
           {"warnings", outcome.warnings}};
 }
 

@@ -26,7 +26,9 @@ using ::testing::HasSubstr;
 
 class EditJobTest : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_TRUE(io::write_markers(job_.input, trajectory::testing::moving_trial(), false)); }
+  void SetUp() override {
+    ASSERT_TRUE(io::write_markers(job_.input, trajectory::testing::moving_trial(), false));
+  }
   /// The job with an edit.
   [[nodiscard]] EditJob job(const Edit& edit, const std::string& from = "", const std::string& to = "",
                             const std::string& at = "") const {
@@ -62,7 +64,8 @@ class EditJobTest : public ::testing::Test {
 
 TEST_F(EditJobTest, AppendsOneOperation) {
   const auto bytes = io::read_text(job_.input).value();
-  const auto out = good(job({.kind = EditKind::swap, .marker = "LKNE", .other = "RKNE", .author = "me"}, "570"));
+  const auto out =
+      good(job({.kind = EditKind::swap, .marker = "LKNE", .other = "RKNE", .author = "me"}, "570"));
   EXPECT_EQ(out.journal, journal_);
   EXPECT_THAT(out.written, ElementsAre(journal_));
   ASSERT_EQ(out.in_force.size(), 1U);
@@ -91,8 +94,10 @@ TEST_F(EditJobTest, EventsHaveTimes) {
   const auto moved = good(job({.kind = EditKind::move_event, .label = "Turn"}, "", "6.25s", "6s"));
   EXPECT_EQ(moved.in_force[1].to_s, 6.25);
   EXPECT_EQ(refused(job({.kind = EditKind::move_event, .label = "Turn"}, "", "", "6.25s")).code, Code::usage);
-  EXPECT_THAT(refused(job({.kind = EditKind::delete_event, .label = "Turn"})).message, HasSubstr("needs its time"));
-  EXPECT_EQ(refused(job({.kind = EditKind::delete_event, .label = "Turn"}, "", "", "6s")).code, Code::bad_input);
+  EXPECT_THAT(refused(job({.kind = EditKind::delete_event, .label = "Turn"})).message,
+              HasSubstr("needs its time"));
+  EXPECT_EQ(refused(job({.kind = EditKind::delete_event, .label = "Turn"}, "", "", "6s")).code,
+            Code::bad_input);
 }
 
 TEST_F(EditJobTest, WhatCannotBeDoneIsRefusedAndNothingWritten) {
@@ -100,11 +105,14 @@ TEST_F(EditJobTest, WhatCannotBeDoneIsRefusedAndNothingWritten) {
             journal_.string() + ": new edit: cut: no marker is named 'LKNN'; nearest: LKNE");
   EXPECT_EQ(refused(job({.kind = EditKind::undo})).code, Code::bad_input);
   for (const char* wrong : {"x", "1.5", "1e99", "s", "nans", "1,5s", "--2"})
-    EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "LKNE"}, wrong)).message, HasSubstr("is no moment")) << wrong;
+    EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "LKNE"}, wrong)).message,
+                HasSubstr("is no moment"))
+        << wrong;
   EXPECT_EQ(refused(job({.kind = EditKind::crop})).code, Code::usage);
   good(job({.kind = EditKind::cut, .marker = "LKNE"}));
   EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "LKNE"})).message, HasSubstr("has no sample"));
-  EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "RKNE"}, "5000")).message, HasSubstr("frame 5000 is not there"));
+  EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "RKNE"}, "5000")).message,
+              HasSubstr("frame 5000 is not there"));
 }
 
 TEST_F(EditJobTest, UndoAndRedoAreOperations) {

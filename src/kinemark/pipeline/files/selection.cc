@@ -107,7 +107,7 @@ Result<trajectory::FrameSpan> frames_of(const Selection& selection, const data::
                             "{:.6g} to {:.6g} s",
                             trial.first_frame, trial.last_frame(), time.t0_s, time.time_s(time.frames - 1)));
   return trajectory::FrameSpan{.first = static_cast<std::int64_t>(first),
-                   .count = time.frames > 0 ? static_cast<std::int64_t>(last - first) + 1 : 0};
+                               .count = time.frames > 0 ? static_cast<std::int64_t>(last - first) + 1 : 0};
 }
 
 /// Indices of the names that stay.

@@ -182,7 +182,8 @@ trials = ["S/run.c3d"]
 
 TEST_F(PlanSteps, TheJournalBesideARecordingIsAnInput) {
   const std::string study =
-      "steps = [\"clean\"]\n[clean]\nedits = \"beside\"\n[[subject]]\nname = \"A\"\ntrials = [\"S/run.c3d\"]\n";
+      "steps = [\"clean\"]\n[clean]\nedits = \"beside\"\n[[subject]]\nname = \"A\"\ntrials = "
+      "[\"S/run.c3d\"]\n";
   EXPECT_THAT(plan(study).value().at(0).inputs, ElementsAre("S/run.c3d"));
   ASSERT_TRUE(io::write_text(scratch_ / "S/run_edits.jsonl", "{}", false));
   const auto steps = plan(study).value();

@@ -81,9 +81,10 @@ TEST(EditLaws, ReplayIsTheSameFromAnySplit) {
 }
 
 TEST(EditLaws, TheBitsDoNotDependOnThreads) {
-  const std::vector<Edit> edits{{.kind = EditKind::cut, .marker = "SACR", .first_frame = 590, .last_frame = 620},
-                                {.kind = EditKind::fill, .marker = "SACR"},
-                                {.kind = EditKind::fill, .marker = "LKNE"}};
+  const std::vector<Edit> edits{
+      {.kind = EditKind::cut, .marker = "SACR", .first_frame = 590, .last_frame = 620},
+      {.kind = EditKind::fill, .marker = "SACR"},
+      {.kind = EditKind::fill, .marker = "LKNE"}};
   EXPECT_EQ(bytes_after({.edits = edits}, {.threads = 1}), bytes_after({.edits = edits}, {.threads = 4}));
 }
 

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-
 namespace kinemark::trajectory::internal {
 namespace {
 
@@ -56,9 +55,8 @@ Status check_time(const data::Trial& trial, const data::Edit& edit, double time_
                                              time_s, time.t0_s, time.time_s(time.frames - 1)));
   const auto there = nearest(trial, edit, time_s, moved);
   if (there && is_at(trial, *there, time_s))
-    return fail(Code::bad_input,
-                fmt::format("an event {} is at {:.6g} s already; need another time",
-                            name_of(edit.label, edit.context), trial.events[*there].time_s));
+    return fail(Code::bad_input, fmt::format("an event {} is at {:.6g} s already; need another time",
+                                             name_of(edit.label, edit.context), trial.events[*there].time_s));
   return {};
 }
 

@@ -54,7 +54,8 @@ TEST(EventEdits, WhatIsNotThereOrCannotBeIsSaid) {
               HasSubstr("no event 'Foot Strike' (Left) is at 5.41 s; the nearest of that name is at 5.4 s"));
   EXPECT_THAT(why_not(delete_event, {.label = "Foot Strike", .time_s = 5.4}),
               HasSubstr("no event 'Foot Strike' is at 5.4 s; there is none of that name"));
-  EXPECT_THAT(why_not(move_event, event(5.4, 7.1)), HasSubstr("7.1 s lies outside the recording, which lasts from 5 to 6.99 s"));
+  EXPECT_THAT(why_not(move_event, event(5.4, 7.1)),
+              HasSubstr("7.1 s lies outside the recording, which lasts from 5 to 6.99 s"));
   EXPECT_THAT(why_not(mark_event, event(4.9)), HasSubstr("lies outside"));
   EXPECT_THAT(why_not(mark_event, event(5.404)), HasSubstr("is at 5.4 s already"));
 }

@@ -177,8 +177,8 @@ Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& optio
   gaps.only = {.marker = *marker, .first_frame = missing.front(), .last_frame = missing.back()};
   auto filled = fill_gaps(markers, gaps);
   if (!filled) return std::unexpected(filled.error());
-  const auto gone = frames_where(
-      *frames, [&](std::int64_t f) { return !filled->trajectories.present(f, *marker); });
+  const auto gone =
+      frames_where(*frames, [&](std::int64_t f) { return !filled->trajectories.present(f, *marker); });
   if (gone.size() == missing.size())
     return fail(Code::bad_input, fmt::format("the gap of '{}' in {} cannot be filled: {}", name,
                                              words_of(*frames, trial), filled->gaps.front().why_open));
@@ -211,8 +211,7 @@ Status unfill(data::Trial& trial, const data::Edit& edit) {
     const auto state = trial.markers.state[trial.markers.index(f, *marker)];
     return state == SampleState::interpolated || state == SampleState::model_filled;
   });
-  if (filled.empty())
-    return nothing_there(trial, *frames, trial.markers.names[at(*marker)], "filled sample");
+  if (filled.empty()) return nothing_there(trial, *frames, trial.markers.names[at(*marker)], "filled sample");
   for (const auto f : filled) blank_sample(trial, f, *marker, SampleState::missing);
   return {};
 }

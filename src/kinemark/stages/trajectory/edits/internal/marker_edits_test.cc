@@ -16,10 +16,10 @@ namespace {
 
 using data::Edit;
 using data::SampleState;
+using testing::bytes_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::bytes_of;
 using testing::moving_trial;
 using testing::numbered_trial;
 
@@ -48,7 +48,8 @@ std::string why_not(const Verb& verb, const Edit& edit, const data::Trial& trial
 
 std::int64_t count(const data::Trial& trial, std::int64_t marker, SampleState state) {
   std::int64_t n = 0;
-  for (std::int64_t f = 0; f < trial.markers.frames(); ++f) n += trial.markers.state[trial.markers.index(f, marker)] == state;
+  for (std::int64_t f = 0; f < trial.markers.frames(); ++f)
+    n += trial.markers.state[trial.markers.index(f, marker)] == state;
   return n;
 }
 
@@ -68,10 +69,14 @@ TEST(MarkerEdits, FramesAreTheFilesOwn) {
 
 TEST(MarkerEdits, UnknownNamesComeWithTheNearest) {
   for (const Verb& verb : {Verb(cut), Verb(swap_markers), Verb(relabel), Verb(fill_only), Verb(unfill)})
-    EXPECT_THAT(why_not(verb, {.marker = "LKNI", .other = "RKNE"}), HasSubstr("no marker is named 'LKNI'; nearest: LKNE"));
-  EXPECT_THAT(why_not(swap_markers, {.marker = "LKNE", .other = "zzz"}), HasSubstr("no marker is named 'zzz'; there are S:LASI"));
-  EXPECT_THAT(why_not(cut, {.marker = "angle"}, numbered_trial()), HasSubstr("'angle' is an output of a model"));
-  EXPECT_THAT(why_not(relabel, {.marker = "A", .other = "angle"}, numbered_trial()), HasSubstr("'angle' is an output of a model"));
+    EXPECT_THAT(why_not(verb, {.marker = "LKNI", .other = "RKNE"}),
+                HasSubstr("no marker is named 'LKNI'; nearest: LKNE"));
+  EXPECT_THAT(why_not(swap_markers, {.marker = "LKNE", .other = "zzz"}),
+              HasSubstr("no marker is named 'zzz'; there are S:LASI"));
+  EXPECT_THAT(why_not(cut, {.marker = "angle"}, numbered_trial()),
+              HasSubstr("'angle' is an output of a model"));
+  EXPECT_THAT(why_not(relabel, {.marker = "A", .other = "angle"}, numbered_trial()),
+              HasSubstr("'angle' is an output of a model"));
 }
 
 TEST(MarkerEdits, RelabelOfAWholeMarkerRenamesIt) {
@@ -80,7 +85,8 @@ TEST(MarkerEdits, RelabelOfAWholeMarkerRenamesIt) {
   EXPECT_EQ(trial.markers.names[5], "LHEE");
   trial.markers.names[5] = "*12";
   EXPECT_EQ(bytes_of(trial), bytes_of(before));
-  EXPECT_EQ(after(relabel, {.marker = "LASI", .other = "LASI2"}).markers.names[0], "LASI2") << "without its prefix";
+  EXPECT_EQ(after(relabel, {.marker = "LASI", .other = "LASI2"}).markers.names[0], "LASI2")
+      << "without its prefix";
   EXPECT_EQ(after(relabel, {.marker = "S:LASI", .other = "LASI"}).markers.names[0], "LASI");
 }
 
@@ -111,7 +117,8 @@ TEST(MarkerEdits, RelabelNeverLaysSamplesOverOthers) {
   const auto gap = after(relabel, {.marker = "RKNE", .other = "LKNE", .first_frame = 541, .last_frame = 560});
   EXPECT_EQ(count(gap, 3, SampleState::measured), 200);
   EXPECT_EQ(count(gap, 4, SampleState::missing), 20);
-  EXPECT_THAT(why_not(relabel, {.marker = "*12", .other = "LKNE", .last_frame = 560}), HasSubstr("'*12' has no sample in frames 501 to 560"));
+  EXPECT_THAT(why_not(relabel, {.marker = "*12", .other = "LKNE", .last_frame = 560}),
+              HasSubstr("'*12' has no sample in frames 501 to 560"));
   EXPECT_THAT(why_not(relabel, {.marker = "LASI", .other = "S:LASI"}), HasSubstr("has that name already"));
 }
 
@@ -129,19 +136,25 @@ TEST(MarkerEdits, CutSamplesAreRejected) {
   EXPECT_EQ(count(trial, 3, SampleState::rejected), 10);
   EXPECT_EQ(count(trial, 3, SampleState::missing), 20) << "what was missing stays so";
   EXPECT_EQ(trial.camera_mask[trial.markers.index(35, 3)], 0);
-  EXPECT_THAT(why_not(cut, {.marker = "LKNE", .first_frame = 541, .last_frame = 541}), HasSubstr("has no sample in frame 541"));
+  EXPECT_THAT(why_not(cut, {.marker = "LKNE", .first_frame = 541, .last_frame = 541}),
+              HasSubstr("has no sample in frame 541"));
 }
 
 TEST(MarkerEdits, FillIsThatOfTheGapMethod) {
   const auto before = moving_trial();
-  for (const GapMethod method : {GapMethod::linear, GapMethod::cubic, GapMethod::pchip, GapMethod::walk, GapMethod::rigid,
-                                 GapMethod::regression, GapMethod::pca, GapMethod::automatic}) {
+  for (const GapMethod method :
+       {GapMethod::linear, GapMethod::cubic, GapMethod::pchip, GapMethod::walk, GapMethod::rigid,
+        GapMethod::regression, GapMethod::pca, GapMethod::automatic}) {
     const auto trial = after(fill_only, {.marker = "LKNE", .method = std::string(to_string(method))});
-    const auto all = fill_gaps(before.markers, {.method = method, .max_sd_m = std::numeric_limits<double>::infinity()}).value();
+    const auto all =
+        fill_gaps(before.markers, {.method = method, .max_sd_m = std::numeric_limits<double>::infinity()})
+            .value();
     for (std::int64_t f = 40; f < 60; ++f) {
-      ASSERT_EQ(Eigen::Vector3d(trial.markers.x(f, 3)), Eigen::Vector3d(all.trajectories.x(f, 3))) << to_string(method);
+      ASSERT_EQ(Eigen::Vector3d(trial.markers.x(f, 3)), Eigen::Vector3d(all.trajectories.x(f, 3)))
+          << to_string(method);
       ASSERT_EQ(trial.markers.made_by(f, 3), all.trajectories.made_by(f, 3));
-      ASSERT_EQ(trial.markers.covariance[6 * trial.markers.index(f, 3)], all.trajectories.covariance[6 * trial.markers.index(f, 3)]);
+      ASSERT_EQ(trial.markers.covariance[6 * trial.markers.index(f, 3)],
+                all.trajectories.covariance[6 * trial.markers.index(f, 3)]);
     }
     EXPECT_FALSE(trial.markers.present(152, 1)) << "others stay as they are";
     EXPECT_FALSE(trial.markers.present(5, 5));
@@ -150,7 +163,8 @@ TEST(MarkerEdits, FillIsThatOfTheGapMethod) {
 
 TEST(MarkerEdits, FillKeepsToItsRange) {
   const auto whole = after(fill_only, {.marker = "LKNE", .method = "pchip"});
-  const auto part = after(fill_only, {.marker = "LKNE", .first_frame = 545, .last_frame = 550, .method = "pchip"});
+  const auto part =
+      after(fill_only, {.marker = "LKNE", .first_frame = 545, .last_frame = 550, .method = "pchip"});
   EXPECT_EQ(count(part, 3, SampleState::missing), 14);
   EXPECT_EQ(count(part, 3, SampleState::interpolated), 6);
   EXPECT_EQ(Eigen::Vector3d(part.markers.x(45, 3)), Eigen::Vector3d(whole.markers.x(45, 3)));
@@ -164,12 +178,15 @@ TEST(MarkerEdits, FillSaysWhyNot) {
   EXPECT_THAT(why_not(fill_only, {.marker = "SACR"}), HasSubstr("'S:SACR' has no gap in frames 501 to 700"));
   EXPECT_THAT(why_not(fill_only, {.marker = "LKNE", .method = "magic"}), HasSubstr("gap method 'magic'"));
   EXPECT_THAT(why_not(fill_only, {.marker = "LKNE", .method = "none"}), HasSubstr("fills nothing"));
-  EXPECT_THAT(why_not(fill_only, {.marker = "*12", .method = "cubic"}), HasSubstr("cannot be filled: no sample on one side"));
+  EXPECT_THAT(why_not(fill_only, {.marker = "*12", .method = "cubic"}),
+              HasSubstr("cannot be filled: no sample on one side"));
   auto trial = moving_trial();
   trial.markers.set_missing(150, 5);
   std::vector<std::string> notes;
   ASSERT_TRUE(fill(trial, {.marker = "*12", .method = "cubic", .line = 4}, {}, notes));
-  EXPECT_THAT(notes, ElementsAre(HasSubstr("line 4: fill: the gap of '*12' in frames 501 to 600 stays open: no sample")));
+  EXPECT_THAT(
+      notes,
+      ElementsAre(HasSubstr("line 4: fill: the gap of '*12' in frames 501 to 600 stays open: no sample")));
 }
 
 TEST(MarkerEdits, UnfillTakesFilledSamplesAlone) {
@@ -179,7 +196,8 @@ TEST(MarkerEdits, UnfillTakesFilledSamplesAlone) {
   EXPECT_EQ(count(trial, 3, SampleState::interpolated), 10);
   EXPECT_EQ(count(trial, 3, SampleState::measured), 180);
   EXPECT_EQ(trial.markers.made_by(45, 3), "");
-  EXPECT_THAT(why_not(unfill, {.marker = "LKNE"}), HasSubstr("'LKNE' has no filled sample in frames 501 to 700"));
+  EXPECT_THAT(why_not(unfill, {.marker = "LKNE"}),
+              HasSubstr("'LKNE' has no filled sample in frames 501 to 700"));
 }
 
 }  // namespace

@@ -81,9 +81,8 @@ void move_samples(data::Trial& trial, std::int64_t from, std::int64_t to, const 
 
 void blank_sample(data::Trial& trial, std::int64_t frame, std::int64_t marker, SampleState why) {
   const auto i = static_cast<std::int64_t>(trial.markers.index(frame, marker));
-  for_each_array(trial, [&](auto& array, std::int64_t n, auto blank) {
-    std::fill_n(array.begin() + n * i, n, blank);
-  });
+  for_each_array(
+      trial, [&](auto& array, std::int64_t n, auto blank) { std::fill_n(array.begin() + n * i, n, blank); });
   trial.markers.state[at(i)] = why;
 }
 

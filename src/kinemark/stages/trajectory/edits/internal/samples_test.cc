@@ -12,8 +12,8 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 using data::SampleState;
-using ::testing::ElementsAre;
 using testing::bytes_of;
+using ::testing::ElementsAre;
 using testing::moving_trial;
 using testing::numbered_trial;
 

@@ -31,7 +31,8 @@ inline std::string bytes_of(const data::Trial& trial) {
   const auto text = [&](const std::string& t) { out += t + '\0'; };
   const auto& m = trial.markers;
   for (const auto& name : m.names) text(name);
-  number(static_cast<double>(trial.first_frame)), number(m.time.t0_s), number(static_cast<double>(m.frames()));
+  number(static_cast<double>(trial.first_frame)), number(m.time.t0_s),
+      number(static_cast<double>(m.frames()));
   array(m.x_in_world), array(m.covariance), array(m.sample_offset_s), array(m.method);
   for (const auto& method : m.methods) text(method);
   for (const auto state : m.state) out += static_cast<char>('0' + static_cast<int>(state));
@@ -57,14 +58,17 @@ inline data::Trial moving_trial() {
                                                   {.rate_hz = 100.0, .t0_s = 5.0, .frames = kFrames});
   trial.residual_m.assign(kFrames * kMarkers, static_cast<float>(kNaN));
   trial.camera_mask.assign(kFrames * kMarkers, 0);
-  for (std::int64_t m = 0; m < kMarkers; ++m) trial.markers.sample_offset_s.push_back(1e-4 * static_cast<double>(m));
+  for (std::int64_t m = 0; m < kMarkers; ++m)
+    trial.markers.sample_offset_s.push_back(1e-4 * static_cast<double>(m));
   for (std::int64_t f = 0; f < kFrames; ++f)
     for (std::int64_t m = 0; m < kMarkers; ++m) {
-      const bool hidden = (m == 3 && f >= 40 && f < 60) || (m == 1 && f >= 150 && f < 155) || (m == 5 && f < 100);
+      const bool hidden =
+          (m == 3 && f >= 40 && f < 60) || (m == 1 && f >= 150 && f < 155) || (m == 5 && f < 100);
       if (hidden) continue;
       const double angle = 0.03 * static_cast<double>(f), at = static_cast<double>(m);
-      trial.markers.x(f, m) = Eigen::Vector3d(0.1 * at * std::cos(angle) - 0.2 * std::sin(angle),
-                                              0.1 * at * std::sin(angle) + 0.2 * std::cos(angle), 0.5 + 0.05 * at * at);
+      trial.markers.x(f, m) =
+          Eigen::Vector3d(0.1 * at * std::cos(angle) - 0.2 * std::sin(angle),
+                          0.1 * at * std::sin(angle) + 0.2 * std::cos(angle), 0.5 + 0.05 * at * at);
       const auto i = trial.markers.index(f, m);
       trial.markers.state[i] = data::SampleState::measured;
       trial.residual_m[i] = static_cast<float>(1e-4 * (at + 1.0));
@@ -80,7 +84,9 @@ inline data::Edit random_edit(Random& random) {
   using data::EditKind;
   const std::vector<std::string> names{"LASI", "S:RASI", "SACR", "LKNE", "RKNE", "*12", "NEW", "S:LASI"};
   const std::vector<std::string> methods{"", "linear", "cubic", "pchip", "rigid"};
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.uniform() * static_cast<double>(n)); };
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(random.uniform() * static_cast<double>(n));
+  };
   data::Edit edit{.kind = static_cast<EditKind>(below(10))};
   edit.marker = names[below(names.size())];
   edit.other = names[below(names.size())];
