@@ -175,7 +175,7 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
   when("--to", job.to, "Last frame, included; the recording's when absent");
   when("--at", job.at, "Of an event");
   command->add_option("--context", arguments->context, "Of an event: Left, Right, General")
-      ->type_name("TEXT")
+      ->type_name("NAME")
       ->group("Where and how");
   command
       ->add_option("--method", arguments->method,
