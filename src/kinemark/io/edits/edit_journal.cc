@@ -132,7 +132,8 @@ Status EditJournal::begin(std::string_view line) {
   bytes_ = first.size() + line.size();
   lines_ = 2;
   auto locked = lock();
-  broken_ = !locked;
+  // Whoever came between the two has written behind it.
+  broken_ = !locked || !std::cmp_equal(::lseek(fd_, 0, SEEK_END), bytes_);
   return locked;
 }
 

@@ -172,6 +172,7 @@ Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& optio
   GapOptions gaps{.method = *method,
                   .max_gap_s = std::numeric_limits<double>::infinity(),
                   .max_sd_m = std::numeric_limits<double>::infinity(),
+                  .check_labels = *method >= GapMethod::rigid,  // those before it look at no other marker
                   .seed = options.seed,
                   .threads = options.threads};
   gaps.only = {.marker = *marker, .first_frame = missing.front(), .last_frame = missing.back()};
