@@ -3,6 +3,7 @@
 #include "server/http_server.h"
 
 #include <fmt/core.h>
+#include <netinet/tcp.h>
 
 #include <array>
 #include <boost/asio/ip/tcp.hpp>
@@ -36,7 +37,7 @@ using Connections = std::list<Connection*>;
 struct Books {
   HttpLimits limits;
   Handler handler;
-  Connections strangers, friends;
+  Connections strangers, waiting, friends;  ///< waiting: for the response to a request that is whole
 };
 
 std::string_view view(boost::core::string_view text) { return {text.data(), text.size()}; }
@@ -107,6 +108,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
     list_ = nullptr;
   }
 
+  void move_to(Connections& list) {
+    if (list_ == nullptr || list_ == &list) return;
+    leave();
+    list_ = &list;
+    at_ = list.insert(list.end(), this);
+  }
+
   void on_read(const error_code& error) {
     if (list_ == nullptr) return;
     if (error) {
@@ -118,6 +126,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     only_header_ = message.method() == http::verb::head;
     if (message.count(http::field::host) > 1) return refuse(400);
     stream_.expires_never();
+    // Refusals come at once, so who waits here is let in: no crowd of strangers may push it out.
+    if (list_ == &books_.strangers) move_to(books_.waiting);
     books_.handler(request_of(message), [self = shared_from_this()](Response response) {
       asio::post(self->stream_.get_executor(),
                  [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
@@ -131,15 +141,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void admit() {
     if (list_ == nullptr || list_ == &books_.friends) return;
-    leave();
     while (books_.friends.size() >= books_.limits.friends) books_.friends.front()->close();
-    list_ = &books_.friends;
-    at_ = list_->insert(list_->end(), this);
+    move_to(books_.friends);
   }
 
   void write(Response response) {
     if (list_ == nullptr) return;
-    if (response.admitted) admit();
+    if (response.admitted)
+      admit();
+    else
+      move_to(books_.strangers);
     keep_alive_ = keep_alive_ && response.admitted;
     body_ = std::move(response.body);
     const std::string_view text = body_ ? std::string_view(*body_) : std::string_view();
@@ -214,6 +225,12 @@ class BeastServer final : public HttpServer {
     error_code error;
     (void)acceptor_.open(endpoint.protocol(), error);
     if (!error) (void)acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+#ifdef __linux__
+    // A connection comes to us with its request: those that only hold one stay with the system for a second.
+    const asio::detail::socket_option::integer<IPPROTO_TCP, TCP_DEFER_ACCEPT> defer(1);
+    error_code ignored;
+    if (!error) (void)acceptor_.set_option(defer, ignored);
+#endif
     if (!error) (void)acceptor_.bind(endpoint, error);
     if (!error) (void)acceptor_.listen(asio::socket_base::max_listen_connections, error);
     return error;

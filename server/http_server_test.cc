@@ -81,7 +81,9 @@ class HttpThread : public ::testing::Test {
     server_ = HttpServer::listen("127.0.0.1", 0, limits).value();
     thread_ = std::thread([this] {
       server_->run([this](const Request& request, const Reply& reply) {
+        if (request.target == "/friend/held") held_ = reply;
         ++asked_;
+        if (request.target == "/friend/held") return;
         Response response{.type = "text/plain", .admitted = request.target.starts_with("/friend")};
         response.body = std::make_shared<const std::string>(
             request.method + "|" + request.target + "|" + request.host.value_or("none") + "|" +
@@ -111,6 +113,7 @@ class HttpThread : public ::testing::Test {
 
   std::atomic<int> asked_ = 0;
   std::unique_ptr<HttpServer> server_;
+  Reply held_;  ///< of a request that the test answers
   std::thread thread_, later_;
 };
 
@@ -250,9 +253,27 @@ TEST_F(HttpThread, AFriendStaysWhenStrangersCome) {
   client.send(get("/friend"));
   (void)client.read_one();
   std::vector<Client> strangers;
-  for (int i = 0; i < 50; ++i) strangers.push_back(connect());
+  for (int i = 0; i < 50; ++i) {
+    strangers.push_back(connect());
+    strangers.back().send("GET ");
+  }
   EXPECT_THAT(ask(get("/")), StartsWith("HTTP/1.1 200"));
   client.send(get("/friend"));
+  EXPECT_THAT(client.read_one(), StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(HttpThread, WhoWaitsForAnAnswerStaysWhenStrangersCome) {
+  start({.strangers = 4, .request = std::chrono::hours(1)});
+  const auto client = connect();
+  client.send(get("/friend/held"));
+  while (asked_ == 0) std::this_thread::yield();
+  std::vector<Client> strangers;
+  for (int i = 0; i < 50; ++i) {
+    strangers.push_back(connect());
+    strangers.back().send("GET ");
+  }
+  EXPECT_THAT(ask(get("/")), StartsWith("HTTP/1.1 200"));
+  held_(Response{.type = "text/plain", .admitted = true});
   EXPECT_THAT(client.read_one(), StartsWith("HTTP/1.1 200"));
 }
 
