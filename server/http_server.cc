@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 #include <netinet/tcp.h>
+#include <sys/socket.h>
 
 #include <array>
 #include <boost/asio/ip/tcp.hpp>
@@ -227,9 +228,9 @@ class BeastServer final : public HttpServer {
     if (!error) (void)acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
 #ifdef __linux__
     // A connection comes to us with its request: those that only hold one stay with the system for a second.
-    const asio::detail::socket_option::integer<IPPROTO_TCP, TCP_DEFER_ACCEPT> defer(1);
-    error_code ignored;
-    if (!error) (void)acceptor_.set_option(defer, ignored);
+    const int seconds = 1;
+    if (!error)
+      (void)::setsockopt(acceptor_.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof(seconds));
 #endif
     if (!error) (void)acceptor_.bind(endpoint, error);
     if (!error) (void)acceptor_.listen(asio::socket_base::max_listen_connections, error);
