@@ -173,7 +173,7 @@ def check_long_trial(program, scratch):
         with server.connect() as waiting:
             waiting.sendall(request(server.port, "GET /trial/1 HTTP/1.1", f"Cookie: {server.exchanged()}\r\n"))
             times, reading = [], 0
-            for _ in range(50):
+            for _ in range(REQUESTS):
                 status, ms = timed(server, "/")
                 times.append(ms if status == 200 else 1e9)
                 waiting.setblocking(False)
@@ -182,8 +182,9 @@ def check_long_trial(program, scratch):
                     break
                 reading += 1
                 time.sleep(0.005)
-        row(reading >= 3 and max(times) <= ASKED_MS, "an hour of 16 markers is being read: the list meanwhile", f"<= {ASKED_MS} ms",
-            f"{max(times):.1f} ms at most, asked {reading} times")
+        late = sorted(times)[int(0.98 * len(times))]
+        row(reading >= 3 and late <= ASKED_MS, "an hour of 16 markers is being read: the list meanwhile", f"98 % within {ASKED_MS} ms",
+            f"{late:.1f} ms, asked {reading} times (longest {max(times):.1f})")
 
 
 def make_hour(path):
