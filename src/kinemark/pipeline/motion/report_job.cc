@@ -69,6 +69,12 @@ std::optional<data::Trajectories> recorded_states(const report::IkRun& run, cons
   return std::nullopt;
 }
 
+/// True for the result files of `kinemark ik`; all others are asked for markers.
+bool is_solved(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".mot" || (ending == ".json" && path.stem().string().ends_with("_report"));
+}
+
 std::string set_of(const Json& json) {
   const auto set = json.find(std::string(io::kSetKey));
   return set != json.end() && set->is_string() ? set->get<std::string>() : "";
@@ -79,12 +85,16 @@ std::string set_of(const data::Table& table) {
   return line == table.header.end() ? "" : line->second;
 }
 
-}  // namespace
+/// A page, and every file that it was made from.
+struct Page {
+  std::string html;
+  std::vector<fs::path> read;
+};
 
-Result<ReportOutcome> run_report(const ReportJob& job) {
-  std::string stem = job.solved.stem().string();
-  if (job.solved.extension() == ".json" && stem.ends_with("_report")) stem.resize(stem.size() - 7);
-  const fs::path base = job.solved.parent_path() / (stem + ".mot");
+Result<Page> solved_page(const fs::path& solved) {
+  std::string stem = solved.stem().string();
+  if (ending_of(solved) == ".json") stem.resize(stem.size() - 7);
+  const fs::path base = solved.parent_path() / (stem + ".mot");
   const auto json = read_json(beside(base, "_report.json"));
   if (!json) return std::unexpected(json.error());
   auto run = report::run_from_json(*json);
@@ -99,19 +109,50 @@ Result<ReportOutcome> run_report(const ReportJob& job) {
   if (deviations) members.push_back({beside(base, "_sd.sto"), set_of(*deviations)});
   members.push_back({beside(base, "_marker_errors.sto"), set_of(*errors)});
   if (auto s = check_same_set(members); !s) return std::unexpected(s.error());
-  std::vector<fs::path> inputs{base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
-                               beside(base, "_report.json")};
-  for (const auto& input : run->inputs) inputs.emplace_back(input.path);
-  if (auto s = check_apart({job.page}, inputs); !s) return std::unexpected(s.error());
+  Page page;
+  page.read = {base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"), beside(base, "_report.json")};
+  for (const auto& input : run->inputs) page.read.emplace_back(input.path);
   const auto motion =
       motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(*json));
   if (!motion) return fail_at(base.string(), motion.error());
   const auto states = recorded_states(*run, *motion);
   auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
   if (!summary) return fail_at(base.string(), summary.error());
-  const std::string html =
+  page.html =
       report::report_html({.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
-  if (auto s = io::write_text(job.page, html, job.force); !s) return std::unexpected(s.error());
+  return page;
+}
+
+Result<Page> make_page(const fs::path& path, const MarkersPageOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (is_solved(path)) {
+    if (options.rate_hz > 0.0 || !options.up.empty() || !options.skeleton.empty())
+      return fail(Code::usage,
+                  fmt::format("{}: --rate, --up and --skeleton are for marker files, not for joint angles",
+                              path.string()));
+    return solved_page(path);
+  }
+  auto html = markers_page(path, options);
+  if (!html) return std::unexpected(html.error());
+  return Page{.html = std::move(*html), .read = {path}};
+}
+
+}  // namespace
+
+Result<std::string> page_of(const fs::path& path, const MarkersPageOptions& options) {
+  auto page = make_page(path, options);
+  if (!page) return std::unexpected(page.error());
+  return std::move(page->html);
+}
+
+Result<ReportOutcome> run_report(const ReportJob& job) {
+  auto page = make_page(job.input, {.rate_hz = job.rate_hz,
+                                    .skeleton = job.skeleton,
+                                    .up = job.up,
+                                    .command_line = job.command_line});
+  if (!page) return std::unexpected(page.error());
+  if (auto s = check_apart({job.page}, page->read); !s) return std::unexpected(s.error());
+  if (auto s = io::write_text(job.page, page->html, job.force); !s) return std::unexpected(s.error());
   ReportOutcome out;
   out.written = {job.page};
   return out;

@@ -24,7 +24,7 @@ class RunReport : public testing::RecordedTest<IkJob> {
  protected:
   static Result<ReportOutcome> page(const fs::path& solved, const fs::path& target, bool force = false) {
     ReportJob job;
-    job.solved = solved;
+    job.input = solved;
     job.page = target;
     job.force = force;
     return run_report(job);
