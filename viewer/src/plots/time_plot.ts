@@ -86,6 +86,10 @@ export class TimePlot {
     };
     this.plot = new uPlot(config, undefined, box);
     this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
+    this.plot.over.addEventListener("click", () => {
+      const left = this.plot.cursor.left ?? -1;
+      if (left >= 0) view.set({ focus: this.plot.posToVal(left, "x") });
+    });
     this.plot.over.addEventListener("mouseleave", () => view.set({ pointer: null }));
     new ResizeObserver(() => this.#fit()).observe(box);
     onThemeChange(() => this.plot.redraw(false));

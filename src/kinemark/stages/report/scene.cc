@@ -64,10 +64,14 @@ Json pack_markers(const data::Trajectories& t, const Kept& kept) {
 Json pack_forces(const data::Wrenches* forces, const Kept& kept) {
   Json out = Json::array();
   if (forces == nullptr) return out;
-  for (const auto& wrench : forces->items)
+  for (const auto& wrench : forces->items) {
+    // Nothing is drawn where nothing was measured.
+    std::vector<double> known(wrench.force.begin(), wrench.force.end());
+    std::ranges::replace_if(known, [](double v) { return !std::isfinite(v); }, 0.0);
     out.push_back({{"name", wrench.name},
-                   {"force_n", pack_triples(wrench.force, 1, kept, kFinest_n, kCoarsest_n)},
+                   {"force_n", pack_triples(known, 1, kept, kFinest_n, kCoarsest_n)},
                    {"point_m", pack_triples(wrench.point, 1, kept, kFinest_m, kCoarsest_m)}});
+  }
   return out;
 }
 
