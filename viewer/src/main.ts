@@ -18,7 +18,7 @@ const isMarkers = (data: AnyPage): data is MarkersPageData => data.summary.schem
 
 async function show(page: HTMLElement, data: AnyPage): Promise<void> {
   document.title = `${data.summary.trial} · kinemark report`;
-  const content: Content = isMarkers(data) ? await markersPage(data) : isClean(data) ? await cleanPage(data) : await ikPage(data);
+  const content: Content = isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
   const [section, words] = content.skip;
   page.append(
     el("a", { class: "skip", href: `#${section}` }, words),

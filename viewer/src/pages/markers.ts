@@ -16,13 +16,12 @@ import type { Content } from "./content.ts";
 export async function markersPage({ summary, scene: packed }: MarkersPageData): Promise<Content> {
   if (summary.schema_version !== 1) throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   if (packed.names.length !== summary.markers.length) throw new Error("markers of the summary and of the space view differ");
-  const scene = await unpackScene(packed, summary);
+  const scene = await unpackScene(packed, summary, (m) => summary.markers[m]!.labelled);
   const view = new View(wholeOf(summary));
-  view.marker = summary.markers.findIndex((m) => m.states.measured > 0);
+  view.marker = scene.names.length === 0 ? -1 : Math.max(0, scene.isMain.indexOf(true));
   view.focus = summary.first_time_s;
-  const isLabelled = (m: number): boolean => summary.markers[m]?.labelled ?? false;
   const parts = [
-    space(scene, view, { trial: summary.trial, isLabelled, others: null }),
+    space(scene, view, { trial: summary.trial, others: null }),
     recordedCurves(scene, view),
     recordedGaps(scene, view),
   ] as const;

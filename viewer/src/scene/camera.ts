@@ -84,6 +84,22 @@ export function standardView(camera: Camera, view: StandardView, facing: number)
   return { ...camera, azimuth, elevation };
 }
 
-/** The distance at which a sphere of this radius fills the picture. */
-export const distanceFor = (radius: number, aspect: number): number =>
-  radius / Math.sin(fieldOfView / 2) / Math.min(1, Math.max(0.4, aspect));
+/** Come near and move until all of these places fill the picture, `margin` of it left free on each side. */
+export function fitted(camera: Camera, places: readonly Vec[], width: number, height: number, margin = 0.06): Camera {
+  if (places.length === 0) return camera;
+  let now = camera;
+  for (let i = 0; i < 12; ++i) {
+    const pose = poseOf(now);
+    const seen = places.map((x) => project(now, pose, width, height, x));
+    if (seen.some(([, , depth]) => now.perspective && depth < 0.05 * now.distance)) {
+      now = zoomed(now, 1.5);
+      continue;
+    }
+    const [left, right] = [Math.min(...seen.map((s) => s[0])), Math.max(...seen.map((s) => s[0]))];
+    const [top, bottom] = [Math.min(...seen.map((s) => s[1])), Math.max(...seen.map((s) => s[1]))];
+    now = panned(now, width / 2 - (left + right) / 2, height / 2 - (top + bottom) / 2, height);
+    const share = Math.max((right - left) / width, (bottom - top) / height) / (1 - 2 * margin);
+    now = zoomed(now, Math.max(0.5, Math.min(2, share)));
+  }
+  return now;
+}

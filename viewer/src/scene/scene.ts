@@ -3,6 +3,7 @@
 import { firstAbsent } from "../states.ts";
 import type { PackedMarkers, PackedScene } from "./types.ts";
 import { inflated, unpack } from "./unpack.ts";
+import { upright } from "./upright.ts";
 import type { Vec } from "./vec.ts";
 
 /** Positions and states of M markers on P points. */
@@ -29,6 +30,8 @@ export interface Scene {
   /** P, s */
   time: Float64Array;
   names: readonly string[];
+  /** M: what the picture is about: named, there at least once, not computed from the other markers. */
+  isMain: readonly boolean[];
   up: Vec;
   upFrom: string;
   markers: Track;
@@ -56,7 +59,22 @@ async function unpackTrack(packed: PackedMarkers, markers: number, points: numbe
   return { x, states };
 }
 
-export async function unpackScene(packed: PackedScene, clock: Clock): Promise<Scene> {
+/** Segments whose axes Plug-in Gait writes among the markers, four points each. */
+const computedSegments = /^(PEL|HED|THX|TRX|[LR](FE|TI|FO|TO|CL|HU|RA|HN))([OALP])$/;
+
+/** Points that Plug-in Gait computed: where a segment has all four of them. */
+export function areComputed(names: readonly string[]): boolean[] {
+  const parts = names.map((n) => /^(.*:)?([^:]*)$/.exec(n)!);
+  const segment = parts.map(([, subject = "", own = ""]) => {
+    const found = computedSegments.exec(own);
+    return found === null ? "" : subject + found[1]!;
+  });
+  const count = new Map<string, number>();
+  for (const s of segment) count.set(s, (count.get(s) ?? 0) + 1);
+  return segment.map((s) => s !== "" && count.get(s) === 4);
+}
+
+export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (marker: number) => boolean = () => true): Promise<Scene> {
   const { points, frame_step } = packed;
   const M = packed.names.length;
   const [markers, before, model, worst, forces] = await Promise.all([
@@ -68,14 +86,17 @@ export async function unpackScene(packed: PackedScene, clock: Clock): Promise<Sc
       packed.forces.map(async (f) => ({ name: f.name, force: await unpack(f.force_n), point: await unpack(f.point_m) })),
     ),
   ]);
+  const computed = areComputed(packed.names);
+  const found = packed.up === null ? upright(markers, M, points) : null;
   return {
     points,
     frameStep: frame_step,
     rateHz: clock.rate_hz,
     time: Float64Array.from({ length: points }, (_, i) => clock.first_time_s + (i * frame_step) / clock.rate_hz),
     names: packed.names,
-    up: packed.up,
-    upFrom: packed.up_from,
+    isMain: packed.names.map((_, m) => isNamed(m) && !computed[m] && isEverThere(markers, points, m)),
+    up: packed.up ?? found ?? [0, 0, 1],
+    upFrom: packed.up_from !== "" || found === null ? packed.up_from : "the shape of what the markers outline",
     markers,
     before,
     model,
@@ -115,9 +136,11 @@ export function bounds(scene: Scene, share = 0.005): [low: Vec, high: Vec] {
   const stride = Math.max(1, Math.floor((points * names.length) / 60_000));
   const low: Vec = [0, 0, 0];
   const high: Vec = [0, 0, 0];
+  const all = !scene.isMain.includes(true);
   for (const axis of [0, 1, 2] as const) {
     const values: number[] = [];
     for (let m = 0; m < names.length; ++m) {
+      if (!all && !scene.isMain[m]) continue;
       for (let p = 0; p < points; p += stride) {
         if (isThere(markers, points, m, p)) values.push(markers.x[(3 * m + axis) * points + p]!);
       }

@@ -233,7 +233,7 @@ export class SpaceView {
   /** Radius of a marker in m: 9 mm, and never too small to see. */
   #radius(camera: Camera, pose: Pose, x: Vec): number {
     const depth = dot(sub(x, pose.eye), pose.forward);
-    return Math.max(0.008, 3.4 * metresPerPixel(camera, depth, this.#height));
+    return Math.max(0.009, 3.6 * metresPerPixel(camera, depth, this.#height));
   }
 
   #putMarkers(look: Look, pose: Pose): (marker: number) => boolean {

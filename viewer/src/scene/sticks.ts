@@ -22,7 +22,7 @@ const conventional: readonly (readonly [string, string])[] = [
 const leastConventional = 10;
 
 /** A distance that changes no more than this is one of a segment, soft tissue included. */
-const mostSpread = 0.012;
+const mostSpread = 0.008;
 const mostLength = 0.6;
 const looks = 150;
 
@@ -30,10 +30,12 @@ const looks = 150;
  * Lines that make a body of points: of the conventional gait set where the names are of it, otherwise the fewest
  * that join markers whose distance stays the same. None where nothing moves: then no distance tells.
  */
-export function sticks(scene: Scene, isLabelled: (marker: number) => boolean): Stick[] {
-  const byName = namedSticks(scene.names);
-  return byName.length >= leastConventional ? byName : rigidSticks(scene, isLabelled);
+export function sticks(scene: Scene): Stick[] {
+  return areConventional(scene.names) ? namedSticks(scene.names) : rigidSticks(scene);
 }
+
+/** Enough names are of the conventional gait set. */
+export const areConventional = (names: readonly string[]): boolean => namedSticks(names).length >= leastConventional;
 
 /** Sticks of the conventional set, for every subject of the recording. */
 export function namedSticks(names: readonly string[]): Stick[] {
@@ -61,9 +63,9 @@ interface Pair {
   spread: number;
 }
 
-function rigidSticks(scene: Scene, isLabelled: (marker: number) => boolean): Stick[] {
+function rigidSticks(scene: Scene): Stick[] {
   const { points, names, markers } = scene;
-  const usable = names.map((_, m) => m).filter((m) => isLabelled(m));
+  const usable = names.map((_, m) => m).filter((m) => scene.isMain[m]);
   if (usable.length > 250) return [];
   const stride = Math.max(1, Math.floor(points / looks));
   const pairs: Pair[] = [];

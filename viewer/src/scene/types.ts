@@ -20,7 +20,8 @@ export interface PackedMarkers {
 export interface PackedScene {
   frame_step: number;
   points: number;
-  up: [number, number, number];
+  /** null: nobody says. */
+  up: [number, number, number] | null;
   up_from: string;
   names: string[];
   markers: PackedMarkers;

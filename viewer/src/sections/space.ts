@@ -3,13 +3,14 @@
 import { el, section } from "../dom.ts";
 import { number, seconds } from "../format.ts";
 import { save, fileName } from "../save.ts";
-import { distanceFor, orbited, panned, standardView, zoomed, type Camera, type StandardView } from "../scene/camera.ts";
+import { fitted, orbited, panned, standardView, zoomed, type Camera, type StandardView } from "../scene/camera.ts";
 import { facing } from "../scene/facing.ts";
+import { floorHeight } from "../scene/floor.ts";
 import { at, bounds, isEverThere, isThere, pointAt, type Scene } from "../scene/scene.ts";
 import { statePaths } from "../scene/shapes.ts";
 import { SpaceView, type Look } from "../scene/space_view.ts";
-import { sticks } from "../scene/sticks.ts";
-import { distance, scaled, add, type Vec } from "../scene/vec.ts";
+import { areConventional, sticks } from "../scene/sticks.ts";
+import { add, dot, scaled, type Vec } from "../scene/vec.ts";
 import { firstAbsent, stateWords } from "../states.ts";
 import { svg } from "../svg.ts";
 import { onThemeChange, palette } from "../theme.ts";
@@ -18,8 +19,6 @@ import type { View } from "../view.ts";
 export interface SpaceOptions {
   /** For the file of a saved picture. */
   trial: string;
-  /** Points that somebody named. */
-  isLabelled: (marker: number) => boolean;
   /** What else is drawn: words for the legend and the switch; null: nothing. */
   others: { legend: string; switch: string } | null;
 }
@@ -35,7 +34,7 @@ const axisWords = (up: Vec): string => {
 export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void } {
   const M = scene.names.length;
   const everThere = scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
-  const lines = sticks(scene, options.isLabelled);
+  const lines = sticks(scene);
   const ahead = facing(scene);
   const canvas = el("canvas", { class: "space-canvas", tabindex: 0, role: "img", "aria-label": "Markers in space. Drag to turn, shift and drag to move, wheel to come nearer." });
   const labels = el("div", { class: "space-labels", "aria-hidden": "true" });
@@ -58,7 +57,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     return button;
   };
 
-  let camera = firstCamera();
+  let camera: Camera;
   let point = 0;
   let playing = false;
   let speed = 1;
@@ -68,20 +67,29 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let follow = false;
   let showLines = true;
   let showOthers = true;
-  let showUnnamed = true;
+  let showFurther = !scene.isMain.includes(true);
   let hover = -1;
   let picture: SpaceView | null = null;
   let pending = false;
+  camera = firstCamera();
 
   function firstCamera(): Camera {
-    const [low, high] = bounds(scene);
-    const target = scaled(add(low, high), 0.5) as Vec;
-    const radius = Math.max(0.15, 0.5 * distance(low, high));
-    const bare: Camera = { target, up: scene.up, azimuth: 0, elevation: 0, distance: distanceFor(radius, 1.6) * 0.86, perspective: true };
-    return standardView(bare, "corner", ahead);
+    const bare: Camera = { target: [0, 0, 0], up: scene.up, azimuth: 0, elevation: 0, distance: 3, perspective: true };
+    return framed(standardView(bare, "corner", ahead));
   }
 
-  const hidden = (m: number): boolean => !everThere[m] || (!showUnnamed && !options.isLabelled(m));
+  /** The same direction, with all that moves in the picture. */
+  function framed(towards: Camera): Camera {
+    const [low, high] = bounds(scene);
+    const middle = scaled(add(low, high), 0.5);
+    const height = floorHeight(scene);
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i): Vec => [(i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]]);
+    const onFloor = corners.map((x) => add(x, scene.up, height - dot(x, scene.up)));
+    const near = dot(middle, scene.up) - height < 2 ? onFloor : [];
+    return fitted({ ...towards, target: middle }, [...corners, ...near], Math.max(1, frame.clientWidth || 1080), Math.max(1, frame.clientHeight || 560));
+  }
+
+  const hidden = (m: number): boolean => !everThere[m] || (!showFurther && !scene.isMain[m] && m !== view.marker);
 
   function look(): Look {
     const perSecond = scene.rateHz / scene.frameStep;
@@ -277,7 +285,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   }
 
   function seeFrom(wanted: StandardView): void {
-    camera = standardView(camera, wanted, ahead);
+    camera = follow ? standardView(camera, wanted, ahead) : framed(standardView(camera, wanted, ahead));
     redraw();
   }
 
@@ -308,6 +316,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       setPlaying(false);
       goTo(Number(slider.value));
     });
+    camera = firstCamera();
     fit();
     tell();
   }
@@ -333,12 +342,13 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   const viewButton = (words: string, wanted: StandardView, key: string): HTMLElement =>
     el("button", { type: "button", title: `${words} (${key})`, click: () => seeFrom(wanted) }, words);
-  const anyUnnamed = scene.names.some((_, m) => everThere[m] && !options.isLabelled(m));
-  const seen = new Set(scene.markers.states);
+  const further = scene.names.filter((_, m) => everThere[m] && !scene.isMain[m]).length;
+  const seen = new Set(scene.names.flatMap((_, m) => (hidden(m) ? [] : [...new Set(scene.markers.states.subarray(m * scene.points, (m + 1) * scene.points))])));
   const facts = [
-    `${axisWords(scene.up)} is up${scene.upFrom === "" ? " (nobody says so)" : `, says ${scene.upFrom}`}`,
+    `${axisWords(scene.up)} is up${scene.upFrom === "" ? " (assumed)" : ` (from ${scene.upFrom})`}`,
+    further > 0 && scene.isMain.includes(true) ? "further points: not named, or computed by the recorder's model" : "",
     scene.forces.length > 0 ? "force arrows: 1 m for 1,000 N" : "",
-    lines.length > 0 ? "lines join markers of one segment" : "",
+    lines.length > 0 ? (areConventional(scene.names) ? "lines follow the conventional gait marker set" : "lines join markers whose distance stays the same") : "",
   ].filter((f) => f !== "");
   const node = section(
     "space",
@@ -358,7 +368,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       toggle("Follow", false, (on) => { follow = on; redraw(); }),
       lines.length === 0 ? null : toggle("Lines", true, (on) => { showLines = on; redraw(); }),
       options.others === null ? null : toggle(options.others.switch, true, (on) => { showOthers = on; redraw(); }),
-      anyUnnamed ? toggle("Unnamed", true, (on) => { showUnnamed = on; redraw(); }) : null,
+      further === 0 || showFurther ? null : toggle(`${number(further)} further`, false, (on) => { showFurther = on; redraw(); }),
       choice("Names", [["none", "none"], ["picked", "picked"], ["all", "all"]], labelled, (v) => { labelled = v; redraw(); }),
       choice("Paths", [["none", "none"], ["picked", "picked"], ["all", "all"]], trails, (v) => { trails = v; redraw(); }),
       el("button", { type: "button", click: () => void savePicture() }, "Save picture"),

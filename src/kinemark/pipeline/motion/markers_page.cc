@@ -57,7 +57,8 @@ std::optional<Vertical> vertical_of_extent(const data::Trajectories& markers) {
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (looked > 0 && 10 * longest[axis] >= 8 * looked)
-      return Vertical{Vector3d::Unit(static_cast<Eigen::Index>(axis)), "the shape of what the markers outline"};
+      return Vertical{Vector3d::Unit(static_cast<Eigen::Index>(axis)),
+                      "the shape of what the markers outline"};
   return std::nullopt;
 }
 

@@ -15,8 +15,8 @@ namespace kinemark::pipeline {
 struct MarkersPageOptions {
   double rate_hz = 0.0;                 ///< of a file that tells none (.v3d, .amc); 0: not given
   std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
-  std::string up;            ///< axis that points up, "z"; empty or "auto": the one that is found
-  std::string command_line;  ///< as typed, for the record
+  std::string up;                       ///< axis that points up, "z"; empty or "auto": the one that is found
+  std::string command_line;             ///< as typed, for the record
 
   [[nodiscard]] Status check() const;  ///< The rate is not negative, the axis is understood: Code::usage.
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "kinemark/io/file.h"
@@ -23,6 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+/// How the remark begins that a recording was turned (axes.cc); its file is as it was.
+constexpr std::string_view kTurnedNote = "the recording was turned";
 
 Result<Json> read_json(const fs::path& path) {
   const auto text = io::read_text(path, 256UL << 20);
@@ -110,16 +114,22 @@ Result<Page> solved_page(const fs::path& solved) {
   members.push_back({beside(base, "_marker_errors.sto"), set_of(*errors)});
   if (auto s = check_same_set(members); !s) return std::unexpected(s.error());
   Page page;
-  page.read = {base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"), beside(base, "_report.json")};
+  page.read = {base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
+               beside(base, "_report.json")};
   for (const auto& input : run->inputs) page.read.emplace_back(input.path);
   const auto motion =
       motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(*json));
   if (!motion) return fail_at(base.string(), motion.error());
   const auto states = recorded_states(*run, *motion);
+  const bool turned = std::ranges::any_of(
+      run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });
   auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
   if (!summary) return fail_at(base.string(), summary.error());
   page.html =
-      report::report_html({.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
+      report::report_html({.summary = *summary,
+                           .motion = &*motion,
+                           .markers = states ? &*states : nullptr,
+                           .in_model_axes = !turned});
   return page;
 }
 
@@ -146,10 +156,9 @@ Result<std::string> page_of(const fs::path& path, const MarkersPageOptions& opti
 }
 
 Result<ReportOutcome> run_report(const ReportJob& job) {
-  auto page = make_page(job.input, {.rate_hz = job.rate_hz,
-                                    .skeleton = job.skeleton,
-                                    .up = job.up,
-                                    .command_line = job.command_line});
+  auto page = make_page(
+      job.input,
+      {.rate_hz = job.rate_hz, .skeleton = job.skeleton, .up = job.up, .command_line = job.command_line});
   if (!page) return std::unexpected(page.error());
   if (auto s = check_apart({job.page}, page->read); !s) return std::unexpected(s.error());
   if (auto s = io::write_text(job.page, page->html, job.force); !s) return std::unexpected(s.error());

@@ -80,14 +80,15 @@ Json markers_json(const Trajectories& t, const std::vector<Tally>& tallies) {
   for (std::size_t m = 0; m < tallies.size(); ++m) {
     const Tally& tally = tallies[m];
     const bool any = tally.longest > 0;
-    out.push_back({{"name", t.names[m]},
-                   {"labelled", !data::is_unlabelled(t.names[m])},
-                   {"states", counts_json(tally)},
-                   {"gaps", tally.gaps},
-                   {"longest_gap_s",
-                    any ? internal::number(static_cast<double>(tally.longest) / t.time.rate_hz, 6) : Json(nullptr)},
-                   {"longest_gap_time_s",
-                    any ? internal::number(t.time.time_s(tally.longest_first), 6) : Json(nullptr)}});
+    out.push_back(
+        {{"name", t.names[m]},
+         {"labelled", !data::is_unlabelled(t.names[m])},
+         {"states", counts_json(tally)},
+         {"gaps", tally.gaps},
+         {"longest_gap_s",
+          any ? internal::number(static_cast<double>(tally.longest) / t.time.rate_hz, 6) : Json(nullptr)},
+         {"longest_gap_time_s",
+          any ? internal::number(t.time.time_s(tally.longest_first), 6) : Json(nullptr)}});
   }
   return out;
 }
@@ -183,10 +184,10 @@ std::vector<NoticeGroup> markers_notices(const MarkersReport& report) {
       notice.text = fmt::format("{}: in no frame", name);
       never.push_back(std::move(notice));
     } else if (tally.absent() > 0) {
-      notice.text =
-          fmt::format("{}: missing in {}, {}, the longest {:.3f} s from {:.3f} s", name, of_frames(tally.absent()),
-                      count_of(static_cast<std::size_t>(tally.gaps), "gap", "gaps"),
-                      static_cast<double>(tally.longest) / t.time.rate_hz, when);
+      notice.text = fmt::format("{}: missing in {}, {}, the longest {:.3f} s from {:.3f} s", name,
+                                of_frames(tally.absent()),
+                                count_of(static_cast<std::size_t>(tally.gaps), "gap", "gaps"),
+                                static_cast<double>(tally.longest) / t.time.rate_hz, when);
       const bool is_much = static_cast<double>(tally.absent()) > kMuchMissing * static_cast<double>(frames);
       (is_much ? much : partly).push_back(std::move(notice));
     }
@@ -206,10 +207,12 @@ std::vector<NoticeGroup> markers_notices(const MarkersReport& report) {
   if (!report.rate_known)
     add_group(groups, Verdict::attention, "file", "frame rate that is not known", "",
               {{.text = "The file tells no frame rate: frames are counted at 1 Hz. Give one with --rate."}});
-  add_group(groups, Verdict::attention, "marker", "marker in no frame", "markers in no frame", std::move(never));
+  add_group(groups, Verdict::attention, "marker", "marker in no frame", "markers in no frame",
+            std::move(never));
   add_group(groups, Verdict::attention, "marker", "marker missing in more than a fifth of the frames",
             "markers missing in more than a fifth of the frames", std::move(much));
-  add_group(groups, Verdict::good, "marker", "marker partly missing", "markers partly missing", std::move(partly));
+  add_group(groups, Verdict::good, "marker", "marker partly missing", "markers partly missing",
+            std::move(partly));
   add_group(groups, Verdict::good, "marker", "marker with rejected samples", "markers with rejected samples",
             std::move(rejected));
   add_group(groups, Verdict::good, "marker", "marker with samples that were made",

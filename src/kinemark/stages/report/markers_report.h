@@ -15,12 +15,13 @@ namespace kinemark::report {
 
 /// A recording and what is known of its laboratory.
 struct MarkersReport {
-  std::string trial;                  ///< name for the heading, usually the file's
-  std::string version;                ///< of the program
-  std::string command_line;           ///< as typed; may be empty
+  std::string trial;                       ///< name for the heading, usually the file's
+  std::string version;                     ///< of the program
+  std::string command_line;                ///< as typed; may be empty
   const data::Trial* recording = nullptr;  ///< must be set
-  bool rate_known = true;             ///< false: the file tells no rate, and frames are counted at 1 Hz
-  const data::Wrenches* forces = nullptr;  ///< of the plates, on the markers' clock; nullptr: none or not known
+  bool rate_known = true;                  ///< false: the file tells no rate, and frames are counted at 1 Hz
+  const data::Wrenches* forces =
+      nullptr;  ///< of the plates, on the markers' clock; nullptr: none or not known
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< as Scene::up
   std::string up_from;                            ///< as Scene::up_from
   std::vector<InputFile> inputs;                  ///< files that were read

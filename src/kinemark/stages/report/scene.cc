@@ -95,7 +95,7 @@ Json pack_scene(const Scene& scene, const Kept& kept) {
   const auto& markers = *scene.markers;
   Json out = {{"frame_step", kept.step},
               {"points", kept.points()},
-              {"up", vector_json(scene.up)},
+              {"up", scene.up ? vector_json(*scene.up) : Json(nullptr)},
               {"up_from", scene.up_from},
               {"names", markers.names},
               {"markers", pack_markers(markers, kept)},
@@ -126,7 +126,8 @@ Status SceneOptions::check() const {
   if (max_bytes < 1000 || max_bytes_long < 1000)
     return fail(Code::usage, fmt::format("a scene may take {} and {} bytes; need 1000 or more", max_bytes,
                                          max_bytes_long));
-  if (short_frames < 0) return fail(Code::usage, fmt::format("short_frames is {}; need 0 or more", short_frames));
+  if (short_frames < 0)
+    return fail(Code::usage, fmt::format("short_frames is {}; need 0 or more", short_frames));
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Scene {
   const data::Trajectories* before = nullptr;     ///< F x M, the same markers as they came in; may be absent
   const data::Wrenches* forces = nullptr;         ///< on the markers' clock; may be absent
   std::vector<data::ForcePlate> plates;           ///< corners, m
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< axis of the laboratory that points up, length 1
+  std::optional<Eigen::Vector3d> up;  ///< axis of the laboratory that points up, length 1; none: the page finds it
   std::string up_from;                            ///< who says so: "the force plates"; empty: nobody
 };
 
@@ -37,9 +38,9 @@ struct SceneOptions {
   [[nodiscard]] Status check() const;  ///< Ranges hold: at least 1000 bytes, frames of 0 or more.
 };
 
-/// The scene as README.md describes it. Every `frame_step`-th frame is kept, the fewest left out that meet the
-/// bound, but never fewer than two points; a point is a frame as it is, nothing is averaged. Positions are
-/// rounded to 0.02 mm or the 65,535th part of their range, at most 0.5 mm (above that they are float32).
+/// The scene as README.md describes it. Every `frame_step`-th frame is kept, the fewest left out that meet
+/// the bound, but never fewer than two points; a point is a frame as it is, nothing is averaged. Positions
+/// are rounded to 0.02 mm or the 65,535th part of their range, at most 0.5 mm (above that they are float32).
 [[nodiscard]] nlohmann::ordered_json scene_json(const Scene& scene, const SceneOptions& options = {});
 
 }  // namespace kinemark::report

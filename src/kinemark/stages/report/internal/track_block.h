@@ -15,7 +15,8 @@ namespace kinemark::report::internal {
 
 /// Series of numbers of one length, packed as README.md describes ("kind", "offset", "step", "data").
 ///
-/// @param values      series after series, each of `points` numbers; NaN where there is none, which reads back
+/// @param values      series after series, each of `points` numbers; NaN where there is none, which reads
+/// back
 ///                    as the number before it (the first number for those ahead of it; 0 without any)
 /// @param points      >= 0; values.size() is a multiple of it
 /// @param finest      the numbers are rounded to multiples of this or more; > 0
