@@ -31,7 +31,10 @@ const looks = 150;
  * that join markers whose distance stays the same. None where nothing moves: then no distance tells.
  */
 export function sticks(scene: Scene): Stick[] {
-  return areConventional(scene.names) ? namedSticks(scene.names) : rigidSticks(scene);
+  const named = areConventional(scene.names) ? namedSticks(scene.names) : [];
+  const joined = new Set(named.flat());
+  const main = scene.names.filter((_, m) => scene.isMain[m]).length;
+  return 2 * joined.size > main ? named : rigidSticks(scene, named);
 }
 
 /** Enough names are of the conventional gait set. */
@@ -63,10 +66,10 @@ interface Pair {
   spread: number;
 }
 
-function rigidSticks(scene: Scene): Stick[] {
+function rigidSticks(scene: Scene, known: readonly Stick[]): Stick[] {
   const { points, names, markers } = scene;
   const usable = names.map((_, m) => m).filter((m) => scene.isMain[m]);
-  if (usable.length > 250) return [];
+  if (usable.length > 250) return [...known];
   const stride = Math.max(1, Math.floor(points / looks));
   const pairs: Pair[] = [];
   const spreads: number[] = [];
@@ -90,19 +93,20 @@ function rigidSticks(scene: Scene): Stick[] {
     }
   }
   spreads.sort((x, y) => x - y);
-  if ((spreads[Math.floor(0.75 * spreads.length)] ?? 0) < 0.01) return [];
-  return forest(pairs, names);
+  if ((spreads[Math.floor(0.75 * spreads.length)] ?? 0) < 0.01) return [...known];
+  return forest(pairs, names, known);
 }
 
 /** The cheapest lines that join what can be joined (Kruskal 1956): rigid and short ones first. */
-function forest(pairs: Pair[], names: readonly string[]): Stick[] {
+function forest(pairs: Pair[], names: readonly string[], known: readonly Stick[]): Stick[] {
   const cost = (p: Pair): number => p.spread + 0.02 * p.mean + (sidesDiffer(names[p.a]!, names[p.b]!) ? 0.004 : 0);
   const root = names.map((_, m) => m);
   const find = (m: number): number => {
     while (root[m] !== m) m = root[m] = root[root[m]!]!;
     return m;
   };
-  const out: Stick[] = [];
+  const out: Stick[] = [...known];
+  for (const [a, b] of known) root[find(a)] = find(b);
   for (const { a, b } of [...pairs].sort((p, q) => cost(p) - cost(q))) {
     if (find(a) === find(b)) continue;
     root[find(a)] = find(b);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/file_set.h"
@@ -79,6 +80,15 @@ bool is_solved(const fs::path& path) {
   return ending == ".mot" || (ending == ".json" && path.stem().string().ends_with("_report"));
 }
 
+/// Against the gravity of the model, when its file is still there.
+std::optional<Eigen::Vector3d> up_of_run(const report::IkRun& run) {
+  const auto file = std::ranges::find(run.inputs, "model", &data::InputFile::role);
+  if (file == run.inputs.end() || !fs::is_regular_file(file->path)) return std::nullopt;
+  const auto model = io::read_osim(file->path);
+  if (!model || !(model->gravity.norm() > 0.0)) return std::nullopt;
+  return Eigen::Vector3d(-model->gravity.normalized());
+}
+
 std::string set_of(const Json& json) {
   const auto set = json.find(std::string(io::kSetKey));
   return set != json.end() && set->is_string() ? set->get<std::string>() : "";
@@ -123,13 +133,14 @@ Result<Page> solved_page(const fs::path& solved) {
   const auto states = recorded_states(*run, *motion);
   const bool turned = std::ranges::any_of(
       run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });
+  const auto up = up_of_run(*run);
   auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
   if (!summary) return fail_at(base.string(), summary.error());
-  page.html =
-      report::report_html({.summary = *summary,
-                           .motion = &*motion,
-                           .markers = states ? &*states : nullptr,
-                           .in_model_axes = !turned});
+  page.html = report::report_html({.summary = *summary,
+                                   .motion = &*motion,
+                                   .markers = states ? &*states : nullptr,
+                                   .in_model_axes = !turned,
+                                   .up = up});
   return page;
 }
 

@@ -15,8 +15,8 @@ namespace kinemark::pipeline {
 struct ReportJob : JobSettings {
   std::filesystem::path input;  ///< Q.mot (or Q_report.json) as `kinemark ik` wrote it, the rest lies beside
                                 ///< it; or a marker file
-  std::filesystem::path page;           ///< to write, .html
-  double rate_hz = 0.0;                 ///< as MarkersPageOptions::rate_hz; marker files only
+  std::filesystem::path page;   ///< to write, .html
+  double rate_hz = 0.0;         ///< as MarkersPageOptions::rate_hz; marker files only
   std::filesystem::path skeleton = {};  ///< as MarkersPageOptions::skeleton
   std::string up;                       ///< as MarkersPageOptions::up
 };

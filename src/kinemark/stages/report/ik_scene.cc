@@ -14,7 +14,8 @@ using data::Trajectories;
 
 nlohmann::ordered_json ik_scene_json(const IkReport& report) {
   const JointMotion& motion = *report.motion;
-  if (report.markers == nullptr || !report.in_model_axes || motion.markers.empty() || motion.marker_error.empty())
+  if (report.markers == nullptr || !report.in_model_axes || motion.markers.empty() ||
+      motion.marker_error.empty())
     return nullptr;
   std::vector<std::int64_t> from;
   for (const auto& name : motion.markers) from.push_back(report.markers->find(name));

@@ -22,11 +22,12 @@ namespace kinemark::report {
 struct Scene {
   const data::Trajectories* markers = nullptr;  ///< F x M; must be set
   const Array<double>* model = nullptr;  ///< F x M x 3, where a model has these markers, m; NaN: not known
-  const data::Trajectories* before = nullptr;     ///< F x M, the same markers as they came in; may be absent
-  const data::Wrenches* forces = nullptr;         ///< on the markers' clock; may be absent
-  std::vector<data::ForcePlate> plates;           ///< corners, m
-  std::optional<Eigen::Vector3d> up;  ///< axis of the laboratory that points up, length 1; none: the page finds it
-  std::string up_from;                            ///< who says so: "the force plates"; empty: nobody
+  const data::Trajectories* before = nullptr;  ///< F x M, the same markers as they came in; may be absent
+  const data::Wrenches* forces = nullptr;      ///< on the markers' clock; may be absent
+  std::vector<data::ForcePlate> plates;        ///< corners, m
+  std::optional<Eigen::Vector3d>
+      up;               ///< axis of the laboratory that points up, length 1; none: the page finds it
+  std::string up_from;  ///< who says so: "the force plates"; empty: nobody
 };
 
 /// How much room a scene may take in a page.

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/report/internal/unpack_testing.h"
 

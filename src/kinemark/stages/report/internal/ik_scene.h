@@ -8,8 +8,8 @@
 
 namespace kinemark::report::internal {
 
-/// The used markers and where the model has them, for the space view; null where positions are not known or do
-/// not lie in the model's axes.
+/// The used markers and where the model has them, for the space view; null where positions are not known or
+/// do not lie in the model's axes.
 [[nodiscard]] nlohmann::ordered_json ik_scene_json(const IkReport& report);
 
 }  // namespace kinemark::report::internal
