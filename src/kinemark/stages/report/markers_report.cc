@@ -177,11 +177,13 @@ std::vector<NoticeGroup> markers_notices(const MarkersReport& report) {
     Notice notice{.subject = name, .time_s = when};
     if (data::is_unlabelled(name)) {
       notice.text = fmt::format("{}: there in {}", name, of_frames(frames - tally.absent()));
+      notice.time_s = kNaN;
       unnamed.push_back(std::move(notice));
       continue;
     }
     if (tally.absent() == frames) {
       notice.text = fmt::format("{}: in no frame", name);
+      notice.time_s = kNaN;
       never.push_back(std::move(notice));
     } else if (tally.absent() > 0) {
       notice.text = fmt::format("{}: missing in {}, {}, the longest {:.3f} s from {:.3f} s", name,
