@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { deflateSync } from "node:zlib";
 import type { MarkersPageData } from "../src/markers_types.ts";
-import type { PackedSeries } from "../src/scene/types.ts";
+import type { PackedScene, PackedSeries } from "../src/scene/types.ts";
 import { hostile } from "./simulated.ts";
 
 export const deflated = (bytes: Uint8Array): string => deflateSync(bytes).toString("base64");
@@ -105,5 +105,26 @@ export function simulatedMarkers(frames = 200): MarkersPageData {
       plates: [{ type: 2, corners_m: [[0, 0, 0], [0.4, 0, 0], [0.4, 0.6, 0], [0, 0.6, 0]] }],
       forces: [{ name: "plate 1", force_n: pack([line(0), line(0), line(700)], 0.05), point_m: pack([line(0.2), line(0.3), line(0)]) }],
     },
+  };
+}
+
+/** The used markers of simulated() in space, and a model 2 cm above them. */
+export function simulatedScene(frames = 400): PackedScene {
+  const place = (lift: number): number[][] =>
+    Array.from({ length: 9 }, (_, s) => Array.from({ length: frames }, (_, f) => placeOf(Math.floor(s / 3), f)[s % 3]! + (s % 3 === 1 ? lift : 0)));
+  const states = new Uint8Array(3 * frames);
+  states.fill(4, frames + 200, frames + 260);
+  return {
+    frame_step: 1,
+    points: frames,
+    up: [0, 1, 0],
+    up_from: "the model's gravity",
+    names: ["A", "B", "C"],
+    markers: { positions_m: pack(place(0)), states: deflated(states) },
+    model_m: pack(place(0.02)),
+    before: null,
+    worst: null,
+    plates: [],
+    forces: [],
   };
 }

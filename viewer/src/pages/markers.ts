@@ -21,7 +21,7 @@ export async function markersPage({ summary, scene: packed }: MarkersPageData): 
   view.marker = scene.names.length === 0 ? -1 : Math.max(0, scene.isMain.indexOf(true));
   view.focus = summary.first_time_s;
   const parts = [
-    space(scene, view, { trial: summary.trial, others: null }),
+    space(scene, view, { trial: summary.trial, others: null, ...(summary.rate_known ? {} : { playHz: 60 }) }),
     recordedCurves(scene, view),
     recordedGaps(scene, view),
   ] as const;

@@ -19,6 +19,8 @@ import type { View } from "../view.ts";
 export interface SpaceOptions {
   /** For the file of a saved picture. */
   trial: string;
+  /** Frames that play in a second where the file tells no rate. */
+  playHz?: number;
   /** What else is drawn: words for the legend and the switch; null: nothing. */
   others: { legend: string; switch: string } | null;
 }
@@ -193,7 +195,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   }
   function tick(now: number): void {
     if (!playing) return;
-    const gone = Math.floor(from + (((now - began) / 1000) * speed * scene.rateHz) / scene.frameStep);
+    const gone = Math.floor(from + (((now - began) / 1000) * speed * (options.playHz ?? scene.rateHz)) / scene.frameStep);
     if (gone >= scene.points && !loop) {
       goTo(scene.points - 1);
       setPlaying(false);

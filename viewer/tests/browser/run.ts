@@ -9,9 +9,9 @@ import { join, resolve } from "node:path";
 import { hostile, simulated } from "../simulated.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
-import { simulatedMarkers } from "../simulated_markers.ts";
+import { simulatedMarkers, simulatedScene } from "../simulated_markers.ts";
 import { alwaysOfClean, ofSimulatedClean } from "./clean.ts";
-import { alwaysOfMarkers, ofSimulatedMarkers, withoutWebGl } from "./space.ts";
+import { alwaysOfMarkers, comparesInSpace, ofSimulatedMarkers, withoutWebGl } from "./space.ts";
 
 /** True of every report that has angles with SDs and markers. */
 const always: Record<string, Check> = {
@@ -185,8 +185,8 @@ if (given.length === 0) {
     writeFileSync(file, template.replace('id="kinemark-data">null', () => `id="kinemark-data">${text}`));
     return file;
   };
-  failed += await run(page("ik.html", simulated()), { ...ofSimulated, ...always });
-  failed += await run(page("clean.html", simulatedClean()), { ...ofSimulatedClean, ...alwaysOfClean });
+  failed += await run(page("ik.html", { ...simulated(), scene: simulatedScene() }), { ...comparesInSpace("Model", "on the model; the tie is the error"), ...ofSimulated, ...always });
+  failed += await run(page("clean.html", simulatedClean()), { ...comparesInSpace("Before", "as it came in"), ...ofSimulatedClean, ...alwaysOfClean });
   const recording = page("markers.html", simulatedMarkers());
   failed += await run(recording, { ...ofSimulatedMarkers, ...alwaysOfMarkers });
   failed += await run(recording, withoutWebGl, false);

@@ -319,6 +319,39 @@ export const ofSimulatedMarkers: Record<string, Check> = {
   },
 };
 
+/** The space view of a page that compares two positions of each marker. */
+export const comparesInSpace = (name: string, legend: string): Record<string, Check> => ({
+  [`space shows both, and "${name}" takes the other away`]: async ({ page }) => {
+    assert.ok((await ink(page, ".space-canvas")).drawn > 500);
+    assert.ok((await page.locator("#space .legend li").allTextContents()).includes(legend));
+    const both = await ink(page, ".space-canvas");
+    await page.locator("#space").getByRole("button", { name, exact: true }).click();
+    await settle(page);
+    const one = await ink(page, ".space-canvas");
+    assert.notEqual(one.hash, both.hash);
+    await page.locator("#space").getByRole("button", { name, exact: true }).click();
+    await settle(page);
+    assert.equal((await ink(page, ".space-canvas")).hash, both.hash);
+  },
+  "space is on the instant of the plots": async ({ page }) => {
+    await page.locator("#space input[type=range]").evaluate((node) => {
+      (node as HTMLInputElement).value = "150";
+      node.dispatchEvent(new Event("input"));
+    });
+    await settle(page);
+    assert.equal(await pointOf(page), 150);
+    const there = await ink(page, ".space-canvas");
+    await page.locator("#gap-map canvas").click({ position: { x: 300, y: 8 } });
+    await page.mouse.move(5, 5);
+    await settle(page);
+    assert.notEqual(await pointOf(page), 150);
+    assert.notEqual((await ink(page, ".space-canvas")).hash, there.hash);
+    await page.reload();
+    await page.waitForFunction(() => document.documentElement.dataset["ready"] !== undefined);
+    await settle(page);
+  },
+});
+
 /** Without WebGL2 the rest of the page works. */
 export const withoutWebGl: Record<string, Check> = {
   "one sentence says what is missing, and the curves are there": async ({ page, complaints }) => {
