@@ -100,7 +100,7 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Defects& o
                .description = fmt::format(
                    "marker '{}' leaves its path by {:.1f} mm in {}, {:.0f} times what the "
                    "samples beside leave it by",
-                   t.names[static_cast<std::size_t>(m)], 1e3 * s.height, describe_frames(f, last), s.ratio)});
+                   t.names[static_cast<std::size_t>(m)], 1e3 * s.height, describe_frames(t.time, f, last), s.ratio)});
         f = last;
         break;
       }
