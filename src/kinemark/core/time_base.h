@@ -9,9 +9,9 @@ namespace kinemark {
 
 /// Evenly spaced instants: frame i is at t0_s + i / rate_hz, for i in [0, frames).
 struct TimeBase {
-  double rate_hz = 0.0;     ///< > 0
-  double t0_s = 0.0;        ///< time of frame 0
-  std::int64_t frames = 0;  ///< number of instants, >= 0
+  double rate_hz = 0.0;           ///< > 0
+  double t0_s = 0.0;              ///< time of frame 0
+  std::int64_t frames = 0;        ///< number of instants, >= 0
   std::int64_t first_number = 0;  ///< of frame 0, as the recording's file counts its frames
 
   /// Time of a frame, s.

@@ -36,16 +36,16 @@ struct PathPoint {
 
 /// A surface on a body that paths bend around.
 struct WrapSurface {
-  std::string name;                ///< as the file says
-  bool is_cylinder = false;        ///< else a sphere, an ellipsoid or a torus, whose shape is not kept
-  bool active = true;              ///< paths meet it
-  int body_idx = kGround;          ///< kGround: fixed in the world
-  math::SE3 body_from_frame;       ///< the frame that its pose is given in, m
-  math::SE3 frame_from_surface;    ///< a cylinder lies along z of the surface, its middle in the origin, m
-  double radius = 0.0;             ///< m, of a cylinder
-  double length = 0.0;             ///< m, of a cylinder
-  int side_axis = -1;              ///< 0 x, 1 y, 2 z of the surface: paths keep to one side of it; -1: to any
-  int side_sign = 1;               ///< that side, 1 or -1
+  std::string name;              ///< as the file says
+  bool is_cylinder = false;      ///< else a sphere, an ellipsoid or a torus, whose shape is not kept
+  bool active = true;            ///< paths meet it
+  int body_idx = kGround;        ///< kGround: fixed in the world
+  math::SE3 body_from_frame;     ///< the frame that its pose is given in, m
+  math::SE3 frame_from_surface;  ///< a cylinder lies along z of the surface, its middle in the origin, m
+  double radius = 0.0;           ///< m, of a cylinder
+  double length = 0.0;           ///< m, of a cylinder
+  int side_axis = -1;            ///< 0 x, 1 y, 2 z of the surface: paths keep to one side of it; -1: to any
+  int side_sign = 1;             ///< that side, 1 or -1
 };
 
 /// A surface and those points of a path between which the path may bend around it.
@@ -69,7 +69,8 @@ struct PathScale {
   double ratio = 1.0;     ///< length after over length before, both in the default pose
   double before_m = 0.0;  ///< length before
   double after_m = 0.0;   ///< and after
-  bool wraps = false;     ///< the path has surfaces to bend around, other than cylinders: the lengths leave them out
+  bool wraps =
+      false;  ///< the path has surfaces to bend around, other than cylinders: the lengths leave them out
 };
 
 }  // namespace kinemark::data

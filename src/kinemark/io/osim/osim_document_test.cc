@@ -158,7 +158,9 @@ TEST(OsimDocument, a_surface_may_have_one_side_and_a_path_may_meet_it_between_so
 
 TEST(OsimDocument, surfaces_that_are_no_cylinders_or_not_in_the_file_are_kept_by_name) {
   std::string text(kLeg);
-  const std::string wraps = "<PathWrap><wrap_object>head</wrap_object></PathWrap><PathWrap><wrap_object>none</wrap_object></PathWrap>";
+  const std::string wraps =
+      "<PathWrap><wrap_object>head</wrap_object></PathWrap><PathWrap><wrap_object>none</wrap_object></"
+      "PathWrap>";
   text.insert(text.find("</objects></PathWrapSet>"), wraps);
   const auto path = OsimDocument::parse(text, "leg.osim").value().paths().at(0);
   ASSERT_EQ(path.wraps.size(), 3);

@@ -64,12 +64,13 @@ void read_side(std::string side, data::WrapSurface& surface) {
 }
 
 data::WrapSurface read_surface(XmlFile& file, const Attachment& owner, pugi::xml_node node) {
-  data::WrapSurface surface{.name = name_of(node),
-                            .is_cylinder = std::string_view(node.name()) == "WrapCylinder",
-                            .active = text_of(node, "active") != "false",
-                            .body_idx = owner.body_idx,
-                            .body_from_frame = owner.body_from_frame,
-                            .frame_from_surface = read_transform(file, node, "translation", "xyz_body_rotation")};
+  data::WrapSurface surface{
+      .name = name_of(node),
+      .is_cylinder = std::string_view(node.name()) == "WrapCylinder",
+      .active = text_of(node, "active") != "false",
+      .body_idx = owner.body_idx,
+      .body_from_frame = owner.body_from_frame,
+      .frame_from_surface = read_transform(file, node, "translation", "xyz_body_rotation")};
   read_side(text_of(node, "quadrant"), surface);
   if (!surface.is_cylinder) return surface;
   surface.radius = file.number(node, "radius", 1.0);
@@ -78,9 +79,8 @@ data::WrapSurface read_surface(XmlFile& file, const Attachment& owner, pugi::xml
 }
 
 /// Surfaces by name; of two with one name the first.
-std::map<std::string, data::WrapSurface, std::less<>> read_surfaces(XmlFile& file, FrameTable& frames,
-                                                                    pugi::xml_node model,
-                                                                    const data::ModelDescription& description) {
+std::map<std::string, data::WrapSurface, std::less<>> read_surfaces(
+    XmlFile& file, FrameTable& frames, pugi::xml_node model, const data::ModelDescription& description) {
   std::map<std::string, data::WrapSurface, std::less<>> surfaces;
   for (const pugi::xml_node set : descendants(model, "WrapObjectSet")) {
     Attachment owner;
@@ -90,8 +90,7 @@ std::map<std::string, data::WrapSurface, std::less<>> read_surfaces(XmlFile& fil
       owner = {parent->body_idx,
                parent->body_from_frame * read_transform(file, set.parent(), "translation", "orientation")};
     for (const pugi::xml_node node : set.child("objects").children())
-      if (node.type() == pugi::node_element)
-        surfaces.emplace(name_of(node), read_surface(file, owner, node));
+      if (node.type() == pugi::node_element) surfaces.emplace(name_of(node), read_surface(file, owner, node));
   }
   return surfaces;
 }

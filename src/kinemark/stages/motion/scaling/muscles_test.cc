@@ -110,8 +110,10 @@ TEST(ScalePaths, a_path_takes_the_factors_of_its_own_bodies_and_axes) {
 }
 
 TEST(ScalePaths, a_cylinder_takes_the_factors_of_its_body_along_its_own_axes) {
-  data::MusclePath path{.name = "around", .points = {at_body(0, {0.0, 0.1, 0.0}), at_body(0, {0.0, -0.1, 0.0})}};
-  path.wraps = {{.surface = {.name = "bar", .is_cylinder = true, .body_idx = 0, .radius = 0.02, .length = 0.3}}};
+  data::MusclePath path{.name = "around",
+                        .points = {at_body(0, {0.0, 0.1, 0.0}), at_body(0, {0.0, -0.1, 0.0})}};
+  path.wraps = {
+      {.surface = {.name = "bar", .is_cylinder = true, .body_idx = 0, .radius = 0.02, .length = 0.3}}};
   auto& bar = path.wraps[0].surface;
   bar.frame_from_surface.translation = Vector3d(0.01, 0.0, 0.2);
   bar.body_from_frame.translation = Vector3d(-0.005, 0.0, -0.2);
@@ -123,8 +125,10 @@ TEST(ScalePaths, a_cylinder_takes_the_factors_of_its_body_along_its_own_axes) {
   EXPECT_EQ(grown.body_from_frame.translation, Vector3d(-0.01, 0.0, -1.0));
   EXPECT_NEAR(grown.radius, 0.02 * 2.5, 1e-16);
   EXPECT_NEAR(grown.length, 0.3 * 5.0, 1e-15);
-  bar.frame_from_surface.rotation = math::from_body_xyz({0.0, std::numbers::pi / 2, 0.0});  // along x of the body
-  const auto turned = scale_path(path, std::vector<Vector3d>{{2.0, 3.0, 5.0}, {1.0, 1.0, 1.0}}).wraps[0].surface;
+  bar.frame_from_surface.rotation =
+      math::from_body_xyz({0.0, std::numbers::pi / 2, 0.0});  // along x of the body
+  const auto turned =
+      scale_path(path, std::vector<Vector3d>{{2.0, 3.0, 5.0}, {1.0, 1.0, 1.0}}).wraps[0].surface;
   EXPECT_NEAR(turned.length, 0.3 * 2.0, 1e-15);
   EXPECT_NEAR(turned.radius, 0.02 * 4.0, 1e-16);
   const auto all = scale_path(path, std::vector<Vector3d>(2, Vector3d::Constant(1.5)));
@@ -133,7 +137,8 @@ TEST(ScalePaths, a_cylinder_takes_the_factors_of_its_body_along_its_own_axes) {
 
 TEST(ScalePaths, a_path_around_cylinders_alone_leaves_nothing_out) {
   auto path = front();
-  path.wraps = {{.surface = {.name = "bar", .is_cylinder = true, .body_idx = 0, .radius = 0.02, .length = 0.3}}};
+  path.wraps = {
+      {.surface = {.name = "bar", .is_cylinder = true, .body_idx = 0, .radius = 0.02, .length = 0.3}}};
   const std::vector<Vector3d> factors(2, Vector3d::Ones());
   EXPECT_FALSE(scale_paths(hinge(), hinge(), std::vector{path}, factors).value().front().wraps);
   path.wraps.push_back({.surface = {.name = "ball", .body_idx = 0}});

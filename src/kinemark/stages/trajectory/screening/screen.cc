@@ -140,8 +140,8 @@ Result<data::Trajectories> reject_defects(const data::Trajectories& t, std::span
       return fail(Code::bad_input,
                   fmt::format("a finding is about marker '{}' and {}; that marker or these frames are not "
                               "among the {} markers and {} frames of the trajectories",
-                              f.subject, internal::describe_frames(t.time, f.first_frame, f.last_frame), t.markers(),
-                              t.frames()));
+                              f.subject, internal::describe_frames(t.time, f.first_frame, f.last_frame),
+                              t.markers(), t.frames()));
     if (!(f.confidence < min_confidence)) reject(defect, out);
   }
   return out;

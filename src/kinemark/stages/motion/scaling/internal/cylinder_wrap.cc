@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 constexpr double kStep = 0.002;  // m of the helix, over which its direction is looked at
 constexpr double kKink = 0.1 * std::numbers::pi / 180.0;
 constexpr int kMostSlides = 100;
-constexpr double kOvershoot = 1.5;    // of each slide
-constexpr double kFlat = 5e-7;        // of a plane's normal along the axis, below which it is parallel to it
-constexpr double kFarAlong = 10.0;    // m, beyond which a plane does not meet a line of tangency
+constexpr double kOvershoot = 1.5;  // of each slide
+constexpr double kFlat = 5e-7;      // of a plane's normal along the axis, below which it is parallel to it
+constexpr double kFarAlong = 10.0;  // m, beyond which a plane does not meet a line of tangency
 
 /// A point seen along the axis: its distance, and the points of tangency to both sides of it.
 struct Tangents {
@@ -117,7 +117,8 @@ void into_plane(const Vector3d& from, const Vector3d& to, double share, double r
   const Vector3d plane = (from - edge).cross(to - edge).normalized();
   if (!(std::abs(plane.z()) >= kFlat)) return;
   const auto slide = [&](Vector3d& touch, double other_end) {
-    const double z = from.z() + (plane.x() * (from.x() - touch.x()) + plane.y() * (from.y() - touch.y())) / plane.z();
+    const double z =
+        from.z() + (plane.x() * (from.x() - touch.x()) + plane.y() * (from.y() - touch.y())) / plane.z();
     const bool between = std::abs(z - other_end) < std::abs(to.z() - from.z());
     if (between && std::abs(z - touch.z()) <= kFarAlong) touch.z() = z;
   };
@@ -140,8 +141,8 @@ Helix helix(const CylinderWrap& wrap, double radius, bool long_way) {
   return {(long_way ? -sense : sense) * whole, rise, std::hypot(radius * whole, rise)};
 }
 
-/// How far a point of tangency must slide so that the way from `end` runs on into the helix, whose next point is
-/// `next`. None where it does so already.
+/// How far a point of tangency must slide so that the way from `end` runs on into the helix, whose next point
+/// is `next`. None where it does so already.
 std::optional<double> slide_of(const Vector3d& end, const Vector3d& touch, const Vector3d& next) {
   const Vector3d straight = (touch - end).normalized(), onward = (next - touch).normalized();
   if (std::abs(std::acos(straight.z()) - std::acos(onward.z())) <= kKink) return std::nullopt;
@@ -152,10 +153,12 @@ std::optional<double> slide_of(const Vector3d& end, const Vector3d& touch, const
 }
 
 Vector3d turned(const Vector3d& x, double by, double up) {
-  return {std::cos(by) * x.x() - std::sin(by) * x.y(), std::sin(by) * x.x() + std::cos(by) * x.y(), x.z() + up};
+  return {std::cos(by) * x.x() - std::sin(by) * x.y(), std::sin(by) * x.x() + std::cos(by) * x.y(),
+          x.z() + up};
 }
 
-void settle_on_helix(const Vector3d& from, const Vector3d& to, double radius, bool long_way, CylinderWrap& wrap) {
+void settle_on_helix(const Vector3d& from, const Vector3d& to, double radius, bool long_way,
+                     CylinderWrap& wrap) {
   for (int slides = 0; slides < kMostSlides; ++slides) {
     const Helix way = helix(wrap, radius, long_way);
     const int steps = static_cast<int>(way.length / kStep);
@@ -171,7 +174,8 @@ void settle_on_helix(const Vector3d& from, const Vector3d& to, double radius, bo
 
 }  // namespace
 
-CylinderWrap wrap_cylinder(const Vector3d& from, const Vector3d& to, const data::WrapSurface& cylinder, bool settle) {
+CylinderWrap wrap_cylinder(const Vector3d& from, const Vector3d& to, const data::WrapSurface& cylinder,
+                           bool settle) {
   const double radius = cylinder.radius;
   if (from.head<2>().norm() < radius || to.head<2>().norm() < radius) return {.bend = Bend::inside};
   CylinderWrap wrap{.bend = judge(from, to, cylinder)};

@@ -28,9 +28,9 @@ struct CylinderWrap {
 
 /// The piece from `from` to `to`, both in the surface's frame (m).
 ///
-/// The points where it touches lie where the plane through both ends and the cylinder's edge between them meets
-/// the lines of tangency. `settle` then slides them along the cylinder until the way enters and leaves the
-/// helix without a kink (0.1 deg): so OpenSim does for a path with several surfaces, and only there.
+/// The points where it touches lie where the plane through both ends and the cylinder's edge between them
+/// meets the lines of tangency. `settle` then slides them along the cylinder until the way enters and leaves
+/// the helix without a kink (0.1 deg): so OpenSim does for a path with several surfaces, and only there.
 [[nodiscard]] CylinderWrap wrap_cylinder(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                          const data::WrapSurface& cylinder, bool settle);
 

@@ -32,7 +32,8 @@ class WrappedPath {
   WrappedPath(std::span<const PassedPoint> points, std::span<const data::PathWrap> wraps,
               std::span<const math::SE3> world_from_surface)
       : wraps_(wraps), world_from_surface_(world_from_surface), order_(wraps.size()), bends_(wraps.size()) {
-    for (const auto& point : points) nodes_.push_back({.x_in_world = point.x_in_world, .point_idx = point.point_idx});
+    for (const auto& point : points)
+      nodes_.push_back({.x_in_world = point.x_in_world, .point_idx = point.point_idx});
     std::iota(order_.begin(), order_.end(), 0);
   }
 
@@ -91,7 +92,8 @@ class WrappedPath {
     int first = -1, last = -1;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const int point = nodes_[i].point_idx;
-      if (point < 0 || point < wrap.first_point || (wrap.last_point >= 0 && point > wrap.last_point)) continue;
+      if (point < 0 || point < wrap.first_point || (wrap.last_point >= 0 && point > wrap.last_point))
+        continue;
       if (first < 0) first = static_cast<int>(i);
       last = static_cast<int>(i);
     }
@@ -130,8 +132,9 @@ class WrappedPath {
   [[nodiscard]] double sum() const {
     double length = 0.0;
     for (std::size_t i = 1; i < nodes_.size(); ++i)
-      length += on_one_surface(nodes_[i - 1], nodes_[i]) ? nodes_[i].arc_m
-                                                        : (nodes_[i].x_in_world - nodes_[i - 1].x_in_world).norm();
+      length += on_one_surface(nodes_[i - 1], nodes_[i])
+                    ? nodes_[i].arc_m
+                    : (nodes_[i].x_in_world - nodes_[i - 1].x_in_world).norm();
     return length;
   }
 

@@ -28,7 +28,8 @@ std::vector<PassedPoint> passed(const std::vector<Vector3d>& x) {
   return points;
 }
 
-/// Over a cylinder in the middle between two points on one height, both `half` away from its axis and `low` below.
+/// Over a cylinder in the middle between two points on one height, both `half` away from its axis and `low`
+/// below.
 double over_one(double half, double low) {
   const double distance = std::hypot(half, low);
   const double turn = std::numbers::pi - 2.0 * std::acos(kRound / distance) + 2.0 * std::atan2(low, half);
@@ -74,18 +75,20 @@ TEST(WrappedPath, the_range_counts_points_of_the_path_not_those_passed) {
   // The second of four points does not count in this pose.
   const std::vector<PassedPoint> points{{0, {-0.2, 0.3, 0}}, {2, {-0.2, 0.01, 0}}, {3, {0.2, 0.01, 0}}};
   const std::vector pose{moved(0.0, 0.0)};
-  EXPECT_NEAR(wrapped_length(points, std::vector{around("a", 1, 3)}, pose), 0.29 + over_one(0.2, -0.01), 1e-14);
+  EXPECT_NEAR(wrapped_length(points, std::vector{around("a", 1, 3)}, pose), 0.29 + over_one(0.2, -0.01),
+              1e-14);
   EXPECT_NEAR(wrapped_length(points, std::vector{around("a", 0, 1)}, pose), 0.29 + 0.4, 1e-15);
 }
 
 TEST(WrappedPath, of_two_pieces_that_may_bend_the_one_with_the_smaller_detour_does) {
-  // Held to +y while all points lie below: every piece may bend. The second is the one nearer to the cylinder.
+  // Held to +y while all points lie below: every piece may bend. The second is the one nearer to the
+  // cylinder.
   auto wrap = around("a");
   wrap.surface.side_axis = 1;
   const auto points = passed({{-0.3, -0.3, 0}, {-0.2, -0.02, 0}, {0.2, -0.02, 0}});
   const double first = std::hypot(0.1, 0.28);
-  EXPECT_NEAR(wrapped_length(points, std::vector{wrap}, std::vector{moved(0.0, 0.0)}), first + over_one(0.2, 0.02),
-              1e-14);
+  EXPECT_NEAR(wrapped_length(points, std::vector{wrap}, std::vector{moved(0.0, 0.0)}),
+              first + over_one(0.2, 0.02), 1e-14);
 }
 
 TEST(WrappedPath, several_cylinders_are_each_bent_around) {
@@ -97,7 +100,8 @@ TEST(WrappedPath, several_cylinders_are_each_bent_around) {
   const double turn = 0.5 * std::numbers::pi - std::acos(kRound / distance) - std::atan2(0.01, 0.2);
   const double expected = 2.0 * (std::sqrt(distance * distance - kRound * kRound) + kRound * turn) + 0.4;
   EXPECT_NEAR(wrapped_length(points, wraps, poses), expected, 5e-4);  // the rounds end at 0.5 mm
-  EXPECT_NEAR(wrapped_length(points, std::vector{wraps[1], wraps[0]}, std::vector{poses[1], poses[0]}), expected, 5e-4);
+  EXPECT_NEAR(wrapped_length(points, std::vector{wraps[1], wraps[0]}, std::vector{poses[1], poses[0]}),
+              expected, 5e-4);
 }
 
 }  // namespace

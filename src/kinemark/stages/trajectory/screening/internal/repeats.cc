@@ -192,8 +192,8 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& ou
                      .description = fmt::format(
                          "marker '{}' holds one value, digit by digit, in {}; beside them it moves "
                          "{:.3f} mm per frame in steps of {:.4f} mm",
-                         t.names[static_cast<std::size_t>(m)], describe_frames(t.time, first, last), 1e3 * step,
-                         1e3 * rounding)});
+                         t.names[static_cast<std::size_t>(m)], describe_frames(t.time, first, last),
+                         1e3 * step, 1e3 * rounding)});
     }
   }
 }
