@@ -76,6 +76,7 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
     return run_job(common, "markers", job, pipeline::run_clean, print_clean_outcome);
   }
   many.pages = job.report;
+  if (auto s = check_edits(job.edits); !s) return report_error(s.error());
   const auto clean_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                 const std::filesystem::path& page,
                                 const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -136,6 +137,10 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
                     "Reject spikes, swaps, stuck and false samples instead of only reporting them");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
+  command->add_option(
+      "--edits", job.edits,
+      "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
+      "recording, where there is one");
   command->add_option("--report", job.report, "Page to write, .html; a folder for several recordings");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });

@@ -29,6 +29,7 @@ void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run);
 void add_study(CLI::App& app, const CommonOptions& common, Run& run);
 void add_info(CLI::App& app, const CommonOptions& common, Run& run);
 void add_clean(CLI::App& app, const CommonOptions& common, Run& run);
+void add_edit(CLI::App& app, const CommonOptions& common, Run& run);
 void add_convert(CLI::App& app, const CommonOptions& common, Run& run);
 void add_validate(CLI::App& app, const CommonOptions& common, Run& run);
 void add_simulate(CLI::App& app, const CommonOptions& common, Run& run);

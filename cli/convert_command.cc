@@ -43,6 +43,7 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
     return report_error({.code = Code::usage,
                          .message = fmt::format("{}: files for a folder need --to and one of {}",
                                                 many.output.string(), written_formats())});
+  if (auto s = check_edits(job.edits); !s) return report_error(s.error());
   const auto convert_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                   const std::filesystem::path& /*page*/,
                                   const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -82,6 +83,10 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--resample", job.resample_hz, "Write a marker file at this frame rate, Hz");
   command->add_option("-m,--model", job.model,
                       "Model (.osim) that a table of coordinates is of, which then becomes a .bvh or .glb");
+  command->add_option(
+      "--edits", job.edits,
+      "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
+      "recording, where there is one");
   add_selection_options(*command, job.selection);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });

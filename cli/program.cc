@@ -61,6 +61,7 @@ void add_everything(CLI::App& app, CommonOptions& common, Run& run) {
   add_simulate(app, common, run);
   add_calibrate(app, common, run);
   add_reconstruct(app, common, run);
+  add_edit(app, common, run);
   add_clean(app, common, run);
   add_joints(app, common, run);
   add_scale(app, common, run);

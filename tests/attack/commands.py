@@ -93,6 +93,8 @@ COMMANDS = (
     Command(
         ("reconstruct", "counts.mcap", "--rig", "rig.toml", "-o", "out.csv", "--method", "frames"), ("counts.mcap", "rig.toml"), "out.csv"
     ),
+    Command(("edit", "markers.c3d", "--cut", "RFHD", "--edits", "edits.jsonl"), ("markers.c3d", "edits.jsonl")),
+    Command(("clean", "markers.c3d", "out.c3d", "--edits", "edits.jsonl"), ("markers.c3d", "edits.jsonl"), "out.c3d", ("--cutoff", "6")),
     one("recover", "counts.mcap", "out.mcap", writes="out.mcap"),
 )
 
@@ -109,6 +111,8 @@ def make_sound_files(program, folder):
     for name in ("markers.c3d", "markers.trc", "model.osim"):
         (folder / "subject" / name).rename(folder / name)
     run("convert", "markers.c3d", "markers.csv")
+    for words in (("--swap", "LFHD", "RFHD"), ("--cut", "LFHD", "--to", "3"), ("--undo", "1")):
+        run("edit", "markers.c3d", "--edits", "edits.jsonl", *words)
     run("convert", "markers.c3d", "markers.nwb")
     run("ik", "-m", "model.osim", "-t", "markers.trc", "-o", "q.mot")
     run("convert", "q.mot", "q.sto")

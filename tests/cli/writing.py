@@ -43,6 +43,7 @@ class Workshop:
             "convert to OSIM": ["convert", body / "model.osim", "x.osim"],
             "clean to C3D": ["clean", body / "markers.c3d", "x.c3d", "--derivatives", "--report", "x.html"],
             "clean to NWB": ["clean", body / "markers.c3d", "x.nwb", "--derivatives"],
+            "edit": ["edit", body / "markers.c3d", "--edits", "x.jsonl", "--region", "x", "--from", 1, "--to", 2],
             "joints": ["joints", arm / "markers.c3d", "--segments", arm / "segments.toml", "--method", "score", "-o", "x"],
             "scale": ["scale", "-m", body / "model.osim", "--static", body / "markers.c3d", "-o", "x.osim"],
             "ik": ["ik", "-m", body / "model.osim", "-t", body / "markers.c3d", "-o", "x.mot", "--report", "x.html"],

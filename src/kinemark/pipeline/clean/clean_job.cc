@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/clean/clean_job.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
+#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -107,15 +109,25 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   // Prepare: where results go, markers, and what the recorder did to them.
   if (auto s = job.gaps.check(); !s) return std::unexpected(s.error());
   const CleanFiles files(job);
-  auto staging = Staging::create(files.all(), job.force, {job.input});
+  auto staging = Staging::create(files.all(), job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());
   auto input = read_marker_input({.path = job.input, .needs_samples = true, .record = true});
   if (!input) return std::unexpected(input.error());
   CleanOutcome outcome;
   auto& report = outcome.report;
   auto& trial = outcome.trial = std::move(input->trial);
+  auto edits = take_edits({.edits = job.edits,
+                           .recording = job.input,
+                           .force = job.force,
+                           .seed = job.seed,
+                           .threads = job.threads},
+                          trial);
+  if (!edits) return std::unexpected(edits.error());
   report.run = internal::describe_run(job, trial);
   report.run.inputs.push_back(std::move(input->file));
+  if (edits->file) report.run.inputs.push_back(*edits->file);
+  std::ranges::move(edit_options(*edits), std::back_inserter(report.run.options));
+  std::ranges::copy(edits->notes, std::back_inserter(report.run.warnings));
   const auto start = std::chrono::steady_clock::now();
   if (auto s = screen_trial(job, outcome); !s) return fail_at(job.input.string(), s.error());
   // Fill and smooth: each marker goes into the output as soon as it is done.

@@ -18,9 +18,11 @@ namespace kinemark::pipeline {
 
 /// What `kinemark clean` is asked to do. Paths that are empty are not used.
 struct CleanJob : JobSettings {
-  std::filesystem::path input;                      ///< .c3d, .trc, .csv or .nwb
-  std::filesystem::path output;                     ///< likewise; OUT_report.json goes beside it
-  std::filesystem::path report;                     ///< page to write as well
+  std::filesystem::path input;   ///< .c3d, .trc, .csv or .nwb
+  std::filesystem::path output;  ///< likewise; OUT_report.json goes beside it
+  std::filesystem::path report;  ///< page to write as well
+  std::filesystem::path edits;   ///< journal of edits, applied before all else; "beside": the one beside the
+                                 ///< recording, if there is one; empty: none
   RecorderMade recorder_made = RecorderMade::mark;  ///< what is done with samples that the recorder made
   bool reject_defects = false;  ///< spikes, swaps, stuck and false samples become `rejected`, then gaps
   trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};  ///< how gaps are filled

@@ -10,10 +10,12 @@
 #include <cmath>
 
 #include "kinemark/core/random.h"
+#include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/testing/test_files.h"
 #include "support/scratch.h"
 
@@ -177,6 +179,31 @@ TEST_F(RunClean, FailuresLeaveNothingBehind) {
   j.progress = [](std::int64_t, std::int64_t) { return false; };
   EXPECT_EQ(run_clean(j).error().code, Code::cancelled);
   EXPECT_EQ(scratch_.count_files(), 1) << "only in.c3d";
+}
+
+TEST_F(RunClean, EditsComeFirstAndAreInTheRecord) {
+  auto journal = io::EditJournal::open(at("in_edits.jsonl"), identify_recording(at("in.c3d")).value());
+  ASSERT_TRUE(journal) << journal.error().message;
+  ASSERT_TRUE(journal->append({.kind = data::EditKind::relabel, .marker = "HEAD", .other = "TOP"}));
+  ASSERT_TRUE(
+      journal->append({.kind = data::EditKind::cut, .marker = "WRB", .first_frame = 51, .last_frame = 60}));
+  auto edited = job("edited.c3d");
+  edited.edits = kEditsBeside;
+  edited.filter.method = trajectory::FilterMethod::none;
+  const auto out = run_clean(edited);
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_EQ(out->trial.markers.names[3], "TOP");
+  EXPECT_EQ(count(out->trial.markers, SampleState::rejected), 10);
+  ASSERT_EQ(out->report.run.inputs.size(), 2U);
+  EXPECT_EQ(out->report.run.inputs[1].role, "edits");
+  EXPECT_THAT(io::read_text(at("edited_report.json")).value(), HasSubstr("edits in force"));
+  edited.gaps.method = trajectory::GapMethod::cubic;
+  edited.output = at("filled.c3d");
+  EXPECT_EQ(run_clean(edited)->trial.markers.count_missing(), 0) << "what was cut is a gap";
+  edited.edits = at("no_edits.jsonl");
+  edited.output = at("no.c3d");
+  EXPECT_EQ(run_clean(edited).error().code, Code::io);
+  EXPECT_FALSE(fs::exists(at("no.c3d")));
 }
 
 }  // namespace

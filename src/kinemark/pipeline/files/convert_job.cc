@@ -16,6 +16,7 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/robot/robot_file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/model_motion.h"
@@ -108,6 +109,10 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
     if (!input) return std::unexpected(input.error());
     trials.push_back(std::move(input->trial));
   }
+  const auto edits = take_edits(
+      {.edits = job.edits, .recording = job.in, .force = job.force, .seed = job.seed, .threads = job.threads},
+      trials.front());
+  if (!edits) return std::unexpected(edits.error());
   auto trial = merge_trials(std::move(trials));
   if (!trial) return std::unexpected(trial.error());
   if (auto s = take_selection(job.selection, *trial); !s) return fail_at(job.in.string(), s.error());
@@ -121,6 +126,7 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
     turn_y_up(job.in, *trial);
   }
   auto notes = trial->warnings;
+  notes.insert(notes.end(), edits->notes.begin(), edits->notes.end());
   if (ending_of(job.out) == ".tsv") {
     auto made = write_motion_bids(job.out, *trial, job.force, files);
     if (!made) return std::unexpected(made.error());
@@ -176,7 +182,9 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if ((!job.merged.empty() || job.resample_hz) && kind_of(from) != Kind::markers)
     return fail(Code::usage,
                 fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
-  std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton};
+  if (!job.edits.empty() && (kind_of(from) != Kind::markers || !job.merged.empty()))
+    return fail(Code::usage, fmt::format("{}: --edits is for one marker file", job.in.string()));
+  std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton, job.edits};
   inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
   if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;

@@ -22,7 +22,9 @@ struct ConvertJob : JobSettings {
   double rate_hz = 0.0;                       ///< of marker files that tell none (.v3d, .amc); 0: not given
   std::filesystem::path skeleton;             ///< .asf of an .amc; empty: the one beside it
   Selection selection;                        ///< of a marker file
-  std::string rotate;                         ///< turns markers and force plates, "x -90"; empty: as they are
+  std::filesystem::path edits;  ///< journal of a marker file's edits, applied before all else; "beside": the
+                                ///< one beside it, if there is one; empty: none
+  std::string rotate;           ///< turns markers and force plates, "x -90"; empty: as they are
   std::filesystem::path
       model;  ///< .osim that a table is the motion of, to make a skeleton of it; empty: none
 };

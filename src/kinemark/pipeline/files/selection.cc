@@ -15,7 +15,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/data/name_index.h"
 #include "kinemark/io/number.h"
-#include "kinemark/pipeline/files/part_of_trial.h"
+#include "kinemark/stages/trajectory/edits/part_of_trial.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -89,7 +89,7 @@ std::optional<std::pair<double, double>> parse_frames(std::string_view text) {
   return std::pair{*first, *last};
 }
 
-Result<FrameSpan> frames_of(const Selection& selection, const data::Trial& trial) {
+Result<trajectory::FrameSpan> frames_of(const Selection& selection, const data::Trial& trial) {
   const auto& time = trial.markers.time;
   double first = (selection.first_time_s - time.t0_s) * time.rate_hz,
          last = (selection.last_time_s - time.t0_s) * time.rate_hz;
@@ -106,8 +106,8 @@ Result<FrameSpan> frames_of(const Selection& selection, const data::Trial& trial
                 fmt::format("no frame lies in the range asked for; the recording has frames {} to {}, "
                             "{:.6g} to {:.6g} s",
                             trial.first_frame, trial.last_frame(), time.t0_s, time.time_s(time.frames - 1)));
-  return FrameSpan{.first = static_cast<std::int64_t>(first),
-                   .count = time.frames > 0 ? static_cast<std::int64_t>(last - first) + 1 : 0};
+  return trajectory::FrameSpan{.first = static_cast<std::int64_t>(first),
+                               .count = time.frames > 0 ? static_cast<std::int64_t>(last - first) + 1 : 0};
 }
 
 /// Indices of the names that stay.
@@ -181,7 +181,7 @@ Status take_selection(const Selection& selection, data::Trial& trial) {
   const auto frames = frames_of(selection, trial);
   if (!frames) return std::unexpected(frames.error());
 
-  keep_part(trial, *frames, markers, channels);
+  trajectory::keep_part(trial, *frames, markers, channels);
   for (std::size_t i = 0; i < markers.size(); ++i) trial.markers.names[i] = (*renamed)[at(markers[i])];
   for (std::size_t i = 0; i < channels.size(); ++i) trial.channels.names[i] = (*renamed)[at(M + channels[i])];
   return {};

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "kinemark/pipeline/files/testing/numbered_trial.h"
+#include "kinemark/stages/trajectory/edits/testing/numbered_trial.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::numbered_trial;
+using trajectory::testing::numbered_trial;
 
 /// Two subjects with the same markers, and one more.
 data::Trial two_subjects() {

@@ -15,6 +15,7 @@
 #include "kinemark/core/name_pattern.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/io/number.h"
+#include "kinemark/pipeline/files/edit_input.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -217,6 +218,14 @@ class Planner {
       if (known.insert(folder / frame.filename()).second) inputs.push_back(folder / frame.filename());
   }
 
+  /// The journal beside a step's recording, if there is one: a step is due again when it comes or goes.
+  void add_edits(std::vector<fs::path>& inputs) const {
+    std::error_code absent;
+    if (inputs.empty()) return;
+    const auto journal = edits_of(inputs.front());
+    if (fs::is_regular_file(base_ / journal, absent)) inputs.push_back(journal);
+  }
+
   /// With its options behind its own words; every value that names a file is an input.
   std::size_t add(RunStep step, const std::vector<Setting>& options, const std::string& subject,
                   const std::string& trial) {
@@ -236,6 +245,7 @@ class Planner {
               std::ranges::find(step.inputs, fs::path(file)) == step.inputs.end())
             step.inputs.emplace_back(file);
         }
+        if (setting.name == "edits" && value == kEditsBeside) add_edits(step.inputs);
         if (setting.name == "images" && behind != std::string::npos)
           add_frames(value.substr(behind + 1), step.inputs);
       }

@@ -180,6 +180,17 @@ trials = ["S/run.c3d"]
   EXPECT_THAT(steps[1].inputs, Contains(fs::path("weights.xml")));
 }
 
+TEST_F(PlanSteps, TheJournalBesideARecordingIsAnInput) {
+  const std::string study =
+      "steps = [\"clean\"]\n[clean]\nedits = \"beside\"\n[[subject]]\nname = \"A\"\ntrials = "
+      "[\"S/run.c3d\"]\n";
+  EXPECT_THAT(plan(study).value().at(0).inputs, ElementsAre("S/run.c3d"));
+  ASSERT_TRUE(io::write_text(scratch_ / "S/run_edits.jsonl", "{}", false));
+  const auto steps = plan(study).value();
+  EXPECT_THAT(steps.at(0).words, Contains("--edits=beside"));
+  EXPECT_THAT(steps.at(0).inputs, ElementsAre("S/run.c3d", "S/run_edits.jsonl"));
+}
+
 TEST_F(PlanSteps, FramesOfOpenPoseAreInputsEachAndOneStandsForAll) {
   fs::create_directories(scratch_ / "frames");
   for (const char* name : {"frames/v_0_keypoints.json", "frames/v_1_keypoints.json"})

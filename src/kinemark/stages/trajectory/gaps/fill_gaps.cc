@@ -37,9 +37,10 @@ struct Work {
   std::vector<Combination> pieces;         // as many when the gap is filled, else none
 };
 
-std::vector<GapSpan> find_gaps(const data::Trajectories& in) {
+std::vector<GapSpan> find_gaps(const data::Trajectories& in, const GapChoice& only) {
   std::vector<GapSpan> gaps;
-  for (Index m = 0; m < in.markers(); ++m)
+  for (Index m = 0; m < in.markers(); ++m) {
+    if (only.marker >= 0 && m != only.marker) continue;
     for (Index f = 0; f < in.frames();) {
       if (in.present(f, m)) {
         ++f;
@@ -47,9 +48,11 @@ std::vector<GapSpan> find_gaps(const data::Trajectories& in) {
       }
       Index end = f + 1;
       while (end < in.frames() && !in.present(end, m)) ++end;
-      gaps.push_back({.marker = m, .first = f, .end = end});
+      if (end > only.first_frame && f <= only.last_frame)
+        gaps.push_back({.marker = m, .first = f, .end = end});
       f = end;
     }
+  }
   return gaps;
 }
 
@@ -247,7 +250,7 @@ Result<GapResult> fill_gaps(const data::Trajectories& in, const GapOptions& opti
   if (const Status s = in.validate(); !s) return std::unexpected(s.error());
   const Filler filler(in, options);
   std::vector<Work> work;
-  for (const GapSpan& gap : find_gaps(in)) {
+  for (const GapSpan& gap : find_gaps(in, options.only)) {
     work.push_back({.span = filler.span(gap.marker, gap.first, gap.end)});
   }
   // Neighbours once per marker, found when its first gap is reached by a batch.

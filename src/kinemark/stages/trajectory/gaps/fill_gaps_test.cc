@@ -371,5 +371,20 @@ TEST(CompareCandidates, RefusesStretchesThatAreNoGap) {
   EXPECT_EQ(compare_candidates(t, 1, 100, 110, {.max_gap_s = 0.0}).error().code, Code::usage);
 }
 
+TEST(FillGaps, ChosenGapsAreFilledAsAmongAll) {
+  Trajectories t = moving_bodies({.noise_m = kNoiseM});
+  hide(t, 1, 300, 305);
+  hide(t, 1, 400, 405);
+  hide(t, 7, 100, 149);
+  const GapResult all = fill(t);
+  const GapResult one = fill(t, {.only = {.marker = 1, .first_frame = 305, .last_frame = 399}});
+  EXPECT_EQ(only_gap(one).first_frame, 300);
+  EXPECT_EQ(rms_between(one.trajectories, all.trajectories, 1, 300, 305), 0.0);
+  EXPECT_FALSE(one.trajectories.present(400, 1));
+  EXPECT_FALSE(one.trajectories.present(100, 7));
+  EXPECT_TRUE(fill(t, {.only = {.marker = 1, .first_frame = 306, .last_frame = 399}}).gaps.empty());
+  EXPECT_EQ(fill(t, {.only = {.first_frame = 140, .last_frame = 300}}).gaps.size(), 2U) << "of all markers";
+}
+
 }  // namespace
 }  // namespace kinemark::trajectory

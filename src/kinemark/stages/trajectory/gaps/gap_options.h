@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "kinemark/core/progress.h"
@@ -28,6 +29,13 @@ enum class GapMethod : std::uint8_t {
 /// The method of that name. The failure lists all names.
 [[nodiscard]] Result<GapMethod> parse_gap_method(std::string_view name);
 
+/// Gaps that are looked at; others stay as they are, and out of the account.
+struct GapChoice {
+  std::int64_t marker = -1;      ///< index of the marker; -1: all of them
+  std::int64_t first_frame = 0;  ///< gaps with a frame from here
+  std::int64_t last_frame = std::numeric_limits<std::int64_t>::max();  ///< to here, both included
+};
+
 /// Options of fill_gaps().
 struct GapOptions {
   GapMethod method = GapMethod::automatic;  ///< how all gaps are filled
@@ -38,6 +46,7 @@ struct GapOptions {
                                      ///< own path can be extrapolated; >= 0
   double noise_sd_m = 0.0;           ///< of a measured sample, per axis; 0: from each marker's own data
   bool check_labels = true;          ///< look for swaps among neighbours and leave those predictors out
+  GapChoice only;                    ///< all of them unless it says otherwise
   std::uint64_t seed = 1;            ///< which artificial gaps are taken when there are more than enough
   int threads = 1;                   ///< 0: all cores. Any number gives the same bits.
   Progress progress;                 ///< gaps done of all

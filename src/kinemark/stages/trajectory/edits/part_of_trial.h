@@ -7,7 +7,7 @@
 
 #include "kinemark/data/trial.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::trajectory {
 
 /// Consecutive frames of a recording.
 struct FrameSpan {
@@ -21,4 +21,4 @@ struct FrameSpan {
 void keep_part(data::Trial& trial, const FrameSpan& frames, std::span<const std::int64_t> markers,
                std::span<const std::int64_t> channels);
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::trajectory

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/part_of_trial.h"
+#include "kinemark/stages/trajectory/edits/part_of_trial.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 
-#include "kinemark/pipeline/files/testing/numbered_trial.h"
+#include "kinemark/stages/trajectory/edits/testing/numbered_trial.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::trajectory {
 namespace {
 
 using ::testing::ElementsAre;
@@ -95,4 +95,4 @@ TEST(PartOfTrial, AllFramesSayNothing) {
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::trajectory

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/part_of_trial.h"
+#include "kinemark/stages/trajectory/edits/part_of_trial.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,7 @@
 
 #include "kinemark/core/index.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::trajectory {
 namespace {
 
 /// `values` of frames x columns x n, on some frames and of some columns.
@@ -106,4 +106,4 @@ void keep_part(data::Trial& trial, const FrameSpan& frames, std::span<const std:
   trial.markers.time.first_number = trial.first_frame;
 }
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::trajectory

@@ -5,7 +5,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/data/trial.h"
 
-namespace kinemark::pipeline::testing {
+namespace kinemark::trajectory::testing {
 
 /// Ten frames, numbers 101 to 110 at 100 Hz, of markers A, B and C and the channels "angle" and "moment";
 /// every number tells its place, some samples are missing or were made.
@@ -48,4 +48,4 @@ inline data::Trial numbered_trial() {
   return trial;
 }
 
-}  // namespace kinemark::pipeline::testing
+}  // namespace kinemark::trajectory::testing

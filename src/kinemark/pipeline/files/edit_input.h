@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Edits of a recording as an input of jobs: the journal beside the recording, read, matched and applied.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/edit.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/data/trial.h"
+
+namespace kinemark::pipeline {
+
+/// The value of `--edits` that stands for the journal beside each recording, if it has one.
+inline constexpr const char* kEditsBeside = "beside";
+
+/// The journal of a recording: NAME_edits.jsonl beside it.
+[[nodiscard]] std::filesystem::path edits_of(const std::filesystem::path& recording);
+
+/// The recording's name, size and checksum, as journals hold them. Fails as hash_file().
+[[nodiscard]] Result<data::EditedRecording> identify_recording(const std::filesystem::path& recording);
+
+/// Edits to apply to a recording as it was read.
+struct EditsSource {
+  std::filesystem::path edits;      ///< journal; "beside": edits_of(recording), if it is there; empty: none
+  std::filesystem::path recording;  ///< that the trial was read from
+  bool force = false;               ///< apply those of another recording too
+  std::uint64_t seed = 1;           ///< of fills
+  int threads = 1;                  ///< 0: all cores. Any number gives the same bits.
+};
+
+/// What was applied.
+struct EditsTaken {
+  std::optional<data::InputFile> file;  ///< role "edits", with size and checksum; none: there was no journal
+  std::size_t in_force = 0;             ///< operations
+  std::string digest;                   ///< of what they do, io::digest_of()
+  std::vector<data::Region> regions;    ///< that they name
+  std::vector<std::string> notes;       ///< what was odd, one sentence each
+};
+
+/// Apply a journal to `trial`. Code::bad_input, naming journal and line, as io::read_edits(),
+/// io::check_recording() and trajectory::apply_edits(); the trial is then as it was.
+[[nodiscard]] Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial);
+
+/// The same as options of a run's record: how many are in force and what they come to, and the regions; none
+/// where there was no journal.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> edit_options(const EditsTaken& taken);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/edit_job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "kinemark/io/edits/edit_journal.h"
+#include "kinemark/io/edits/edit_line.h"
+#include "kinemark/io/number.h"
+#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/stages/trajectory/edits/apply_edits.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using data::EditKind;
+
+constexpr double kSlack = 1e-6;  // frames: what times lose in decimal digits
+
+bool is_of_event(EditKind kind) {
+  return kind == EditKind::mark_event || kind == EditKind::move_event || kind == EditKind::delete_event;
+}
+
+bool is_of_history(EditKind kind) { return kind == EditKind::undo || kind == EditKind::redo; }
+
+/// A frame, not always whole, counted from the recording's first; and whether it was given as a time.
+struct Moment {
+  double frame = 0.0;
+  bool is_time = false;
+};
+
+Result<Moment> parse_moment(const std::string& text, const data::Trial& trial) {
+  const auto& time = trial.markers.time;
+  const bool is_time = text.ends_with('s');
+  const auto number = io::parse_number(is_time ? std::string_view(text).substr(0, text.size() - 1) : text);
+  if (!number || !(std::abs(*number) < 1e9) || (!is_time && *number != std::floor(*number)))
+    return fail(Code::usage,
+                fmt::format("'{}' is no moment; need a frame such as 120, or a time such as 1.5s", text));
+  return Moment{.frame = is_time ? (*number - time.t0_s) * time.rate_hz
+                                 : *number - static_cast<double>(trial.first_frame),
+                .is_time = is_time};
+}
+
+/// Time of a moment, s.
+Result<double> time_of(const std::string& text, const data::Trial& trial) {
+  const auto moment = parse_moment(text, trial);
+  if (!moment) return std::unexpected(moment.error());
+  if (moment->is_time) return *io::parse_number(std::string_view(text).substr(0, text.size() - 1));
+  return trial.markers.time.time_s(static_cast<std::int64_t>(moment->frame));
+}
+
+/// Number of the frame at a moment, or the next within the range.
+Result<std::int64_t> frame_of(const std::string& text, const data::Trial& trial, bool is_first) {
+  const auto moment = parse_moment(text, trial);
+  if (!moment) return std::unexpected(moment.error());
+  const double frame = is_first ? std::ceil(moment->frame - kSlack) : std::floor(moment->frame + kSlack);
+  return trial.first_frame + static_cast<std::int64_t>(frame);
+}
+
+/// Ends and times of the edit, in the recording's frames and on its clock.
+Status place_edit(const EditJob& job, const data::Trial& trial, data::Edit& edit) {
+  if (is_of_event(edit.kind)) {
+    if (job.at.empty()) return fail(Code::usage, "an event needs its time: --at 120, or --at 1.5s");
+    const auto at = time_of(job.at, trial);
+    if (!at) return std::unexpected(at.error());
+    edit.time_s = *at;
+    if (edit.kind != EditKind::move_event) return {};
+    if (job.to.empty()) return fail(Code::usage, "an event that is moved needs its new time: --to 1.6s");
+    const auto to = time_of(job.to, trial);
+    if (!to) return std::unexpected(to.error());
+    edit.to_s = *to;
+    return {};
+  }
+  for (const auto& [text, frame, is_first] :
+       {std::tuple{&job.from, &edit.first_frame, true}, std::tuple{&job.to, &edit.last_frame, false}}) {
+    if (text->empty()) continue;
+    const auto number = frame_of(*text, trial, is_first);
+    if (!number) return std::unexpected(number.error());
+    *frame = *number;
+  }
+  return {};
+}
+
+/// The journal as it is, if there is one.
+Result<io::EditsRead> read_journal(const EditJob& job, const data::EditedRecording& recording,
+                                   const fs::path& path) {
+  std::error_code absent;
+  if (!fs::exists(path, absent)) {
+    io::EditsRead none;
+    none.list.recording = recording;
+    return none;
+  }
+  auto read = io::read_edits(path);
+  if (!read) return std::unexpected(read.error());
+  if (job.force) return read;
+  if (auto s = io::check_recording(path, read->list.recording, recording); !s)
+    return std::unexpected(s.error());
+  return read;
+}
+
+}  // namespace
+
+Result<EditOutcome> run_edit(const EditJob& job) {
+  EditOutcome outcome;
+  outcome.journal = job.edits.empty() ? edits_of(job.input) : job.edits;
+  const auto recording = identify_recording(job.input);
+  if (!recording) return std::unexpected(recording.error());
+  auto read = read_journal(job, *recording, outcome.journal);
+  if (!read) return std::unexpected(read.error());
+  auto input = read_marker_input({.path = job.input, .rate_hz = job.rate_hz});
+  if (!input) return std::unexpected(input.error());
+  outcome.list = std::move(read->list);
+  outcome.warnings = std::move(read->notes);
+  if (job.edit) {
+    auto edit = *job.edit;
+    if (auto s = place_edit(job, input->trial, edit); !s) return std::unexpected(s.error());
+    if (auto s = edit.check(); !s) return fail(Code::usage, s.error().message);
+    outcome.list.edits.push_back(std::move(edit));
+  }
+  auto in_force = outcome.list.edits_in_force();
+  if (!in_force) return fail_at(outcome.journal.string(), in_force.error());
+  auto edited = trajectory::apply_edits(trajectory::EditedTrial{.trial = std::move(input->trial)}, *in_force,
+                                        {.seed = job.seed, .threads = job.threads, .progress = job.progress});
+  if (!edited) return fail_at(outcome.journal.string(), edited.error());
+  outcome.warnings.insert(outcome.warnings.end(), edited->notes.begin(), edited->notes.end());
+  outcome.regions = std::move(edited->regions);
+  outcome.digest = io::digest_of(*in_force);
+  outcome.in_force = std::move(*in_force);
+  if (!job.edit) return outcome;
+  // Tried: now it is made.
+  auto edit = std::move(outcome.list.edits.back());
+  const auto before = outcome.list.edits.size() - 1;
+  auto journal = io::EditJournal::open(outcome.journal, *recording, job.force);
+  if (!journal) return std::unexpected(journal.error());
+  if (journal->list().edits.size() != before)
+    return fail(Code::io,
+                fmt::format("{}: another program edited it meanwhile; try again", outcome.journal.string()));
+  if (auto s = journal->append(std::move(edit)); !s) return std::unexpected(s.error());
+  outcome.list = journal->list();
+  in_force = outcome.list.edits_in_force();
+  if (in_force) outcome.in_force = std::move(*in_force);
+  outcome.written = {outcome.journal};
+  return outcome;
+}
+
+nlohmann::ordered_json edit_json(const EditOutcome& outcome) {
+  const auto counts = outcome.list.in_force();
+  auto edits = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < outcome.list.edits.size(); ++i) {
+    const auto& edit = outcome.list.edits[i];
+    auto json = nlohmann::ordered_json::parse(io::format_edit(edit));
+    json["words"] = describe(edit);
+    if (!is_of_history(edit.kind)) json["in_force"] = counts && std::ranges::binary_search(*counts, i);
+    edits.push_back(std::move(json));
+  }
+  auto regions = nlohmann::ordered_json::array();
+  for (const auto& region : outcome.regions)
+    regions.push_back({{"name", region.name}, {"first", region.first_frame}, {"last", region.last_frame}});
+  const auto depth = outcome.list.depth();
+  return {{"journal", outcome.journal.string()}, {"digest", outcome.digest}, {"edits", std::move(edits)},
+          {"regions", std::move(regions)},       {"undo", depth.undo},       {"redo", depth.redo},
+          {"warnings", outcome.warnings}};
+}
+
+}  // namespace kinemark::pipeline

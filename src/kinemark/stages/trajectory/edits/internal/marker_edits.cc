@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/trajectory/edits/internal/marker_edits.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "kinemark/core/counted.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
+#include "kinemark/core/nearest_name.h"
+#include "kinemark/core/text.h"
+#include "kinemark/data/name_index.h"
+#include "kinemark/stages/trajectory/edits/internal/samples.h"
+#include "kinemark/stages/trajectory/gaps/fill_gaps.h"
+
+namespace kinemark::trajectory::internal {
+namespace {
+
+using data::SampleState;
+
+/// A marker that has to be there.
+Result<std::int64_t> find_marker(const data::Trial& trial, const std::string& name) {
+  const auto& names = trial.markers.names;
+  const data::NameIndex index(names);
+  if (const auto marker = index.find(name); marker >= 0) return marker;
+  if (std::ranges::find(trial.channels.names, name) != trial.channels.names.end())
+    return fail(Code::bad_input, fmt::format("'{}' is an output of a model; need a marker", name));
+  const auto near = nearest_names(name, names);
+  if (index.ambiguous(name) || near.empty())
+    return fail(Code::bad_input,
+                fmt::format("no marker is named '{}'; there are {}", name, index.instead_of(name)));
+  return fail(Code::bad_input, fmt::format("no marker is named '{}'; nearest: {}", name, join(near)));
+}
+
+/// "frame 5", "frames 5 to 8", in the file's own numbers.
+std::string words_of(const FrameSpan& frames, const data::Trial& trial) {
+  const auto first = trial.first_frame + frames.first, last = first + frames.count - 1;
+  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
+}
+
+template <class Wanted>
+std::vector<std::int64_t> frames_where(const FrameSpan& frames, const Wanted& wanted) {
+  std::vector<std::int64_t> found;
+  for (std::int64_t f = frames.first; f < frames.first + frames.count; ++f)
+    if (wanted(f)) found.push_back(f);
+  return found;
+}
+
+Status nothing_there(const data::Trial& trial, const FrameSpan& frames, const std::string& name,
+                     std::string_view what) {
+  return fail(Code::bad_input,
+              fmt::format("'{}' has no {} in {}; need one at least", name, what, words_of(frames, trial)));
+}
+
+void remove_marker(data::Trial& trial, std::int64_t marker) {
+  std::vector<std::int64_t> kept, channels(at(trial.channels.count()));
+  for (std::int64_t m = 0; m < trial.markers.markers(); ++m)
+    if (m != marker) kept.push_back(m);
+  std::iota(channels.begin(), channels.end(), 0);
+  keep_part(trial, {.first = 0, .count = trial.markers.frames()}, kept, channels);
+}
+
+/// A sample that was filled, as it was before.
+void take_back_fill(data::Trajectories& filled, std::int64_t frame, std::int64_t marker,
+                    const data::Trajectories& before) {
+  const auto i = before.index(frame, marker);
+  filled.set_missing(frame, marker, before.state[i]);
+  std::fill_n(filled.covariance.begin() + 6 * static_cast<std::int64_t>(i), 6, kNaN);
+  filled.method[i] = before.method.empty() ? std::uint8_t{0} : before.method[i];
+}
+
+/// The samples of both would be in one place.
+Status check_no_overlap(const data::Trial& trial, std::int64_t from, std::int64_t to,
+                        const FrameSpan& frames) {
+  const auto both = frames_where(
+      frames, [&](std::int64_t f) { return trial.markers.present(f, from) && trial.markers.present(f, to); });
+  if (both.empty()) return {};
+  return fail(Code::bad_input,
+              fmt::format("both '{}' and '{}' have samples in {}, the first of them frame {}; need a range "
+                          "where one of them has none, or swap",
+                          trial.markers.names[at(from)], trial.markers.names[at(to)],
+                          counted(std::ssize(both), "frame"), trial.first_frame + both.front()));
+}
+
+}  // namespace
+
+Result<FrameSpan> frames_of(const data::Edit& edit, const data::Trial& trial) {
+  if (trial.markers.frames() == 0) return fail(Code::bad_input, "the recording has no frames");
+  const auto first = edit.first_frame.value_or(trial.first_frame),
+             last = edit.last_frame.value_or(trial.last_frame());
+  for (const auto frame : {first, last})
+    if (frame < trial.first_frame || frame > trial.last_frame())
+      return fail(Code::bad_input, fmt::format("frame {} is not there; the recording has frames {} to {}",
+                                               frame, trial.first_frame, trial.last_frame()));
+  return FrameSpan{.first = first - trial.first_frame, .count = last - first + 1};
+}
+
+Status relabel(data::Trial& trial, const data::Edit& edit) {
+  const auto from = find_marker(trial, edit.marker);
+  if (!from) return std::unexpected(from.error());
+  const auto frames = frames_of(edit, trial);
+  if (!frames) return std::unexpected(frames.error());
+  if (std::ranges::find(trial.channels.names, edit.other) != trial.channels.names.end())
+    return fail(Code::bad_input, fmt::format("'{}' is an output of a model; need another name", edit.other));
+  auto& markers = trial.markers;
+  const bool whole = !edit.first_frame && !edit.last_frame;
+  auto to = data::NameIndex(markers.names).find(edit.other);
+  if (to == *from) to = markers.find(edit.other);  // "LASI" of "Ann:LASI" is a new name for it
+  if (to == *from) return fail(Code::bad_input, fmt::format("'{}' has that name already", edit.other));
+  if (to < 0 && whole) {
+    markers.names[at(*from)] = edit.other;
+    return {};
+  }
+  const auto moved = frames_where(*frames, [&](std::int64_t f) { return markers.present(f, *from); });
+  if (moved.empty()) return nothing_there(trial, *frames, markers.names[at(*from)], "sample");
+  if (to >= 0)
+    if (auto s = check_no_overlap(trial, *from, to, *frames); !s) return s;
+  if (to < 0) {
+    add_marker(trial, edit.other, *from);
+    to = markers.markers() - 1;
+  }
+  move_samples(trial, *from, to, *frames);
+  if (whole) remove_marker(trial, *from);
+  gather_times(markers);
+  return {};
+}
+
+Status swap_markers(data::Trial& trial, const data::Edit& edit) {
+  const auto a = find_marker(trial, edit.marker), b = find_marker(trial, edit.other);
+  if (!a) return std::unexpected(a.error());
+  if (!b) return std::unexpected(b.error());
+  if (*a == *b)
+    return fail(Code::bad_input, fmt::format("'{}' and '{}' are one marker", edit.marker, edit.other));
+  const auto frames = frames_of(edit, trial);
+  if (!frames) return std::unexpected(frames.error());
+  swap_samples(trial, *a, *b, *frames);
+  gather_times(trial.markers);
+  return {};
+}
+
+Status cut(data::Trial& trial, const data::Edit& edit) {
+  const auto marker = find_marker(trial, edit.marker);
+  if (!marker) return std::unexpected(marker.error());
+  const auto frames = frames_of(edit, trial);
+  if (!frames) return std::unexpected(frames.error());
+  const auto present =
+      frames_where(*frames, [&](std::int64_t f) { return trial.markers.present(f, *marker); });
+  if (present.empty()) return nothing_there(trial, *frames, trial.markers.names[at(*marker)], "sample");
+  for (const auto f : present) blank_sample(trial, f, *marker, SampleState::rejected);
+  return {};
+}
+
+Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& options,
+            std::vector<std::string>& notes) {
+  auto& markers = trial.markers;
+  const auto marker = find_marker(trial, edit.marker);
+  if (!marker) return std::unexpected(marker.error());
+  const auto frames = frames_of(edit, trial);
+  if (!frames) return std::unexpected(frames.error());
+  const auto method = edit.method.empty() ? GapMethod::automatic : parse_gap_method(edit.method);
+  if (!method) return fail(Code::bad_input, method.error().message);
+  if (*method == GapMethod::none) return fail(Code::bad_input, "the method 'none' fills nothing");
+  const auto missing = frames_where(*frames, [&](std::int64_t f) { return !markers.present(f, *marker); });
+  const auto& name = markers.names[at(*marker)];
+  if (missing.empty()) return nothing_there(trial, *frames, name, "gap");
+  // A person asked for this gap: it is filled whatever its length and deviation, which go with the samples.
+  GapOptions gaps{.method = *method,
+                  .max_gap_s = std::numeric_limits<double>::infinity(),
+                  .max_sd_m = std::numeric_limits<double>::infinity(),
+                  .check_labels = *method >= GapMethod::rigid,  // those before it look at no other marker
+                  .seed = options.seed,
+                  .threads = options.threads};
+  gaps.only = {.marker = *marker, .first_frame = missing.front(), .last_frame = missing.back()};
+  auto filled = fill_gaps(markers, gaps);
+  if (!filled) return std::unexpected(filled.error());
+  const auto gone =
+      frames_where(*frames, [&](std::int64_t f) { return !filled->trajectories.present(f, *marker); });
+  if (gone.size() == missing.size())
+    return fail(Code::bad_input, fmt::format("the gap of '{}' in {} cannot be filled: {}", name,
+                                             words_of(*frames, trial), filled->gaps.front().why_open));
+  // Gaps are filled as a whole; what lies outside the range is as it was.
+  auto after = trial;
+  after.markers = std::move(filled->trajectories);
+  for (const auto& gap : filled->gaps) {
+    if (!gap.why_open.empty())
+      notes.push_back(fmt::format("{}: fill: the gap of '{}' in {} stays open: {}", place_of(edit), name,
+                                  words_of({.first = gap.first_frame, .count = gap.frames()}, trial),
+                                  gap.why_open));
+    for (auto f = gap.first_frame; f <= gap.last_frame; ++f) {
+      if (!after.markers.present(f, *marker)) continue;
+      if (f < frames->first || f >= frames->first + frames->count)
+        take_back_fill(after.markers, f, *marker, markers);
+      else
+        forget_cameras(after, f, *marker);
+    }
+  }
+  trial = std::move(after);
+  return {};
+}
+
+Status unfill(data::Trial& trial, const data::Edit& edit) {
+  const auto marker = find_marker(trial, edit.marker);
+  if (!marker) return std::unexpected(marker.error());
+  const auto frames = frames_of(edit, trial);
+  if (!frames) return std::unexpected(frames.error());
+  const auto filled = frames_where(*frames, [&](std::int64_t f) {
+    const auto state = trial.markers.state[trial.markers.index(f, *marker)];
+    return state == SampleState::interpolated || state == SampleState::model_filled;
+  });
+  if (filled.empty()) return nothing_there(trial, *frames, trial.markers.names[at(*marker)], "filled sample");
+  for (const auto f : filled) blank_sample(trial, f, *marker, SampleState::missing);
+  return {};
+}
+
+}  // namespace kinemark::trajectory::internal
