@@ -9,11 +9,28 @@
 namespace kinemark::cli {
 
 void add_report(CLI::App& app, const CommonOptions& common, Run& run) {
-  auto* command = app.add_subcommand("report", "One self-contained page of a solved trial");
+  auto* command = app.add_subcommand("report", "One self-contained page of a recording or of a solved trial");
+  command->footer(
+      "Of a marker file the page shows what there is of each marker, in space and over time; of joint "
+      "angles\n"
+      "what 'kinemark ik --report' shows. It opens in any browser, without a network.");
   const auto job = std::make_shared<pipeline::ReportJob>();
-  command->add_option("IN", job->solved, "Q.mot as written by 'kinemark ik', with its companions beside it")
+  command
+      ->add_option("IN", job->input,
+                   "Marker file (.c3d, .trc, .nwb, .csv, .v3d, ...), or Q.mot as written by 'kinemark ik', "
+                   "with its companions beside it")
       ->required();
   command->add_option("-o,--output", job->page, "Page to write, R.html")->required();
+  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz")
+      ->group("Input");
+  command
+      ->add_option("--skeleton", job->skeleton, "Skeleton of an .amc file, .asf; default: the one beside it")
+      ->group("Input");
+  command
+      ->add_option("--up", job->up,
+                   "Axis that points up in the recording: x, y, z, -x, -y, -z, or auto to find it")
+      ->type_name("AXIS")
+      ->group("Input");
   command->callback([&common, job, &run] {
     run = [&common, job] { return run_job(common, "pages", *job, pipeline::run_report, print_written); };
   });

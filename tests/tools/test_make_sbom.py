@@ -26,6 +26,7 @@ class Bill(unittest.TestCase):
         self.assertIn("libc6", packages)
         self.assertTrue(packages["libc6"]["versionInfo"])
         self.assertEqual(packages["uplot"]["licenseDeclared"], "MIT")
+        self.assertEqual(packages["three"]["licenseDeclared"], "MIT")
         known = {"SPDXRef-DOCUMENT", *(package["SPDXID"] for package in document["packages"])}
         for relation in document["relationships"]:
             self.assertLessEqual({relation["spdxElementId"], relation["relatedSpdxElement"]}, known)

@@ -5,15 +5,20 @@ import "./style.css";
 import type { CleanPageData } from "./clean_types.ts";
 import { el } from "./dom.ts";
 import { cleanPage } from "./pages/clean.ts";
+import type { MarkersPageData } from "./markers_types.ts";
+import type { Content } from "./pages/content.ts";
 import { ikPage } from "./pages/ik.ts";
+import { markersPage } from "./pages/markers.ts";
 import type { PageData } from "./types.ts";
 
-const isClean = (data: PageData | CleanPageData): data is CleanPageData =>
-  data.summary.schema === "kinemark.clean_report";
+type AnyPage = PageData | CleanPageData | MarkersPageData;
 
-function show(page: HTMLElement, data: PageData | CleanPageData): void {
+const isClean = (data: AnyPage): data is CleanPageData => data.summary.schema === "kinemark.clean_report";
+const isMarkers = (data: AnyPage): data is MarkersPageData => data.summary.schema === "kinemark.markers_report";
+
+async function show(page: HTMLElement, data: AnyPage): Promise<void> {
   document.title = `${data.summary.trial} · kinemark report`;
-  const content = isClean(data) ? cleanPage(data) : ikPage(data);
+  const content: Content = isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
   const [section, words] = content.skip;
   page.append(
     el("a", { class: "skip", href: `#${section}` }, words),
@@ -23,15 +28,17 @@ function show(page: HTMLElement, data: PageData | CleanPageData): void {
     el("footer", {}, `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`),
   );
   content.start();
+  document.documentElement.dataset["ready"] = "yes";
 }
 
 const page = document.getElementById("page")!;
 try {
-  const data = JSON.parse(document.getElementById("kinemark-data")!.textContent) as PageData | CleanPageData | null;
+  const data = JSON.parse(document.getElementById("kinemark-data")!.textContent) as AnyPage | null;
   if (data === null) throw new Error("this page holds no data; kinemark report makes one that does");
-  show(page, data);
+  await show(page, data);
 } catch (error) {
   page.replaceChildren(
     el("p", { class: "broken", role: "alert" }, `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`),
   );
+  document.documentElement.dataset["ready"] = "broken";
 }

@@ -19,6 +19,17 @@ export interface Palette {
   gaps: [string, string, string, string];
   /** measured, upsampled, interpolated, filled from others, missing, rejected */
   states: [string, string, string, string, string, string];
+  /** The same in space: strong enough to stand alone on the background. */
+  marks: [string, string, string, string, string, string];
+  stick: string;
+  shadow: string;
+  floor: string;
+  floorStrong: string;
+  force: string;
+  /** x, y, z */
+  axes: [string, string, string];
+  /** long ago, between, now */
+  trail: [string, string, string];
   /** Samples as they came in, under the result. */
   raw: string;
   /** converged, not all determined, not converged, no markers */
@@ -39,6 +50,14 @@ const light: Palette = {
   hatchBackground: "#f3f5f7",
   gaps: ["#a9d3df", "#e3a62f", "#33414c", "#d2401c"],
   states: ["#a9d3df", "#7d6bc4", "#e3a62f", "#1f8a5f", "#33414c", "#d2401c"],
+  marks: ["#0b6583", "#6a55c0", "#d98a00", "#12804f", "#33414c", "#d2401c"],
+  stick: "#9fb0bb",
+  shadow: "#dbe1e5",
+  floor: "#e9edf0",
+  floorStrong: "#d3dade",
+  force: "#b4530a",
+  axes: ["#c2410c", "#19703f", "#2450c8"],
+  trail: ["#e3c778", "#5aa08e", "#0b4a66"],
   raw: "#8b97a0",
   status: ["#a9d3df", "#c3ccd2", "#d2401c", "#33414c"],
 };
@@ -57,6 +76,14 @@ const dark: Palette = {
   hatchBackground: "#1b242b",
   gaps: ["#2a6377", "#d9a036", "#dbe3e8", "#f0653f"],
   states: ["#2a6377", "#a99be6", "#d9a036", "#3fbf8a", "#dbe3e8", "#f0653f"],
+  marks: ["#5cc3e2", "#b3a6f0", "#f0b43c", "#4fd09a", "#dbe3e8", "#f0653f"],
+  stick: "#647683",
+  shadow: "#0a0e12",
+  floor: "#202b33",
+  floorStrong: "#2f3d47",
+  force: "#f2a65a",
+  axes: ["#f2856a", "#72d19a", "#86a8f5"],
+  trail: ["#5a4a1e", "#3f8f8c", "#c4f0fb"],
   raw: "#7d8b96",
   status: ["#2a6377", "#56656f", "#f0653f", "#dbe3e8"],
 };

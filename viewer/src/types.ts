@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { PackedScene } from "./scene/types.ts";
 
 /** What Q_report.json holds; src/kinemark/stages/report/README.md describes each field. Unknown numbers are null. */
 export interface Summary {
@@ -121,4 +122,6 @@ export interface EncodedSeries {
 export interface PageData {
   summary: Summary;
   series: EncodedSeries;
+  /** null, or not there in older pages: positions are not known. */
+  scene?: PackedScene | null;
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { decodeClean } from "../clean_decode.ts";
+import { sceneOfClean } from "../scene/of_clean.ts";
 import type { CleanPageData } from "../clean_types.ts";
 import { cleanGaps } from "../sections/clean_gaps.ts";
 import { cleanHeader } from "../sections/clean_header.ts";
@@ -8,6 +9,7 @@ import { cleanMarker } from "../sections/clean_marker.ts";
 import { cleanTable } from "../sections/clean_table.ts";
 import { findings } from "../sections/findings.ts";
 import { recording } from "../sections/recording.ts";
+import { space } from "../sections/space.ts";
 import { settings } from "../sections/settings.ts";
 import { timeBar } from "../sections/time_bar.ts";
 import type { Finding } from "../types.ts";
@@ -26,6 +28,9 @@ export function cleanPage(data: CleanPageData): Content {
   };
   const jump = (finding: Finding, time: number): void => show(finding.subject, time);
   if (summary.markers.length > 0) view.marker = worthALook(data);
+  const scene = sceneOfClean(trial);
+  const others = { legend: "as it came in", switch: "Before" };
+  const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
   const plots = [cleanGaps(trial, view), cleanMarker(trial, view, show)] as const;
   const table = cleanTable(summary, view);
   return {
@@ -33,6 +38,7 @@ export function cleanPage(data: CleanPageData): Content {
     header: cleanHeader(summary),
     bar: timeBar(view, [
       ["attention", "Attention"],
+      ...(scene === null ? [] : [["space", "Space"] as const]),
       ["gaps", "Gaps"],
       ["markers", "Markers"],
       ["marker", "One marker"],
@@ -46,13 +52,14 @@ export function cleanPage(data: CleanPageData): Content {
         `Nothing. No gap was left open, no fill is uncertain, and no defect was found.${summary.markers.every((m) => m.white === true) ? " Every residual is white." : ""}`,
         jump,
       ),
+      ...inSpace.map((s) => s.node),
       plots[0].node,
       table,
       plots[1].node,
       recording(summary, show),
       settings(summary, [["Gaps", summary.gap_method], ["Filter", summary.filter_method]], summary.clean_s),
     ],
-    start: () => plots.forEach((p) => p.start()),
+    start: () => [...inSpace, ...plots].forEach((p) => p.start()),
   };
 }
 

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { decode } from "../decode.ts";
+import { unpackScene } from "../scene/scene.ts";
 import { angles } from "../sections/angles.ts";
 import { findings } from "../sections/findings.ts";
 import { gaps } from "../sections/gaps.ts";
 import { header } from "../sections/header.ts";
 import { markers } from "../sections/markers.ts";
+import { space } from "../sections/space.ts";
 import { settings } from "../sections/settings.ts";
 import { timeBar } from "../sections/time_bar.ts";
 import { worstFrames } from "../sections/worst_frames.ts";
@@ -14,11 +16,14 @@ import { wholeOf, View } from "../view.ts";
 import type { Content } from "./content.ts";
 
 /** A solved trial: joint angles with their error bars, marker errors, gaps, worst frames. */
-export function ikPage(data: PageData): Content {
+export async function ikPage(data: PageData): Promise<Content> {
   const trial = decode(data);
   const { summary } = trial;
   const view = new View(wholeOf(summary));
-  const plots = [angles(trial, view), markers(trial, view), gaps(trial, view)] as const;
+  const scene = data.scene ? await unpackScene(data.scene, summary) : null;
+  const others = { legend: "on the model; the tie is the error", switch: "Model" };
+  const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
+  const plots = [angles(trial, view), ...inSpace, markers(trial, view), gaps(trial, view)];
   const jump = (finding: Finding, time: number): void => {
     const coordinate = summary.coordinates.findIndex((c) => c.name === finding.subject);
     if (finding.about === "coordinate" && coordinate >= 0) view.set({ coordinate });
@@ -30,6 +35,7 @@ export function ikPage(data: PageData): Content {
     bar: timeBar(view, [
       ["attention", "Attention"],
       ["angles", "Joint angles"],
+      ...(scene === null ? [] : [["space", "Space"] as const]),
       ["markers", "Markers"],
       ["gaps", "Gaps"],
       ["worst", "Worst frames"],

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from "uplot";
+import { el } from "../dom.ts";
 import { number } from "../format.ts";
+import { fileName, save } from "../save.ts";
 import { hatch, onThemeChange, palette } from "../theme.ts";
 import type { View } from "../view.ts";
+import { figureCsv, figureSvg, type Figure } from "./figure.ts";
 
 export interface TimePlotOptions {
   label: string;
@@ -86,6 +89,13 @@ export class TimePlot {
     };
     this.plot = new uPlot(config, undefined, box);
     this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
+    let pressed = 0;
+    this.plot.over.addEventListener("mousedown", (e) => (pressed = e.offsetX));
+    this.plot.over.addEventListener("click", (e) => {
+      // A drag, which zooms, ends in a click too.
+      if (Math.abs(e.offsetX - pressed) < 3) view.set({ focus: this.plot.posToVal(e.offsetX, "x") });
+    });
+    box.append(this.#tools(options));
     this.plot.over.addEventListener("mouseleave", () => view.set({ pointer: null }));
     new ResizeObserver(() => this.#fit()).observe(box);
     onThemeChange(() => this.plot.redraw(false));
@@ -94,6 +104,46 @@ export class TimePlot {
   }
 
   readonly #unit: () => string;
+
+  /** Buttons that save what is drawn. */
+  #tools(options: TimePlotOptions): HTMLElement {
+    const button = (words: string, title: string, click: () => void): HTMLElement =>
+      el("button", { type: "button", title, click }, words);
+    const name = (ending: string): string => fileName(`${document.title.split(" · ")[0] ?? ""}_${this.#unit()}`, ending);
+    const text = (kind: string, content: string): Blob => new Blob([content], { type: kind });
+    return el(
+      "span",
+      { class: "figure-tools" },
+      button("SVG", "Save this figure as a drawing", () => save(name("svg"), text("image/svg+xml", figureSvg(this.#figure(options))))),
+      button("PNG", "Save this figure as a picture", () => this.#savePng(name("png"))),
+      button("CSV", "Save the numbers of this figure", () => save(name("csv"), text("text/csv", figureCsv(this.#figure(options))))),
+    );
+  }
+
+  #figure(options: TimePlotOptions): Figure {
+    const [x, ...all] = this.plot.data;
+    const { min, max } = this.plot.scales["y"]!;
+    return {
+      title: options.label,
+      unit: this.#unit(),
+      x,
+      range: this.#view.range,
+      height: [min ?? 0, max ?? 1],
+      bands: (options.bands ?? []).map((b) => ({ colour: b.fill(), upper: [...all[b.series[0] - 1]!], lower: [...all[b.series[1] - 1]!] })),
+      lines: options.series.flatMap((s, i) => (s.width === 0 ? [] : [{ colour: s.stroke(false), width: s.width, values: [...all[i]!] }])),
+      striped: options.hatched(),
+    };
+  }
+
+  #savePng(name: string): void {
+    const { canvas } = this.plot.ctx;
+    const copy = el("canvas", { width: canvas.width, height: canvas.height });
+    const pen = copy.getContext("2d")!;
+    pen.fillStyle = palette().background;
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    pen.drawImage(canvas, 0, 0);
+    copy.toBlob((blob) => blob !== null && save(name, blob), "image/png");
+  }
 
   setData(data: uPlot.AlignedData): void {
     this.plot.axes[1]!.label = this.#unit();

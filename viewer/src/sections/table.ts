@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { el } from "../dom.ts";
+import { csv, fileName, rowsOf, save } from "../save.ts";
 import { sorted, type Direction, type Key } from "../sort.ts";
 
 export interface Column<T> {
@@ -49,11 +50,9 @@ export function sortableTable<T>(
   }
 
   show();
-  const node = el(
-    "div",
-    { class: "table" },
-    el("table", {}, el("caption", {}, caption), el("thead", {}, el("tr", {}, ...headings)), body),
-  );
+  const saveButton = el("button", { type: "button", class: "save", click: () => save(fileName(caption, "csv"), new Blob([csv(rowsOf(table))], { type: "text/csv" })) }, "Save as CSV");
+  const table = el("table", {}, el("caption", {}, caption, " ", saveButton), el("thead", {}, el("tr", {}, ...headings)), body);
+  const node = el("div", { class: "table" }, table);
   return {
     node,
     mark: (chosen) => {

@@ -17,7 +17,7 @@ export interface Opened {
 export type Check = (opened: Opened) => Promise<void>;
 
 /** Open a file in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
-export async function open(file: string, colorScheme: "light" | "dark" = "light"): Promise<Opened> {
+export async function open(file: string, colorScheme: "light" | "dark" = "light", webGl = true): Promise<Opened> {
   const profile = mkdtempSync(join(tmpdir(), "kinemark-viewer-"));
   const context = await chromium.launchPersistentContext(profile, {
     executablePath: process.env["KINEMARK_CHROMIUM"] ?? "/usr/bin/chromium",
@@ -26,7 +26,7 @@ export async function open(file: string, colorScheme: "light" | "dark" = "light"
     viewport: { width: 1280, height: 900 },
     args: [
       "--no-sandbox",
-      "--disable-gpu",
+      ...(webGl ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] : ["--disable-gpu"]),
       "--disable-quic",
       "--no-first-run",
       "--disable-background-networking",
@@ -48,7 +48,16 @@ export async function open(file: string, colorScheme: "light" | "dark" = "light"
     complaints.push(`dialog: ${d.message()}`);
     void d.dismiss();
   });
+  if (!webGl) {
+    await page.addInitScript(() => {
+      const known = HTMLCanvasElement.prototype.getContext as (kind: string, ...rest: unknown[]) => unknown;
+      HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
+        return kind.startsWith("webgl") ? null : known.call(this, kind, ...rest);
+      } as typeof HTMLCanvasElement.prototype.getContext;
+    });
+  }
   await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset["ready"] !== undefined);
   await settle(page);
   return {
     page,

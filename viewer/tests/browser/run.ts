@@ -9,13 +9,15 @@ import { join, resolve } from "node:path";
 import { hostile, simulated } from "../simulated.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
+import { simulatedMarkers, simulatedScene } from "../simulated_markers.ts";
 import { alwaysOfClean, ofSimulatedClean } from "./clean.ts";
+import { alwaysOfMarkers, comparesInSpace, ofSimulatedMarkers, withoutWebGl } from "./space.ts";
 
 /** True of every report that has angles with SDs and markers. */
 const always: Record<string, Check> = {
   "all sections are there, and nothing is broken": async ({ page }) => {
     assert.deepEqual(
-      await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id)),
+      await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id).filter((id) => id !== "space")),
       ["attention", "angles", "markers", "gaps", "worst", "settings"],
     );
     assert.equal(await page.locator(".broken").count(), 0);
@@ -156,8 +158,8 @@ const ofUnknown: Record<string, Check> = {
   },
 };
 
-async function run(file: string, checks: Record<string, Check>): Promise<number> {
-  const opened = await open(file);
+async function run(file: string, checks: Record<string, Check>, webGl = true): Promise<number> {
+  const opened = await open(file, "light", webGl);
   let failed = 0;
   for (const [name, check] of Object.entries(checks)) {
     try {
@@ -183,13 +185,16 @@ if (given.length === 0) {
     writeFileSync(file, template.replace('id="kinemark-data">null', () => `id="kinemark-data">${text}`));
     return file;
   };
-  failed += await run(page("ik.html", simulated()), { ...ofSimulated, ...always });
-  failed += await run(page("clean.html", simulatedClean()), { ...ofSimulatedClean, ...alwaysOfClean });
+  failed += await run(page("ik.html", { ...simulated(), scene: simulatedScene() }), { ...comparesInSpace("Model", "on the model; the tie is the error"), ...ofSimulated, ...always });
+  failed += await run(page("clean.html", simulatedClean()), { ...comparesInSpace("Before", "as it came in"), ...ofSimulatedClean, ...alwaysOfClean });
+  const recording = page("markers.html", simulatedMarkers());
+  failed += await run(recording, { ...ofSimulatedMarkers, ...alwaysOfMarkers });
+  failed += await run(recording, withoutWebGl, false);
   failed += await run(page("unknown.html", { summary: { schema: "kinemark.other", schema_version: 9 }, series: {} }), ofUnknown);
 } else {
   for (const file of given) {
-    const clean = readFileSync(file, "utf8").includes('"schema":"kinemark.clean_report"');
-    failed += await run(resolve(file), clean ? alwaysOfClean : always);
+    const holds = (schema: string): boolean => readFileSync(file, "utf8").includes(`"schema":"kinemark.${schema}"`);
+    failed += await run(resolve(file), holds("markers_report") ? alwaysOfMarkers : holds("clean_report") ? alwaysOfClean : always);
   }
 }
 rmSync(folder, { recursive: true });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
@@ -189,7 +190,8 @@ Result<IkOutcome> run_ik(IkJob job) {
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
-      return report::report_html({.summary = outcome.summary, .motion = &motion, .markers = &solved});
+      return report::report_html(
+          {.summary = outcome.summary, .motion = &motion, .markers = &solved, .up = up_of(model)});
     }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());

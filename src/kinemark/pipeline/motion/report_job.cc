@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/file_set.h"
@@ -23,6 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+/// How the remark begins that a recording was turned (axes.cc); its file is as it was.
+constexpr std::string_view kTurnedNote = "the recording was turned";
 
 Result<Json> read_json(const fs::path& path) {
   const auto text = io::read_text(path, 256UL << 20);
@@ -69,6 +74,21 @@ std::optional<data::Trajectories> recorded_states(const report::IkRun& run, cons
   return std::nullopt;
 }
 
+/// True for the result files of `kinemark ik`; all others are asked for markers.
+bool is_solved(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".mot" || (ending == ".json" && path.stem().string().ends_with("_report"));
+}
+
+/// Against the gravity of the model, when its file is still there.
+std::optional<Eigen::Vector3d> up_of_run(const report::IkRun& run) {
+  const auto file = std::ranges::find(run.inputs, "model", &data::InputFile::role);
+  if (file == run.inputs.end() || !fs::is_regular_file(file->path)) return std::nullopt;
+  const auto model = io::read_osim(file->path);
+  if (!model || !(model->gravity.norm() > 0.0)) return std::nullopt;
+  return Eigen::Vector3d(-model->gravity.normalized());
+}
+
 std::string set_of(const Json& json) {
   const auto set = json.find(std::string(io::kSetKey));
   return set != json.end() && set->is_string() ? set->get<std::string>() : "";
@@ -79,66 +99,80 @@ std::string set_of(const data::Table& table) {
   return line == table.header.end() ? "" : line->second;
 }
 
-/// What a solved trial consists of, and what it was made from.
-struct SolvedFiles {
-  fs::path base;
-  Json json;
-  report::IkRun run;
+/// A page, and every file that it was made from.
+struct Page {
+  std::string html;
+  std::vector<fs::path> read;
 };
 
-Result<SolvedFiles> read_solved(const fs::path& solved) {
+Result<Page> solved_page(const fs::path& solved) {
   std::string stem = solved.stem().string();
-  if (solved.extension() == ".json" && stem.ends_with("_report")) stem.resize(stem.size() - 7);
+  if (ending_of(solved) == ".json") stem.resize(stem.size() - 7);
   const fs::path base = solved.parent_path() / (stem + ".mot");
-  auto json = read_json(beside(base, "_report.json"));
+  const auto json = read_json(beside(base, "_report.json"));
   if (!json) return std::unexpected(json.error());
   auto run = report::run_from_json(*json);
   if (!run) return fail_at(beside(base, "_report.json").string(), run.error());
-  return SolvedFiles{base, std::move(*json), std::move(*run)};
-}
-
-Result<std::string> page_of_files(SolvedFiles files) {
-  const fs::path& base = files.base;
   const auto coordinates = io::read_table(base);
   if (!coordinates) return std::unexpected(coordinates.error());
   const auto deviations = io::read_table(beside(base, "_sd.sto"));
   if (!deviations && fs::exists(beside(base, "_sd.sto"))) return std::unexpected(deviations.error());
   const auto errors = io::read_table(beside(base, "_marker_errors.sto"));
   if (!errors) return std::unexpected(errors.error());
-  std::vector<SetMember> members{{beside(base, "_report.json"), set_of(files.json)},
-                                 {base, set_of(*coordinates)}};
+  std::vector<SetMember> members{{beside(base, "_report.json"), set_of(*json)}, {base, set_of(*coordinates)}};
   if (deviations) members.push_back({beside(base, "_sd.sto"), set_of(*deviations)});
   members.push_back({beside(base, "_marker_errors.sto"), set_of(*errors)});
   if (auto s = check_same_set(members); !s) return std::unexpected(s.error());
+  Page page;
+  page.read = {base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
+               beside(base, "_report.json")};
+  for (const auto& input : run->inputs) page.read.emplace_back(input.path);
   const auto motion =
-      motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(files.json));
+      motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(*json));
   if (!motion) return fail_at(base.string(), motion.error());
-  const auto states = recorded_states(files.run, *motion);
-  auto summary = report::summarize(std::move(files.run), *motion, states ? &*states : nullptr);
+  const auto states = recorded_states(*run, *motion);
+  const bool turned = std::ranges::any_of(
+      run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });
+  const auto up = up_of_run(*run);
+  auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
   if (!summary) return fail_at(base.string(), summary.error());
-  return report::report_html(
-      {.summary = *summary, .motion = &*motion, .markers = states ? &*states : nullptr});
+  page.html = report::report_html({.summary = *summary,
+                                   .motion = &*motion,
+                                   .markers = states ? &*states : nullptr,
+                                   .in_model_axes = !turned,
+                                   .up = up});
+  return page;
+}
+
+Result<Page> make_page(const fs::path& path, const MarkersPageOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (is_solved(path)) {
+    if (options.rate_hz > 0.0 || !options.up.empty() || !options.skeleton.empty())
+      return fail(Code::usage,
+                  fmt::format("{}: --rate, --up and --skeleton are for marker files, not for joint angles",
+                              path.string()));
+    return solved_page(path);
+  }
+  auto html = markers_page(path, options);
+  if (!html) return std::unexpected(html.error());
+  return Page{.html = std::move(*html), .read = {path}};
 }
 
 }  // namespace
 
-Result<std::string> page_of(const fs::path& solved) {
-  auto files = read_solved(solved);
-  if (!files) return std::unexpected(files.error());
-  return page_of_files(std::move(*files));
+Result<std::string> page_of(const fs::path& path, const MarkersPageOptions& options) {
+  auto page = make_page(path, options);
+  if (!page) return std::unexpected(page.error());
+  return std::move(page->html);
 }
 
 Result<ReportOutcome> run_report(const ReportJob& job) {
-  auto files = read_solved(job.solved);
-  if (!files) return std::unexpected(files.error());
-  const fs::path& base = files->base;
-  std::vector<fs::path> inputs{base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
-                               beside(base, "_report.json")};
-  for (const auto& input : files->run.inputs) inputs.emplace_back(input.path);
-  if (auto s = check_apart({job.page}, inputs); !s) return std::unexpected(s.error());
-  const auto html = page_of_files(std::move(*files));
-  if (!html) return std::unexpected(html.error());
-  if (auto s = io::write_text(job.page, *html, job.force); !s) return std::unexpected(s.error());
+  auto page = make_page(
+      job.input,
+      {.rate_hz = job.rate_hz, .skeleton = job.skeleton, .up = job.up, .command_line = job.command_line});
+  if (!page) return std::unexpected(page.error());
+  if (auto s = check_apart({job.page}, page->read); !s) return std::unexpected(s.error());
+  if (auto s = io::write_text(job.page, page->html, job.force); !s) return std::unexpected(s.error());
   ReportOutcome out;
   out.written = {job.page};
   return out;

@@ -7,25 +7,30 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/motion/markers_page.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark report` is asked to do.
 struct ReportJob : JobSettings {
-  std::filesystem::path
-      solved;  ///< Q.mot (or Q_report.json) as `kinemark ik` wrote it; the rest lies beside it
-  std::filesystem::path page;  ///< to write, .html
+  std::filesystem::path input;  ///< Q.mot (or Q_report.json) as `kinemark ik` wrote it, the rest lies beside
+                                ///< it; or a marker file
+  std::filesystem::path page;   ///< to write, .html
+  double rate_hz = 0.0;         ///< as MarkersPageOptions::rate_hz; marker files only
+  std::filesystem::path skeleton = {};  ///< as MarkersPageOptions::skeleton
+  std::string up;                       ///< as MarkersPageOptions::up
 };
 
+/// What `kinemark report` did.
 struct ReportOutcome : JobOutcome {};
 
-/// The page of a solved trial as HTML, as run_report() writes it.
-/// @param solved  Q.mot or Q_report.json; the rest lies beside it
-[[nodiscard]] Result<std::string> page_of(const std::filesystem::path& solved);
-
-/// Make the page of a solved trial from its files. The gap map shows the states of the recording when the
-/// file named in Q_report.json is still there. Code::io for a file that is missing or a page that exists,
-/// Code::bad_input for files that do not fit.
+/// Make the page of a solved trial from its files, or of a marker file as it is. The gap map of a solved
+/// trial shows the states of the recording when the file named in Q_report.json is still there. Code::io for
+/// a file that is missing or a page that exists, Code::bad_input for files that do not fit.
 [[nodiscard]] Result<ReportOutcome> run_report(const ReportJob& job);
+
+/// HTML of any file that run_report() takes; nothing is written. Fails likewise.
+[[nodiscard]] Result<std::string> page_of(const std::filesystem::path& path,
+                                          const MarkersPageOptions& options = {});
 
 }  // namespace kinemark::pipeline

@@ -8,6 +8,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/units.h"
 #include "kinemark/stages/report/internal/base64.h"
+#include "kinemark/stages/report/internal/ik_scene.h"
 #include "kinemark/stages/report/internal/page.h"
 #include "kinemark/stages/report/internal/plot_points.h"
 
@@ -182,7 +183,8 @@ nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& 
             {"rms_error_mm", rms_series(motion, points, column)},
             {"marker_error_mm", error_series(motion, points, column)},
             {"gaps", gap_series(report, points, column)},
-            {"status", status_series(motion, points, column)}}}};
+            {"status", status_series(motion, points, column)}}},
+          {"scene", internal::ik_scene_json(report)}};
 }
 
 std::string report_html(const IkReport& report, const ReportOptions& options) {

@@ -3,8 +3,10 @@
 // The report of a solved trial: one self-contained HTML page that opens without a network.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "kinemark/data/joint_motion.h"
@@ -19,6 +21,9 @@ struct IkReport {
   const data::JointMotion* motion = nullptr;  ///< must be set
   const data::Trajectories* markers =
       nullptr;  ///< states for the gap map; nullptr: seen or not, from the errors
+  /// Positions of `markers` are in the model's axes, so that the space view can show both.
+  bool in_model_axes = true;
+  std::optional<Eigen::Vector3d> up;  ///< against the model's gravity, length 1; none: the page finds it
 };
 
 /// The data that the page draws: `{"summary": summary_json(), "series": {...}}`.

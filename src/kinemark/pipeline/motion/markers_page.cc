@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/markers_page.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "kinemark/core/version.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/turn.h"
+#include "kinemark/pipeline/motion/external_forces.h"
+#include "kinemark/stages/report/markers_report.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStandingHeight_m = 0.8, kFarther = 1.2;
+constexpr std::int64_t kLeastStanding = 5, kFramesLookedAt = 50;
+constexpr double kContact_n = 20.0;
+
+/// How far the markers of a frame reach along each axis; none with too few of them.
+std::optional<Vector3d> extent_in(const data::Trajectories& markers, std::int64_t f) {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::int64_t seen = 0;
+  for (std::int64_t m = 0; m < markers.markers(); ++m) {
+    if (!markers.present(f, m) || data::is_unlabelled(markers.names[static_cast<std::size_t>(m)])) continue;
+    low = low.cwiseMin(markers.x(f, m)), high = high.cwiseMax(markers.x(f, m));
+    ++seen;
+  }
+  if (seen < kLeastStanding) return std::nullopt;
+  return Vector3d(high - low);
+}
+
+/// The axis of the longest extent in 8 of 10 frames of those that are looked at.
+std::optional<Vertical> vertical_of_extent(const data::Trajectories& markers) {
+  std::array<std::int64_t, 3> longest{};
+  std::int64_t looked = 0;
+  const std::int64_t step = std::max<std::int64_t>(1, markers.frames() / kFramesLookedAt);
+  for (std::int64_t f = 0; f < markers.frames(); f += step) {
+    const auto extent = extent_in(markers, f);
+    if (!extent) continue;
+    ++looked;
+    Eigen::Index axis = 0;
+    const double most = extent->maxCoeff(&axis);
+    Vector3d others = *extent;
+    others[axis] = 0.0;
+    if (most >= kStandingHeight_m && most >= kFarther * others.maxCoeff())
+      ++longest[static_cast<std::size_t>(axis)];
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (looked > 0 && 10 * longest[axis] >= 8 * looked)
+      return Vertical{Vector3d::Unit(static_cast<Eigen::Index>(axis)),
+                      "the shape of what the markers outline"};
+  return std::nullopt;
+}
+
+/// Forces of the plates on the markers' clock; what is wrong with them is a remark.
+data::Wrenches plate_forces(const std::filesystem::path& path, const data::Trial& trial,
+                            std::vector<std::string>& remarks) {
+  if (trial.force_plates.empty() || trial.format != "C3D") return {};
+  auto forces = read_external_forces(path, trial.markers.time, kContact_n);
+  if (forces) return std::move(forces->wrenches);
+  remarks.push_back(fmt::format("no forces are shown: {}", forces.error().message));
+  return {};
+}
+
+}  // namespace
+
+Status MarkersPageOptions::check() const {
+  if (!(rate_hz >= 0.0) || !std::isfinite(rate_hz))
+    return fail(Code::usage, fmt::format("--rate is {} Hz; need a number above 0", rate_hz));
+  if (!up.empty() && up != "auto")
+    if (const auto axis = parse_axis(up); !axis)
+      return fail(Code::usage, fmt::format("--up: {}, or auto", axis.error().message));
+  return {};
+}
+
+Vertical vertical_without_model(const std::filesystem::path& path, const data::Trial& trial) {
+  if (auto plates = vertical_of_plates(trial)) return *plates;
+  if (auto screen = vertical_of_screen(path)) return *screen;
+  if (auto extent = vertical_of_extent(trial.markers)) return *extent;
+  return {Vector3d::UnitZ(), ""};
+}
+
+Result<std::string> markers_page(const std::filesystem::path& path, const MarkersPageOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  auto input = read_marker_input({.path = path,
+                                  .rate_hz = options.rate_hz,
+                                  .rate = RateRule::or_unknown,
+                                  .skeleton = options.skeleton,
+                                  .record = true});
+  if (!input) return std::unexpected(input.error());
+  report::MarkersReport report{.trial = path.filename().string(),
+                               .version = std::string(kVersion),
+                               .command_line = options.command_line,
+                               .recording = &input->trial,
+                               .rate_known = input->rate_known,
+                               .inputs = {input->file}};
+  const data::Wrenches forces = plate_forces(path, input->trial, report.warnings);
+  if (!forces.items.empty()) report.forces = &forces;
+  if (options.up.empty() || options.up == "auto") {
+    auto vertical = vertical_without_model(path, input->trial);
+    report.up = vertical.up;
+    report.up_from = std::move(vertical.from);
+  } else {
+    report.up = parse_axis(options.up).value();
+    report.up_from = "--up";
+  }
+  return report::markers_report_html(report);
+}
+
+}  // namespace kinemark::pipeline

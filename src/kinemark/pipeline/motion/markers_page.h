@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/pipeline/files/vertical.h"
+
+namespace kinemark::pipeline {
+
+/// What a page of a recording has to know besides its file.
+struct MarkersPageOptions {
+  double rate_hz = 0.0;                 ///< of a file that tells none (.v3d, .amc); 0: not given
+  std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
+  std::string up;                       ///< axis that points up, "z"; empty or "auto": the one that is found
+  std::string command_line;             ///< as typed, for the record
+
+  [[nodiscard]] Status check() const;  ///< The rate is not negative, the axis is understood: Code::usage.
+};
+
+/// Which way is up in a recording without a model: its plates, POINT:Y_SCREEN of a C3D file, else the axis
+/// along which the markers reach farthest in most frames, when they reach over 0.8 m there and 1.2 times as
+/// far as along the others; else z, and `from` is empty.
+[[nodiscard]] Vertical vertical_without_model(const std::filesystem::path& path, const data::Trial& trial);
+
+/// HTML of a marker file as it is: any that read_marker_input() reads, decided by its content. Forces of
+/// plates that cannot be read are a remark on the page. Fails as the reader.
+[[nodiscard]] Result<std::string> markers_page(const std::filesystem::path& path,
+                                               const MarkersPageOptions& options = {});
+
+}  // namespace kinemark::pipeline

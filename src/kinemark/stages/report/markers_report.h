@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of a recording as it is: what there is of each marker, in space and over time.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "kinemark/data/trial.h"
+#include "kinemark/stages/report/report_parts.h"
+#include "kinemark/stages/report/scene.h"
+
+namespace kinemark::report {
+
+/// A recording and what is known of its laboratory.
+struct MarkersReport {
+  std::string trial;                       ///< name for the heading, usually the file's
+  std::string version;                     ///< of the program
+  std::string command_line;                ///< as typed; may be empty
+  const data::Trial* recording = nullptr;  ///< must be set
+  bool rate_known = true;                  ///< false: the file tells no rate, and frames are counted at 1 Hz
+  const data::Wrenches* forces =
+      nullptr;  ///< of the plates, on the markers' clock; nullptr: none or not known
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< as Scene::up
+  std::string up_from;                            ///< as Scene::up_from
+  std::vector<InputFile> inputs;                  ///< files that were read
+  std::vector<std::string> warnings;              ///< one sentence each, besides those of the recording
+};
+
+/// Remarks of one kind, folded into one line.
+struct NoticeGroup {
+  Verdict level = Verdict::good;  ///< of the line
+  std::string title;              ///< "7 markers partly missing"
+  std::vector<Notice> items;      ///< one each, in the order of the file
+};
+
+/// What stands out in a recording, the serious first: markers never seen, markers partly missing, samples
+/// that were made or rejected, points that nobody named, remarks of the reader.
+[[nodiscard]] std::vector<NoticeGroup> markers_notices(const MarkersReport& report);
+
+/// `kinemark.markers_report` with its scene, as README.md describes it.
+[[nodiscard]] nlohmann::ordered_json markers_report_json(const MarkersReport& report,
+                                                         const SceneOptions& options = {});
+
+/// One HTML page that needs nothing else. The same report gives the same bytes.
+[[nodiscard]] std::string markers_report_html(const MarkersReport& report, const SceneOptions& options = {});
+
+}  // namespace kinemark::report

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What the space view of a page draws: markers, their states, force plates and forces, thinned to a bound.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/array.h"
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/data/wrenches.h"
+
+namespace kinemark::report {
+
+/// Points through time to draw, all in one laboratory frame.
+struct Scene {
+  const data::Trajectories* markers = nullptr;  ///< F x M; must be set
+  const Array<double>* model = nullptr;  ///< F x M x 3, where a model has these markers, m; NaN: not known
+  const data::Trajectories* before = nullptr;  ///< F x M, the same markers as they came in; may be absent
+  const data::Wrenches* forces = nullptr;      ///< on the markers' clock; may be absent
+  std::vector<data::ForcePlate> plates;        ///< corners, m
+  std::optional<Eigen::Vector3d>
+      up;               ///< axis of the laboratory that points up, length 1; none: the page finds it
+  std::string up_from;  ///< who says so: "the force plates"; empty: nobody
+};
+
+/// How much room a scene may take in a page.
+struct SceneOptions {
+  std::int64_t max_bytes = 700'000;         ///< of up to `short_frames` frames, as text in the page
+  std::int64_t max_bytes_long = 2'000'000;  ///< of longer recordings
+  std::int64_t short_frames = 2'000;        ///< F up to which a recording counts as short
+
+  [[nodiscard]] Status check() const;  ///< Ranges hold: at least 1000 bytes, frames of 0 or more.
+};
+
+/// The scene as README.md describes it. Every `frame_step`-th frame is kept, the fewest left out that meet
+/// the bound, but never fewer than two points; a point is a frame as it is, nothing is averaged. Positions
+/// are rounded to 0.02 mm or the 65,535th part of their range, at most 0.5 mm (above that they are float32).
+[[nodiscard]] nlohmann::ordered_json scene_json(const Scene& scene, const SceneOptions& options = {});
+
+}  // namespace kinemark::report

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { firstAbsent } from "../states.ts";
+import type { PackedMarkers, PackedScene } from "./types.ts";
+import { inflated, unpack } from "./unpack.ts";
+import { upright } from "./upright.ts";
+import type { Vec } from "./vec.ts";
+
+/** Positions and states of M markers on P points. */
+export interface Track {
+  /** M x 3 x P, m; absent samples hold the place where the marker was last. */
+  x: Float32Array;
+  /** M x P: codes of states.ts. */
+  states: Uint8Array;
+}
+
+export interface Force {
+  name: string;
+  /** 3 x P, N */
+  force: Float32Array;
+  /** 3 x P, m */
+  point: Float32Array;
+}
+
+/** What there is to draw in space, on the points of its own clock. */
+export interface Scene {
+  points: number;
+  frameStep: number;
+  rateHz: number;
+  /** P, s */
+  time: Float64Array;
+  names: readonly string[];
+  /** M: what the picture is about: named, there at least once, not computed from the other markers. */
+  isMain: readonly boolean[];
+  up: Vec;
+  upFrom: string;
+  markers: Track;
+  before: Track | null;
+  /** M x 3 x P, m: where a model has the markers. */
+  model: Float32Array | null;
+  /** M x P: the worst state of the frames that a point stands for. */
+  worst: Uint8Array;
+  plates: Vec[][];
+  forces: Force[];
+}
+
+/** What a scene has to know of its recording. */
+export interface Clock {
+  frames: number;
+  rate_hz: number;
+  first_time_s: number;
+}
+
+async function unpackTrack(packed: PackedMarkers, markers: number, points: number): Promise<Track> {
+  const [x, states] = await Promise.all([unpack(packed.positions_m), inflated(packed.states)]);
+  if (x.length !== 3 * markers * points || states.length !== markers * points) {
+    throw new Error(`the space view needs ${markers} markers on ${points} points`);
+  }
+  return { x, states };
+}
+
+/** Segments whose axes Plug-in Gait writes among the markers, four points each. */
+const computedSegments = /^(PEL|HED|THX|TRX|[LR](FE|TI|FO|TO|CL|HU|RA|HN))([OALP])$/;
+
+/** Points that Plug-in Gait computed: where a segment has all four of them. */
+export function areComputed(names: readonly string[]): boolean[] {
+  const parts = names.map((n) => /^(.*:)?([^:]*)$/.exec(n)!);
+  const segment = parts.map(([, subject = "", own = ""]) => {
+    const found = computedSegments.exec(own);
+    return found === null ? "" : subject + found[1]!;
+  });
+  const count = new Map<string, number>();
+  for (const s of segment) count.set(s, (count.get(s) ?? 0) + 1);
+  return segment.map((s) => s !== "" && count.get(s) === 4);
+}
+
+export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (marker: number) => boolean = () => true): Promise<Scene> {
+  const { points, frame_step } = packed;
+  const M = packed.names.length;
+  const [markers, before, model, worst, forces] = await Promise.all([
+    unpackTrack(packed.markers, M, points),
+    packed.before === null ? null : unpackTrack(packed.before, M, points),
+    packed.model_m === null ? null : unpack(packed.model_m),
+    packed.worst === null ? null : inflated(packed.worst),
+    Promise.all(
+      packed.forces.map(async (f) => ({ name: f.name, force: await unpack(f.force_n), point: await unpack(f.point_m) })),
+    ),
+  ]);
+  const computed = areComputed(packed.names);
+  const found = packed.up === null ? upright(markers, M, points) : null;
+  return {
+    points,
+    frameStep: frame_step,
+    rateHz: clock.rate_hz,
+    time: Float64Array.from({ length: points }, (_, i) => clock.first_time_s + (i * frame_step) / clock.rate_hz),
+    names: packed.names,
+    isMain: packed.names.map((_, m) => isNamed(m) && !computed[m] && isEverThere(markers, points, m)),
+    up: packed.up ?? found ?? [0, 0, 1],
+    upFrom: packed.up_from !== "" || found === null ? packed.up_from : "the shape of what the markers outline",
+    markers,
+    before,
+    model,
+    worst: worst ?? markers.states,
+    plates: packed.plates
+      .map((p) => p.corners_m.filter((c): c is [number, number, number] => c.length === 3 && c.every((v) => v !== null)))
+      .filter((corners) => corners.length === 4),
+    forces,
+  };
+}
+
+/** Position of a marker on a point, whether it is there or was there last. */
+export const at = (x: Float32Array, points: number, marker: number, point: number): Vec => {
+  const i = 3 * marker * points + point;
+  return [x[i]!, x[i + points]!, x[i + 2 * points]!];
+};
+
+export const isThere = (track: Track, points: number, marker: number, point: number): boolean =>
+  track.states[marker * points + point]! < firstAbsent;
+
+/** True where a marker has coordinates on any point. */
+export function isEverThere(track: Track, points: number, marker: number): boolean {
+  for (let p = 0; p < points; ++p) if (isThere(track, points, marker, p)) return true;
+  return false;
+}
+
+/** Point nearest to a time; 0 without any. */
+export function pointAt(scene: Pick<Scene, "points" | "frameStep" | "rateHz" | "time">, time: number): number {
+  const first = scene.time[0] ?? 0;
+  const point = Math.round(((time - first) * scene.rateHz) / scene.frameStep);
+  return Math.min(Math.max(0, scene.points - 1), Math.max(0, point));
+}
+
+/** Smallest and largest coordinates of what is there; about `share` of the samples on each side are left out. */
+export function bounds(scene: Scene, share = 0.005): [low: Vec, high: Vec] {
+  const { points, markers, names } = scene;
+  const stride = Math.max(1, Math.floor((points * names.length) / 60_000));
+  const low: Vec = [0, 0, 0];
+  const high: Vec = [0, 0, 0];
+  const all = !scene.isMain.includes(true);
+  for (const axis of [0, 1, 2] as const) {
+    const values: number[] = [];
+    for (let m = 0; m < names.length; ++m) {
+      if (!all && !scene.isMain[m]) continue;
+      for (let p = 0; p < points; p += stride) {
+        if (isThere(markers, points, m, p)) values.push(markers.x[(3 * m + axis) * points + p]!);
+      }
+    }
+    values.sort((a, b) => a - b);
+    const cut = Math.floor(share * values.length);
+    low[axis] = values[cut] ?? -0.5;
+    high[axis] = values[values.length - 1 - cut] ?? 0.5;
+  }
+  return [low, high];
+}

@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import {
+  BufferGeometry,
+  CircleGeometry,
+  Color,
+  CylinderGeometry,
+  DirectionalLight,
+  DoubleSide,
+  DynamicDrawUsage,
+  Float32BufferAttribute,
+  HemisphereLight,
+  InstancedMesh,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  OrthographicCamera,
+  PerspectiveCamera,
+  RingGeometry,
+  Scene as Stage,
+  Vector3,
+  WebGLRenderer,
+  type Material,
+} from "three";
+import { palette } from "../theme.ts";
+import { metresPerPixel, poseOf, project, fieldOfView, type Camera, type Pose } from "./camera.ts";
+import { floorLines, floorOf, type Floor } from "./floor.ts";
+import { at, type Scene } from "./scene.ts";
+import { arrowHead, stateShapes } from "./shapes.ts";
+import type { Stick } from "./sticks.ts";
+import { firstAbsent } from "../states.ts";
+import { add, cross, dot, length, scaled, sub, unit, type Vec } from "./vec.ts";
+
+/** Metres of an arrow for a newton. */
+export const metresPerNewton = 1 / 1000;
+const mostTrail = 6000;
+
+/** What the picture shows besides the scene. */
+export interface Look {
+  camera: Camera;
+  point: number;
+  picked: number;
+  /** Markers whose path is drawn. */
+  trailOf: readonly number[];
+  /** Points before and after the instant that a trail covers. */
+  trail: [before: number, after: number];
+  lines: boolean;
+  /** The recording before it was cleaned, or the markers of the model. */
+  others: boolean;
+  hidden: (marker: number) => boolean;
+}
+
+/** Solids of one kind: one draw call, as many as there are on this instant. */
+class Kind {
+  readonly mesh: InstancedMesh;
+  #count = 0;
+  readonly #matrix = new Matrix4();
+
+  constructor(stage: Stage, geometry: BufferGeometry, material: Material, capacity: number, order = 0) {
+    this.mesh = new InstancedMesh(geometry, material, Math.max(1, capacity));
+    this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+    this.mesh.frustumCulled = false;
+    this.mesh.renderOrder = order;
+    stage.add(this.mesh);
+  }
+  begin(): void {
+    this.#count = 0;
+  }
+  /** A solid with its own axes a, b, c (their lengths are its sizes) at x. */
+  put(a: Vec, b: Vec, c: Vec, x: Vec, colour?: Color): void {
+    if (this.#count >= this.mesh.instanceMatrix.count) return;
+    this.#matrix.set(a[0], b[0], c[0], x[0], a[1], b[1], c[1], x[1], a[2], b[2], c[2], x[2], 0, 0, 0, 1);
+    this.mesh.setMatrixAt(this.#count, this.#matrix);
+    if (colour !== undefined) this.mesh.setColorAt(this.#count, colour);
+    ++this.#count;
+  }
+  /** A rod of this radius between two places; its own y lies along it. */
+  rod(from: Vec, to: Vec, radius: number, colour?: Color): void {
+    const way = sub(to, from);
+    if (length(way) < 1e-9) return;
+    const along = unit(way);
+    const aside = unit(cross(along, Math.abs(along[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]));
+    this.put(scaled(aside, radius), way, scaled(cross(aside, along), radius), scaled(add(from, to), 0.5), colour);
+  }
+  end(): void {
+    this.mesh.count = this.#count;
+    this.mesh.visible = this.#count > 0;
+    this.mesh.instanceMatrix.needsUpdate = true;
+    if (this.mesh.instanceColor !== null) this.mesh.instanceColor.needsUpdate = true;
+  }
+}
+
+/** Draws a scene. Knows the canvas and nothing around it; throws where there is no WebGL2. */
+export class SpaceView {
+  readonly #renderer: WebGLRenderer;
+  readonly #stage = new Stage();
+  readonly #sun = new DirectionalLight(0xffffff, 1.6);
+  readonly #sky = new HemisphereLight(0xffffff, 0x8a949c, 1.9);
+  readonly #states: Kind[];
+  readonly #others: Kind;
+  readonly #ties: Kind;
+  readonly #sticks: Kind;
+  readonly #shadows: Kind;
+  readonly #stickShadows: Kind;
+  readonly #trails: Kind;
+  readonly #shafts: Kind;
+  readonly #heads: Kind;
+  readonly #ring: Kind;
+  readonly #grid: LineSegments;
+  readonly #axes: Kind;
+  readonly #plates: LineSegments;
+  readonly #plateFill: Mesh;
+  readonly floor: Floor;
+  #width = 1;
+  #height = 1;
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    readonly scene: Scene,
+    readonly sticks: readonly Stick[],
+  ) {
+    const context = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true, alpha: false });
+    if (context === null) throw new Error("no WebGL2");
+    this.#renderer = new WebGLRenderer({ canvas, context });
+    const M = scene.names.length;
+    const stage = this.#stage;
+    this.floor = floorOf(scene);
+    const lit = (): MeshLambertMaterial => new MeshLambertMaterial();
+    const plain = (): MeshBasicMaterial => new MeshBasicMaterial({ side: DoubleSide });
+    const rod = (sides = 10): BufferGeometry => new CylinderGeometry(1, 1, 1, sides, 1);
+    this.#grid = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
+    this.#plates = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+    this.#plateFill = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.22, depthWrite: false }));
+    stage.add(this.#grid, this.#plateFill, this.#plates, this.#sky, this.#sun, this.#sun.target);
+    this.#shadows = new Kind(stage, new CircleGeometry(1, 20), plain(), M);
+    this.#stickShadows = new Kind(stage, rod(6), plain(), sticks.length);
+    this.#sticks = new Kind(stage, rod(), lit(), sticks.length);
+    this.#states = stateShapes.map(
+      ({ geometry, facesEye }) => new Kind(stage, geometry(), facesEye ? plain() : lit(), M),
+    );
+    this.#others = new Kind(stage, new RingGeometry(0.72, 1, 24), plain(), M);
+    this.#ties = new Kind(stage, rod(6), plain(), M);
+    const coloured = plain();
+    this.#trails = new Kind(stage, rod(6), coloured, mostTrail);
+    this.#trails.mesh.setColorAt(0, new Color());
+    this.#shafts = new Kind(stage, rod(14), lit(), scene.forces.length);
+    this.#heads = new Kind(stage, arrowHead(), lit(), scene.forces.length);
+    this.#ring = new Kind(stage, new RingGeometry(1.55, 1.95, 32), plain(), 1, 5);
+    this.#axes = new Kind(stage, rod(8), plain(), 3);
+    this.#axes.mesh.setColorAt(0, new Color());
+    this.#layPlates();
+  }
+
+  resize(width: number, height: number, ratio = Math.min(2, Math.max(1, window.devicePixelRatio))): void {
+    this.#width = width;
+    this.#height = height;
+    this.#renderer.setPixelRatio(ratio);
+    this.#renderer.setSize(width, height, false);
+  }
+
+  /** Pixels of a place in the picture, and its depth. */
+  place(camera: Camera, x: Vec): [x: number, y: number, depth: number] {
+    return project(camera, poseOf(camera), this.#width, this.#height, x);
+  }
+
+  /** Draw calls of the last picture. */
+  get calls(): number {
+    return this.#renderer.info.render.calls;
+  }
+
+  draw(look: Look): void {
+    const pose = poseOf(look.camera);
+    this.#paint();
+    const tint = this.#putMarkers(look, pose);
+    this.#putSticks(look, tint);
+    this.#putTrails(look, pose);
+    this.#putForces(look, pose);
+    this.#sun.position.set(...add(pose.eye, add(scaled(pose.up, 0.6), pose.right, -0.5), look.camera.distance));
+    this.#sun.target.position.set(...look.camera.target);
+    this.#renderer.render(this.#stage, this.#cameraOf(look.camera, pose));
+  }
+
+  dispose(): void {
+    this.#renderer.dispose();
+  }
+
+  #cameraOf(camera: Camera, pose: Pose): PerspectiveCamera | OrthographicCamera {
+    const aspect = this.#width / this.#height;
+    const half = camera.distance * Math.tan(fieldOfView / 2);
+    const made = camera.perspective
+      ? new PerspectiveCamera((fieldOfView * 180) / Math.PI, aspect, 0.02, 400)
+      : new OrthographicCamera(-half * aspect, half * aspect, half, -half, -200, 400);
+    made.position.set(...pose.eye);
+    made.up.set(...pose.up);
+    made.lookAt(new Vector3(...add(pose.eye, pose.forward)));
+    made.updateProjectionMatrix();
+    return made;
+  }
+
+  /** Colours of the theme; asked for at every picture, as the theme may have changed. */
+  #paint(): void {
+    const p = palette();
+    this.#stage.background = new Color(p.background);
+    const colour = (kind: Kind, value: string): void => void (kind.mesh.material as MeshBasicMaterial).color.set(value);
+    p.marks.forEach((value, state) => colour(this.#states[state]!, value));
+    colour(this.#others, p.second);
+    colour(this.#ties, p.second);
+    colour(this.#sticks, p.stick);
+    colour(this.#shadows, p.shadow);
+    colour(this.#stickShadows, p.shadow);
+    colour(this.#shafts, p.force);
+    colour(this.#heads, p.force);
+    colour(this.#ring, p.second);
+    (this.#plates.material as LineBasicMaterial).color.set(p.muted);
+    (this.#plateFill.material as MeshBasicMaterial).color.set(p.muted);
+    const { positions, strong } = floorLines(this.floor);
+    const [weak, firm] = [new Color(p.floor), new Color(p.floorStrong)];
+    this.#grid.geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
+    this.#grid.geometry.setAttribute("color", new Float32BufferAttribute(strong.flatMap((s) => (s ? firm : weak).toArray()), 3));
+    this.#axes.begin();
+    const axis = 0.25;
+    const origin = this.floor.origin;
+    p.axes.forEach((value, k) => {
+      const way: Vec = [k === 0 ? axis : 0, k === 1 ? axis : 0, k === 2 ? axis : 0];
+      this.#axes.rod(origin, add(origin, way), 0.006, new Color(value));
+    });
+    this.#axes.end();
+  }
+
+  /** Radius of a marker in m: 9 mm, and never too small to see. */
+  #radius(camera: Camera, pose: Pose, x: Vec): number {
+    const depth = dot(sub(x, pose.eye), pose.forward);
+    return Math.max(0.009, 3.6 * metresPerPixel(camera, depth, this.#height));
+  }
+
+  #putMarkers(look: Look, pose: Pose): (marker: number) => boolean {
+    const { scene, floor } = this;
+    const { points } = scene;
+    const all = [...this.#states, this.#shadows, this.#ring, this.#others, this.#ties];
+    for (const kind of all) kind.begin();
+    const [first, second] = floor.axes;
+    const shown = (m: number): boolean => !look.hidden(m);
+    for (let m = 0; m < scene.names.length; ++m) {
+      if (!shown(m)) continue;
+      const state = scene.markers.states[m * points + look.point]!;
+      const x = at(scene.markers.x, points, m, look.point);
+      const r = this.#radius(look.camera, pose, x);
+      const { facesEye } = stateShapes[state]!;
+      if (facesEye) this.#states[state]!.put(scaled(pose.right, r), scaled(pose.up, r), scaled(pose.forward, -r), x);
+      else this.#states[state]!.put([r, 0, 0], [0, r, 0], [0, 0, r], x);
+      if (m === look.picked) this.#ring.put(scaled(pose.right, r), scaled(pose.up, r), scaled(pose.forward, -r), x);
+      if (state < firstAbsent) {
+        this.#shadows.put(scaled(first, r), scaled(second, r), scaled(scene.up, r), floor.below(x, 0.0015));
+      }
+      const other = look.others ? this.#other(m, look.point) : null;
+      if (other === null) continue;
+      const reach = scaled(pose.right, 1.25 * r);
+      this.#others.put(reach, scaled(pose.up, 1.25 * r), scaled(pose.forward, -r), other);
+      if (state < firstAbsent) this.#ties.rod(x, other, 0.35 * r);
+    }
+    for (const kind of all) kind.end();
+    return shown;
+  }
+
+  /** Where the model has a marker, or where it was before cleaning; null where nobody knows. */
+  #other(marker: number, point: number): Vec | null {
+    const { scene } = this;
+    const x = scene.model ?? scene.before?.x;
+    if (x === undefined) return null;
+    if (scene.model === null && scene.before!.states[marker * scene.points + point]! >= firstAbsent) return null;
+    if (scene.model !== null && scene.markers.states[marker * scene.points + point]! >= firstAbsent) return null;
+    return at(x, scene.points, marker, point);
+  }
+
+  #putSticks(look: Look, shown: (marker: number) => boolean): void {
+    const { scene } = this;
+    const { points, markers } = scene;
+    this.#sticks.begin();
+    this.#stickShadows.begin();
+    for (const [a, b] of look.lines ? this.sticks : []) {
+      const absent = (m: number): boolean => !shown(m) || markers.states[m * points + look.point]! >= firstAbsent;
+      if (absent(a) || absent(b)) continue;
+      const from = at(markers.x, points, a, look.point);
+      const to = at(markers.x, points, b, look.point);
+      this.#sticks.rod(from, to, 0.0045);
+      this.#stickShadows.rod(this.floor.below(from, 0.001), this.floor.below(to, 0.001), 0.004);
+    }
+    this.#sticks.end();
+    this.#stickShadows.end();
+  }
+
+  #putTrails(look: Look, pose: Pose): void {
+    const { points, markers } = this.scene;
+    const [from, to] = [Math.max(0, look.point - look.trail[0]), Math.min(points - 1, look.point + look.trail[1])];
+    const [old, middle, recent] = palette().trail.map((c) => new Color(c)) as [Color, Color, Color];
+    const colour = new Color();
+    const stride = Math.max(1, Math.ceil(((to - from) * look.trailOf.length) / mostTrail));
+    this.#trails.begin();
+    for (const m of look.trailOf) {
+      for (let p = from; p + stride <= to; p += stride) {
+        if (markers.states[m * points + p]! >= firstAbsent || markers.states[m * points + p + stride]! >= firstAbsent) continue;
+        const share = (p - from) / Math.max(1, to - from);
+        if (share < 0.5) colour.lerpColors(old, middle, 2 * share);
+        else colour.lerpColors(middle, recent, 2 * share - 1);
+        const x = at(markers.x, points, m, p);
+        this.#trails.rod(x, at(markers.x, points, m, p + stride), 0.28 * this.#radius(look.camera, pose, x), colour);
+      }
+    }
+    this.#trails.end();
+  }
+
+  #putForces(look: Look, pose: Pose): void {
+    const { scene } = this;
+    this.#shafts.begin();
+    this.#heads.begin();
+    for (const { force, point } of scene.forces) {
+      const f = scaled(at(force, scene.points, 0, look.point), metresPerNewton);
+      const x = at(point, scene.points, 0, look.point);
+      if (length(f) < 0.02) continue;
+      const r = 0.9 * this.#radius(look.camera, pose, x);
+      const tip = add(x, f);
+      const head = Math.min(5 * r, 0.5 * length(f));
+      const along = unit(f);
+      const aside = unit(cross(along, Math.abs(along[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]));
+      this.#shafts.rod(x, add(tip, along, -head), r);
+      this.#heads.put(scaled(aside, 2.4 * r), scaled(along, head), scaled(cross(aside, along), 2.4 * r), tip);
+    }
+    this.#shafts.end();
+    this.#heads.end();
+  }
+
+  #layPlates(): void {
+    const edges: number[] = [];
+    const faces: number[] = [];
+    for (const corners of this.scene.plates) {
+      const [a, b, c, d] = corners.map((x) => add(x, this.scene.up, 0.002)) as [Vec, Vec, Vec, Vec];
+      edges.push(...a, ...b, ...b, ...c, ...c, ...d, ...d, ...a);
+      faces.push(...a, ...b, ...c, ...a, ...c, ...d);
+    }
+    this.#plates.geometry.setAttribute("position", new Float32BufferAttribute(edges, 3));
+    this.#plateFill.geometry.setAttribute("position", new Float32BufferAttribute(faces, 3));
+    this.#plates.visible = this.#plateFill.visible = edges.length > 0;
+  }
+}

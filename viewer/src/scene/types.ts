@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+
+/** Packed series; src/kinemark/stages/report/README.md describes them. */
+export interface PackedSeries {
+  kind: "int16" | "float32";
+  series: number;
+  points: number;
+  offset?: number[];
+  step?: number[];
+  data: string;
+}
+
+export interface PackedMarkers {
+  positions_m: PackedSeries;
+  states: string;
+}
+
+/** What the space view of a page draws, as it stands in the page. */
+export interface PackedScene {
+  frame_step: number;
+  points: number;
+  /** null: nobody says. */
+  up: [number, number, number] | null;
+  up_from: string;
+  names: string[];
+  markers: PackedMarkers;
+  model_m: PackedSeries | null;
+  before: PackedMarkers | null;
+  worst: string | null;
+  plates: { type: number; corners_m: (number | null)[][] }[];
+  forces: { name: string; force_n: PackedSeries; point_m: PackedSeries }[];
+}
