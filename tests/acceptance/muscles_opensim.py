@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -66,10 +67,10 @@ def scale_both(opensim, setup):
     return opensim.Model("ours.osim"), opensim.Model("theirs.osim")
 
 
-def wrapped_muscles(model):
-    """Names of the muscles whose path has surfaces to bend around."""
+def surfaces_of(model):
+    """Number of surfaces that the path of each muscle may bend around."""
     muscles = (model.getMuscles().get(i) for i in range(model.getMuscles().getSize()))
-    return {m.getName() for m in muscles if m.getGeometryPath().getWrapSet().getSize() > 0}
+    return {m.getName(): m.getGeometryPath().getWrapSet().getSize() for m in muscles}
 
 
 def largest_point_distance(opensim, ours, theirs):
@@ -143,19 +144,19 @@ def compare(opensim, name, setup):
         return
     distance, count = largest_point_distance(opensim, ours, theirs)
     row(distance <= MOST, f"{name}: path points", f"<= {MOST} m", f"{distance:.2g} m, {count} points")
-    wrapped = wrapped_muscles(theirs)
-    straight = [theirs.getMuscles().get(i).getName() for i in range(counts[1][0])]
-    straight = [muscle for muscle in straight if muscle not in wrapped]
-    for what, muscles in (("straight paths", straight), ("wrapped paths", sorted(wrapped))):
-        if muscles:
-            worst, muscle = largest_rest_length(ours, theirs, muscles)
-            check = f"{name}: fibre and tendon lengths at rest, {what}"
-            row(worst <= MOST, check, f"<= {MOST} m", f"{worst:.2g} m ({muscle}), {len(muscles)} muscles")
-    report = json.loads(Path("ours_report.json").read_text())["muscles"]
-    muscles = [m for m in report if theirs.getMuscles().getIndex(m["name"]) >= 0]
-    generic = opensim.Model(opensim.ScaleTool(setup).getGenericModelMaker().getModelFileName())
-    worst, muscle = largest_path_length(muscles, [(generic, "before_m"), (theirs, "after_m")])
-    row(worst <= MOST, f"{name}: lengths of paths, before and after", f"<= {MOST} m", f"{worst:.2g} m ({muscle}), {len(muscles)} muscles")
+    report = {m["name"]: m for m in json.loads(Path("ours_report.json").read_text())["muscles"]}
+    generic = opensim.Model(ElementTree.parse(setup).findtext(".//GenericModelMaker/model_file").strip())
+    surfaces = surfaces_of(theirs)
+    for what, least, most in (("straight paths", 0, 0), ("around one surface", 1, 1), ("around several surfaces", 2, 99)):
+        muscles = sorted(muscle for muscle, count in surfaces.items() if least <= count <= most)
+        if not muscles:
+            continue
+        worst, muscle = largest_rest_length(ours, theirs, muscles)
+        check = f"{name}: fibre and tendon lengths at rest, {what}"
+        row(worst <= MOST, check, f"<= {MOST} m", f"{worst:.2g} m ({muscle}), {len(muscles)} muscles")
+        worst, muscle = largest_path_length([report[m] for m in muscles], [(generic, "before_m"), (theirs, "after_m")])
+        check = f"{name}: lengths of paths, before and after, {what}"
+        row(worst <= MOST, check, f"<= {MOST} m", f"{worst:.2g} m ({muscle}), {len(muscles)} muscles")
     arm, where, count = largest_moment_arm(ours, theirs)
     row(arm <= MOST, f"{name}: moment arms over the range of motion", f"<= {MOST} m", f"{arm:.2g} m ({where}), {count}")
 
