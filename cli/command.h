@@ -45,5 +45,6 @@ void add_report(CLI::App& app, const CommonOptions& common, Run& run);
 void add_help(CLI::App& app, const CommonOptions& common, Run& run);
 void add_completion(CLI::App& app, const CommonOptions& common, Run& run);
 void add_scale(CLI::App& app, const CommonOptions& common, Run& run);
+void add_serve(CLI::App& app, const CommonOptions& common, Run& run);
 
 }  // namespace kinemark::cli

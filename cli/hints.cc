@@ -19,7 +19,7 @@ namespace kinemark::cli {
 namespace {
 
 /// What users of OpenSim, Nexus, QTM and Visual3D call what our commands do.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 42> kHabits = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 44> kHabits = {{
     {"inversekinematics", "ik"},
     {"inverse-kinematics", "ik"},
     {"inverse-dynamics", "ik --torques"},
@@ -61,6 +61,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 42> kHabits 
     {"triangulate", "reconstruct"},
     {"view", "report"},
     {"plot", "report"},
+    {"browse", "serve"},
+    {"workbench", "serve"},
     {"live", "track"},
 }};
 

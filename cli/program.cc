@@ -69,6 +69,7 @@ void add_everything(CLI::App& app, CommonOptions& common, Run& run) {
   add_track(app, common, run);
   add_analyze(app, common, run);
   add_report(app, common, run);
+  add_serve(app, common, run);
   add_run(app, common, run);
   add_study(app, common, run);
   add_info(app, common, run);

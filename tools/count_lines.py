@@ -6,7 +6,7 @@
     tools/count_lines.py [ROOT]
 
 Counted are files in C++, Python, TypeScript and JavaScript that git keeps or would keep. Test: *_test.cc, *_fuzz.cc,
-folders named testing, tests/ and viewer/tests/. Source: everything else of src/, cli/, studies/ and viewer/src/.
+folders named testing, tests/ and viewer/tests/. Source: everything else of src/, cli/, server/, studies/ and viewer/src/.
 Other folders, and data in any form, count for neither. Prints one row for all lines and one for those that are not
 blank; exit status 1 when, of these, there are fewer than 0.8 of test for one of source.
 """
@@ -17,7 +17,7 @@ from pathlib import Path, PurePosixPath
 from check_spdx import files_of
 
 CODE_ENDINGS = {".h", ".cc", ".py", ".ts", ".js"}
-SOURCE_FOLDERS = ("src/", "cli/", "studies/", "viewer/src/")
+SOURCE_FOLDERS = ("src/", "cli/", "server/", "studies/", "viewer/src/")
 TEST_FOLDERS = ("tests/", "viewer/tests/")
 TEST_ENDINGS = ("_test.cc", "_fuzz.cc")
 LEAST_RATIO = 0.8

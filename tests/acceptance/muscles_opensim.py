@@ -11,6 +11,7 @@ Needs Python with opensim. Finds the program in KINEMARK_PROGRAM and the models 
 "PASS|FAIL|SKIP | check | asked | measured"; exit status 1 when one fails.
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -98,6 +99,17 @@ def largest_rest_length(ours, theirs, names):
     return worst
 
 
+def largest_path_length(muscles, models):
+    """(largest difference of a path's length between our report and OpenSim, of models in their default pose, its muscle)."""
+    worst = (0.0, "-")
+    for model, key in models:
+        state = model.initSystem()
+        for muscle in muscles:
+            length = model.getMuscles().get(muscle["name"]).getGeometryPath().getLength(state)
+            worst = max(worst, (abs(muscle[key] - length), muscle["name"]))
+    return worst
+
+
 def largest_moment_arm(ours, theirs):
     """(largest difference of moment arms over the range of every coordinate, where, how many)."""
     states = [ours.initSystem(), theirs.initSystem()]
@@ -139,6 +151,11 @@ def compare(opensim, name, setup):
             worst, muscle = largest_rest_length(ours, theirs, muscles)
             check = f"{name}: fibre and tendon lengths at rest, {what}"
             row(worst <= MOST, check, f"<= {MOST} m", f"{worst:.2g} m ({muscle}), {len(muscles)} muscles")
+    report = json.loads(Path("ours_report.json").read_text())["muscles"]
+    muscles = [m for m in report if theirs.getMuscles().getIndex(m["name"]) >= 0]
+    generic = opensim.Model(opensim.ScaleTool(setup).getGenericModelMaker().getModelFileName())
+    worst, muscle = largest_path_length(muscles, [(generic, "before_m"), (theirs, "after_m")])
+    row(worst <= MOST, f"{name}: lengths of paths, before and after", f"<= {MOST} m", f"{worst:.2g} m ({muscle}), {len(muscles)} muscles")
     arm, where, count = largest_moment_arm(ours, theirs)
     row(arm <= MOST, f"{name}: moment arms over the range of motion", f"<= {MOST} m", f"{arm:.2g} m ({where}), {count}")
 

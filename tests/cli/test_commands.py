@@ -16,7 +16,7 @@ IK_FILES = ["q.mot", "q_marker_errors.sto", "q_report.json", "q_sd.sto"]
 
 class HelpAndUsage(CommandTest):
     def test_help_of_every_command(self):
-        for command in ([], ["simulate"], ["simulate", "subject"], ["simulate", "rig"], ["ik"], ["report"], ["info"], ["convert"], ["validate"]):
+        for command in ([], ["simulate"], ["simulate", "subject"], ["simulate", "rig"], ["ik"], ["report"], ["serve"], ["info"], ["convert"], ["validate"]):
             ran = self.good(*command, "--help")
             self.assertIn("Usage: " + " ".join(["kinemark", *command]), ran.out)
             self.assertEqual(ran.err, "")
@@ -27,7 +27,7 @@ class HelpAndUsage(CommandTest):
 
     def test_help_is_text_that_a_terminal_shows(self):
         listed = re.findall(r"^  (\w+)  ", self.good("--help").out.split("Subcommands:")[1], re.MULTILINE)
-        self.assertEqual(len(listed), 19, "a new command is to be looked at here too")
+        self.assertEqual(len(listed), 20, "a new command is to be looked at here too")
         inner = [["simulate", kind] for kind in ("subject", "arm", "macaque", "rig")]
         inner += [["study", paper] for paper in ("poizner", "macaque", "taichi")]
         for command in [[name] for name in listed] + inner:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from support import CommandTest, run
 
-COMMANDS = {"simulate", "calibrate", "reconstruct", "clean", "joints", "scale", "ik", "track", "analyze", "report", "study", "info", "convert"}
+COMMANDS = {"simulate", "calibrate", "reconstruct", "clean", "joints", "scale", "ik", "track", "analyze", "report", "serve", "study", "info", "convert"}
 
 # Sets the words as the shell does when a person presses the tabulator after them, and prints what is offered.
 BASH = """source "$1"; shift

@@ -28,6 +28,17 @@ class SelectionTest(CommandTest):
         self.good("convert", self.trc, "few.csv", "--select", f"{labels[2]},{labels[0]}", "--rename", f"{labels[0]}=new")
         self.assertEqual(self.info("few.csv")["labels"], ["new", labels[2]])
 
+    def test_findings_count_frames_as_the_file_does(self):
+        self.good("convert", self.trc, "part.trc", "--frames", "41-100")
+        lines = (self.folder / "part.trc").read_text().splitlines()
+        row = next(i for i, line in enumerate(lines) if line.startswith("72\t"))
+        number, time = lines[row].split("\t")[:2]
+        lines[row] = "\t".join([number, time, *lines[row - 1].split("\t")[2:]])
+        self.write("frozen.trc", "\n".join(lines) + "\n")
+        out = self.run_in("clean", "frozen.trc", "clean.trc")
+        self.assertRegex(out.err, r"repeat frame 71 in frame 72\b")
+        self.assertNotRegex(out.err, r"\bframe 3[01]\b")
+
     def test_a_time_range_is_the_frames_in_it(self):
         whole = self.info(self.trc)
         rate, first = whole["rate_hz"], whole["first_frame"]

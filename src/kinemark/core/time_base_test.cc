@@ -56,6 +56,15 @@ TEST(Units, DegreesAndBackAreWhereTheyWere) {
   EXPECT_DOUBLE_EQ(kDegPerRad * kRadPerDeg, 1.0);
 }
 
+TEST(TimeBase, NumbersFramesAsTheFileDoesAndComparesInstantsOnly) {
+  const TimeBase plain{.rate_hz = 100.0, .frames = 10};
+  const TimeBase numbered{.rate_hz = 100.0, .frames = 10, .first_number = 363};
+  EXPECT_EQ(plain.number(4), 4);
+  EXPECT_EQ(numbered.number(4), 367);
+  EXPECT_EQ(plain, numbered);
+  EXPECT_EQ(numbered.time_s(4), plain.time_s(4));
+}
+
 TEST(Index, IsTheSameNumberWithoutASign) {
   static_assert(at(std::int64_t{7}) == 7U);
   static_assert(at(std::numeric_limits<std::int64_t>::max()) == 9223372036854775807U);

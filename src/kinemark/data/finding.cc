@@ -40,9 +40,9 @@ std::string millimetres(const Finding& f, std::string_view before, std::string_v
 std::string when(const Finding& f, const TimeBase& time) {
   if (f.first_frame < 0) return "";
   if (f.first_frame == f.last_frame)
-    return fmt::format(" in frame {} ({:.6g} s)", f.first_frame, time.time_s(f.first_frame));
-  return fmt::format(" in frames {} to {} ({:.6g} to {:.6g} s)", f.first_frame, f.last_frame,
-                     time.time_s(f.first_frame), time.time_s(f.last_frame));
+    return fmt::format(" in frame {} ({:.6g} s)", time.number(f.first_frame), time.time_s(f.first_frame));
+  return fmt::format(" in frames {} to {} ({:.6g} to {:.6g} s)", time.number(f.first_frame),
+                     time.number(f.last_frame), time.time_s(f.first_frame), time.time_s(f.last_frame));
 }
 
 /// " at about 2.31 s", or nothing.

@@ -17,6 +17,15 @@ constexpr auto kLast = FindingKind::outlier;
 
 std::string text(const Finding& finding) { return describe(finding, kTime); }
 
+TEST(Finding, CountsFramesAsTheFileDoes) {
+  TimeBase time = kTime;
+  time.first_number = 363;
+  EXPECT_EQ(describe({.kind = FindingKind::zero, .subject = "A", .first_frame = 5, .last_frame = 5}, time),
+            "marker 'A' is exactly at the origin in frame 368 (1.05 s)");
+  EXPECT_THAT(describe({.kind = FindingKind::zero, .subject = "A", .first_frame = 5, .last_frame = 9}, time),
+              HasSubstr("in frames 368 to 372 (1.05 to 1.09 s)"));
+}
+
 TEST(Finding, SaysWhoWhatHowLargeAndWhen) {
   EXPECT_EQ(
       text({.kind = FindingKind::spike, .subject = "A", .first_frame = 20, .last_frame = 22, .size = 0.012}),

@@ -107,7 +107,9 @@ bool needs_rate(const std::filesystem::path& path) {
 Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {
   Eigen::AlignedBox3d box_m;
   auto trial = read_as_it_is(path, options, box_m);
-  if (trial) reject_implausible(*trial, box_m);
+  if (!trial) return trial;
+  trial->markers.time.first_number = trial->first_frame;
+  reject_implausible(*trial, box_m);
   return trial;
 }
 

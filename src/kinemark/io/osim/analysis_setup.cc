@@ -37,7 +37,7 @@ std::vector<std::string> names_in(pugi::xml_node node, const char* child) {
   return names;
 }
 
-std::string name_or(pugi::xml_node node, std::string fallback) {
+std::string name_or(pugi::xml_node node, const std::string& fallback) {
   std::string name = name_of(node);
   return name.empty() ? fallback : name;
 }

@@ -115,7 +115,18 @@ TEST(OsimDocument, paths_are_read_with_their_conditions_functions_and_surfaces) 
   ASSERT_EQ(paths.size(), 2);
   EXPECT_EQ(paths[0].name, "vastus");
   EXPECT_EQ(paths[0].kind, "Thelen2003Muscle");
-  EXPECT_THAT(paths[0].wraps, ElementsAre("condyles"));
+  ASSERT_EQ(paths[0].wraps.size(), 1);
+  const auto& [surface, first, last] = paths[0].wraps[0];
+  EXPECT_EQ(surface.name, "condyles");
+  EXPECT_TRUE(surface.is_cylinder && surface.active);
+  EXPECT_EQ(surface.body_idx, leg().model().find_body("thigh"));
+  EXPECT_EQ(surface.frame_from_surface.translation, Vector3d(0.01, -0.4, 0));
+  EXPECT_NEAR(surface.frame_from_surface.rotation(1, 0), 1.0, 1e-15);
+  EXPECT_EQ(surface.radius, 0.03);
+  EXPECT_EQ(surface.length, 0.2);
+  EXPECT_EQ(surface.side_axis, -1);
+  EXPECT_EQ(first, -1);
+  EXPECT_EQ(last, -1);
   ASSERT_EQ(paths[0].points.size(), 3);
   EXPECT_EQ(paths[0].points[0].x_in_frame, Vector3d(0.05, 0, 0));
   EXPECT_EQ(paths[0].points[1].condition_idx, leg().model().find_coordinate("knee_angle"));
@@ -123,6 +134,40 @@ TEST(OsimDocument, paths_are_read_with_their_conditions_functions_and_surfaces) 
   EXPECT_TRUE(paths[0].points[2].moves);
   EXPECT_EQ(paths[0].points[2].place[1].function(0.0).f, -0.05);
   EXPECT_EQ(paths[1].kind, "Ligament");
+}
+
+TEST(OsimDocument, a_surface_may_have_one_side_and_a_path_may_meet_it_between_some_points_only) {
+  const auto with = [](std::string_view cylinder, std::string_view wrap) {
+    std::string text(kLeg);
+    text.insert(text.find("<radius>0.03"), cylinder);
+    text.insert(text.find("<wrap_object>"), wrap);
+    return OsimDocument::parse(text, "leg.osim").value().paths().at(0).wraps.at(0);
+  };
+  const auto held = with("<quadrant>-Y</quadrant><active>false</active>", "<range>2 3</range>");
+  EXPECT_EQ(held.surface.side_axis, 1);
+  EXPECT_EQ(held.surface.side_sign, -1);
+  EXPECT_FALSE(held.surface.active);
+  EXPECT_EQ(held.first_point, 1);
+  EXPECT_EQ(held.last_point, 2);
+  EXPECT_EQ(with("<quadrant>+z</quadrant>", "").surface.side_axis, 2);
+  EXPECT_EQ(with("<quadrant>+z</quadrant>", "").surface.side_sign, 1);
+  EXPECT_EQ(with("<quadrant>all</quadrant>", "<range>-1 2</range>").surface.side_axis, -1);
+  EXPECT_EQ(with("", "<range>-1 2</range>").first_point, -1);
+  EXPECT_EQ(with("", "<range>-1 2</range>").last_point, 1);
+}
+
+TEST(OsimDocument, surfaces_that_are_no_cylinders_or_not_in_the_file_are_kept_by_name) {
+  std::string text(kLeg);
+  const std::string wraps =
+      "<PathWrap><wrap_object>head</wrap_object></PathWrap><PathWrap><wrap_object>none</wrap_object></"
+      "PathWrap>";
+  text.insert(text.find("</objects></PathWrapSet>"), wraps);
+  const auto path = OsimDocument::parse(text, "leg.osim").value().paths().at(0);
+  ASSERT_EQ(path.wraps.size(), 3);
+  EXPECT_EQ(path.wraps[1].surface.name, "head");
+  EXPECT_EQ(path.wraps[1].surface.body_idx, leg().model().find_body("thigh"));
+  EXPECT_EQ(path.wraps[2].surface.name, "none");
+  EXPECT_FALSE(path.wraps[1].surface.is_cylinder || path.wraps[2].surface.is_cylinder);
 }
 
 TEST(OsimDocument, factors_stretch_points_surfaces_geometry_and_frames) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
@@ -35,7 +36,7 @@ std::vector<double> unscaled(const Eigen::VectorXd& scaled, double middle, doubl
 
 double PolynomialFit::operator()(double x) const {
   double sum = 0.0;
-  for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) sum = sum * x + *c;
+  for (const double c : std::views::reverse(coefficients)) sum = sum * x + c;
   return sum;
 }
 

@@ -88,9 +88,11 @@ class Merger {
                                 recorded));
     const auto earliest = std::ranges::min_element(trials_, {}, &data::Trial::first_frame);
     out_.first_frame = first;
-    out_.markers = data::Trajectories::all_missing(
-        std::move(names),
-        {.rate_hz = earliest->markers.time.rate_hz, .t0_s = earliest->markers.time.t0_s, .frames = frames});
+    out_.markers =
+        data::Trajectories::all_missing(std::move(names), {.rate_hz = earliest->markers.time.rate_hz,
+                                                           .t0_s = earliest->markers.time.t0_s,
+                                                           .frames = frames,
+                                                           .first_number = first});
     const std::size_t samples = out_.markers.state.size();
     for (const auto& t : trials_) {
       if (!t.markers.covariance.empty()) out_.markers.covariance.assign(6 * samples, kNone);

@@ -202,6 +202,7 @@ Status resample(data::Trial& trial, double rate_hz) {
   fit_analog(trial, rate_hz, grid.frames);
   trial.markers = resampled(trial.markers, grid, rate_hz);
   trial.first_frame = std::llround(trial.markers.time.t0_s * rate_hz) + 1;
+  trial.markers.time.first_number = trial.first_frame;
   if (slower)
     trial.warnings.push_back(fmt::format(
         "resampled without a filter: what moves faster than {:g} Hz is folded below it; 'clean' filters",

@@ -17,10 +17,7 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::Contains;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 namespace fs = std::filesystem;
 
 /// The coordinates that a simulated subject had, and what they do to its bodies.

@@ -188,7 +188,8 @@ class ScaleRun {
       if (muscle.wraps) wrapped.push_back(muscle.name);
     if (!wrapped.empty())
       out_.warnings.push_back(fmt::format(
-          "Lengths at rest follow straight paths also where these bend around surfaces: {}", join(wrapped)));
+          "Lengths at rest follow paths that bend around cylinders only; these also meet other surfaces: {}",
+          join(wrapped)));
     return {};
   }
 

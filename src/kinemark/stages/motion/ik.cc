@@ -100,7 +100,8 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   for (const auto& marker : problem->model.description().markers) motion.markers.push_back(marker.name);
   motion.time = {.rate_hz = markers.time.rate_hz,
                  .t0_s = markers.time.time_s(problem->first_frame),
-                 .frames = problem->frames};
+                 .frames = problem->frames,
+                 .first_number = markers.time.number(problem->first_frame)};
 
   const auto start = std::chrono::steady_clock::now();
   auto judged = internal::solve_and_judge(*problem, options, markers, progress);

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <map>
 #include <utility>
 
 #include "kinemark/io/osim/internal/function_xml.h"
@@ -53,6 +55,61 @@ data::PathPoint read_point(XmlFile& file, FrameTable& frames, pugi::xml_node nod
   return point;
 }
 
+/// The side that a surface keeps paths on: "x", "-y", "+z", or any other word for all around.
+void read_side(std::string side, data::WrapSurface& surface) {
+  surface.side_sign = side.starts_with('-') ? -1 : 1;
+  if (side.starts_with('-') || side.starts_with('+')) side.erase(0, 1);
+  const std::size_t axis = side.size() == 1 ? std::string_view("xyzXYZ").find(side) : std::string_view::npos;
+  if (axis != std::string_view::npos) surface.side_axis = static_cast<int>(axis % 3);
+}
+
+data::WrapSurface read_surface(XmlFile& file, const Attachment& owner, pugi::xml_node node) {
+  data::WrapSurface surface{
+      .name = name_of(node),
+      .is_cylinder = std::string_view(node.name()) == "WrapCylinder",
+      .active = text_of(node, "active") != "false",
+      .body_idx = owner.body_idx,
+      .body_from_frame = owner.body_from_frame,
+      .frame_from_surface = read_transform(file, node, "translation", "xyz_body_rotation")};
+  read_side(text_of(node, "quadrant"), surface);
+  if (!surface.is_cylinder) return surface;
+  surface.radius = file.number(node, "radius", 1.0);
+  surface.length = file.number(node, "length", 1.0);
+  return surface;
+}
+
+/// Surfaces by name; of two with one name the first.
+std::map<std::string, data::WrapSurface, std::less<>> read_surfaces(
+    XmlFile& file, FrameTable& frames, pugi::xml_node model, const data::ModelDescription& description) {
+  std::map<std::string, data::WrapSurface, std::less<>> surfaces;
+  for (const pugi::xml_node set : descendants(model, "WrapObjectSet")) {
+    Attachment owner;
+    if (std::string_view(set.parent().name()) == "Body")
+      owner.body_idx = description.find_body(name_of(set.parent()));
+    else if (const auto parent = frames.socket(set.parent(), "parent"))
+      owner = {parent->body_idx,
+               parent->body_from_frame * read_transform(file, set.parent(), "translation", "orientation")};
+    for (const pugi::xml_node node : set.child("objects").children())
+      if (node.type() == pugi::node_element) surfaces.emplace(name_of(node), read_surface(file, owner, node));
+  }
+  return surfaces;
+}
+
+data::PathWrap read_wrap(XmlFile& file, pugi::xml_node node,
+                         const std::map<std::string, data::WrapSurface, std::less<>>& surfaces) {
+  data::PathWrap wrap;
+  const std::string name = text_of(node, "wrap_object");
+  const auto found = surfaces.find(name);
+  if (found != surfaces.end()) wrap.surface = found->second;
+  wrap.surface.name = name;
+  const auto range = file.numbers(node, "range");  // from 1; less: the path's first or last point
+  if (range.size() == 2) {
+    wrap.first_point = range[0] < 1.0 ? -1 : static_cast<int>(std::min(range[0], 1e6)) - 1;
+    wrap.last_point = range[1] < 1.0 ? -1 : static_cast<int>(std::min(range[1], 1e6)) - 1;
+  }
+  return wrap;
+}
+
 }  // namespace
 
 std::vector<pugi::xml_node> descendants(pugi::xml_node node, std::string_view tag) {
@@ -82,6 +139,7 @@ std::optional<Attachment> frame_of_point(FrameTable& frames, pugi::xml_node poin
 
 std::vector<data::MusclePath> read_paths(XmlFile& file, FrameTable& frames, pugi::xml_node model,
                                          const data::ModelDescription& description) {
+  const auto surfaces = read_surfaces(file, frames, model, description);
   std::vector<data::MusclePath> paths;
   for (const pugi::xml_node node : descendants(model, "GeometryPath")) {
     const pugi::xml_node owner = owner_of_path(node);
@@ -89,7 +147,7 @@ std::vector<data::MusclePath> read_paths(XmlFile& file, FrameTable& frames, pugi
     for (const pugi::xml_node point : objects_of(node, "PathPointSet"))
       path.points.push_back(read_point(file, frames, point, description));
     for (const pugi::xml_node wrap : objects_of(node, "PathWrapSet"))
-      path.wraps.push_back(text_of(wrap, "wrap_object"));
+      path.wraps.push_back(read_wrap(file, wrap, surfaces));
     paths.push_back(std::move(path));
   }
   return paths;

@@ -21,7 +21,7 @@ constexpr double kLeastMoment = 1e-9, kLeastShare = 1e-6;
 /// Whether a rigid body can have it: principal moments above 0, none above the sum of the others.
 bool is_inertia(const Eigen::Matrix3d& inertia_about_com) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia_about_com, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d moments = eigen.eigenvalues();  // increasing
+  const Eigen::Vector3d& moments = eigen.eigenvalues();  // increasing
   return moments(0) > 0.0 && moments(2) <= (moments(0) + moments(1)) * (1.0 + 1e-9);
 }
 }  // namespace

@@ -70,8 +70,10 @@ void describe(const Plan& plan, const data::Trajectories& markers, TrackResult& 
   auto& motion = result.motion;
   data::set_coordinates(p.model.description(), motion);
   for (const auto& marker : p.model.description().markers) motion.markers.push_back(marker.name);
-  motion.time = {
-      .rate_hz = markers.time.rate_hz, .t0_s = markers.time.time_s(p.first_frame), .frames = p.frames};
+  motion.time = {.rate_hz = markers.time.rate_hz,
+                 .t0_s = markers.time.time_s(p.first_frame),
+                 .frames = p.frames,
+                 .first_number = markers.time.number(p.first_frame)};
   for (const int c : plan.locked) result.locked_coordinates.push_back(motion.coordinates[at(c)]);
 }
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/scaling/muscles.h"
 
-#include <optional>
+#include <algorithm>
 
 #include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
+#include "kinemark/stages/motion/scaling/internal/wrapped_path.h"
 
 namespace kinemark::motion {
 namespace {
@@ -35,6 +36,23 @@ Vector3d place_in_frame(const data::PathPoint& point, const Eigen::VectorXd& q) 
   return x;
 }
 
+math::SE3 world_from_body(const model::Model& model, const model::Workspace& w, int body_idx) {
+  if (body_idx < 0) return {};
+  const auto body = at(model.body_of(body_idx));
+  return {w.rotation[body], w.position[body]};
+}
+
+/// Each axis of a cylinder grows by the length that its unit vector gets, and its radius by the mean across.
+void scale_surface(data::WrapSurface& surface, const Vector3d& f) {
+  const Vector3d growth = (f.asDiagonal() * surface.frame_from_surface.rotation).colwise().norm();
+  surface.body_from_frame.translation = surface.body_from_frame.translation.cwiseProduct(f);
+  surface.frame_from_surface.translation = surface.frame_from_surface.translation.cwiseProduct(f);
+  surface.radius *= 0.5 * (growth.x() + growth.y());
+  surface.length *= growth.z();
+}
+
+bool is_left_out(const data::PathWrap& wrap) { return !wrap.surface.is_cylinder && wrap.surface.active; }
+
 /// Lengths of all paths in the model's default pose.
 Result<std::vector<double>> default_lengths(const data::ModelDescription& description,
                                             std::span<const data::MusclePath> paths) {
@@ -50,16 +68,19 @@ Result<std::vector<double>> default_lengths(const data::ModelDescription& descri
 }  // namespace
 
 double path_length(const model::Model& model, const model::Workspace& w, const data::MusclePath& path) {
-  double length = 0.0;
-  std::optional<Vector3d> last;
-  for (const auto& point : path.points) {
+  std::vector<internal::PassedPoint> points;
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const auto& point = path.points[i];
     if (!counts(point, w.q)) continue;
     const int body = point.body_idx < 0 ? data::kGround : model.body_of(point.body_idx);
     const Vector3d x = model::point_in_world(w, body, point.body_from_frame * place_in_frame(point, w.q));
-    if (last) length += (x - *last).norm();
-    last = x;
+    points.push_back({static_cast<int>(i), x});
   }
-  return length;
+  std::vector<math::SE3> surfaces;
+  for (const auto& [surface, first, last] : path.wraps)
+    surfaces.push_back(world_from_body(model, w, surface.body_idx) * surface.body_from_frame *
+                       surface.frame_from_surface);
+  return internal::wrapped_length(points, path.wraps, surfaces);
 }
 
 data::MusclePath scale_path(const data::MusclePath& path, std::span<const Vector3d> factors) {
@@ -70,6 +91,7 @@ data::MusclePath scale_path(const data::MusclePath& path, std::span<const Vector
     point.x_in_frame = point.x_in_frame.cwiseProduct(f);
     for (int i = 0; i < 3; ++i) point.place[at(i)].function = point.place[at(i)].function.scaled(f[i]);
   }
+  for (auto& wrap : scaled.wraps) scale_surface(wrap.surface, factors_of(factors, wrap.surface.body_idx));
   return scaled;
 }
 
@@ -90,7 +112,7 @@ Result<std::vector<data::PathScale>> scale_paths(const data::ModelDescription& b
                       .ratio = was > 0.0 ? is / was : 1.0,
                       .before_m = was,
                       .after_m = is,
-                      .wraps = !paths[i].wraps.empty()});
+                      .wraps = std::ranges::any_of(paths[i].wraps, is_left_out)});
   }
   return scales;
 }

@@ -16,7 +16,8 @@
 namespace kinemark::motion {
 
 /// Length of a path along its points in the pose of the workspace, m: straight from each point to the next of
-/// those whose condition holds. Surfaces that it would bend around are left out. After model::kinematics().
+/// those whose condition holds, and around the cylinders that it meets, as OpenSim bends it (GeometryPath and
+/// WrapCylinder). Spheres, ellipsoids and tori are left out. After model::kinematics().
 [[nodiscard]] double path_length(const model::Model& model, const model::Workspace& w,
                                  const data::MusclePath& path);
 

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "kinemark/math/euler.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/scaling/scale.h"
 
@@ -99,11 +102,49 @@ TEST(ScalePaths, a_path_takes_the_factors_of_its_own_bodies_and_axes) {
   const std::vector<Vector3d> factors{Vector3d(1.0, 1.5, 1.0), Vector3d(3.0, 1.0, 7.0)};
   apply_factors(after, factors, true);
   auto wrapped = front();
-  wrapped.wraps = {"knee_cylinder"};
+  wrapped.wraps = {{.surface = {.name = "knee_ellipsoid", .body_idx = 0}}};
   const auto scale = scale_paths(before, after, std::vector{wrapped}, factors).value().front();
   EXPECT_NEAR(scale.after_m, std::hypot(0.1, 0.4 * 1.5 + 0.1), 1e-15);
   EXPECT_TRUE(scale.wraps);
   EXPECT_EQ(scale.name, "front");
+}
+
+TEST(ScalePaths, a_cylinder_takes_the_factors_of_its_body_along_its_own_axes) {
+  data::MusclePath path{.name = "around",
+                        .points = {at_body(0, {0.0, 0.1, 0.0}), at_body(0, {0.0, -0.1, 0.0})}};
+  path.wraps = {
+      {.surface = {.name = "bar", .is_cylinder = true, .body_idx = 0, .radius = 0.02, .length = 0.3}}};
+  auto& bar = path.wraps[0].surface;
+  bar.frame_from_surface.translation = Vector3d(0.01, 0.0, 0.2);
+  bar.body_from_frame.translation = Vector3d(-0.005, 0.0, -0.2);
+  const double before = length_of(path);
+  EXPECT_GT(before, 0.2);
+  const auto scaled = scale_path(path, std::vector<Vector3d>{{2.0, 3.0, 5.0}, {1.0, 1.0, 1.0}});
+  const auto& grown = scaled.wraps[0].surface;
+  EXPECT_EQ(grown.frame_from_surface.translation, Vector3d(0.02, 0.0, 1.0));
+  EXPECT_EQ(grown.body_from_frame.translation, Vector3d(-0.01, 0.0, -1.0));
+  EXPECT_NEAR(grown.radius, 0.02 * 2.5, 1e-16);
+  EXPECT_NEAR(grown.length, 0.3 * 5.0, 1e-15);
+  bar.frame_from_surface.rotation =
+      math::from_body_xyz({0.0, std::numbers::pi / 2, 0.0});  // along x of the body
+  const auto turned =
+      scale_path(path, std::vector<Vector3d>{{2.0, 3.0, 5.0}, {1.0, 1.0, 1.0}}).wraps[0].surface;
+  EXPECT_NEAR(turned.length, 0.3 * 2.0, 1e-15);
+  EXPECT_NEAR(turned.radius, 0.02 * 4.0, 1e-16);
+  const auto all = scale_path(path, std::vector<Vector3d>(2, Vector3d::Constant(1.5)));
+  EXPECT_NEAR(length_of(all), 1.5 * length_of(path), 1e-15);
+}
+
+TEST(ScalePaths, a_path_around_cylinders_alone_leaves_nothing_out) {
+  auto path = front();
+  path.wraps = {
+      {.surface = {.name = "bar", .is_cylinder = true, .body_idx = 0, .radius = 0.02, .length = 0.3}}};
+  const std::vector<Vector3d> factors(2, Vector3d::Ones());
+  EXPECT_FALSE(scale_paths(hinge(), hinge(), std::vector{path}, factors).value().front().wraps);
+  path.wraps.push_back({.surface = {.name = "ball", .body_idx = 0}});
+  EXPECT_TRUE(scale_paths(hinge(), hinge(), std::vector{path}, factors).value().front().wraps);
+  path.wraps[1].surface.active = false;
+  EXPECT_FALSE(scale_paths(hinge(), hinge(), std::vector{path}, factors).value().front().wraps);
 }
 
 TEST(ScalePaths, a_path_without_length_keeps_its_lengths_at_rest) {

@@ -103,6 +103,7 @@ void keep_part(data::Trial& trial, const FrameSpan& frames, std::span<const std:
     trial.first_frame += frames.first;
   }
   trial.markers = std::move(part);
+  trial.markers.time.first_number = trial.first_frame;
 }
 
 }  // namespace kinemark::trajectory

@@ -231,9 +231,9 @@ data::Finding tell(const data::Trajectories& in, const internal::Swap& s) {
                      .first_frame = s.first,
                      .last_frame = s.end - 1,
                      .size = s.distance_m};
-  swap.description =
-      fmt::format("markers '{}' and '{}' have exchanged labels in frames {} to {}, {:.0f} mm apart",
-                  swap.subject, swap.partner, s.first, s.end - 1, 1e3 * s.distance_m);
+  swap.description = fmt::format(
+      "markers '{}' and '{}' have exchanged labels in frames {} to {}, {:.0f} mm apart", swap.subject,
+      swap.partner, in.time.number(s.first), in.time.number(s.end - 1), 1e3 * s.distance_m);
   return swap;
 }
 

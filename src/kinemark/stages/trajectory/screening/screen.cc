@@ -18,8 +18,9 @@
 namespace kinemark::trajectory {
 namespace internal {
 
-std::string describe_frames(std::int64_t first, std::int64_t last) {
-  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
+std::string describe_frames(const TimeBase& time, std::int64_t first, std::int64_t last) {
+  return first == last ? fmt::format("frame {}", time.number(first))
+                       : fmt::format("frames {} to {}", time.number(first), time.number(last));
 }
 
 double confidence_of(double ratio, double half) {
@@ -139,8 +140,8 @@ Result<data::Trajectories> reject_defects(const data::Trajectories& t, std::span
       return fail(Code::bad_input,
                   fmt::format("a finding is about marker '{}' and {}; that marker or these frames are not "
                               "among the {} markers and {} frames of the trajectories",
-                              f.subject, internal::describe_frames(f.first_frame, f.last_frame), t.markers(),
-                              t.frames()));
+                              f.subject, internal::describe_frames(t.time, f.first_frame, f.last_frame),
+                              t.markers(), t.frames()));
     if (!(f.confidence < min_confidence)) reject(defect, out);
   }
   return out;

@@ -42,7 +42,8 @@ Defect describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t
           .description = fmt::format(
               "at {} instants between frames {} and {} all markers go {:.2f} times as far as in the "
               "frames beside, {}",
-              leaps.size(), leaps.front().frame, leaps.back().frame, median_of(times), how)};
+              leaps.size(), t.time.number(leaps.front().frame), t.time.number(leaps.back().frame),
+              median_of(times), how)};
 }
 
 }  // namespace
@@ -122,7 +123,8 @@ void find_leaps(const data::Trajectories& t, Defects& out) {
                    .description = fmt::format(
                        "between frames {} and {} all {} markers that are seen go {:.2f} times as far "
                        "as in the frames beside: {:.0f} lost there",
-                       l.frame - 1, l.frame, l.seen, l.times, std::round(l.times) - 1.0)});
+                       t.time.number(l.frame - 1), t.time.number(l.frame), l.seen, l.times,
+                       std::round(l.times) - 1.0)});
 }
 
 }  // namespace kinemark::trajectory::internal

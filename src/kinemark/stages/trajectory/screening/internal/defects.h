@@ -42,7 +42,7 @@ void find_spikes(const data::Trajectories& t, const ScreenOptions& options, Defe
 void reject(const Defect& defect, data::Trajectories& t);
 
 /// "frame 7" or "frames 7 to 9".
-[[nodiscard]] std::string describe_frames(std::int64_t first, std::int64_t last);
+[[nodiscard]] std::string describe_frames(const TimeBase& time, std::int64_t first, std::int64_t last);
 /// Confidence that grows with a ratio: one half at `half`, 0.8 at four times that.
 [[nodiscard]] double confidence_of(double ratio, double half);
 /// Median, the upper one of two; 0 of nothing.

@@ -69,8 +69,8 @@ TEST(Defect, WhatWasMissingBeforeKeepsItsState) {
 }
 
 TEST(Words, OneFrameIsNoRange) {
-  EXPECT_EQ(describe_frames(7, 7), "frame 7");
-  EXPECT_EQ(describe_frames(7, 9), "frames 7 to 9");
+  EXPECT_EQ(describe_frames({}, 7, 7), "frame 7");
+  EXPECT_EQ(describe_frames({.first_number = 101}, 7, 9), "frames 108 to 110");
 }
 
 TEST(Confidence, GrowsWithTheRatioAndIsNeverCertain) {

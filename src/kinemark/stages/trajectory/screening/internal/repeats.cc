@@ -78,7 +78,7 @@ void find_zeros(const Trajectories& t, Defects& out) {
                      .confidence = confidence_of(nearest / kAtOrigin, 0.5),
                      .description = fmt::format(
                          "marker '{}' is exactly at the origin in {}; {}: zero means not seen",
-                         t.names[static_cast<std::size_t>(m)], describe_frames(first, f), beside)});
+                         t.names[static_cast<std::size_t>(m)], describe_frames(t.time, first, f), beside)});
     }
   }
 }
@@ -140,7 +140,7 @@ void find_duplicated_frames(const Trajectories& t, Defects& out) {
                    .description = fmt::format(
                        "all {} markers that are seen repeat frame {} in {}, digit by digit, while "
                        "{} of them move right before and after",
-                       seen, first - 1, describe_frames(first, f), moving)});
+                       seen, t.time.number(first - 1), describe_frames(t.time, first, f), moving)});
   }
 }
 
@@ -192,8 +192,8 @@ void find_stuck(const Trajectories& t, const ScreenOptions& options, Defects& ou
                      .description = fmt::format(
                          "marker '{}' holds one value, digit by digit, in {}; beside them it moves "
                          "{:.3f} mm per frame in steps of {:.4f} mm",
-                         t.names[static_cast<std::size_t>(m)], describe_frames(first, last), 1e3 * step,
-                         1e3 * rounding)});
+                         t.names[static_cast<std::size_t>(m)], describe_frames(t.time, first, last),
+                         1e3 * step, 1e3 * rounding)});
     }
   }
 }

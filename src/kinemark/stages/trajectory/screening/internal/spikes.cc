@@ -90,17 +90,17 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Defects& o
         if (!(s.ratio > kLeastRatio) || !(s.height > options.min_spike_m)) continue;
         const std::int64_t last = f + width - 1;
         if (!swapped(m, f, last))
-          out.push_back(
-              {.kind = FindingKind::spike,
-               .marker = m,
-               .first_frame = f,
-               .last_frame = last,
-               .size = s.height,
-               .confidence = confidence_of(s.ratio, 0.25 * kLeastRatio),
-               .description = fmt::format(
-                   "marker '{}' leaves its path by {:.1f} mm in {}, {:.0f} times what the "
-                   "samples beside leave it by",
-                   t.names[static_cast<std::size_t>(m)], 1e3 * s.height, describe_frames(f, last), s.ratio)});
+          out.push_back({.kind = FindingKind::spike,
+                         .marker = m,
+                         .first_frame = f,
+                         .last_frame = last,
+                         .size = s.height,
+                         .confidence = confidence_of(s.ratio, 0.25 * kLeastRatio),
+                         .description = fmt::format(
+                             "marker '{}' leaves its path by {:.1f} mm in {}, {:.0f} times what the "
+                             "samples beside leave it by",
+                             t.names[static_cast<std::size_t>(m)], 1e3 * s.height,
+                             describe_frames(t.time, f, last), s.ratio)});
         f = last;
         break;
       }

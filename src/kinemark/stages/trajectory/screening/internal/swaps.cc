@@ -158,18 +158,19 @@ void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Defect
       first = 0;
       last = start.frame - 1;
     }
-    out.push_back({.kind = FindingKind::label_swap,
-                   .marker = start.one,
-                   .other_marker = start.other,
-                   .first_frame = first,
-                   .last_frame = last,
-                   .confidence = confidence_of(ratio, ends ? 0.4 : 1.0),
-                   .description = fmt::format(
-                       "markers '{}' and '{}' carry each other's label in {}: exchanged they continue "
-                       "their paths {:.0f} times better{}",
-                       t.names[static_cast<std::size_t>(start.one)],
-                       t.names[static_cast<std::size_t>(start.other)], describe_frames(first, last), ratio,
-                       ends ? "" : "; which side is right cannot be decided, the shorter one is named")});
+    out.push_back(
+        {.kind = FindingKind::label_swap,
+         .marker = start.one,
+         .other_marker = start.other,
+         .first_frame = first,
+         .last_frame = last,
+         .confidence = confidence_of(ratio, ends ? 0.4 : 1.0),
+         .description = fmt::format(
+             "markers '{}' and '{}' carry each other's label in {}: exchanged they continue "
+             "their paths {:.0f} times better{}",
+             t.names[static_cast<std::size_t>(start.one)], t.names[static_cast<std::size_t>(start.other)],
+             describe_frames(t.time, first, last), ratio,
+             ends ? "" : "; which side is right cannot be decided, the shorter one is named")});
   }
 }
 
@@ -239,7 +240,7 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
                "marker '{}' jumps {:.0f} mm to the path of '{}' in {} ({:.1f} mm from it) and "
                "back to its own",
                t.names[static_cast<std::size_t>(m)], 1e3 * jump, t.names[static_cast<std::size_t>(host)],
-               describe_frames(there.frame, back.frame - 1), 1e3 * distance)});
+               describe_frames(t.time, there.frame, back.frame - 1), 1e3 * distance)});
       break;
     }
   }

@@ -83,7 +83,7 @@ void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Defects& ou
                        "marker '{}' is a thousand times too {} in {}: times or divided by 1000 it "
                        "joins the frames beside",
                        t.names[static_cast<std::size_t>(m)], large ? "large" : "small",
-                       describe_frames(levels[i].first, end - 1))});
+                       describe_frames(t.time, levels[i].first, end - 1))});
   }
 }
 
@@ -119,7 +119,7 @@ void merge_common(const data::Trajectories& t, Defects& slips) {
     Defect all = slips[i];
     all.marker = -1;
     all.description = fmt::format("all {} markers that are seen change by a factor of a thousand in {}", seen,
-                                  describe_frames(all.first_frame, all.last_frame));
+                                  describe_frames(t.time, all.first_frame, all.last_frame));
     const Defect key = slips[i];
     std::erase_if(slips, [&](const Defect& f) {
       return f.first_frame == key.first_frame && f.last_frame == key.last_frame && f.marker >= 0;

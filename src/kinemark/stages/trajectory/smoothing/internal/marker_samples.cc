@@ -43,8 +43,8 @@ Status take_times(const data::Trajectories& in, std::int64_t marker, MarkerSampl
           Code::bad_input,
           fmt::format(
               "marker '{}' was seen at {} s in frame {} and at {} s in frame {}; sample times must rise",
-              in.names[static_cast<std::size_t>(marker)], in.time.t0_s + earlier, earlier_frame,
-              in.time.t0_s + t, f));
+              in.names[static_cast<std::size_t>(marker)], in.time.t0_s + earlier,
+              in.time.number(earlier_frame), in.time.t0_s + t, in.time.number(f)));
     earlier = t;
     earlier_frame = f;
   }

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "server/bind_address.h"
+#include "server/desktop.h"
+#include "server/http_server.h"
+#include "server/secret.h"
+#include "server/trial_page.h"
+#include "server/trial_row.h"
+#include "server/trial_service.h"
+
+namespace kinemark::cli {
+namespace {
+
+struct ServeArguments {
+  std::vector<std::filesystem::path> given;
+  std::string bind = "127.0.0.1";
+  std::uint16_t port = 0;
+  bool no_open = false;
+};
+
+Result<server::Keys> make_keys(const ServeArguments& arguments, std::uint16_t port) {
+  server::Keys keys{.hosts = server::own_hosts(arguments.bind, port),
+                    .cookie = fmt::format("kinemark_{}", port)};
+  for (auto* key : {&keys.token, &keys.opening, &keys.session}) {
+    auto secret = server::new_secret();
+    if (!secret) return std::unexpected(secret.error());
+    *key = std::move(*secret);
+  }
+  return keys;
+}
+
+/// Until a signal ends the program (watch_signals()), or an error comes.
+int serve(const CommonOptions& common, const ServeArguments& arguments) {
+  if (const auto s = server::check_bind_address(arguments.bind); !s) return report_error(s.error());
+  if (const auto s = server::check_given(arguments.given); !s) return report_error(s.error());
+  const auto http = server::HttpServer::listen(arguments.bind, arguments.port);
+  if (!http) return report_error(http.error());
+  auto keys = make_keys(arguments, (*http)->port());
+  if (!keys) return report_error(keys.error());
+  const bool opens = !arguments.no_open && server::has_desktop();
+  if (!opens) keys->opening.clear();
+  const auto address = [host = keys->hosts.front()](const std::string& token) {
+    return fmt::format("http://{}/?token={}", host, token);
+  };
+  print_result(address(keys->token) + "\n");
+  if (output_failed()) return 0;  // which main() reports
+  say(common, "this address, with its token, lets in whoever has it; Ctrl-C ends the server");
+  if (opens && !server::open_browser(address(keys->opening)))
+    say(common, "note: no browser could be opened; open the address by hand");
+  server::TrialService service({.given = arguments.given,
+                                .keys = std::move(*keys),
+                                .make_page = server::make_trial_page,
+                                .describe = server::describe_trial});
+  (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
+    service.handle(request, reply);
+  });
+  return 0;
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
+  auto* command = app.add_subcommand("serve", "Trials in the browser, from this machine to this machine");
+  command->footer(
+      "Prints one line, the address with the token that lets a browser in, and answers until Ctrl-C.");
+  const auto arguments = std::make_shared<ServeArguments>();
+  command
+      ->add_option(
+          "FILE", arguments->given,
+          ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
+          "at again when the page is reloaded")
+      ->required();
+  command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--bind", arguments->bind, "Address of this machine to listen on: 127.0.0.1 or ::1")
+      ->capture_default_str();
+  command->add_flag("--no-open", arguments->no_open, "Open no browser, in a desktop session either");
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return serve(common, *arguments); }; });
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/entrance.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+namespace kinemark::server {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kToken = "11111111111111111111111111111111";
+constexpr const char* kOpening = "22222222222222222222222222222222";
+constexpr const char* kSession = "33333333333333333333333333333333";
+constexpr const char* kHost = "127.0.0.1:8123";
+constexpr const char* kOrigin = "http://127.0.0.1:8123";
+
+Keys keys() {
+  return {.hosts = {kHost, "localhost:8123"},
+          .token = kToken,
+          .opening = kOpening,
+          .session = kSession,
+          .cookie = "kinemark_8123"};
+}
+
+class AskEntrance : public ::testing::Test {
+ protected:
+  /// Of somebody who has the cookie.
+  static Request known(const std::string& target = "/") {
+    return {
+        .method = "GET", .target = target, .host = kHost, .cookie = std::string("kinemark_8123=") + kSession};
+  }
+  static Request unknown(const std::string& target = "/") {
+    return {.method = "GET", .target = target, .host = kHost};
+  }
+  /// Status of the refusal; 0: let in.
+  int status(const Request& request) {
+    const auto response = entrance_.ask(request);
+    return response ? response->status : 0;
+  }
+  Entrance entrance_{keys()};
+};
+
+std::string header(const Response& response, const std::string& name) {
+  for (const auto& [key, value] : response.headers)
+    if (key == name) return value;
+  return "";
+}
+
+TEST_F(AskEntrance, LetsInWhoHasTheCookie) {
+  EXPECT_EQ(status(known()), 0);
+  auto request = known("/trial/1");
+  request.cookie = "a=b; kinemark_8123=" + std::string(kSession) + "; c=d";
+  EXPECT_EQ(status(request), 0);
+  request.host = "LocalHost:8123";
+  EXPECT_EQ(status(request), 0);
+}
+
+TEST_F(AskEntrance, AForeignHostIsMisdirectedWhateverItHas) {
+  for (const char* host :
+       {"evil.example:8123", "127.0.0.1", "127.0.0.1:81", "127.0.0.1:8123.evil.example", "", "localhost",
+        "127.0.0.1:8123, 127.0.0.1:8123", " 127.0.0.1:8123", "[::1]:8123", "user@127.0.0.1:8123"}) {
+    auto request = known();
+    request.host = host;
+    EXPECT_EQ(status(request), 421) << host;
+    request = unknown(std::string("/?token=") + kToken);
+    request.host = host;
+    EXPECT_EQ(status(request), 421) << host;
+  }
+  auto request = known();
+  request.host.reset();
+  EXPECT_EQ(status(request), 421);
+}
+
+TEST_F(AskEntrance, AnythingButReadingNeedsOurOrigin) {
+  for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "BREW", "get"}) {
+    auto request = known();
+    request.method = method;
+    EXPECT_EQ(status(request), 403) << method;
+    for (const char* origin : {"http://evil.example", "null", "", "https://127.0.0.1:8123",
+                               "http://127.0.0.1", "http://127.0.0.1:8123/", "http://localhost:8123"}) {
+      request.origin = origin;
+      EXPECT_EQ(status(request), 403) << method << " from " << origin;
+    }
+    request.origin = kOrigin;
+    EXPECT_EQ(status(request), 405) << method << ": there is nothing to change";
+  }
+}
+
+TEST_F(AskEntrance, AWebSocketNeedsOurOrigin) {
+  auto request = known("/trial/1");
+  request.upgrade = true;
+  EXPECT_EQ(status(request), 403);
+  request.origin = "http://evil.example";
+  EXPECT_EQ(status(request), 403);
+  request.origin = kOrigin;
+  EXPECT_EQ(status(request), 0);
+  for (const char* method : {"HEAD", "POST", "GE"}) {
+    request.method = method;
+    EXPECT_EQ(status(request), 405) << method;
+  }
+  request.cookie.clear();
+  EXPECT_EQ(status(request), 401);
+}
+
+TEST_F(AskEntrance, ReadingNeedsNoOrigin) {
+  for (const char* method : {"GET", "HEAD"}) {
+    auto request = known();
+    request.method = method;
+    EXPECT_EQ(status(request), 0);
+  }
+}
+
+TEST_F(AskEntrance, WithoutTheSecretNothingIsShown) {
+  EXPECT_EQ(status(unknown()), 401);
+  EXPECT_EQ(status(unknown("/style.css")), 401);
+  EXPECT_EQ(status(unknown("/nothing")), 401) << "what there is is not shown either";
+  for (const char* cookie : {"kinemark_8123=", "kinemark_8124=33333333333333333333333333333333",
+                             "kinemark_8123=11111111111111111111111111111111", "kinemark_8123",
+                             "xkinemark_8123=33333333333333333333333333333333",
+                             "kinemark_8123=33333333333333333333333333333333; kinemark_8123=x"}) {
+    auto request = unknown();
+    request.cookie = cookie;
+    EXPECT_EQ(status(request), 401) << cookie;
+  }
+  const auto response = entrance_.ask(unknown()).value();
+  EXPECT_FALSE(response.admitted);
+  EXPECT_THAT(header(response, "WWW-Authenticate"), HasSubstr("Bearer"));
+  EXPECT_THAT(*response.body, HasSubstr("kinemark serve"));
+}
+
+TEST_F(AskEntrance, TheTokenIsExchangedForACookieAndLeavesTheAddress) {
+  for (int i = 0; i < 2; ++i) {
+    const auto response = entrance_.ask(unknown(std::string("/?token=") + kToken)).value();
+    EXPECT_EQ(response.status, 303);
+    EXPECT_TRUE(response.admitted);
+    EXPECT_EQ(header(response, "Location"), "/");
+    EXPECT_EQ(header(response, "Set-Cookie"),
+              std::string("kinemark_8123=") + kSession + "; Path=/; HttpOnly; SameSite=Strict");
+    EXPECT_THAT(header(response, "Set-Cookie"), Not(HasSubstr(kToken)));
+  }
+}
+
+TEST_F(AskEntrance, AWrongTokenIsNoToken) {
+  for (const char* token : {"", "1", "11111111111111111111111111111112", "1111111111111111111111111111111",
+                            "111111111111111111111111111111111", "33333333333333333333333333333333"})
+    EXPECT_EQ(status(unknown(std::string("/?token=") + token)), 401) << token;
+  EXPECT_EQ(status(unknown(std::string("/?token=") + kToken + "&x=1")), 401);
+  EXPECT_EQ(status(unknown(std::string("/trial/1?token=") + kToken)), 401);
+}
+
+TEST_F(AskEntrance, TheTokenOfTheBrowserThatIsOpenedIsGoodOnce) {
+  EXPECT_EQ(status(unknown(std::string("/?token=") + kOpening)), 303);
+  EXPECT_EQ(status(unknown(std::string("/?token=") + kOpening)), 401);
+  EXPECT_EQ(status(unknown("/?token=")), 401);
+}
+
+TEST_F(AskEntrance, TheTokenIsTakenOnlyByReading) {
+  auto request = unknown(std::string("/?token=") + kToken);
+  request.method = "HEAD";
+  EXPECT_EQ(status(request), 401);
+  request.method = "POST";
+  request.origin = kOrigin;
+  EXPECT_EQ(status(request), 401);
+}
+
+TEST_F(AskEntrance, AProgramSendsTheTokenItself) {
+  auto request = unknown("/api/trials");
+  request.authorization = std::string("Bearer ") + kToken;
+  EXPECT_EQ(status(request), 0);
+  for (const std::string& wrong :
+       {std::string("Bearer ") + kOpening, std::string("Bearer ") + kSession, std::string("Basic ") + kToken,
+        std::string(kToken), std::string("Bearer ")}) {
+    request.authorization = wrong;
+    EXPECT_EQ(status(request), 401) << wrong;
+  }
+}
+
+TEST(CookieValue, IsThatOfTheWholeName) {
+  EXPECT_EQ(cookie_value("a=1; b=2;c=3", "b"), "2");
+  EXPECT_EQ(cookie_value("a=1; b=2;c=3", "c"), "3");
+  EXPECT_EQ(cookie_value("a=1=2", "a"), "1=2");
+  EXPECT_EQ(cookie_value("a=", "a"), "");
+  EXPECT_EQ(cookie_value("aa=1", "a"), std::nullopt);
+  EXPECT_EQ(cookie_value("a", "a"), std::nullopt);
+  EXPECT_EQ(cookie_value(";;;", "a"), std::nullopt);
+  EXPECT_EQ(cookie_value("a=1;a=1", "a"), std::nullopt) << "which of them is ours?";
+}
+
+TEST(SentencePage, IsText) {
+  const auto response = sentence_page(404, "<script>alert(1)</script> & \"more\"");
+  EXPECT_EQ(response.status, 404);
+  EXPECT_THAT(*response.body, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt; &amp;"));
+  EXPECT_THAT(*response.body, Not(HasSubstr("<script")));
+}
+
+TEST(SafeHeaders, AreOnEveryResponseAndKeepAPolicyOfItsOwn) {
+  Response response;
+  add_safe_headers(response);
+  const std::map<std::string, std::string> all(response.headers.begin(), response.headers.end());
+  EXPECT_EQ(all.at("X-Content-Type-Options"), "nosniff");
+  EXPECT_EQ(all.at("Referrer-Policy"), "no-referrer");
+  EXPECT_EQ(all.at("Cache-Control"), "no-store");
+  EXPECT_THAT(all.at("Content-Security-Policy"), HasSubstr("default-src 'none'"));
+  EXPECT_THAT(all.at("Content-Security-Policy"), HasSubstr("frame-ancestors 'none'"));
+  EXPECT_EQ(all.size(), response.headers.size()) << "none twice";
+
+  Response own{.headers = {{"Content-Security-Policy", "mine"}}};
+  add_safe_headers(own);
+  EXPECT_EQ(header(own, "Content-Security-Policy"), "mine");
+  EXPECT_EQ(own.headers.size(), response.headers.size());
+}
+
+}  // namespace
+}  // namespace kinemark::server

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as the headers and the target of a request: nobody is let in who does not hold a secret, and no
+// target leads anywhere but to the few that there are.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/entrance.h"
+#include "server/routes.h"
+
+namespace {
+
+constexpr std::string_view kToken = "11111111111111111111111111111111";
+constexpr std::string_view kSession = "33333333333333333333333333333333";
+
+/// Lines: method, target, host, origin ("-": none), cookie, authorization.
+kinemark::server::Request parse(std::string_view text) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < 6; ++i) {
+    const auto end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  kinemark::server::Request request{.method = lines[0],
+                                    .target = lines[1],
+                                    .host = lines[2],
+                                    .cookie = lines[4],
+                                    .authorization = lines[5],
+                                    .upgrade = !text.empty()};
+  if (lines[3] != "-") request.origin = lines[3];
+  return request;
+}
+
+bool holds(const std::string& text, std::string_view secret) {
+  return text.find(secret) != std::string::npos;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace kinemark::server;
+  const Request request = parse({reinterpret_cast<const char*>(data), size});
+  Entrance entrance({.hosts = {"127.0.0.1:8123", "localhost:8123"},
+                     .token = std::string(kToken),
+                     .session = std::string(kSession),
+                     .cookie = "kinemark_8123"});
+  const auto response = entrance.ask(request);
+  const bool has_secret = holds(request.cookie, kSession) || holds(request.authorization, kToken);
+  if (!response && !has_secret) std::abort();
+  if (!response && request.method != "GET" && request.method != "HEAD") std::abort();
+  if (!response && request.upgrade && request.method != "GET") std::abort();
+  if (!response && request.upgrade && !request.origin) std::abort();
+  if (response && response->status == 303 && request.target != "/?token=" + std::string(kToken)) std::abort();
+  if (response && response->status != 303 && response->admitted) std::abort();
+  if (response && response->body && response->body->find("<script") != std::string::npos) std::abort();
+  const Route route = find_route(request.target);
+  if (route.target == Target::trial_page && request.target != "/trial/" + std::to_string(route.number))
+    std::abort();
+  if (route.target != Target::trial_page && route.number != 0) std::abort();
+  if (route.target != Target::none && request.target.find("..") != std::string::npos) std::abort();
+  return 0;
+}

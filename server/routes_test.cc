@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/routes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace kinemark::server {
+namespace {
+
+TEST(Routes, AreFew) {
+  EXPECT_EQ(find_route("/").target, Target::list_page);
+  EXPECT_EQ(find_route("/api/trials").target, Target::list_json);
+  EXPECT_EQ(find_route("/style.css").target, Target::style);
+  EXPECT_EQ(find_route("/list.css").target, Target::list_style);
+  EXPECT_EQ(find_route("/list.js").target, Target::list_script);
+}
+
+TEST(Routes, OfTrialsHaveANumber) {
+  for (const std::uint32_t number : {1U, 9U, 10U, 12345U, 4294967295U}) {
+    const auto route = find_route("/trial/" + std::to_string(number));
+    EXPECT_EQ(route.target, Target::trial_page);
+    EXPECT_EQ(route.number, number);
+  }
+}
+
+TEST(Routes, NumbersAreSpeltInOneWay) {
+  for (const char* target :
+       {"/trial/", "/trial", "/trial/0", "/trial/01", "/trial/-1", "/trial/+1", "/trial/1.0", "/trial/ 1",
+        "/trial/1/", "/trial/1?x", "/trial/%31", "/trial/4294967296", "/trial/99999999999999999999",
+        "/trial/0x1", "/trial/one", "/trial/1#2"})
+    EXPECT_EQ(find_route(target).target, Target::none) << target;
+}
+
+TEST(Routes, NoPathIsPutTogether) {
+  for (const char* target : {"",
+                             "*",
+                             "//",
+                             "/..",
+                             "/../",
+                             "/trial/../style.css",
+                             "/./style.css",
+                             "/style.css/..",
+                             "/%2e%2e/etc/passwd",
+                             "/..%2f..%2fetc%2fpasswd",
+                             "/etc/passwd",
+                             "/trial/../../etc/passwd",
+                             "/style.css?",
+                             "/STYLE.CSS",
+                             "/list.js.map",
+                             "http://127.0.0.1:1/",
+                             "/\\..\\..",
+                             "/?",
+                             "/?token=",
+                             "/api/trials/",
+                             "/api",
+                             "/favicon.ico",
+                             "file:///etc/passwd"})
+    EXPECT_EQ(find_route(target).target, Target::none) << target;
+  EXPECT_EQ(find_route(std::string_view("/style.css\0x", 12)).target, Target::none);
+  EXPECT_EQ(find_route(std::string_view("/trial/1\0", 9)).target, Target::none);
+}
+
+}  // namespace
+}  // namespace kinemark::server

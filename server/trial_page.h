@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/info_job.h"
+#include "server/page_shelf.h"
+
+namespace kinemark::server {
+
+/// The page of a trial: the report of a solved one, else what the file holds. O(file). Fails as the readers
+/// of its files.
+[[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path);
+
+/// What 'kinemark info' knows of a file, as a page. All names are text.
+[[nodiscard]] std::string facts_page(const pipeline::InfoOutcome& info);
+
+/// A self-contained report page with a policy under which its own style sheet and script run and nothing
+/// else. The first style sheet and the last script are its own: data stand before the script.
+/// @param nonce  unpredictable, of new_secret()
+[[nodiscard]] Page shielded(std::string html, std::string_view nonce);
+
+}  // namespace kinemark::server

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/trial_page.h"
+
+#include <gmock/gmock.h>
+
+#include "kinemark/io/file.h"
+#include "kinemark/pipeline/motion/ik_job.h"
+#include "kinemark/pipeline/motion/report_job.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
+#include "server/list_page.h"
+
+namespace kinemark::server {
+namespace {
+
+using pipeline::IkJob;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class PageOfTrial : public pipeline::testing::RecordedTest<IkJob> {};
+
+TEST_F(PageOfTrial, OfMarkersShowsWhatTheFileHolds) {
+  const auto page = make_trial_page(at("in/markers.c3d")).value();
+  EXPECT_EQ(page.policy, kOwnPolicy);
+  EXPECT_THAT(*page.html, HasSubstr("<h1>markers.c3d</h1>"));
+  EXPECT_THAT(*page.html, HasSubstr("<th scope=\"row\">frames</th><td>30</td>"));
+  EXPECT_THAT(*page.html, HasSubstr("<th scope=\"row\">rate, Hz</th><td>60.0</td>"));
+  EXPECT_THAT(*page.html, HasSubstr("<h2>labels <small>40</small></h2>"));
+  EXPECT_THAT(*page.html, Not(HasSubstr(at("in").string()))) << "where it lies is nobody's business";
+}
+
+TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
+  ASSERT_TRUE(pipeline::run_ik(job("Q.mot")));
+  const auto page = make_trial_page(at("Q.mot")).value();
+  const auto plain = pipeline::page_of(at("Q.mot")).value();
+  EXPECT_THAT(*page.html, HasSubstr("<script nonce=\""));
+  EXPECT_THAT(*page.html, HasSubstr("<style nonce=\""));
+  EXPECT_EQ(page.html->size(),
+            plain.size() + 2 * std::string(R"( nonce="00112233445566778899aabbccddeeff")").size());
+  EXPECT_THAT(page.policy, Not(HasSubstr("unsafe")));
+  EXPECT_NE(page.policy, make_trial_page(at("Q.mot"))->policy) << "another nonce for another page";
+}
+
+TEST_F(PageOfTrial, OfASolvedTrialWhoseFilesAreOfTwoRunsIsASentence) {
+  ASSERT_TRUE(pipeline::run_ik(job("P.mot")));
+  std::filesystem::remove(at("P_marker_errors.sto"));
+  const auto page = make_trial_page(at("P.mot"));
+  ASSERT_FALSE(page);
+  EXPECT_THAT(page.error().message, HasSubstr("P_marker_errors.sto"));
+}
+
+TEST_F(PageOfTrial, OfOtherFiles) {
+  EXPECT_THAT(*make_trial_page(at("in/truth.mot"))->html,
+              HasSubstr("<th scope=\"row\">rows</th><td>30</td>"));
+  EXPECT_THAT(*make_trial_page(at("in/model.osim"))->html, HasSubstr("mass, kg"));
+  EXPECT_EQ(make_trial_page(at("absent.trc")).error().code, Code::io);
+}
+
+TEST(FactsPage, NamesAreText) {
+  pipeline::MarkerFileFacts facts{.format = "C3D",
+                                  .software = "<b>&\"",
+                                  .labels = {"</script><img src=x onerror=alert(1)>", "\xff\x1b[31m", ""}};
+  facts.channels.push_back({.name = "<i>", .kind = "angle", .unit = "deg", .rate_hz = 100.0, .missing = 2});
+  pipeline::InfoOutcome info;
+  info.file = "/secret/place/<u>.c3d";
+  info.facts = facts;
+  info.warnings = {"the label <img> is odd"};
+  const auto page = facts_page(info);
+  for (const char* never : {"<img", "<b>&", "<i>", "<u>", "/secret", "\x1b", "\xff", "<script"})
+    EXPECT_THAT(page, Not(HasSubstr(never)));
+  EXPECT_THAT(page, HasSubstr("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;"));
+  EXPECT_THAT(page, HasSubstr("the label &lt;img&gt; is odd"));
+  EXPECT_THAT(page, HasSubstr("&lt;i&gt;, angle, deg, rate, Hz 100.0, missing 2"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">rate, Hz</th><td>not known</td>"));
+}
+
+TEST(Shielded, OnlyTheFirstStyleAndTheLastScriptMayRun) {
+  const std::string html =
+      "<style>a</style><script type=\"application/json\">1</script><script type=\"module\">evil</script>"
+      "<style>evil</style><script type=\"module\">ours</script>";
+  const auto page = shielded(html, "N");
+  EXPECT_EQ(
+      *page.html,
+      "<style nonce=\"N\">a</style><script type=\"application/json\">1</script><script type=\"module\">evil"
+      "</script><style>evil</style><script nonce=\"N\" type=\"module\">ours</script>");
+  EXPECT_THAT(page.policy, HasSubstr("script-src 'nonce-N'; style-src 'nonce-N'"));
+  EXPECT_THAT(page.policy, HasSubstr("default-src 'none'"));
+}
+
+TEST(Shielded, APageWithoutThemStaysAsItIs) {
+  EXPECT_EQ(*shielded("<p>nothing</p>", "N").html, "<p>nothing</p>");
+}
+
+}  // namespace
+}  // namespace kinemark::server
