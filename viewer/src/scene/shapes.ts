@@ -27,7 +27,7 @@ function crossShape(): BufferGeometry {
 
 /** How a sample of each state looks, in the order of states.ts: another shape besides another colour. */
 export const stateShapes: readonly { geometry: () => BufferGeometry; facesEye: boolean }[] = [
-  { geometry: () => new SphereGeometry(1, 20, 14), facesEye: false },
+  { geometry: () => new SphereGeometry(1, 16, 11), facesEye: false },
   { geometry: () => new TetrahedronGeometry(1.7), facesEye: false },
   { geometry: () => new OctahedronGeometry(1.45), facesEye: false },
   { geometry: () => new BoxGeometry(1.8, 1.8, 1.8), facesEye: false },

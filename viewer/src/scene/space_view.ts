@@ -36,7 +36,7 @@ import { add, cross, dot, length, scaled, sub, unit, type Vec } from "./vec.ts";
 
 /** Metres of an arrow for a newton. */
 export const metresPerNewton = 1 / 1000;
-const mostTrail = 6000;
+const mostTrail = 3000;
 
 /** What the picture shows besides the scene. */
 export interface Look {
@@ -130,7 +130,7 @@ export class SpaceView {
     this.floor = floorOf(scene);
     const lit = (): MeshLambertMaterial => new MeshLambertMaterial();
     const plain = (): MeshBasicMaterial => new MeshBasicMaterial({ side: DoubleSide });
-    const rod = (sides = 10): BufferGeometry => new CylinderGeometry(1, 1, 1, sides, 1);
+    const rod = (sides = 10): BufferGeometry => new CylinderGeometry(1, 1, 1, sides, 1, true);
     this.#grid = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
     this.#plates = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
     this.#plateFill = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.22, depthWrite: false }));
@@ -144,7 +144,7 @@ export class SpaceView {
     this.#others = new Kind(stage, new RingGeometry(0.72, 1, 24), plain(), M);
     this.#ties = new Kind(stage, rod(6), plain(), M);
     const coloured = plain();
-    this.#trails = new Kind(stage, rod(6), coloured, mostTrail);
+    this.#trails = new Kind(stage, rod(4), coloured, mostTrail);
     this.#trails.mesh.setColorAt(0, new Color());
     this.#shafts = new Kind(stage, rod(14), lit(), scene.forces.length);
     this.#heads = new Kind(stage, arrowHead(), lit(), scene.forces.length);
@@ -200,9 +200,13 @@ export class SpaceView {
     return made;
   }
 
-  /** Colours of the theme; asked for at every picture, as the theme may have changed. */
+  #painted: unknown = null;
+
+  /** Colours of the theme, which may have changed since the last picture. */
   #paint(): void {
     const p = palette();
+    if (p === this.#painted) return;
+    this.#painted = p;
     this.#stage.background = new Color(p.background);
     const colour = (kind: Kind, value: string): void => void (kind.mesh.material as MeshBasicMaterial).color.set(value);
     p.marks.forEach((value, state) => colour(this.#states[state]!, value));
