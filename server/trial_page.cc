@@ -68,6 +68,15 @@ std::string warnings_section(const std::vector<std::string>& warnings) {
   return text + "</ul>\n</section>\n";
 }
 
+/// The page that `kinemark report` makes of it.
+Result<Page> report_page(const std::filesystem::path& path) {
+  auto html = pipeline::page_of(path);
+  if (!html) return std::unexpected(html.error());
+  const auto nonce = new_secret();
+  if (!nonce) return std::unexpected(nonce.error());
+  return shielded(std::move(*html), *nonce);
+}
+
 }  // namespace
 
 std::string facts_page(const pipeline::InfoOutcome& info) {
@@ -111,17 +120,12 @@ Page shielded(std::string html, std::string_view nonce) {
 }
 
 Result<Page> make_trial_page(const std::filesystem::path& path) {
-  if (is_solved(path)) {
-    auto html = pipeline::page_of(path);
-    if (!html) return std::unexpected(html.error());
-    const auto nonce = new_secret();
-    if (!nonce) return std::unexpected(nonce.error());
-    return shielded(std::move(*html), *nonce);
-  }
+  if (is_solved(path)) return report_page(path);
   pipeline::InfoJob job;
   job.file = path;
   const auto info = pipeline::run_info(job);
   if (!info) return std::unexpected(info.error());
+  if (std::holds_alternative<pipeline::MarkerFileFacts>(info->facts)) return report_page(path);
   return Page{std::make_shared<const std::string>(facts_page(*info)), std::string(kOwnPolicy)};
 }
 

@@ -59,6 +59,11 @@ class SelectionTest(CommandTest):
         self.refused(2, "only of marker files", "convert", self.truth, "a.sto", "--drop", "knee*")
         self.assertFalse((self.folder / "a.trc").exists())
 
+    def test_a_file_is_not_merged_with_itself(self):
+        self.good("convert", self.c3d, "a.c3d")
+        self.refused(2, ["a.c3d", "is given twice"], "convert", "a.c3d", "./a.c3d", "b.c3d", "--merge")
+        self.assertFalse((self.folder / "b.c3d").exists())
+
     def test_parts_are_merged_into_the_file_that_they_are_of(self):
         whole = self.info(self.c3d)
         middle = whole["first_frame"] + whole["frames"] // 2

@@ -4,7 +4,9 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -169,6 +171,19 @@ Status check_kinds(const ConvertJob& job) {
                           job.in.string(), job.out.string()));
 }
 
+/// A file that is merged with itself is a slip: another one was meant.
+Status check_each_once(const ConvertJob& job) {
+  std::vector<std::filesystem::path> files{job.in};
+  files.insert(files.end(), job.merged.begin(), job.merged.end());
+  std::error_code unknown;
+  for (std::size_t i = 1; i < files.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (std::filesystem::equivalent(files[i], files[k], unknown))
+        return fail(Code::usage,
+                    fmt::format("{}: is given twice; files to merge must differ", files[i].string()));
+  return {};
+}
+
 }  // namespace
 
 Result<ConvertOutcome> run_convert(const ConvertJob& job) {
@@ -184,6 +199,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
                 fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
   if (!job.edits.empty() && (kind_of(from) != Kind::markers || !job.merged.empty()))
     return fail(Code::usage, fmt::format("{}: --edits is for one marker file", job.in.string()));
+  if (auto s = check_each_once(job); !s) return std::unexpected(s.error());
   std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton, job.edits};
   inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
   if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
