@@ -4,7 +4,7 @@
 
 import json
 
-from support import CommandTest, read_csv, real_file
+from support import CommandTest, read_csv, real_file, report_data
 
 
 class SelectionTest(CommandTest):
@@ -38,6 +38,15 @@ class SelectionTest(CommandTest):
         out = self.run_in("clean", "frozen.trc", "clean.trc")
         self.assertRegex(out.err, r"repeat frame 71 in frame 72\b")
         self.assertNotRegex(out.err, r"\bframe 3[01]\b")
+
+    def test_reports_count_frames_as_the_file_does(self):
+        self.good("convert", self.c3d, "part.c3d", "--frames", "41-100")
+        self.good("ik", "-m", self.model, "-t", "part.c3d", "-o", "q.mot", "--report", "q.html")
+        self.good("report", "q.mot", "-o", "again.html")
+        self.good("clean", "part.c3d", "clean.c3d", "--report", "clean.html")
+        self.assertEqual(json.loads((self.folder / "q_report.json").read_text())["first_frame"], 41)
+        for page in ("q.html", "again.html", "clean.html"):
+            self.assertEqual(report_data(self.folder / page)["summary"]["first_frame"], 41, page)
 
     def test_a_time_range_is_the_frames_in_it(self):
         whole = self.info(self.trc)

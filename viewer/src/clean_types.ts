@@ -17,6 +17,8 @@ export interface CleanSummary {
   frames: number;
   rate_hz: number;
   first_time_s: number;
+  /** Number of frame 0 as the recording's file counts; reports of earlier versions do not have it. */
+  first_frame?: number;
   clean_s: number | null;
   threads: number;
   seed: number;

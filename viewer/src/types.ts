@@ -14,6 +14,8 @@ export interface Summary {
   frames: number;
   rate_hz: number;
   first_time_s: number;
+  /** Number of frame 0 as the recording's file counts; reports of earlier versions do not have it. */
+  first_frame?: number;
   solve_s: number | null;
   frames_per_s: number | null;
   threads: number;

@@ -27,6 +27,7 @@ export function sceneOfClean(trial: CleanTrial): Scene | null {
   return {
     points,
     frameStep: 1,
+    firstFrame: summary.first_frame ?? 0,
     rateHz: summary.rate_hz,
     time,
     names,

@@ -26,6 +26,8 @@ export interface Force {
 export interface Scene {
   points: number;
   frameStep: number;
+  /** Number of the first point's frame, as the recording's file counts. */
+  firstFrame: number;
   rateHz: number;
   /** P, s */
   time: Float64Array;
@@ -49,6 +51,7 @@ export interface Clock {
   frames: number;
   rate_hz: number;
   first_time_s: number;
+  first_frame?: number;
 }
 
 async function unpackTrack(packed: PackedMarkers, markers: number, points: number): Promise<Track> {
@@ -91,6 +94,7 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
   return {
     points,
     frameStep: frame_step,
+    firstFrame: clock.first_frame ?? 0,
     rateHz: clock.rate_hz,
     time: Float64Array.from({ length: points }, (_, i) => clock.first_time_s + (i * frame_step) / clock.rate_hz),
     names: packed.names,

@@ -80,7 +80,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
         ? "not determined: the visible markers do not fix it here"
         : `${number(value, decimals)} ${c.unit}` + (Number.isFinite(sd) ? ` ± ${number(sd, decimals)} ${c.unit} (1 SD)` : c.locked ? " (held fixed)" : " (SD not known)");
       readout.replaceChildren(
-        `${seconds(trial.time[at]!)}, frame ${trial.frameStep > 1 ? "≈ " : ""}${number(frame)}: `,
+        `${seconds(trial.time[at]!)}, frame ${trial.frameStep > 1 ? "≈ " : ""}${number((trial.summary.first_frame ?? 0) + frame)}: `,
         el("b", {}, text),
       );
     }

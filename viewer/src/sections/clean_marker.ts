@@ -83,7 +83,7 @@ export function cleanMarker(
     });
     const frame = Math.min(at * trial.frameStep, trial.summary.frames - 1);
     readout.replaceChildren(
-      `${seconds(trial.time[at]!)}, frame ${trial.frameStep > 1 ? "≈ " : ""}${number(frame)}, ${stateWords[code as 0]}: `,
+      `${seconds(trial.time[at]!)}, frame ${trial.frameStep > 1 ? "≈ " : ""}${number((trial.summary.first_frame ?? 0) + frame)}, ${stateWords[code as 0]}: `,
       el("b", {}, known ? `${words.join(", ")} ${quantity.unit}` : code >= firstAbsent ? "no value" : "nothing came in"),
     );
   }

@@ -57,7 +57,7 @@ export function recordedCurves(scene: Scene, view: View): Part {
     const state = scene.markers.states[view.marker * points + p]!;
     const words = axisNames.map((a, k) => `${a} ${number(value(view.marker, k, p), 2)}`).join(", ");
     readout.replaceChildren(
-      `${seconds(scene.time[p]!)}, frame ${number(p * scene.frameStep)}, ${stateWords[state as 0]}: `,
+      `${seconds(scene.time[p]!)}, frame ${number(scene.firstFrame + p * scene.frameStep)}, ${stateWords[state as 0]}: `,
       el("b", {}, state >= firstAbsent ? "no value" : `${words} mm`),
     );
   }

@@ -163,7 +163,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   function tell(): void {
     slider.value = String(point);
     const time = scene.time[point] ?? 0;
-    clock.textContent = `${seconds(time)}  frame ${number(point * scene.frameStep)}`;
+    clock.textContent = `${seconds(time)}  frame ${number(scene.firstFrame + point * scene.frameStep)}`;
     slider.setAttribute("aria-valuetext", seconds(time));
     const m = view.marker;
     if (m < 0 || m >= M) {

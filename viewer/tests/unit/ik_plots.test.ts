@@ -60,6 +60,12 @@ describe("angles", () => {
     expect(readout(1, 2.3)).toBe("2.300 s, frame 230: not determined: the visible markers do not fix it here");
     expect(readout(2, 1)).toBe("1.000 s, frame 100: 0.5000 m (SD not known)");
   });
+  it("count frames as the recording's file does", () => {
+    const { view, node } = make((data) => (data.summary.first_frame = 363));
+    view.set({ coordinate: 2, pointer: 1 });
+    nextFrame();
+    expect(withId(node, "angle-readout").textContent).toBe("1.000 s, frame 463: 0.5000 m (SD not known)");
+  });
   it("find coordinates by any of their words, and choose by stamp and arrow", () => {
     const { view, node } = make();
     const filter = node.tagged("input")[0]!;

@@ -20,7 +20,7 @@ function sceneOf(names: string[], points: number, place: (m: number, p: number) 
   for (let m = 0; m < names.length; ++m) for (let p = 0; p < points; ++p) place(m, p).forEach((v, k) => (x[(3 * m + k) * points + p] = v));
   const states = new Uint8Array(names.length * points);
   return {
-    points, frameStep: 1, rateHz: 100, time: Float64Array.from({ length: points }, (_, i) => i / 100), names, isMain: names.map(() => true),
+    points, frameStep: 1, firstFrame: 0, rateHz: 100, time: Float64Array.from({ length: points }, (_, i) => i / 100), names, isMain: names.map(() => true),
     up, upFrom: "", markers: { x, states }, before: null, model: null, worst: states, plates: [], forces: [],
   };
 }

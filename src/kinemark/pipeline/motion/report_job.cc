@@ -127,9 +127,11 @@ Result<Page> solved_page(const fs::path& solved) {
   page.read = {base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),
                beside(base, "_report.json")};
   for (const auto& input : run->inputs) page.read.emplace_back(input.path);
-  const auto motion =
+  auto motion =
       motion_from_tables(*coordinates, deviations ? &*deviations : nullptr, &*errors, rotations(*json));
   if (!motion) return fail_at(base.string(), motion.error());
+  if (const auto first = json->find("first_frame"); first != json->end() && first->is_number_integer())
+    motion->time.first_number = first->get<std::int64_t>();
   const auto states = recorded_states(*run, *motion);
   const bool turned = std::ranges::any_of(
       run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });

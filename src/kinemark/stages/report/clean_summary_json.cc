@@ -198,6 +198,7 @@ nlohmann::ordered_json clean_summary_json(const CleanReport& report) {
           {"frames", report.time.frames},
           {"rate_hz", number(report.time.rate_hz, 6)},
           {"first_time_s", number(report.time.t0_s, 6)},
+          {"first_frame", report.time.first_number},
           {"clean_s", number(run.clean_s, 9)},
           {"threads", run.threads},
           {"seed", run.seed},

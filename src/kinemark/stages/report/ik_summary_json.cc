@@ -165,6 +165,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"frames", s.time.frames},
           {"rate_hz", number(s.time.rate_hz, 6)},
           {"first_time_s", number(s.time.t0_s, 6)},
+          {"first_frame", s.time.first_number},
           {"solve_s", number(run.solve_s, 9)},
           {"frames_per_s", number(run.solve_s > 0.0 ? frames / run.solve_s : kNaN, 1)},
           {"threads", run.threads},
