@@ -46,7 +46,8 @@ class SelectionTest(CommandTest):
         self.good("clean", "part.c3d", "clean.c3d", "--report", "clean.html")
         self.assertEqual(json.loads((self.folder / "q_report.json").read_text())["first_frame"], 41)
         for page in ("q.html", "again.html", "clean.html"):
-            self.assertEqual(report_data(self.folder / page)["summary"]["first_frame"], 41, page)
+            data = json.loads(report_data((self.folder / page).read_text()))
+            self.assertEqual(data["summary"]["first_frame"], 41, page)
 
     def test_a_time_range_is_the_frames_in_it(self):
         whole = self.info(self.trc)

@@ -50,7 +50,7 @@ struct WrapSurface {
 
 /// A surface and those points of a path between which the path may bend around it.
 struct PathWrap {
-  WrapSurface surface;
+  WrapSurface surface;   ///< by value: a model's surfaces are few
   int first_point = -1;  ///< of the path's points, from 0; -1: its first
   int last_point = -1;   ///< and the last of them; -1: its last
 };

@@ -89,19 +89,19 @@ Choice pair_on_side(const Vector3d& x, const Vector3d& y, const Tangents& from, 
 }
 
 /// Whether and why a piece bends; `near` is its point nearest to the axis.
-Bend judge(const Vector3d& from, const Vector3d& to, const data::WrapSurface& cylinder) {
+Contact judge(const Vector3d& from, const Vector3d& to, const data::WrapSurface& cylinder) {
   const Vector2d way = (to - from).head<2>();
   const double squared = way.squaredNorm();
   const double share = squared > 0.0 ? -from.head<2>().dot(way) / squared : -1.0;
   const Vector3d near = from + share * (to - from);
   const bool through = share > 0.0 && share < 1.0 && near.head<2>().norm() < cylinder.radius;
-  if (cylinder.side_axis < 0) return through ? Bend::needed : Bend::none;
+  if (cylinder.side_axis < 0) return through ? Contact::needed : Contact::none;
   const int axis = cylinder.side_axis;
   const double side = cylinder.side_sign;
-  if (sign(from[axis]) != side && sign(to[axis]) != side) return Bend::possible;
-  if (through) return Bend::needed;
+  if (sign(from[axis]) != side && sign(to[axis]) != side) return Contact::possible;
+  if (through) return Contact::needed;
   const bool crosses = sign(from[axis]) != sign(to[axis]) && sign(near[axis]) != side;
-  return crosses ? Bend::possible : Bend::none;
+  return crosses ? Contact::possible : Contact::none;
 }
 
 /// Slides the points of tangency along the cylinder into the plane of both ends and the edge between them.
@@ -177,9 +177,9 @@ void settle_on_helix(const Vector3d& from, const Vector3d& to, double radius, bo
 CylinderWrap wrap_cylinder(const Vector3d& from, const Vector3d& to, const data::WrapSurface& cylinder,
                            bool settle) {
   const double radius = cylinder.radius;
-  if (from.head<2>().norm() < radius || to.head<2>().norm() < radius) return {.bend = Bend::inside};
-  CylinderWrap wrap{.bend = judge(from, to, cylinder)};
-  if (wrap.bend == Bend::none || !(radius > 0.0)) return {};
+  if (from.head<2>().norm() < radius || to.head<2>().norm() < radius) return {.contact = Contact::inside};
+  CylinderWrap wrap{.contact = judge(from, to, cylinder)};
+  if (wrap.contact == Contact::none || !(radius > 0.0)) return {};
   const Tangents a = tangents(from, radius), b = tangents(to, radius);
   const Choice choice = cylinder.side_axis < 0 ? nearest_pair(a, b) : pair_on_side(from, to, a, b, cylinder);
   wrap.onto << a.touch[choice.from], from.z();

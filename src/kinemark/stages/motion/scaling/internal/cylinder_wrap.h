@@ -11,7 +11,7 @@
 namespace kinemark::motion::internal {
 
 /// What a cylinder does to a piece of a path.
-enum class Bend {
+enum class Contact {
   none,      ///< the piece passes it by
   inside,    ///< an end lies within its radius: nothing can be done
   possible,  ///< it may bend around
@@ -20,7 +20,7 @@ enum class Bend {
 
 /// A piece that bends: straight to `onto`, along the surface, straight on from `off`.
 struct CylinderWrap {
-  Bend bend = Bend::none;
+  Contact contact = Contact::none;
   Eigen::Vector3d onto = Eigen::Vector3d::Zero();  ///< in the surface's frame, m
   Eigen::Vector3d off = Eigen::Vector3d::Zero();   ///< in the surface's frame, m
   double arc_m = 0.0;                              ///< along the surface, from onto to off

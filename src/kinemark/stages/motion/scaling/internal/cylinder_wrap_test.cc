@@ -55,7 +55,7 @@ TEST(CylinderWrap, a_piece_across_the_axis_takes_tangents_and_an_arc) {
   const Vector3d from(-0.1, 0.01, 0.2), to(0.12, 0.005, 0.2);
   for (const bool settle : {false, true}) {
     const auto wrap = wrap_cylinder(from, to, whole(), settle);
-    ASSERT_EQ(wrap.bend, Bend::needed);
+    ASSERT_EQ(wrap.contact, Contact::needed);
     EXPECT_NEAR(length_of(from, to, wrap), rolled_flat(from, to, turn_of(from, to)), 1e-14);
     for (const auto& [touch, end] : {std::pair(wrap.onto, from), std::pair(wrap.off, to)}) {
       EXPECT_NEAR(touch.head<2>().norm(), kRadius, 1e-15);
@@ -74,7 +74,7 @@ TEST(CylinderWrap, a_settled_way_is_the_shortest_one_to_a_millionth_of_a_metre) 
     const Vector3d to(0.05 + 0.1 * random.uniform(), 0.03 * random.uniform(), 0.1 * random.uniform());
     const auto settled = wrap_cylinder(from, to, whole(), true),
                rough = wrap_cylinder(from, to, whole(), false);
-    if (settled.bend != Bend::needed) continue;
+    if (settled.contact != Contact::needed) continue;
     ++seen;
     const double shortest = rolled_flat(from, to, turn_of(from, to));
     EXPECT_GE(length_of(from, to, settled), shortest - 1e-14) << i;
@@ -86,21 +86,22 @@ TEST(CylinderWrap, a_settled_way_is_the_shortest_one_to_a_millionth_of_a_metre) 
 }
 
 TEST(CylinderWrap, passes_by_what_it_does_not_meet) {
-  EXPECT_EQ(wrap_cylinder({-0.1, 0.05, 0.0}, {0.1, 0.05, 0.0}, whole(), false).bend, Bend::none);
-  EXPECT_EQ(wrap_cylinder({0.1, 0.0, 0.0}, {0.2, 0.001, 0.0}, whole(), false).bend, Bend::none);  // before it
-  EXPECT_EQ(wrap_cylinder({-0.1, 0.0, 0.6}, {0.1, 0.001, 0.7}, whole(), false).bend,
-            Bend::none);  // beyond its end
-  EXPECT_EQ(wrap_cylinder({-0.1, 0.0, 0.3}, {0.1, 0.001, 0.6}, whole(), false).bend, Bend::needed);
+  EXPECT_EQ(wrap_cylinder({-0.1, 0.05, 0.0}, {0.1, 0.05, 0.0}, whole(), false).contact, Contact::none);
+  EXPECT_EQ(wrap_cylinder({0.1, 0.0, 0.0}, {0.2, 0.001, 0.0}, whole(), false).contact,
+            Contact::none);  // before it
+  EXPECT_EQ(wrap_cylinder({-0.1, 0.0, 0.6}, {0.1, 0.001, 0.7}, whole(), false).contact,
+            Contact::none);  // beyond its end
+  EXPECT_EQ(wrap_cylinder({-0.1, 0.0, 0.3}, {0.1, 0.001, 0.6}, whole(), false).contact, Contact::needed);
   auto nothing = whole();
   nothing.radius = 0.0;
-  EXPECT_EQ(wrap_cylinder({-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, nothing, false).bend, Bend::none);
-  EXPECT_EQ(wrap_cylinder({0.1, 0.0, -0.1}, {0.1, 0.0, 0.1}, whole(), false).bend,
-            Bend::none);  // along the axis
+  EXPECT_EQ(wrap_cylinder({-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, nothing, false).contact, Contact::none);
+  EXPECT_EQ(wrap_cylinder({0.1, 0.0, -0.1}, {0.1, 0.0, 0.1}, whole(), false).contact,
+            Contact::none);  // along the axis
 }
 
 TEST(CylinderWrap, an_end_within_the_radius_leaves_the_piece_straight) {
-  EXPECT_EQ(wrap_cylinder({0.03, 0.0, 0.0}, {0.2, 0.0, 0.0}, whole(), false).bend, Bend::inside);
-  EXPECT_EQ(wrap_cylinder({0.2, 0.0, 0.0}, {0.0, 0.03, 0.4}, whole(), false).bend, Bend::inside);
+  EXPECT_EQ(wrap_cylinder({0.03, 0.0, 0.0}, {0.2, 0.0, 0.0}, whole(), false).contact, Contact::inside);
+  EXPECT_EQ(wrap_cylinder({0.2, 0.0, 0.0}, {0.0, 0.03, 0.4}, whole(), false).contact, Contact::inside);
 }
 
 TEST(CylinderWrap, keeps_to_the_side_that_it_must_keep_to) {
@@ -108,10 +109,10 @@ TEST(CylinderWrap, keeps_to_the_side_that_it_must_keep_to) {
   const Vector3d from(-0.1, 0.01, 0.0), to(0.1, 0.01, 0.0);
   const auto over = wrap_cylinder(from, to, side(1, 1), false),
              under = wrap_cylinder(from, to, side(1, -1), false);
-  ASSERT_EQ(over.bend, Bend::needed);
+  ASSERT_EQ(over.contact, Contact::needed);
   EXPECT_GT(over.onto.y(), 0.0);
   EXPECT_NEAR(length_of(from, to, over), rolled_flat(from, to, turn_of(from, to)), 1e-14);
-  ASSERT_EQ(under.bend, Bend::possible);  // both ends are on the other side
+  ASSERT_EQ(under.contact, Contact::possible);  // both ends are on the other side
   EXPECT_LT(under.onto.y(), 0.0);
   const double turn =
       2.0 * std::numbers::pi - between(from, to) - 2.0 * std::acos(kRadius / from.head<2>().norm());
@@ -122,7 +123,7 @@ TEST(CylinderWrap, goes_more_than_half_around_where_its_side_asks_for_it) {
   // Both ends above the cylinder and close together: held below, the way goes nearly all around.
   const Vector3d from(-0.01, 0.1, 0.0), to(0.01, 0.1, 0.0);
   const auto wrap = wrap_cylinder(from, to, side(1, -1), false);
-  ASSERT_EQ(wrap.bend, Bend::possible);
+  ASSERT_EQ(wrap.contact, Contact::possible);
   EXPECT_GT(wrap.arc_m, std::numbers::pi * kRadius);
   const double turn =
       2.0 * std::numbers::pi - between(from, to) - 2.0 * std::acos(kRadius / from.head<2>().norm());
@@ -130,9 +131,10 @@ TEST(CylinderWrap, goes_more_than_half_around_where_its_side_asks_for_it) {
 }
 
 TEST(CylinderWrap, a_piece_on_the_right_side_that_does_not_go_through_stays_straight) {
-  EXPECT_EQ(wrap_cylinder({-0.1, 0.05, 0.0}, {0.1, 0.06, 0.0}, side(1, 1), false).bend, Bend::none);
+  EXPECT_EQ(wrap_cylinder({-0.1, 0.05, 0.0}, {0.1, 0.06, 0.0}, side(1, 1), false).contact, Contact::none);
   // One end on the side, the nearest point of the way on the other: it is pulled over.
-  EXPECT_EQ(wrap_cylinder({-0.1, -0.09, 0.0}, {0.1, 0.001, 0.0}, side(1, 1), false).bend, Bend::possible);
+  EXPECT_EQ(wrap_cylinder({-0.1, -0.09, 0.0}, {0.1, 0.001, 0.0}, side(1, 1), false).contact,
+            Contact::possible);
 }
 
 TEST(CylinderWrap, turned_mirrored_and_reversed_it_is_the_same_way) {

@@ -31,7 +31,10 @@ class WrappedPath {
  public:
   WrappedPath(std::span<const PassedPoint> points, std::span<const data::PathWrap> wraps,
               std::span<const math::SE3> world_from_surface)
-      : wraps_(wraps), world_from_surface_(world_from_surface), order_(wraps.size()), bends_(wraps.size()) {
+      : wraps_(wraps),
+        world_from_surface_(world_from_surface),
+        order_(wraps.size()),
+        contacts_(wraps.size()) {
     for (const auto& point : points)
       nodes_.push_back({.x_in_world = point.x_in_world, .point_idx = point.point_idx});
     std::iota(order_.begin(), order_.end(), 0);
@@ -41,11 +44,12 @@ class WrappedPath {
     double last = std::numeric_limits<double>::infinity();
     const int rounds = wraps_.size() < 2 ? 1 : kMostRounds;
     for (int round = 0; round < rounds; ++round) {
-      for (std::size_t i = 0; i < order_.size(); ++i) bends_[i] = bend_around(order_[i]);
+      for (std::size_t i = 0; i < order_.size(); ++i) contacts_[i] = wrap_around(order_[i]);
       const double now = sum();
       if (std::abs(now - last) < kSettled) break;
       last = now;
-      if (round == 0 && order_.size() > 1 && bends_[0] == Bend::none && bends_[1] == Bend::inside) {
+      if (round == 0 && order_.size() > 1 && contacts_[0] == Contact::none &&
+          contacts_[1] == Contact::inside) {
         std::swap(order_[0], order_[1]);
         leave(0);
       }
@@ -60,31 +64,31 @@ class WrappedPath {
   }
 
   /// Bends the path anew around one surface; what it did to the last piece that was tried.
-  Bend bend_around(int wrap_idx) {
+  Contact wrap_around(int wrap_idx) {
     leave(wrap_idx);
     const auto& wrap = wraps_[at(wrap_idx)];
-    if (!wrap.surface.active || !wrap.surface.is_cylinder) return Bend::none;
+    if (!wrap.surface.active || !wrap.surface.is_cylinder) return Contact::none;
     const auto range = pieces(wrap);
-    if (!range) return Bend::none;
-    Bend bend = Bend::none;
+    if (!range) return Contact::none;
+    Contact contact = Contact::none;
     std::optional<std::pair<int, CylinderWrap>> best;
     double least = std::numeric_limits<double>::infinity();
     for (int i = range->first; i < range->second; ++i) {
       if (on_one_surface(nodes_[at(i)], nodes_[at(i + 1)])) continue;
       const auto tried = try_piece(wrap_idx, i);
-      bend = tried.bend;
-      if (bend == Bend::needed) {
+      contact = tried.contact;
+      if (contact == Contact::needed) {
         best = {i, tried};
         break;
       }
-      if (bend != Bend::possible) continue;
+      if (contact != Contact::possible) continue;
       const double longer = detour(i, tried);
       if (longer >= least) continue;
       least = longer;
       best = {i, tried};
     }
     if (best) insert(wrap_idx, best->first, best->second);
-    return bend;
+    return contact;
   }
 
   /// First and last node of those between which the path may bend around the surface.
@@ -140,8 +144,8 @@ class WrappedPath {
 
   std::span<const data::PathWrap> wraps_;
   std::span<const math::SE3> world_from_surface_;
-  std::vector<int> order_;   // in which the surfaces are tried
-  std::vector<Bend> bends_;  // what came of it, in that order
+  std::vector<int> order_;         // in which the surfaces are tried
+  std::vector<Contact> contacts_;  // what came of it, in that order
   std::vector<Node> nodes_;
 };
 

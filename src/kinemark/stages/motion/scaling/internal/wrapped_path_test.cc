@@ -42,7 +42,7 @@ TEST(WrappedPath, without_surfaces_it_is_straight_from_point_to_point) {
   EXPECT_EQ(wrapped_length({}, {}, {}), 0.0);
 }
 
-TEST(WrappedPath, bends_around_the_cylinder_that_it_meets) {
+TEST(WrappedPath, goes_around_the_cylinder_that_it_meets) {
   const auto points = passed({{-0.2, -0.01, 0}, {0.2, -0.01, 0}});
   const std::vector wraps{around("a")};
   // The axis passes 0.01 above the way: round below.
@@ -59,7 +59,7 @@ TEST(WrappedPath, a_surface_that_is_switched_off_or_no_cylinder_is_passed_throug
     EXPECT_NEAR(wrapped_length(points, std::vector{wrap}, std::vector{moved(0.0, 0.0)}), 0.4, 1e-15);
 }
 
-TEST(WrappedPath, only_pieces_within_the_range_bend) {
+TEST(WrappedPath, only_pieces_within_the_range_wrap) {
   // Through the cylinder between the first and the second point, and back beside it.
   const auto points = passed({{-0.2, 0.01, 0}, {0.2, 0.01, 0}, {0.2, 0.2, 0}});
   const std::vector pose{moved(0.0, 0.0)};
@@ -80,7 +80,7 @@ TEST(WrappedPath, the_range_counts_points_of_the_path_not_those_passed) {
   EXPECT_NEAR(wrapped_length(points, std::vector{around("a", 0, 1)}, pose), 0.29 + 0.4, 1e-15);
 }
 
-TEST(WrappedPath, of_two_pieces_that_may_bend_the_one_with_the_smaller_detour_does) {
+TEST(WrappedPath, of_two_pieces_that_could_wrap_the_one_with_the_smaller_detour_does) {
   // Held to +y while all points lie below: every piece may bend. The second is the one nearer to the
   // cylinder.
   auto wrap = around("a");
