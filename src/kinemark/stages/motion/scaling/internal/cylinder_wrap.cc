@@ -78,9 +78,7 @@ Choice pair_on_side(const Vector3d& x, const Vector3d& y, const Tangents& from, 
   bool first = first_opens;  // from 0 to 1, rather than from 1 to 0
   if (from0 != from1)
     first = from0;
-  else if (from0)
-    first = !to0;
-  else if (to0 || to1)
+  else if (from0 || to0 || to1)
     first = !to0;
   Choice choice{first ? 0 : 1, first ? 1 : 0, first == first_opens, false};
   const Vector2d a = from.touch[choice.from], b = to.touch[choice.to];
