@@ -15,7 +15,6 @@ namespace kinemark::io {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
