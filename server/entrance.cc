@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/core/html_text.h"
 #include "server/secret.h"
-#include "studies/common/html_text.h"
 
 namespace kinemark::server {
 namespace {
@@ -54,7 +54,7 @@ Response sentence_page(int status, std::string_view sentence) {
   response.body = std::make_shared<const std::string>(
       fmt::format("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>kinemark</title>"
                   "<h1>kinemark</h1><p>{}</p></html>\n",
-                  studies::html_text(sentence)));
+                  html_text(sentence)));
   return response;
 }
 

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <set>
 
+#include "kinemark/core/html_text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/core/version.h"
-#include "studies/common/html_text.h"
 
 namespace kinemark::server {
 namespace {
-
-using studies::html_text;
 
 std::string plural(std::size_t n, std::string_view one) {
   return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "kinemark/core/html_text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
@@ -16,13 +17,11 @@
 #include "server/list_page.h"
 #include "server/secret.h"
 #include "server/trial_row.h"
-#include "studies/common/html_text.h"
 
 namespace kinemark::server {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using studies::html_text;
 
 constexpr std::size_t kTextLetters = 300;
 

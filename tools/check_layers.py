@@ -38,11 +38,12 @@ ALLOWED = {
     # The founding papers beside ours: they stand beside the library and join stages as they need.
     "studies": ("core", "math", "data", *LAYER_3, "stages", "pipeline"),
     # Front ends: no algorithm lives there, so they reach stages through pipeline/ only.
-    "front end": ("core", "math", "data", *LAYER_3, "pipeline", "studies"),
+    "front end": ("core", "math", "data", *LAYER_3, "pipeline", "studies", "server"),
+    "server": ("core", "math", "data", *LAYER_3, "pipeline"),
 }
 # Folders in steps: their subfolders, lowest first. Files beside the subfolders may include all of them.
 STEPS = {"src/kinemark/stages/skeleton/articulated": ("chain", "frame", "geometry", "recording")}
-FRONT_ENDS = ("cli", "server", "python")
+FRONT_ENDS = ("cli", "python")
 SUFFIXES = {".h", ".cc"}
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTILINE)
@@ -54,6 +55,8 @@ def folder_of(path):
     parts = PurePosixPath(path).parts
     if parts[0] in FRONT_ENDS:
         return "front end"
+    if parts[0] == "server":
+        return "server"
     if parts[0] == "studies":
         return f"studies/{parts[1]}" if len(parts) > 2 else None
     if parts[:2] != ("src", "kinemark") or len(parts) < 4:
@@ -114,7 +117,7 @@ def includes_of(text):
 
 
 def sources(root):
-    for top in ("src/kinemark", "studies", *FRONT_ENDS):
+    for top in ("src/kinemark", "studies", "server", *FRONT_ENDS):
         for path in sorted((root / top).rglob("*")):
             if path.suffix in SUFFIXES and path.is_file():
                 yield path.relative_to(root).as_posix()
@@ -124,7 +127,7 @@ def find_target(root, path, included):
     """The project's file that an #include line names, relative to the root; None when it is not ours."""
     if included.startswith("kinemark/"):
         return f"src/{included}"
-    if included.split("/")[0] in ("studies", *FRONT_ENDS):
+    if included.split("/")[0] in ("studies", "server", *FRONT_ENDS):
         return included
     beside = posixpath.normpath(PurePosixPath(path).parent / included)
     return beside if (root / beside).is_file() else None

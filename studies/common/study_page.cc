@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "studies/common/html_text.h"
+#include "kinemark/core/html_text.h"
 
 namespace kinemark::studies {
 namespace {

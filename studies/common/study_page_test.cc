@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "studies/common/html_text.h"
+#include "kinemark/core/html_text.h"
 
 namespace kinemark::studies {
 namespace {

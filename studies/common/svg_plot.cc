@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
-#include "studies/common/html_text.h"
+#include "kinemark/core/html_text.h"
 
 namespace kinemark::studies {
 namespace {

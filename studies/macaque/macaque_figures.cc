@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/html_text.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 #include "kinemark/stages/skeleton/functional/functional.h"
-#include "studies/common/html_text.h"
 #include "studies/common/svg_plot.h"
 #include "studies/common/svg_scene.h"
 

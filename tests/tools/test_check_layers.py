@@ -100,6 +100,14 @@ class CheckLayers(unittest.TestCase):
         found = self.only_problem("cli/ik.cc", '#include "kinemark/stages/motion/ik.h"\n')
         self.assertIn("cli/ik.cc:1: front end may not include stages/motion", found)
 
+    def test_the_server_is_a_front_end_without_the_studies(self):
+        study = '#include "studies/common/study_page.h"\n'
+        files = {"studies/common/study_page.h": "\n"}
+        self.assertEqual(self.problems(**{"cli/a.cc": study}, **files), [])
+        found = self.problems(**{"server/a.cc": study}, **files)
+        self.assertTrue(any("server may not include studies/common" in problem for problem in found), found)
+        self.assertIn("server may not include stages/motion", self.only_problem("server/a.cc", '#include "kinemark/stages/motion/ik.h"\n'))
+
     def test_catches_a_library_that_includes_a_front_end(self):
         found = self.problems(**{"src/kinemark/pipeline/run.cc": '#include "../../../cli/args.h"\n'})
         self.assertTrue(any("pipeline may not include front end" in problem for problem in found), found)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "studies/common/html_text.h"
+#include "kinemark/core/html_text.h"
 
-namespace kinemark::studies {
+namespace kinemark {
 
 std::string html_text(std::string_view text) {
   std::string out;
@@ -27,4 +27,4 @@ std::string html_text(std::string_view text) {
   return out;
 }
 
-}  // namespace kinemark::studies
+}  // namespace kinemark

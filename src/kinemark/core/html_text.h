@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace kinemark::studies {
+namespace kinemark {
 
 /// Text with `&`, `<`, `>` and `"` escaped for HTML and SVG.
 [[nodiscard]] std::string html_text(std::string_view text);
 
-}  // namespace kinemark::studies
+}  // namespace kinemark
