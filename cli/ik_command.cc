@@ -122,17 +122,6 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
       ->group("Estimate");
   command
       ->add_option_function<std::string>(
-          "--outliers",
-          [&options](const std::string& what) {
-            if (what != "reject" && what != "keep")
-              throw CLI::ValidationError("--outliers", fmt::format("'{}' is not reject or keep", what));
-            options.judge_samples = what == "reject";
-          },
-          "reject: leave out samples that neither the model nor the frames beside explain; keep: believe all")
-      ->default_str("reject")
-      ->group("Estimate");
-  command
-      ->add_option_function<std::string>(
           "--estimator",
           [&job](const std::string& name) {
             if (name == "smoother")

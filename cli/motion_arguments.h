@@ -71,6 +71,17 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Output");
   command.add_flag("--no-limits", a.no_limits, "Let clamped coordinates leave their range")
       ->group("Estimate");
+  command
+      .template add_option_function<std::string>(
+          "--outliers",
+          [&options = job.options](const std::string& what) {
+            if (what != "reject" && what != "keep")
+              throw CLI::ValidationError("--outliers", fmt::format("'{}' is not reject or keep", what));
+            options.judge_samples = what == "reject";
+          },
+          "reject: leave out samples that neither the model nor the frames beside explain; keep: believe all")
+      ->default_str("reject")
+      ->group("Estimate");
   command.add_option("--max-rms", a.max_rms_mm, "Gate: RMS marker error, mm")
       ->capture_default_str()
       ->group("Quality gates");

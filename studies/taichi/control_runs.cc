@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/units.h"
 #include "studies/taichi/landmarks.h"
 
 namespace kinemark::studies {
@@ -95,6 +96,7 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
   options.damping = setting.damping;
   options.cutoff_hz = 0.0;
   options.limits = setting.limits;
+  options.judge_samples = false;  // every landmark is a goal, as it was for the paper
   options.posture_kp = setting.posture_kp;
   options.posture_kd = setting.posture_kd;
   options.error_bars = setting.error_bars;
@@ -112,7 +114,10 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
 }
 
 ControlComparison compare(const model::Model& model, const motion::TrackResult& control,
-                          const motion::IkResult& least_squares, std::string set) {
+                          const motion::IkResult& least_squares, std::string set,
+                          const data::JointMotion* truth) {
+  constexpr double kBeyondFirstOrder = 0.01 * kRadPerDeg;
+  constexpr double kRounding = 1e-6;  // rad: to which least squares converges
   const auto& ours = control.motion;
   const auto& theirs = least_squares.motion;
   check(ours.coordinates == theirs.coordinates, "compare() needs motions of one model");
@@ -126,7 +131,7 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
   const auto fitted = landmark_errors(theirs, first + shift);
   out.least_squares_rms_m = fitted.rms();
   out.least_squares_max_m = fitted.most;
-  Sum determined, all;
+  Sum determined, all, ours_off, theirs_off;
   for (std::int64_t c = 0; c < ours.size(); ++c) {
     const auto& name = ours.coordinates[static_cast<std::size_t>(c)];
     const auto& described = model.description().coordinates[static_cast<std::size_t>(c)];
@@ -137,16 +142,31 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
     const bool is_determined =
         !contains(control.undetermined_coordinates, name) && !contains(control.locked_coordinates, name);
     out.determined += is_determined;
+    const auto true_c = truth != nullptr ? truth->find(name) : -1;
     for (std::int64_t f = first; f < ours.frames(); ++f) {
       const double error = std::remainder(ours.q[ours.index(f, c)] - theirs.q[theirs.index(f + shift, c)],
                                           2.0 * std::numbers::pi);
       all.add(error);
-      if (is_determined) determined.add(error);
+      if (!is_determined) continue;
+      determined.add(error);
+      if (!control.goal_bound.empty() && !std::isnan(control.goal_bound[ours.index(f, c)])) {
+        ++out.bounded;
+        out.held_15 += std::abs(error) <= std::abs(control.goal_error[ours.index(f, c)]) + kBeyondFirstOrder;
+        out.held_16 += std::abs(error) <= control.goal_bound[ours.index(f, c)] + kRounding;
+      }
+      if (true_c < 0) continue;
+      const double angle = truth->q[truth->index(f + control.fit.first_frame, true_c)];
+      ours_off.add(std::remainder(ours.q[ours.index(f, c)] - angle, 2.0 * std::numbers::pi));
+      theirs_off.add(std::remainder(theirs.q[theirs.index(f + shift, c)] - angle, 2.0 * std::numbers::pi));
     }
   }
   out.angle_rms_rad = determined.rms();
   out.angle_max_rad = determined.most;
   out.all_angles_rms_rad = all.rms();
+  if (truth != nullptr) {
+    out.control_truth_rms_rad = ours_off.rms();
+    out.least_squares_truth_rms_rad = theirs_off.rms();
+  }
   const auto [low, high] = std::ranges::minmax_element(control.rank);
   out.rank_min = *low;
   out.rank_max = *high;

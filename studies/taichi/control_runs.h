@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
@@ -56,14 +57,21 @@ struct ControlComparison {
   /// Control against least squares, over coordinates that the set determines (not those of the root).
   double angle_rms_rad = 0.0, angle_max_rad = 0.0;
   double all_angles_rms_rad = 0.0;  ///< over all that the model does not lock
+  /// The same coordinates against the simulated subject's own; NaN without one.
+  double control_truth_rms_rad = kNaN, least_squares_truth_rms_rad = kNaN;
+  /// Values of those coordinates that are determined in their frame, and how many of them lie no farther from
+  /// least squares than equation 15, and 16, says; equation 15, the first order alone, has 0.01 deg for the rest.
+  std::int64_t bounded = 0, held_15 = 0, held_16 = 0;
   int determined = 0, coordinates = 0;
   int rank_min = 0, rank_max = 0, free_speeds = 0;
   std::int64_t flagged_frames = 0;  ///< not counted in the lines above when any
   double us_per_step = 0.0;
   [[nodiscard]] bool failed() const { return flagged_frames > 0; }
 };
+/// @param truth  of a simulated subject, on the frames of the recording; null: there is none
 [[nodiscard]] ControlComparison compare(const model::Model& model, const motion::TrackResult& control,
-                                        const motion::IkResult& least_squares, std::string set);
+                                        const motion::IkResult& least_squares, std::string set,
+                                        const data::JointMotion* truth = nullptr);
 
 /// One coordinate row of the first frame of a motion, for run_control().
 [[nodiscard]] Eigen::VectorXd first_pose(const data::JointMotion& motion);

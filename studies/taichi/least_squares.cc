@@ -43,6 +43,15 @@ motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
   return options;
 }
 
+motion::IkOptions reference_ik_options(const data::ModelDescription& model,
+                                       std::span<const std::string> landmarks) {
+  constexpr double kWeaker = 1e-3;
+  auto options = landmark_ik_options(model, landmarks);
+  options.limits = true;
+  for (auto& task : options.coordinate_tasks) task.weight *= kWeaker;
+  return options;
+}
+
 data::Trajectories carried_landmarks(const model::Model& model, const data::JointMotion& motion) {
   std::vector<std::string> names;
   for (const auto& marker : model.description().markers) names.push_back(marker.name);

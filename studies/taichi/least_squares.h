@@ -19,6 +19,11 @@ namespace kinemark::studies {
 [[nodiscard]] motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
                                                     std::span<const std::string> landmarks = {});
 
+/// The same to stand beside direct marker control: within the limits of clamped coordinates, and with tasks so
+/// weak (a thousandth of those) that they move nothing that the landmarks determine.
+[[nodiscard]] motion::IkOptions reference_ik_options(const data::ModelDescription& model,
+                                                     std::span<const std::string> landmarks = {});
+
 /// Positions of the model's landmarks in every frame of a motion, which are reachable goals. Named and timed
 /// as the motion.
 [[nodiscard]] data::Trajectories carried_landmarks(const model::Model& model,

@@ -55,11 +55,11 @@ Status adapt(const ModelDescription& medians, const Trajectories& landmarks, int
   return {};
 }
 
-Status track(const ModelDescription& description, const Trajectories& landmarks, Parts& parts, bool draw,
-             TaiChiSubject& out) {
+Status track(const ModelDescription& description, const Trajectories& landmarks,
+             const data::JointMotion* truth, Parts& parts, bool draw, TaiChiSubject& out) {
   const auto model = model::Model::compile(description);
   if (!model) return std::unexpected(model.error());
-  auto all = motion::solve_ik(*model, landmarks, landmark_ik_options(description));
+  auto all = motion::solve_ik(*model, landmarks, reference_ik_options(description));
   if (!all) return std::unexpected(all.error());
   const auto made = carried_landmarks(*model, all->motion);
   if (draw) out.drawing.emplace();
@@ -77,7 +77,7 @@ Status track(const ModelDescription& description, const Trajectories& landmarks,
                         {&out.upper, upper_body_set(), true, draw ? &drawing->upper : nullptr}};
   for (const auto& task : tasks) {
     if (!parts.next()) return stopped();
-    auto outcome = study_set(*model, landmarks, made, task.set, task.coarse, task.drawn);
+    auto outcome = study_set(*model, landmarks, made, task.set, task.coarse, truth, task.drawn);
     if (!outcome) return fail_at(task.set.name, outcome.error());
     *task.out = std::move(*outcome);
   }
@@ -89,7 +89,8 @@ Status track(const ModelDescription& description, const Trajectories& landmarks,
 }
 
 Result<TaiChiSubject> study_subject(const ModelDescription& human, const Trajectories& landmarks,
-                                    std::uint64_t seed, int threads, bool draw, Parts& parts) {
+                                    const data::JointMotion* truth, std::uint64_t seed, int threads,
+                                    bool draw, Parts& parts) {
   TaiChiSubject out{.seed = seed};
   const auto medians = scale_by_medians(human, landmarks);
   if (!medians) return std::unexpected(medians.error());
@@ -105,7 +106,7 @@ Result<TaiChiSubject> study_subject(const ModelDescription& human, const Traject
     return std::unexpected(s.error());
   const auto tracked = scale_by_medians(human, landmarks, {.lock_unseen = true});
   if (!tracked) return std::unexpected(tracked.error());
-  if (auto s = track(*tracked, landmarks, parts, draw, out); !s) return std::unexpected(s.error());
+  if (auto s = track(*tracked, landmarks, truth, parts, draw, out); !s) return std::unexpected(s.error());
   const auto elbow = landmarks.find("LElbow"), wrist = landmarks.find("LWrist");
   out.forearm_min_m = std::numeric_limits<double>::infinity();
   for (std::int64_t f = 0; f < landmarks.frames(); ++f) {
@@ -120,19 +121,20 @@ Result<TaiChiSubject> study_subject(const ModelDescription& human, const Traject
 }  // namespace
 
 Result<SetOutcome> study_set(const model::Model& model, const Trajectories& goals, const Trajectories& made,
-                             const LandmarkSet& set, bool coarse, motion::TrackResult* drawn) {
+                             const LandmarkSet& set, bool coarse, const data::JointMotion* truth,
+                             motion::TrackResult* drawn) {
   constexpr double kFine_s = 0.001, kCoarse_s = 1.0 / 60.0;
-  const auto ik = landmark_ik_options(model.description(), set.all());
+  const auto ik = reference_ik_options(model.description(), set.all());
   const auto of_goals = motion::solve_ik(model, goals, ik);
   if (!of_goals) return std::unexpected(of_goals.error());
   const auto of_made = motion::solve_ik(model, made, ik);
   if (!of_made) return std::unexpected(of_made.error());
   const auto run = [&](const Trajectories& to, const motion::IkResult& fitted, double step_s,
                        motion::TrackResult* keep) -> Result<ControlComparison> {
-    auto tracked =
-        run_control(model, to, set, {.step_s = step_s, .error_bars = true}, first_pose(fitted.motion));
+    auto tracked = run_control(model, to, set, {.step_s = step_s, .error_bars = true, .limits = true},
+                               first_pose(fitted.motion));
     if (!tracked) return std::unexpected(tracked.error());
-    auto compared = compare(model, *tracked, fitted, set.name);
+    auto compared = compare(model, *tracked, fitted, set.name, &to == &goals ? truth : nullptr);
     if (keep != nullptr) *keep = std::move(*tracked);
     return compared;
   };
@@ -160,7 +162,7 @@ Result<TaiChiStudy> study_taichi(const TaiChiJob& job, const Progress& progress)
   if (out.recorded) {
     const auto landmarks = prepare_landmarks(*job.recording);
     if (!landmarks) return std::unexpected(landmarks.error());
-    auto subject = study_subject(job.human, *landmarks, 0, job.threads, true, parts);
+    auto subject = study_subject(job.human, *landmarks, nullptr, 0, job.threads, true, parts);
     if (!subject) return std::unexpected(subject.error());
     out.subjects.push_back(std::move(*subject));
   } else {
@@ -168,7 +170,8 @@ Result<TaiChiStudy> study_taichi(const TaiChiJob& job, const Progress& progress)
       const auto simulated = simulate_tai_chi(job.human, seed);
       if (!simulated) return fail_at(fmt::format("seed {}", seed), simulated.error());
       auto subject =
-          study_subject(job.human, simulated->landmarks, seed, job.threads, out.subjects.empty(), parts);
+          study_subject(job.human, simulated->landmarks, &simulated->truth, seed, job.threads,
+                        out.subjects.empty(), parts);
       if (!subject) return fail_at(fmt::format("seed {}", seed), subject.error());
       out.subjects.push_back(std::move(*subject));
     }

@@ -130,6 +130,31 @@ TEST(Compare, CountsAnglesOfEveryTurnAndLeavesTheRootOut) {
   EXPECT_FALSE(c.failed());
 }
 
+TEST(Compare, CountsWhatEquationsAndTruthSay) {
+  const auto& s = scene();
+  motion::TrackResult tracked;
+  tracked.motion = s.ik.motion;
+  tracked.rank.assign(static_cast<std::size_t>(tracked.motion.frames()), 36);
+  const auto numbers = tracked.motion.q.size();
+  tracked.goal_error.assign(numbers, 0.0);
+  tracked.goal_bound.assign(numbers, 1e-3);
+  const auto elbow = tracked.motion.find("elbow_flex_l");
+  for (std::int64_t f = 0; f < tracked.motion.frames(); ++f)
+    tracked.motion.q[tracked.motion.index(f, elbow)] += f % 2 == 0 ? 0.5e-3 : 2e-3;
+  // From one second on: frames 60 to 120, 30 odd ones; equation 15 says nothing is missing, 16 allows 1 mrad.
+  auto c = compare(s.model, tracked, s.ik, "x");
+  EXPECT_EQ(c.bounded, 61 * 30);
+  EXPECT_EQ(c.held_16, c.bounded - 30);
+  EXPECT_EQ(c.held_15, c.bounded - 61);
+  EXPECT_TRUE(std::isnan(c.control_truth_rms_rad));
+  for (std::int64_t f = 0; f < tracked.motion.frames(); ++f)
+    tracked.goal_error[tracked.motion.index(f, elbow)] = -2e-3;
+  c = compare(s.model, tracked, s.ik, "x", &s.ik.motion);
+  EXPECT_EQ(c.held_15, c.bounded) << "the size counts, in either direction";
+  EXPECT_EQ(c.least_squares_truth_rms_rad, 0.0) << "least squares was given as the truth";
+  EXPECT_NEAR(c.control_truth_rms_rad, c.angle_rms_rad, 1e-12);
+}
+
 TEST(RunControl, FollowsGoalsThatTheModelMade) {
   const auto& s = scene();
   const auto tracked =
@@ -174,6 +199,11 @@ TaiChiSubject numbered(double scale) {
                       .control_rms_m = 0.010 + 1e-5 * scale,
                       .control_max_m = 0.05,
                       .angle_rms_rad = 0.1 * kRadPerDeg * scale,
+                      .control_truth_rms_rad = 4.2 * kRadPerDeg,
+                      .least_squares_truth_rms_rad = 4.0 * kRadPerDeg,
+                      .bounded = 1000,
+                      .held_15 = 1000,
+                      .held_16 = 1000,
                       .determined = 30,
                       .coordinates = 30,
                       .rank_min = 11,
@@ -227,6 +257,12 @@ TEST(TaiChiRows, FailWhatIsTooMuch) {
   EXPECT_EQ(fails([](auto& s) { s.whole.recorded_coarse.angle_rms_rad = 0.6 * kRadPerDeg; }), 0);
   EXPECT_EQ(fails([](auto& s) { s.whole.reachable_fine.control_rms_m = 6e-5; }), 1);
   EXPECT_EQ(fails([](auto& s) { s.paper.recorded_fine.flagged_frames = 1; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.whole.recorded_fine.held_15 = 999; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.whole.recorded_coarse.held_16 = 999; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.whole.reachable_coarse->held_16 = 999; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.whole.recorded_coarse.control_truth_rms_rad = 4.5 * kRadPerDeg; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.whole.recorded_fine.bounded = s.whole.recorded_fine.held_15 = 0; }), 1)
+      << "nothing bounded is no bound that holds";
   EXPECT_EQ(fails([](auto& s) { s.paper.recorded_fine.rank_min = 10; }), 1);
   EXPECT_EQ(
       fails([](auto& s) { s.whole.recorded_fine.control_rms_m = std::numeric_limits<double>::quiet_NaN(); }),

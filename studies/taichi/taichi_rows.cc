@@ -13,6 +13,7 @@ namespace kinemark::studies {
 namespace {
 
 constexpr double kMillimetres = 1e3;
+constexpr double kMostOverTruth = 1.1;
 using Subjects = std::vector<TaiChiSubject>;
 
 /// Largest over subjects; NaN if any is NaN.
@@ -63,6 +64,7 @@ void add_geometry(const Subjects& subjects, bool recorded, std::vector<StudyRow>
 /// Bounds of one run of control.
 struct Asked {
   std::optional<double> over_least_squares_mm, rms_mm, angle_deg;
+  bool truth = false, bounds = false;
 };
 
 template <class Get>
@@ -85,6 +87,33 @@ void add_run(const Subjects& subjects, const std::string& what, const Asked& ask
        .unit = "mm",
        .classic = worst(subjects, kMillimetres, [&](auto& s) { return run(s).least_squares_max_m; }),
        .ours = worst(subjects, kMillimetres, [&](auto& s) { return run(s).control_max_m; })});
+  if (asked.bounds)
+    for (const bool fifteen : {true, false})
+      rows.push_back({.quantity = fmt::format("{}: angles that equation {} bounds against least squares", what,
+                                              fifteen ? "15" : "16"),
+                      .unit = "%",
+                      .ours = -worst(subjects, -100.0,
+                                     [&](auto& s) {
+                                       const auto& c = run(s);
+                                       return static_cast<double>(fifteen ? c.held_15 : c.held_16) /
+                                              static_cast<double>(c.bounded);
+                                     }),
+                      .at_least = 100.0});
+  if (asked.truth && std::ranges::none_of(
+                         subjects, [&](auto& s) { return std::isnan(run(s).least_squares_truth_rms_rad); })) {
+    rows.push_back(
+        {.quantity = what + ": determined angles against the truth, RMS",
+         .unit = "deg",
+         .classic = worst(subjects, kDegPerRad, [&](auto& s) { return run(s).least_squares_truth_rms_rad; }),
+         .ours = worst(subjects, kDegPerRad, [&](auto& s) { return run(s).control_truth_rms_rad; })});
+    rows.push_back({.quantity = what + ": error against the truth over that of least squares",
+                    .unit = "1",
+                    .ours = worst(subjects, 1.0,
+                                  [&](auto& s) {
+                                    return run(s).control_truth_rms_rad / run(s).least_squares_truth_rms_rad;
+                                  }),
+                    .at_most = kMostOverTruth});
+  }
   if (std::ranges::all_of(subjects, [&](auto& s) { return run(s).determined > 0; }))
     rows.push_back({.quantity = what + ": determined angles against least squares, RMS",
                     .unit = "deg",
@@ -126,16 +155,16 @@ std::vector<StudyRow> taichi_rows(const Subjects& subjects, bool recorded) {
   add_geometry(subjects, recorded, rows);
   const auto whole = [](auto& s) -> const SetOutcome& { return s.whole; };
   add_run(
-      subjects, "whole body, 1 ms", {.over_least_squares_mm = 0.1, .angle_deg = 0.5},
+      subjects, "whole body, 1 ms", {.over_least_squares_mm = 0.1, .angle_deg = 0.5, .truth = true, .bounds = true},
       [&](auto& s) -> auto& { return whole(s).recorded_fine; }, rows);
   add_run(
-      subjects, "whole body, 1/60 s", {.over_least_squares_mm = 0.1, .angle_deg = 1.0},
+      subjects, "whole body, 1/60 s", {.over_least_squares_mm = 0.1, .angle_deg = 1.0, .truth = true, .bounds = true},
       [&](auto& s) -> auto& { return whole(s).recorded_coarse; }, rows);
   add_run(
-      subjects, "whole body, goals that the model made, 1 ms", {.rms_mm = 0.05},
+      subjects, "whole body, goals that the model made, 1 ms", {.rms_mm = 0.05, .bounds = true},
       [&](auto& s) -> auto& { return whole(s).reachable_fine; }, rows);
   add_run(
-      subjects, "whole body, goals that the model made, 1/60 s", {.rms_mm = 1.0},
+      subjects, "whole body, goals that the model made, 1/60 s", {.rms_mm = 1.0, .bounds = true},
       [&](auto& s) -> auto& { return *whole(s).reachable_coarse; }, rows);
   add_rank(subjects, "whole body", false, [&](auto& s) -> auto& { return whole(s).recorded_fine; }, rows);
   add_run(

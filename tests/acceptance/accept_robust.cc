@@ -17,6 +17,7 @@
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
+#include "kinemark/stages/motion/control/track.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
@@ -62,13 +63,43 @@ struct Corruption {
   double size_m = 0.0;
 };
 
+enum class Method { ik, track };
+
+/// What both estimators say.
+struct Estimate {
+  data::JointMotion motion;
+  data::MarkerFit fit;
+};
+
 struct Case {
   model::Model model;
   data::Trajectories markers;
   motion::IkOptions options;
-  motion::IkResult clean;
+  Method method = Method::ik;
+  Estimate clean;
   std::vector<std::int64_t> column;  // of each used marker in the recording
 };
+
+Result<Estimate> estimate(const Case& c, const data::Trajectories& markers, bool judged, bool error_bars) {
+  if (c.method == Method::ik) {
+    auto options = c.options;
+    options.judge_samples = judged;
+    options.error_bars = error_bars;
+    auto result = motion::solve_ik(c.model, markers, options);
+    if (!result) return std::unexpected(result.error());
+    return Estimate{.motion = std::move(result->motion), .fit = std::move(result->fit)};
+  }
+  auto result =
+      motion::track_markers(c.model, markers,
+                            {.marker_weights = c.options.marker_weights,
+                             .limits = c.options.limits,
+                             .judge_samples = judged,
+                             .first_time_s = c.options.first_time_s,
+                             .last_time_s = c.options.last_time_s,
+                             .error_bars = error_bars});
+  if (!result) return std::unexpected(result.error());
+  return Estimate{.motion = std::move(result->motion), .fit = std::move(result->fit)};
+}
 
 /// The marker of the other side, or -1.
 int other_side(const std::vector<data::FittedMarker>& markers, int m) {
@@ -173,7 +204,7 @@ struct Tally {
   std::string worst;
 };
 
-void compare(const Case& c, const Corruption& done, const motion::IkResult& r, std::uint64_t seed,
+void compare(const Case& c, const Corruption& done, const Estimate& r, std::uint64_t seed,
              Tally& tally) {
   const auto& a = c.clean.motion;
   const auto& b = r.motion;
@@ -181,6 +212,8 @@ void compare(const Case& c, const Corruption& done, const motion::IkResult& r, s
   for (const auto& finding : r.fit.findings)
     if (finding.first_frame >= 0)
       for (auto f = finding.first_frame; f <= finding.last_frame; ++f) found[static_cast<std::size_t>(f)] = 1;
+  for (std::size_t f = 0; f < found.size(); ++f)
+    if (b.status[f] == data::FrameStatus::not_converged) found[f] = 1;  // the frame itself says so
   const auto away = joints_away(c, done);
   bool missed = false;
   double worst = 0.0;
@@ -224,11 +257,12 @@ void compare(const Case& c, const Corruption& done, const motion::IkResult& r, s
   tally.found += left_out;
 }
 
-/// accept_motion robust [RECORDING...] [kind=KIND] [draws=N] [seed=N]
+/// accept_motion robust [track] [RECORDING...] [kind=KIND] [draws=N] [seed=N]
 int run_check(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("corrupted samples");
   int draws = 100;
+  Method method = Method::ik;
   std::uint64_t first_seed = 1;
   std::set<std::string> named, kinds;
   for (int i = 1; i < argc; ++i) {
@@ -239,13 +273,19 @@ int run_check(int argc, char** argv) {
       first_seed = std::stoull(word.substr(5));
     else if (word.starts_with("kind="))
       kinds.insert(word.substr(5));
+    else if (word == "track")
+      method = Method::track;
     else
       named.insert(word);
   }
   for (const auto& r : kRecordings) {
     if (!named.empty() && !named.contains(r.name)) continue;
     Case c{.model = model::Model::compile(io::read_osim(*data / r.model).value()).value(),
-           .markers = io::read_markers(*data / r.markers).value().markers};
+           .markers = io::read_markers(*data / r.markers).value().markers,
+           .options = {},
+           .method = method,
+           .clean = {},
+           .column = {}};
     pipeline::IkJob job;
     if (!r.setup.empty()) {
       job.setup = *data / r.setup;
@@ -255,23 +295,22 @@ int run_check(int argc, char** argv) {
       pipeline::apply_tasks(job, c.model, c.markers).value();
     }
     c.options = job.options;
-    auto plain = c.options;
-    plain.judge_samples = false;
     double judged_s = 1e9, plain_s = 1e9;
-    motion::IkResult without;
-    const auto processor_s = [&](const motion::IkOptions& options, motion::IkResult& result) {
-      auto bare = options;
-      bare.error_bars = false;
+    Estimate without;
+    // Deviations are part of what tracking costs, and inverse kinematics is judged without them.
+    const bool bars = method == Method::track;
+    const auto processor_s = [&](bool judged, Estimate& result) {
       const auto begin = std::clock();
-      result = motion::solve_ik(c.model, c.markers, bare).value();
+      result = estimate(c, c.markers, judged, bars).value();
       return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
-    for (int i = 0; i < 15; ++i) {
-      plain_s = std::min(plain_s, processor_s(plain, without));
-      judged_s = std::min(judged_s, processor_s(c.options, c.clean));
+    for (int i = 0; i < (bars ? 5 : 15); ++i) {
+      plain_s = std::min(plain_s, processor_s(false, without));
+      judged_s = std::min(judged_s, processor_s(true, c.clean));
     }
-    c.clean = motion::solve_ik(c.model, c.markers, c.options).value();
+    c.clean = estimate(c, c.markers, true, true).value();
     for (const auto& marker : c.clean.fit.markers) c.column.push_back(c.markers.find(marker.name_in_data));
+    const std::string name = method == Method::track ? "track, " + r.name : r.name;
     const auto samples = std::ssize(c.clean.motion.marker_state);
     const auto bad = std::ranges::count(c.clean.motion.marker_state, data::SampleState::rejected);
     const double share = 100.0 * static_cast<double>(bad) / static_cast<double>(samples);
@@ -279,11 +318,11 @@ int run_check(int argc, char** argv) {
     const auto measured = fmt::format("{} of {} samples left out ({:.3f} %); angles {}", bad, samples, share,
                                       same ? "the same" : "differ");
     if (r.defects.empty())
-      print_row(share <= 0.1 && (same || bad > 0), r.name + ": as it was recorded",
+      print_row(share <= 0.1 && (same || bad > 0), name + ": as it was recorded",
                 "at most 0.1 % of the samples left out; same angles", measured);
     else
-      print_note(r.name + ": as it was recorded", measured + "; known: " + r.defects);
-    print_note(r.name + ": processor time", fmt::format("{:.2f} times that without judging ({:.1f} ms)",
+      print_note(name + ": as it was recorded", measured + "; known: " + r.defects);
+    print_note(name + ": processor time", fmt::format("{:.2f} times that without judging ({:.1f} ms)",
                                                         judged_s / plain_s, 1e3 * plain_s));
     for (const Kind kind : {Kind::spike, Kind::zero, Kind::swap, Kind::held, Kind::exchange}) {
       const char* word = kKinds[static_cast<int>(kind)];
@@ -292,16 +331,16 @@ int run_check(int argc, char** argv) {
       for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(draws); ++seed) {
         data::Trajectories corrupted = c.markers;
         const auto done = corrupt(c, kind, seed, corrupted);
-        compare(c, done, motion::solve_ik(c.model, corrupted, c.options).value(), seed, tally);
+        compare(c, done, estimate(c, corrupted, true, true).value(), seed, tally);
       }
       const double untouched = *std::ranges::max_element(tally.worst_far_deg);
       print_row(
-          tally.missed == 0, fmt::format("{}: {}", r.name, word),
+          tally.missed == 0, fmt::format("{}: {}", name, word),
           "no angle more than 3.5 SD and 2 deg off without a finding on that frame",
           fmt::format("{} of {} missed, worst {:.1f} deg; left out in {}; {} other samples left out {}",
                       tally.missed, tally.draws, tally.worst_deg, tally.found, tally.innocent, tally.worst));
       const auto far = fmt::format("{:.2f} deg", untouched);
-      const auto what = fmt::format("{}: {}, joints between untouched segments", r.name, word);
+      const auto what = fmt::format("{}: {}, joints between untouched segments", name, word);
       if (kind == Kind::held || kind == Kind::exchange || !r.defects.empty())
         print_note(what, far);
       else

@@ -38,7 +38,7 @@ Scene prepare(const std::filesystem::path& data) {
   const auto description =
       studies::scale_by_medians(acceptance::human(), landmarks, {.lock_unseen = true}).value();
   auto model = model::Model::compile(description).value();
-  auto ik = motion::solve_ik(model, landmarks, studies::landmark_ik_options(description)).value();
+  auto ik = motion::solve_ik(model, landmarks, studies::reference_ik_options(description)).value();
   auto made = studies::carried_landmarks(model, ik.motion);
   return {.model = std::move(model),
           .landmarks = std::move(landmarks),

@@ -40,7 +40,6 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
 }
 
 constexpr double kMostFramesOff = 5.0;   // %: frames that fit worse than a recording may as a whole
-constexpr double kMostSamplesOut = 5.0;  // %: more bad samples are no accident
 
 /// Gates of single frames and samples, which the RMS of a whole recording hides.
 void add_frame_gates(report::IkRun& run, const IkJob& job, const data::JointMotion& motion) {
@@ -66,13 +65,7 @@ void add_frame_gates(report::IkRun& run, const IkJob& job, const data::JointMoti
       fmt::format("In {} of {} frames the RMS distance between measured and model markers is above "
                   "{:.1f} mm; at most {:g} % are accepted.",
                   off, seen, 1e3 * job.max_rms_m, kMostFramesOff));
-  if (motion.marker_state.empty()) return;
-  const auto out = std::ranges::count(motion.marker_state, data::SampleState::rejected);
-  const auto there =
-      std::ssize(motion.marker_state) - std::ranges::count(motion.marker_state, data::SampleState::missing);
-  internal::add_gate(run, "samples_left_out", percent(out, there), kMostSamplesOut, "%",
-                     fmt::format("{} of {} samples were left out; at most {:g} % are accepted.", out, there,
-                                 kMostSamplesOut));
+  internal::add_left_out_gate(run, motion);
 }
 
 void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInputs& inputs,

@@ -141,6 +141,18 @@ void add_frames_gate(report::IkRun& run, std::string name, std::int64_t bad, std
            fmt::format("{} of {} frames {}; at most {:g} % are accepted.", bad, all, what, kMostBad));
 }
 
+void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion) {
+  constexpr double kMostOut = 5.0;  // %: more bad samples are no accident
+  if (motion.marker_state.empty()) return;
+  const auto out = std::ranges::count(motion.marker_state, data::SampleState::rejected);
+  const auto there =
+      std::ssize(motion.marker_state) - std::ranges::count(motion.marker_state, data::SampleState::missing);
+  const double percent = there > 0 ? 100.0 * static_cast<double>(out) / static_cast<double>(there) : 0.0;
+  add_gate(
+      run, "samples_left_out", percent, kMostOut, "%",
+      fmt::format("{} of {} samples were left out; at most {:g} % are accepted.", out, there, kMostOut));
+}
+
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m) {
   add_gate(run, "mean_marker_offset", 1e3 * offset_m, 1e3 * job.max_offset_m, "mm",

@@ -33,6 +33,7 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
   options.emplace_back("feed-forward", o.feed_forward ? "on" : "off");
   options.emplace_back("posture", fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.posture_kp, o.posture_kd));
   options.emplace_back("limits of clamped coordinates", o.limits ? "kept" : "ignored");
+  options.emplace_back("outliers", o.judge_samples ? "left out" : "kept");
   if (job.images.any()) options.emplace_back("images in the lowest level", describe_images(job.images));
   options.emplace_back("determined in fewer than 95 % of the frames", list(result.undetermined_coordinates));
   return options;
@@ -55,6 +56,7 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
                             fmt::format("are flagged: goals out of reach, or a body that ran away ({} times "
                                         "started anew)",
                                         result.restarts));
+  internal::add_left_out_gate(run, result.motion);
   if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
   return run;
 }

@@ -113,7 +113,7 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   fill_coordinates(*problem, solved.states, motion);
   add_task_costs(*problem, result);
   note_limits(*problem, result);
-  internal::add_sample_findings(*problem, *judged, markers, result);
+  internal::add_sample_findings(*problem, *judged, markers, motion, result.fit);
 
   if (options.error_bars) {
     MarkerVariances variances;

@@ -49,6 +49,9 @@ void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time);
 void add_frames_gate(report::IkRun& run, std::string name, std::int64_t bad, std::int64_t all,
                      std::string_view what);
 
+/// A gate on the share of samples that were left out, where samples were judged: 5 %.
+void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion);
+
 /// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
               std::string sentence);

@@ -92,6 +92,42 @@ TEST(Bounds, OfGoalsOnTheWayTheyAreTheWay) {
   }
 }
 
+TEST(Bounds, EquationFifteenHasTheSignOfTheWay) {
+  Tracked t;
+  VectorXd move = VectorXd::Zero(t.plan.problem.model.speed_count()), there = t.x;
+  const int elbow = t.plan.problem.model.coordinates()[kElbow].speed_idx;
+  move[elbow] = -1e-5;
+  model::integrate(t.plan.problem.model, there, move);
+  t.reach(there);
+  t.find();
+  EXPECT_NEAR(t.bounds.goal_error()[kElbow], -1e-5, 1e-8);
+  EXPECT_NEAR(t.bounds.goal_error()[kKnee], 0.0, 1e-9);
+}
+
+TEST(Bounds, PressedAgainstALimitACoordinateIsWhereItsGoalsAskForIt) {
+  Tracked t;
+  const auto& elbow = t.plan.problem.model.coordinates()[kElbow];
+  VectorXd move = VectorXd::Zero(t.plan.problem.model.speed_count()), there = t.x;
+  move[elbow.speed_idx] = 0.01;
+  model::integrate(t.plan.problem.model, there, move);
+  t.reach(there);
+  t.find();
+  EXPECT_NEAR(t.bounds.goal_error()[kElbow], 0.01, 1e-3) << "it is free";
+  const VectorXd sd = t.bounds.sd();
+  t.plan.problem.upper[elbow.speed_idx] = t.x[elbow.state_idx];
+  t.find();
+  EXPECT_EQ(t.bounds.goal_error()[kElbow], 0.0);
+  EXPECT_EQ(t.bounds.goal_bound()[kElbow], 0.0);
+  EXPECT_TRUE(t.bounds.determined()[kElbow]);
+  EXPECT_EQ(t.bounds.rank(), t.plan.problem.model.speed_count()) << "the markers determine it all the same";
+  // The others are not asked to make up for it beyond what the limit leaves them.
+  EXPECT_NE(t.bounds.goal_error()[kElbow - 1], 0.0);
+  t.plan.problem.upper[elbow.speed_idx] = t.x[elbow.state_idx] + 1.0;
+  t.plan.problem.lower[elbow.speed_idx] = t.x[elbow.state_idx];
+  t.find();
+  EXPECT_NEAR(t.bounds.goal_error()[kElbow], 0.01, 1e-3) << "its goals lie on the free side";
+}
+
 TEST(Bounds, NoiseOfEachMarkerAddsInSquares) {
   Tracked t;
   for (Eigen::Index m = 0; m < t.noise.own.size(); ++m)

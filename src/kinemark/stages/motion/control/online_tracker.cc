@@ -16,6 +16,7 @@
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/readout.h"
 #include "kinemark/stages/motion/control/internal/walker.h"
+#include "kinemark/stages/motion/internal/stream_judge.h"
 
 namespace kinemark::motion {
 namespace {
@@ -58,6 +59,8 @@ struct OnlineTracker::Impl {
         capacity(2 * filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
         samples(plan.problem.model.marker_count(), capacity),
         readout(plan.problem.model),
+        out(Eigen::MatrixX<std::uint8_t>::Zero(plan.problem.model.marker_count(), capacity)),
+        known_goal(plan.problem.model.marker_count()),
         y(3, plan.problem.model.marker_count()),
         weight(plan.problem.model.marker_count()),
         rest_squares(Eigen::VectorXd::Zero(weight.size())),
@@ -73,6 +76,12 @@ struct OnlineTracker::Impl {
       const bool seen = x != nullptr && x->col(column).allFinite();
       weight[m] = seen ? plan.problem.weight[m] : 0.0;
       y.col(m) = seen ? Eigen::Vector3d(x->col(column)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    }
+    if (options.judge_samples) {
+      if (!judge) judge.emplace(plan.problem, plan.start_options, plan.rate_hz);
+      judge->judge(y, weight);
+      const auto column = window().frames() % out.cols();
+      for (Eigen::Index m = 0; m < weight.size(); ++m) out(m, column) = judge->out()[at(m)];
     }
     (walker ? walker->samples() : samples).push(y, weight);
   }
@@ -122,8 +131,15 @@ struct OnlineTracker::Impl {
     pose.smallest_singular = body.smallest_singular();
     const auto held = std::count(plan.problem.fixed_speed.begin(), plan.problem.fixed_speed.end(), 1);
     bool fixed = pose.rank == plan.problem.model.speed_count() - held;
+    known_goal = walker->goal();
+    pose.left_out.clear();
+    for (Eigen::Index m = 0; m < known_goal.weight.size(); ++m) {
+      if (out(m, walker->frame() % out.cols()) == 0) continue;
+      known_goal.weight[m] = 0.0;
+      pose.left_out.push_back(plan.problem.data_marker[at(m)]);
+    }
     if (bounds) {
-      bounds->find(body.x(), pose.q, walker->goal(), walker->time_s(), noise());
+      bounds->find(body.x(), pose.q, known_goal, walker->time_s(), noise());
       pose.q_sd = bounds->sd();
       pose.q_bound = bounds->bound();
       pose.determined = bounds->determined();
@@ -147,7 +163,7 @@ struct OnlineTracker::Impl {
       variances.own.setConstant(weight.size(), gain * options.marker_noise_sd_m * options.marker_noise_sd_m);
       return variances;
     }
-    const auto& goal = walker->goal();
+    const auto& goal = known_goal;
     variances.own.setZero(weight.size());
     for (int m = 0; m < static_cast<int>(weight.size()); ++m) {
       const auto f = walker->frame();
@@ -169,6 +185,9 @@ struct OnlineTracker::Impl {
   std::optional<internal::Walker> walker;
   internal::Readout readout;
   std::optional<internal::Bounds> bounds;
+  std::optional<internal::StreamJudge> judge;
+  Eigen::MatrixX<std::uint8_t> out;  // M x capacity; 1: the sample was not believed
+  internal::GoalValues known_goal;   // without what was not believed
   Eigen::Matrix3Xd y;
   Eigen::VectorXd weight, rest_squares, rest_count;
   MarkerVariances variances;

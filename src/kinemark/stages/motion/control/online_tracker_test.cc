@@ -79,6 +79,30 @@ TEST(OnlineTracker, GivesTheSameNumbersAsAFile) {
   }
 }
 
+TEST(OnlineTracker, ABadSampleIsLeftOutAndSaid) {
+  const auto model = body();
+  const auto markers = record(model, 200, 0.5e-3, 6);
+  auto bad = markers;
+  bad.x(130, 6) += Eigen::Vector3d(0.2, -0.1, 0.1);
+  const TrackOptions options{.marker_noise_sd_m = 0.5e-3};
+  auto clean_tracker = OnlineTracker::create(model, markers.names, 100.0, options).value();
+  const auto clean = stream(clean_tracker, markers);
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0, options).value();
+  const auto judged = stream(tracker, bad);
+  ASSERT_EQ(judged.size(), 200U);
+  for (std::size_t f = 0; f < judged.size(); ++f) {
+    EXPECT_EQ(judged[f].left_out, f == 130 ? std::vector<int>{6} : std::vector<int>{}) << f;
+    EXPECT_TRUE(clean[f].left_out.empty()) << f;
+    EXPECT_LT((judged[f].q - clean[f].q).cwiseAbs().maxCoeff(), 0.02) << f;
+  }
+  EXPECT_GT(judged[130].q_sd[9], clean[130].q_sd[9]) << "a sample less: a wider deviation";
+  TrackOptions believing = options;
+  believing.judge_samples = false;
+  auto fool = OnlineTracker::create(model, markers.names, 100.0, believing).value();
+  const auto believed = stream(fool, bad);
+  EXPECT_GT((believed[130].q - clean[130].q).cwiseAbs().maxCoeff(), 0.05);
+}
+
 TEST(OnlineTracker, AnswersAfterTheDelayThatItNames) {
   const auto model = body();
   const auto markers = record(model, 80);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -14,7 +15,9 @@
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
+#include "kinemark/stages/motion/internal/judged_frames.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
+#include "kinemark/stages/motion/internal/sample_findings.h"
 
 namespace kinemark::motion {
 namespace {
@@ -102,6 +105,26 @@ Status check_derivatives(const data::Trajectories& markers, const TrackOptions& 
   return {};
 }
 
+/// All samples judged as inverse kinematics judges them, by the poses that fit each frame best. No value when
+/// the caller stopped it.
+std::optional<internal::JudgedFrames> judge(const Plan& plan, const data::Trajectories& markers,
+                                            const TrackOptions& options, const Progress& progress) {
+  if (!options.judge_samples) return internal::JudgedFrames{};
+  return internal::solve_and_judge(plan.problem, plan.start_options, markers, progress);
+}
+
+/// Deviations and bounds are those of the samples that remain.
+void forget_rejected(const Plan& plan, const data::Trajectories& kept, Track& track) {
+  const auto& p = plan.problem;
+  for (std::int64_t f = 0; f < p.frames; ++f)
+    for (int m = 0; m < p.model.marker_count(); ++m) {
+      const int d = p.data_marker[at(m)];
+      if (kept.state[kept.index(p.first_frame + f, d)] != data::SampleState::rejected) continue;
+      track.weights(m, f) = 0.0;
+      track.goals.set_missing(p.first_frame + f, d, data::SampleState::rejected);
+    }
+}
+
 }  // namespace
 
 Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
@@ -112,12 +135,19 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
   if (plan->problem.frames < 2)
     return fail(Code::bad_input, "the time range holds one frame; direct marker control needs two at least");
 
+  const auto judged = judge(*plan, markers, options, progress);
+  if (!judged) return fail(Code::cancelled, "direct marker control was stopped");
+  const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
+  // What was left out is followed where its marker lies on the body in the frames beside, lest the goals jump.
+  const data::Trajectories& followed =
+      judged->filled && options.derivatives == nullptr ? *judged->filled : kept;
+
   const GoalFilter filter = internal::make_filter(plan->rate_hz, options);
   Track track;
   {
     internal::SampleWindow samples(plan->problem.model.marker_count(), plan->problem.frames);
-    fill_window(*plan, markers, samples);
-    fill_goals(*plan, markers, filter, samples, options.derivatives, track);
+    fill_window(*plan, followed, samples);
+    fill_goals(*plan, followed, filter, samples, options.derivatives, track);
     if (auto status = check_seen(*plan, samples, track, markers.time); !status)
       return std::unexpected(status.error());
   }
@@ -128,14 +158,17 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
   describe(*plan, markers, result);
   Walker walker(*plan, filter, plan->problem.frames, result.motion.time.t0_s);
   if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, markers.markers());
-  fill_window(*plan, markers, walker.samples());
-  internal::Recorder recorder(*plan, markers, walker, track, result);
+  fill_window(*plan, followed, walker.samples());
+  internal::Recorder recorder(*plan, kept, walker, track, result);
   const auto begin = std::chrono::steady_clock::now();
   if (!recorder.run(start, progress)) return fail(Code::cancelled, "direct marker control was stopped");
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
+  if (options.judge_samples)
+    internal::add_sample_findings(plan->problem, *judged, markers, result.motion, result.fit);
   if (options.error_bars) {
-    const auto noise = internal::goal_noise(*plan, markers, track, filter, options);
+    forget_rejected(*plan, kept, track);
+    const auto noise = internal::goal_noise(*plan, kept, track, filter, options);
     internal::add_error_bars(*plan, track, noise, options.threads, result);
     internal::add_marker_noise(plan->problem.model, noise, result.fit);
   }

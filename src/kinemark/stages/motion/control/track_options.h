@@ -36,6 +36,8 @@ struct TrackOptions {
   double kp = 0.0, kd = 0.0;   ///< 1/s^2 and 1/s; both > 0: used in place of omega
   double step_s =
       0.0;  ///< largest step; a frame is cut into equal ones. 0: the largest with omega step <= 0.5
+  bool settle = true;        ///< one level of markers: at every frame what is left of the gradient of the
+                             ///< marker errors is removed, so that the frame's pose is the best fit
   double damping = 0.1;      ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
   double truncation = 1e-4;  ///< > 0, of a level's strongest direction: below, left to lower levels
   bool feed_forward = true;  ///< velocity and acceleration of the goals are used
@@ -51,6 +53,8 @@ struct TrackOptions {
   bool limits = true;                     ///< clamped coordinates stay in their range
   LockMode lock = LockMode::automatic;    ///< which coordinates are held besides
   std::vector<std::string> locked;        ///< coordinates held at the rest pose besides those the model locks
+
+  bool judge_samples = true;  ///< leave out samples that neither the model nor the frames beside explain
 
   double first_time_s = -1e300;    ///< track only frames in [first_time_s, last_time_s]
   double last_time_s = 1e300;      ///< both ends included

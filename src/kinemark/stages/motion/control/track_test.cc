@@ -210,6 +210,115 @@ TEST(Track, HoldsWhatNoMarkerMoves) {
   }
 }
 
+TEST(Track, FramesAreSettledOnTheBestFitOfTheirGoals) {
+  const auto model = body();
+  // Markers that no pose fits: each 20 mm off, and more than the speed of the body can hide.
+  auto markers = record(model, 120, 2e-3, 8);
+  for (std::int64_t f = 0; f < 120; ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m)
+      markers.x(f, m)[m % 3] += m % 2 == 0 ? 0.02 : -0.02;
+  const auto goals = control_goals(markers).value();
+  const auto ik = solve_ik(model, goals, {.judge_samples = false, .error_bars = false}).value();
+  const auto distance = [&](const TrackOptions& options) {
+    const auto track = track_markers(model, markers, options).value();
+    EXPECT_EQ(track.flagged_frames, 0);
+    double most = 0.0;
+    for (std::int64_t f = 0; f < 120; ++f)
+      for (std::int64_t c = 6; c < track.motion.size(); ++c)
+        most = std::max(most, std::abs(track.motion.q[track.motion.index(f, c)] -
+                                       ik.motion.q[ik.motion.index(f, c)]));
+    return most;
+  };
+  EXPECT_LT(distance({.judge_samples = false}), 1e-5);
+  EXPECT_LT(distance({.omega_rad_s = 40.0, .step_s = 0.01, .judge_samples = false}), 1e-5)
+      << "one step per frame";
+  EXPECT_GT(distance({.settle = false, .judge_samples = false}), 1e-3) << "the law alone lags";
+}
+
+TEST(Track, EquationFifteenIsTheDistanceToTheGoalsOfALaggingBody) {
+  const auto model = body();
+  const auto markers = record(model, 150);
+  const auto track =
+      track_markers(model, markers,
+                    {.settle = false, .feed_forward = false, .cutoff_hz = 0.0, .judge_samples = false})
+          .value();
+  double most = 0.0;
+  for (std::int64_t f = 30; f < 150; ++f) {
+    const Eigen::VectorXd q = testing_body::coordinates(model, f);
+    for (std::int64_t c = 6; c < track.motion.size(); ++c) {
+      const auto i = track.motion.index(f, c);
+      const double way = q[c] - track.motion.q[i];
+      most = std::max(most, std::abs(way));
+      EXPECT_NEAR(track.goal_error[i], way, 0.1 * std::abs(way) + 2e-3) << f << ' ' << c;
+      EXPECT_LE(std::abs(way), 1.05 * track.goal_bound[i] + 2e-3) << f << ' ' << c;
+    }
+  }
+  EXPECT_GT(most, 0.02) << "it lags by degrees";
+}
+
+TEST(Track, ABodyThatLostItsGoalsSaysSoAndIsBackWithinAFifthOfASecond) {
+  const auto model = body();
+  auto markers = record(model, 200);
+  // The subject leaves the volume, and comes back turned round.
+  const Eigen::AngleAxisd half(3.0, Eigen::Vector3d::UnitY());
+  for (std::int64_t f = 80; f < 200; ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) {
+      if (f < 100)
+        markers.set_missing(f, m);
+      else
+        markers.x(f, m) = half * Eigen::Vector3d(markers.x(f, m)) + Eigen::Vector3d(2.0, 0.0, 1.0);
+    }
+  for (const double step_s : {1e-3, 1e-2}) {
+    const auto track =
+        track_markers(model, markers, {.omega_rad_s = step_s > 5e-3 ? 40.0 : 100.0, .step_s = step_s})
+            .value();
+    EXPECT_LT(angle_rms(model, track.motion, 121), 2e-3) << step_s;
+    for (std::int64_t f = 100; f < 121; ++f) {
+      double off = 0.0;
+      const Eigen::VectorXd q = testing_body::coordinates(model, f);
+      for (std::int64_t c = 6; c < track.motion.size(); ++c)
+        off = std::max(off, std::abs(track.motion.q[track.motion.index(f, c)] - q[c]));
+      if (off > 0.2) {
+        EXPECT_NE(track.motion.status[static_cast<std::size_t>(f)], data::FrameStatus::converged)
+            << step_s << ' ' << f << ' ' << off;
+      }
+    }
+    for (std::int64_t f = 121; f < 200; ++f)
+      EXPECT_EQ(track.motion.status[static_cast<std::size_t>(f)], data::FrameStatus::converged) << f;
+  }
+}
+
+TEST(Track, BadSamplesAreLeftOutNamedAndDoNoHarm) {
+  const auto model = body();
+  const auto markers = record(model, 120, 0.5e-3, 3);
+  const auto clean = track_markers(model, markers).value();
+  EXPECT_EQ(clean.motion.q, track_markers(model, markers, {.judge_samples = false})->motion.q)
+      << "a clean recording gives the same bits";
+  auto bad = markers;
+  bad.x(60, 6) += Eigen::Vector3d(0.2, -0.1, 0.1);
+  const auto judged = track_markers(model, bad).value();
+  const auto believed = track_markers(model, bad, {.judge_samples = false}).value();
+  const auto off = [&](const TrackResult& track) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < clean.motion.q.size(); ++i)
+      most = std::max(most, std::abs(track.motion.q[i] - clean.motion.q[i]));
+    return most;
+  };
+  EXPECT_LT(off(judged), 0.02);
+  EXPECT_GT(off(believed), 0.05);
+  ASSERT_EQ(judged.fit.findings.size(), 1U);
+  EXPECT_EQ(judged.fit.findings[0].kind, data::FindingKind::outlier);
+  EXPECT_EQ(judged.fit.findings[0].subject, markers.names[6]);
+  EXPECT_EQ(judged.fit.findings[0].first_frame, 60);
+  EXPECT_EQ(judged.fit.markers[6].rejected_frames, 1);
+  const auto at = static_cast<std::size_t>(60 * markers.markers() + 6);
+  EXPECT_EQ(judged.motion.marker_state[at], data::SampleState::rejected);
+  EXPECT_TRUE(std::isnan(judged.motion.marker_error[3 * at]));
+  EXPECT_TRUE(believed.motion.marker_state.empty());
+  EXPECT_GT(judged.motion.q_sd[judged.motion.index(60, 9)], clean.motion.q_sd[clean.motion.index(60, 9)])
+      << "a sample less: a wider deviation";
+}
+
 TEST(Track, TorquesDoTheWork) {
   const auto model = body();
   const auto motion = track_markers(model, record(model, 100), {.step_s = 2e-3}).value().motion;

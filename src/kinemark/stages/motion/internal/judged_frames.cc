@@ -84,8 +84,8 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
     const auto concerned = leave_out(problem, judged.rejected, counted, any);
     StepScale scale(problem, judged.solved);
     scale.learn_growth();
-    const auto filled = fill_rejected(problem, *judged.kept, concerned, scale, judged.solved);
-    walk.solve_filled(*judged.kept, filled, concerned, judged.solved);
+    judged.filled = fill_rejected(problem, *judged.kept, concerned, scale, judged.solved);
+    walk.solve_filled(*judged.kept, *judged.filled, concerned, judged.solved);
     judged.solved.iterations = walk.iterations();
   }
   judged.rejected = joined(std::move(judged.rejected));

@@ -15,6 +15,8 @@ struct JudgedFrames {
   SolvedFrames solved;
   std::optional<data::Trajectories>
       kept;                       ///< the recording without what was left out; none where all was kept
+  std::optional<data::Trajectories>
+      filled;  ///< the same with what was left out where its marker lies on the body in the frames beside
   std::vector<Outlier> rejected;  ///< by marker and frame, none overlaps another of the same marker
   std::vector<Outlier> doubtful;  ///< as of Judgement
 };

@@ -23,26 +23,26 @@ data::Finding finding_of(const Problem& problem, const Outlier& outlier) {
 }  // namespace
 
 void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
-                         const data::Trajectories& markers, IkResult& result) {
+                         const data::Trajectories& markers, data::JointMotion& motion,
+                         data::MarkerFit& fit) {
   const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
-  auto& motion = result.motion;
   const auto M = problem.data_marker.size();
   motion.marker_state.resize(at(problem.frames) * M);
-  for (auto& marker : result.fit.markers) marker.rejected_frames = 0;
+  for (auto& marker : fit.markers) marker.rejected_frames = 0;
   for (std::int64_t f = 0; f < problem.frames; ++f)
     for (std::size_t m = 0; m < M; ++m) {
       const auto state = kept.state[kept.index(problem.first_frame + f, problem.data_marker[m])];
       motion.marker_state[at(f) * M + m] = state;
-      *result.fit.markers[m].rejected_frames += state == data::SampleState::rejected;
+      *fit.markers[m].rejected_frames += state == data::SampleState::rejected;
     }
-  for (const Outlier& outlier : judged.rejected) result.fit.findings.push_back(finding_of(problem, outlier));
+  for (const Outlier& outlier : judged.rejected) fit.findings.push_back(finding_of(problem, outlier));
   for (const Outlier& outlier : judged.doubtful) {
     auto finding = finding_of(problem, outlier);
     finding.kind = data::FindingKind::marker_slip;
     finding.partner = problem.fit.markers[at(outlier.marker)].body;
     finding.confidence = 0.5;
     finding.detail = "the samples before or those from there on are wrong; both were kept";
-    result.fit.findings.push_back(std::move(finding));
+    fit.findings.push_back(std::move(finding));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
@@ -28,17 +29,12 @@ constexpr double kClearlyFarther =
 constexpr double kLeastFarther_m = 0.01;  // and by so much
 constexpr double kLongestHold_s = 1.0;    // a marker away for longer may have a new position now
 
-class Judge {
+}  // namespace
+
+class FrameJudge::Impl {
  public:
-  Judge(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
-        const SolvedFrames& solved, StepScale& scale)
-      : problem_(problem),
-        markers_(markers),
-        states_(solved.states),
-        positions_(solved.positions),
-        scale_(scale),
-        options_(options),
-        M_(problem.model.marker_count()) {
+  Impl(const Problem& problem, const IkOptions& options, double rate_hz, StepScale& scale)
+      : problem_(problem), scale_(scale), options_(options), M_(problem.model.marker_count()) {
     const int n = problem.model.speed_count();
     y_.setZero(3, M_);
     for (auto* v : {&seen_, &used_}) v->setZero(M_);
@@ -55,47 +51,70 @@ class Judge {
     age_.assign(at(M_), 1);
     known_.assign(at(M_), 0);
     elsewhere_.assign(at(M_), 0);
-    hold_ = std::max<std::int64_t>(8, std::llround(kLongestHold_s * markers.time.rate_hz));
+    hold_ = std::max<std::int64_t>(8, std::llround(kLongestHold_s * rate_hz));
   }
 
-  std::vector<Outlier> run(std::int64_t sound, std::int64_t last) {
-    direction_ = last >= sound ? 1 : -1;
-    since_.assign(at(M_), sound);
-    begin(sound, sound - direction_);
-    for (std::int64_t f = sound; f != last;) judge(f += direction_);
+  /// Believe the first frame, and the step that led to it where there is one.
+  void begin(const JudgedFrame& frame, const Eigen::VectorXd* before, std::int64_t direction) {
+    direction_ = direction;
+    since_.assign(at(M_), frame.index);
+    out_.assign(at(M_), 0);
+    look(frame);
+    expected_.position = scale_.centre;
+    expected_.position_sd = scale_.spread;
+    x_ = state();
+    take_over();
+    if (before == nullptr) return;
+    model::difference(problem_.model, *before, x_, move_);
+    steady_ = 2;
+  }
+
+  void judge(const JudgedFrame& frame) {
+    std::ranges::fill(out_, std::uint8_t{0});
+    look(frame);
+    judge_frame(frame.index);
+  }
+
+  std::vector<Outlier> finish() {
     for (Eigen::Index m = 0; m < M_; ++m)
       if (open_[at(m)] >= 0) close(m, false);
+    pending_.clear();
     return std::move(outliers_);
   }
 
- private:
-  [[nodiscard]] Eigen::Vector3d position(std::int64_t f, Eigen::Index m) const {
-    return Eigen::Map<const Eigen::Vector3f>(positions_.data() + 3 * (f * M_ + m)).cast<double>();
+  void forget() {
+    outliers_.clear();
+    if (std::ranges::all_of(open_, [](auto open) { return open < 0; })) pending_.clear();
   }
 
-  /// Believe the first frame, and the speed that led to it.
-  void begin(std::int64_t f, std::int64_t before) {
-    problem_.observe(markers_, f, y_, seen_);
-    expected_.position = scale_.centre;
-    expected_.position_sd = scale_.spread;
-    x_ = states_.col(f);
-    take_over(f);
-    if (before < 0 || before >= problem_.frames) return;
-    model::difference(problem_.model, states_.col(before), x_, move_);
-    steady_ = 2;
+  [[nodiscard]] const std::vector<std::uint8_t>& out() const { return out_; }
+  [[nodiscard]] const Eigen::Matrix3Xd& expected() const { return world_; }
+  [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
+
+ private:
+  void look(const JudgedFrame& frame) {
+    frame_ = &frame;
+    y_ = *frame.y;
+    seen_ = *frame.seen;
+  }
+  [[nodiscard]] Eigen::Map<const Eigen::VectorXd> state() const {
+    return {frame_->state, problem_.model.state_count()};
+  }
+  [[nodiscard]] Eigen::Vector3d position(Eigen::Index m) const {
+    return Eigen::Map<const Eigen::Vector3f>(frame_->position + 3 * m).cast<double>();
   }
 
   /// The same markers as in the frame before are seen, none is held back, and neither positions nor pose do
   /// anything unusual.
-  bool is_quiet(std::int64_t f) {
+  bool is_quiet() {
     if (held_ > 0 || steady_ < 1) return false;
     for (Eigen::Index m = 0; m < M_; ++m) {
       if ((seen_[m] > 0.0) != (used_[m] > 0.0)) return false;
       if (seen_[m] == 0.0) continue;
       const double bound = kQuick * scale_.position[m];
-      if ((position(f, m) - expected_.position.col(m)).squaredNorm() > bound * bound) return false;
+      if ((position(m) - expected_.position.col(m)).squaredNorm() > bound * bound) return false;
     }
-    model::difference(problem_.model, x_, states_.col(f), difference_);
+    model::difference(problem_.model, x_, state(), difference_);
     for (Eigen::Index i = 0; i < difference_.size(); ++i) {
       const double bound = steady_ < 2 ? kQuick * scale_.stride[i]
                                        : std::max(kQuick * scale_.speed[i], kRare * scale_.rare[i]);
@@ -104,8 +123,7 @@ class Judge {
     return true;
   }
 
-  void judge(std::int64_t f) {
-    problem_.observe(markers_, f, y_, seen_);
+  void judge_frame(std::int64_t f) {
     if (!(seen_.array() > 0.0).any()) {
       remember();
       for (auto& age : age_) ++age;
@@ -113,15 +131,15 @@ class Judge {
       ++blind_;
       return;
     }
-    if (is_quiet(f)) {
+    if (is_quiet()) {
       ++steady_;
       open_now_.setZero();
       open_before_.setZero();
       move_ = difference_;
-      x_ = states_.col(f);
+      x_ = state();
       for (Eigen::Index m = 0; m < M_; ++m)
         if (seen_[m] > 0.0)
-          expected_.position.col(m) = position(f, m);
+          expected_.position.col(m) = position(m);
         else
           ++age_[at(m)];
       return;
@@ -133,8 +151,8 @@ class Judge {
     }
     remember();
     expect();
-    if (returns(f)) {
-      take_over(f);
+    if (returns()) {
+      take_over();
       return;
     }
     for (Eigen::Index m = 0; m < M_; ++m) expected_.bound[m] = open_[at(m)] >= 0 ? kBack : kBound;
@@ -154,15 +172,15 @@ class Judge {
 
   /// All samples lie in their positions of before the disturbance by the pose that believes them all, and the
   /// body can have come to that pose meanwhile: whatever was held back is itself again.
-  bool returns(std::int64_t f) {
+  bool returns() {
     if (held_ == 0 && blind_ == 0) return false;
     for (Eigen::Index m = 0; m < M_; ++m) {
       if (seen_[m] == 0.0) continue;
       if (!known_[at(m)] || elsewhere_[at(m)]) return false;
       const double bound = kBound * scale_.position_sd_after(m, disturbed_);
-      if ((position(f, m) - sound_position_.col(m)).squaredNorm() > bound * bound) return false;
+      if ((position(m) - sound_position_.col(m)).squaredNorm() > bound * bound) return false;
     }
-    model::difference(problem_.model, sound_x_, states_.col(f), difference_);
+    model::difference(problem_.model, sound_x_, state(), difference_);
     for (Eigen::Index i = 0; i < difference_.size(); ++i)
       if (std::abs(difference_[i]) > kQuick * scale_.stride[i] * static_cast<double>(disturbed_))
         return false;
@@ -170,8 +188,8 @@ class Judge {
   }
 
   /// Believe the whole frame; no speed is known behind it.
-  void take_over(std::int64_t f) {
-    x_ = states_.col(f);
+  void take_over() {
+    x_ = state();
     used_ = seen_;
     move_.setZero();
     open_now_.setZero();
@@ -184,7 +202,7 @@ class Judge {
         ++age_[at(m)];
         continue;
       }
-      expected_.position.col(m) = position(f, m);
+      expected_.position.col(m) = position(m);
       age_[at(m)] = 1;
       known_[at(m)] = 1;
       if (open_[at(m)] >= 0) close(m, true);
@@ -231,10 +249,10 @@ class Judge {
     if (blind_ > 0) move_ /= 1.0 + static_cast<double>(blind_);
     ++steady_;
     blind_ = 0;
-    model::difference(model, fit_->x(), states_.col(f), difference_);
+    model::difference(model, fit_->x(), state(), difference_);
     const bool near = difference_.cwiseAbs().maxCoeff() < kLostPose;
     if (rejected == 0 && near) {
-      x_ = states_.col(f);
+      x_ = state();
       model::kinematics(model, solver_->workspace(), x_);
     } else {
       x_ = fit_->x();
@@ -343,11 +361,9 @@ class Judge {
   }
 
   const Problem& problem_;
-  const data::Trajectories& markers_;
-  const Eigen::MatrixXd& states_;
-  const PositionsOnBody& positions_;
   StepScale& scale_;
   const IkOptions& options_;
+  const JudgedFrame* frame_ = nullptr;  // the one being judged
   std::optional<ExpectedPoseFit> fit_;  // most recordings never need them
   std::optional<FrameSolver> solver_;
   Eigen::Index M_;
@@ -366,7 +382,19 @@ class Judge {
   int steady_ = 0, held_ = 0;
 };
 
-}  // namespace
+FrameJudge::FrameJudge(const Problem& problem, const IkOptions& options, double rate_hz, StepScale& scale)
+    : impl_(std::make_unique<Impl>(problem, options, rate_hz, scale)) {}
+FrameJudge::~FrameJudge() = default;
+
+void FrameJudge::begin(const JudgedFrame& frame, const Eigen::VectorXd* before, std::int64_t direction) {
+  impl_->begin(frame, before, direction);
+}
+void FrameJudge::judge(const JudgedFrame& frame) { impl_->judge(frame); }
+std::vector<Outlier> FrameJudge::finish() { return impl_->finish(); }
+void FrameJudge::forget() { impl_->forget(); }
+const std::vector<std::uint8_t>& FrameJudge::out() const { return impl_->out(); }
+const Eigen::Matrix3Xd& FrameJudge::expected() const { return impl_->expected(); }
+const Eigen::VectorXd& FrameJudge::x() const { return impl_->x(); }
 
 bool Outlier::clearly_wrong() const {
   return from_model_m > kClearlyFarther * expected_from_model_m &&
@@ -376,8 +404,24 @@ bool Outlier::clearly_wrong() const {
 std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
                                    const data::Trajectories& markers, const SolvedFrames& solved,
                                    StepScale& scale, std::int64_t sound, std::int64_t last) {
-  Judge judge(problem, options, markers, solved, scale);
-  return judge.run(sound, last);
+  const Eigen::Index M = problem.model.marker_count();
+  FrameJudge judge(problem, options, markers.time.rate_hz, scale);
+  Eigen::Matrix3Xd y(3, M);
+  Eigen::VectorXd seen(M);
+  const auto frame = [&](std::int64_t f) {
+    problem.observe(markers, f, y, seen);
+    return JudgedFrame{.index = f,
+                       .y = &y,
+                       .seen = &seen,
+                       .state = solved.states.col(f).data(),
+                       .position = solved.positions.data() + 3 * f * M};
+  };
+  const std::int64_t direction = last >= sound ? 1 : -1, before = sound - direction;
+  Eigen::VectorXd state_before;
+  if (before >= 0 && before < problem.frames) state_before = solved.states.col(before);
+  judge.begin(frame(sound), state_before.size() > 0 ? &state_before : nullptr, direction);
+  for (std::int64_t f = sound; f != last;) judge.judge(frame(f += direction));
+  return judge.finish();
 }
 
 }  // namespace kinemark::motion::internal

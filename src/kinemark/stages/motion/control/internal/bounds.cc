@@ -18,6 +18,7 @@ constexpr double kBlindRotation = 1.0 / 0.003;  // rad per m of goal error, as f
 constexpr double kBlindTranslation = 20.0;      // m per m
 constexpr double kNullShare = 1e-4;             // of a coordinate's square that no level fixes
 constexpr double kLargestSd = 0.5;              // rad or m
+constexpr double kAtLimit = 1e-9;               // rad or m
 constexpr double kUnknownShare = 1e-6;          // of the squared gains that goals with a known SD have
 
 }  // namespace
@@ -39,7 +40,9 @@ Bounds::Bounds(const Plan& plan)
   z_.setZero(n);
   still_.setZero(n);
   sd_.setZero(plan.problem.model.coordinate_count());
-  bound_ = goal_bound_ = sd_;
+  bound_ = goal_error_ = goal_bound_ = sd_;
+  pull_.setZero(n);
+  held_ = plan.problem.fixed_speed;
 }
 
 void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise) {
@@ -68,8 +71,9 @@ void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, co
       out.variance[row] = rows_.sd[i] * rows_.sd[i];
     }
   }
+  pull_.noalias() += out.A * out.dx;
   for (Eigen::Index k = 0; k < J_.cols(); ++k)
-    if (plan_.problem.fixed_speed[at(k)] != 0) out.A.row(k).setZero();
+    if (held_[at(k)] != 0) out.A.row(k).setZero();
   llt_.matrixL().solveInPlace(out.A);
 }
 
@@ -110,13 +114,40 @@ void Bounds::add_level(std::size_t index) {
   z_.noalias() += level.inverse * level.dx;
 }
 
-void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
-  const auto& model = plan_.problem.model;
-  model::coordinate_jacobian(model, w_, q, E_);
+bool Bounds::hold_pressed(const Eigen::VectorXd& x) {
+  bool any = false;
+  for (const auto& c : plan_.problem.model.coordinates()) {
+    const int k = c.speed_idx;
+    if (k < 0 || held_[at(k)] != 0) continue;
+    const double q = x[c.state_idx];
+    const bool pressed = (q <= plan_.problem.lower[k] + kAtLimit && pull_[k] < 0.0) ||
+                         (q >= plan_.problem.upper[k] - kAtLimit && pull_[k] > 0.0);
+    if (!pressed) continue;
+    held_[at(k)] = 1;
+    any = true;
+  }
+  return any;
+}
+
+void Bounds::find_coordinates(const Eigen::VectorXd& q) {
+  model::coordinate_jacobian(plan_.problem.model, w_, q, E_);
   for (Eigen::Index k = 0; k < E_.cols(); ++k)
-    if (plan_.problem.fixed_speed[at(k)] != 0) E_.col(k).setZero();
+    if (held_[at(k)] != 0) E_.col(k).setZero();
   C_ = E_.transpose();
   llt_.matrixL().solveInPlace(C_);  // columns: coordinates in whitened space
+}
+
+void Bounds::measure() {
+  goal_error_.noalias() = C_.transpose() * z_;
+  goal_bound_.setZero();
+  for (const auto& level : levels_) {
+    G_.noalias() = C_.transpose() * level.inverse;
+    goal_bound_ += level.dx.norm() * G_.rowwise().norm();
+  }
+}
+
+void Bounds::judge(const MarkerVariances& noise) {
+  const auto& model = plan_.problem.model;
   for (std::size_t i = 0; i < levels_.size(); ++i)
     for (Eigen::Index row = 0; row < levels_[i].scale.size(); ++row)
       explained_.col(first_column_[i] + row) *= levels_[i].scale[row];
@@ -129,7 +160,7 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
     const bool rotation = model.description().coordinates[at(c)].is_rotation;
     bool sure = whole - fixed <= kNullShare * whole &&
                 G_.row(c).norm() <= (rotation ? kBlindRotation : kBlindTranslation);
-    double variance = 0.0, bound = 0.0, known = 0.0, unknown = 0.0;
+    double variance = 0.0, known = 0.0, unknown = 0.0;
     Eigen::RowVectorXd common = Eigen::RowVectorXd::Zero(3 * noise.common.size());
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const auto part = G_.row(c).segment(first_column_[i], levels_[i].variance.size());
@@ -142,23 +173,45 @@ void Bounds::judge(const Eigen::VectorXd& q, const MarkerVariances& noise) {
       known += part.squaredNorm();
       for (Eigen::Index row = points; row < part.size(); ++row)
         if (levels_[i].variance[row] == 0.0) unknown += part[row] * part[row];
-      bound += (C_.col(c).transpose() * levels_[i].inverse).norm() * levels_[i].dx.norm();
     }
     for (Eigen::Index b = 0; b < noise.common.size(); ++b)
       variance += noise.common[b] * common.segment<3>(3 * b).squaredNorm();
-    const double lag = C_.col(c).dot(z_);
+    const double lag = goal_error_[c];
     sd_[c] = std::sqrt(variance + lag * lag);
     sure = sure && sd_[c] <= kLargestSd;
     bound_[c] = sure ? std::abs(lag) + kNoiseSds * std::sqrt(variance) : nan;
-    goal_bound_[c] = sure ? bound : nan;
+    if (!sure) goal_error_[c] = goal_bound_[c] = nan;
     // Fixed only by goals without a standard deviation.
     if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;
     determined_[at(c)] = sure ? 1 : 0;
   }
   for (const int c : plan_.locked) {  // locked here: nothing is known
     determined_[at(c)] = 0;
-    sd_[c] = bound_[c] = goal_bound_[c] = nan;
+    sd_[c] = bound_[c] = goal_error_[c] = goal_bound_[c] = nan;
   }
+}
+
+void Bounds::solve_levels(const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
+                          const MarkerVariances& noise) {
+  mass_ = M_;
+  for (Eigen::Index k = 0; k < M_.rows(); ++k) {
+    if (held_[at(k)] == 0) continue;
+    mass_.row(k).setZero();
+    mass_.col(k).setZero();
+    mass_(k, k) = 1.0;
+  }
+  llt_.compute(mass_);
+  rank_ = 0;
+  smallest_ = std::numeric_limits<double>::infinity();
+  z_.setZero();
+  pull_.setZero();
+  explained_.setZero();
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    gather(i, goal, time_s, noise);
+    add_level(i);
+  }
+  if (rank_ == 0) smallest_ = 0.0;
+  find_coordinates(q);
 }
 
 void Bounds::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
@@ -168,23 +221,17 @@ void Bounds::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goal
   model::velocities(model, w_, still_);
   model::mass_matrix(model, w_, M_);
   model::marker_jacobian(model, w_, J_);
-  for (Eigen::Index k = 0; k < M_.rows(); ++k) {
-    if (plan_.problem.fixed_speed[at(k)] == 0) continue;
-    M_.row(k).setZero();
-    M_.col(k).setZero();
-    M_(k, k) = 1.0;
+  held_ = plan_.problem.fixed_speed;
+  solve_levels(q, goal, time_s, noise);
+  if (hold_pressed(x)) {
+    solve_levels(q, goal, time_s, noise);
+    measure();
+    held_ = plan_.problem.fixed_speed;
+    solve_levels(q, goal, time_s, noise);
+  } else {
+    measure();
   }
-  llt_.compute(M_);
-  rank_ = 0;
-  smallest_ = std::numeric_limits<double>::infinity();
-  z_.setZero();
-  explained_.setZero();
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    gather(i, goal, time_s, noise);
-    add_level(i);
-  }
-  if (rank_ == 0) smallest_ = 0.0;
-  judge(q, noise);
+  judge(noise);
 }
 
 }  // namespace kinemark::motion::internal

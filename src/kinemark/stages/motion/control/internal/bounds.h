@@ -11,7 +11,8 @@
 // and with norms in place of the products the bound of equation 16. The same matrices turn the covariance of
 // the goals into that of the angles. Equation 15 determines dq_c uniquely: the difference of the body's
 // angles to those that its goals require, zero at the best fit and large while the body still approaches the
-// goals.
+// goals. A coordinate that its goals press against a limit has an error of 0 there and takes no part in those
+// of the others; its standard deviation is that of a free one.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -43,6 +44,8 @@ class Bounds {
   [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }
   /// Bound on the error of a coordinate: equation 15 and the goals' noise. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }
+  /// Equation 15: the coordinate that the goals require minus that of the body. NaN where not determined.
+  [[nodiscard]] const Eigen::VectorXd& goal_error() const { return goal_error_; }
   /// Equation 16: bound on the distance to the coordinate that the goals require. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& goal_bound() const { return goal_bound_; }
   [[nodiscard]] const std::vector<std::uint8_t>& determined() const { return determined_; }
@@ -55,18 +58,26 @@ class Bounds {
     Eigen::VectorXd dx, scale, variance;
   };
   void gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise);
+  /// All levels, and the coordinates in whitened space, with the speeds of `held_` at rest.
+  void solve_levels(const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
+                    const MarkerVariances& noise);
   void add_level(std::size_t index);
-  void judge(const Eigen::VectorXd& q, const MarkerVariances& noise);
+  /// Hold the coordinates that the goals press against a limit; false: there is none.
+  bool hold_pressed(const Eigen::VectorXd& x);
+  /// Equations 15 and 16 from the levels as they are.
+  void measure();
+  void find_coordinates(const Eigen::VectorXd& q);
+  void judge(const MarkerVariances& noise);
 
   const Plan& plan_;
   model::Workspace w_;
   std::vector<Level> levels_;
   std::vector<Eigen::Index> first_column_;
   TaskRows rows_;
-  Eigen::MatrixXd M_, J_, V_, E_, C_, explained_, G_;
+  Eigen::MatrixXd M_, mass_, J_, V_, E_, C_, explained_, G_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd z_, still_, sd_, bound_, goal_bound_;
-  std::vector<std::uint8_t> determined_;
+  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, pull_;
+  std::vector<std::uint8_t> determined_, held_;
   int rank_ = 0;
   double smallest_ = 0.0;
 };

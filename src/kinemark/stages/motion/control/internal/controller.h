@@ -26,6 +26,9 @@ class Controller {
   /// diverged: speeds beyond the plan's limit or not finite.
   bool evaluate(const GoalValues& goal, double time_s);
 
+  /// Put the body into pose x; its speeds stay. To be followed by evaluate().
+  void place(const Eigen::VectorXd& x) { x_ = x; }
+
   /// Integrate over the time step h with the acceleration just computed: x += h v + h^2 a / 2, v += h a;
   /// within the limits.
   void advance(double h);

@@ -56,6 +56,7 @@ void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances&
   const auto n = static_cast<std::int64_t>(motion.coordinates.size());
   motion.q_sd.assign(motion.q.size(), kNaN);
   motion.q_bound.assign(motion.q.size(), kNaN);
+  result.goal_error.assign(motion.q.size(), kNaN);
   result.goal_bound.assign(motion.q.size(), kNaN);
   motion.determined.assign(motion.q.size(), 0);
   parallel_for(p.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
@@ -72,6 +73,7 @@ void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances&
       for (std::int64_t c = 0; c < n; ++c) {
         motion.q_sd[motion.index(f, c)] = bounds.sd()[c];
         motion.q_bound[motion.index(f, c)] = bounds.bound()[c];
+        result.goal_error[motion.index(f, c)] = bounds.goal_error()[c];
         result.goal_bound[motion.index(f, c)] = bounds.goal_bound()[c];
         motion.determined[motion.index(f, c)] = bounds.determined()[at(c)];
       }

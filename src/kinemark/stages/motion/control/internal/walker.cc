@@ -6,8 +6,28 @@
 #include <utility>
 
 #include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/internal/start.h"
 
 namespace kinemark::motion::internal {
+namespace {
+
+// As for the frames of inverse kinematics: what a frame may cost beyond the usual before other poses are
+// tried, how many, and how much cheaper one must be to take the place.
+constexpr double kCostly = 9.0;
+constexpr double kCostly_m2 = 1e-4;
+constexpr int kOtherStarts = 6;
+constexpr double kCheaper = 0.98;
+constexpr double kMemory = 0.95;    // of the usual cost, per frame
+constexpr double kLostPose = 0.3;   // rad or m: a body so far from the best fit may have come to a wrong one
+constexpr double kSameCost = 1e-6;  // of the cost
+
+Problem without_tasks(Problem problem) {
+  problem.coordinate_tasks.clear();
+  return problem;
+}
+
+}  // namespace
 
 Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, double t0_s)
     : plan_(plan),
@@ -15,12 +35,17 @@ Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, doubl
       samples_(plan.problem.model.marker_count(), capacity),
       controller_(plan),
       solver_(plan.problem, plan.start_options),
+      unbiased_(without_tasks(plan.problem)),
+      settler_(unbiased_, plan.start_options),
       cell_(plan.problem.model.marker_count()),
       goal_(plan.problem.model.marker_count()),
       before_(goal_),
       led_(goal_),
       returning_(plan.problem.model.marker_count(), plan.ease_s),
       last_good_(plan.rest),
+      settled_(plan.rest),
+      other_(plan.rest),
+      move_(Eigen::VectorXd::Zero(plan.problem.model.speed_count())),
       t0_s_(t0_s) {}
 
 void Walker::use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d) {
@@ -40,16 +65,19 @@ void Walker::begin(const Eigen::VectorXd& x, std::int64_t first) {
   frame_ = first;
   build_cell(first);
   cell_.at(0.0, goal_);
-  controller_.start(x, goal_, time_s());
+  usual_cost_ = -1.0;
+  settled_ = x;
+  if (plan_.settle && any_goal()) settler_.solve(goal_.x, goal_.weight, 0, settled_);
+  controller_.start(settled_, goal_, time_s());
   returning_.start(goal_.weight);
   flagged_ = !controller_.evaluate(goal_, time_s());
   if (flagged_) restart();
   judge();
-  last_good_ = x;
+  last_good_ = settled_;
 }
 
 void Walker::next() {
-  flagged_ = false;
+  flagged_ = lost_ = false;
   build_cell(frame_);
   for (int s = 1; s <= plan_.steps_per_frame && !flagged_; ++s) flagged_ = !step(s);
   ++frame_;
@@ -57,6 +85,7 @@ void Walker::next() {
     cell_.at(1.0, goal_);
     restart();
   }
+  flagged_ = flagged_ || lost_;
   judge();
   if (!flagged_) last_good_ = controller_.x();
 }
@@ -68,7 +97,48 @@ bool Walker::step(int s) {
   controller_.advance(plan_.step_s);
   led_ = goal_;
   returning_.apply(now, led_);
+  if (s == plan_.steps_per_frame && plan_.settle && !settle()) {
+    lost_ = true;
+    return controller_.evaluate(goal_, now);
+  }
   return controller_.evaluate(led_, now);
+}
+
+bool Walker::settle() {
+  if (!(led_.weight.maxCoeff() > 0.0) || !controller_.x().allFinite()) return true;
+  settled_ = controller_.x();
+  auto outcome = settler_.solve(led_.x, led_.weight, 0, settled_);
+  model::difference(plan_.problem.model, controller_.x(), settled_, move_);
+  if (!(move_.cwiseAbs().maxCoeff() < kLostPose)) {
+    // The step led away: the best fit near the frame before counts, unless it is worse.
+    other_ = last_good_;
+    const auto near = settler_.solve(led_.x, led_.weight, 0, other_);
+    if (!(outcome.cost < (1.0 - kSameCost) * near.cost)) {
+      settled_ = other_;
+      outcome = near;
+    }
+  }
+  bool kept = true;
+  if (usual_cost_ >= 0.0 && outcome.cost > kCostly * usual_cost_ + kCostly_m2) {
+    other_ = settled_;
+    const auto second =
+        find_start(unbiased_, plan_.start_options, settler_, goal_.x, goal_.weight, 0, kOtherStarts, other_);
+    if (second.cost < kCheaper * outcome.cost) {
+      settled_ = other_;
+      outcome = second;
+      kept = false;
+    }
+  }
+  usual_cost_ =
+      usual_cost_ < 0.0 ? outcome.cost : kMemory * usual_cost_ + (1.0 - kMemory) * outcome.cost;
+  if (kept) {
+    controller_.place(settled_);
+  } else {
+    ++restarts_;
+    returning_.start(goal_.weight);
+    controller_.start(settled_, goal_, time_s() + plan_.steps_per_frame * plan_.step_s);
+  }
+  return kept;
 }
 
 void Walker::lead_new_markers(double time_s, double u) {

@@ -34,6 +34,7 @@ class Walker {
   [[nodiscard]] const GoalValues& goal() const { return goal_; }
   [[nodiscard]] bool any_goal() const { return goal_.weight.maxCoeff() > 0.0; }
   /// The simulation diverged before this frame, or the body is farther from its goals than the plan allows.
+  /// Or it had lost its goals, which another pose fitted much better, and was set anew.
   [[nodiscard]] bool flagged() const { return flagged_; }
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
 
@@ -42,6 +43,9 @@ class Walker {
   void restart();
   /// Step s of a frame, 1 to steps_per_frame. False when the simulation diverged.
   bool step(int s);
+  /// Bring the pose of a frame to the best fit of its goals. False when the body had lost them and was set
+  /// anew.
+  bool settle();
   /// Position and velocity errors of model markers whose goals become active now.
   void lead_new_markers(double time_s, double u);
   void judge();
@@ -51,15 +55,18 @@ class Walker {
   SampleWindow samples_;
   Controller controller_;
   FrameSolver solver_;
+  Problem unbiased_;  // without the pull to the rest pose that first poses need
+  FrameSolver settler_;
   GoalCell cell_;
   GoalValues goal_, before_, led_;
   ReturningMarkers returning_;
   const data::Derivatives* derivatives_ = nullptr;
   std::int64_t markers_in_derivatives_ = 0;
-  Eigen::VectorXd last_good_;
+  Eigen::VectorXd last_good_, settled_, other_, move_;
   double t0_s_ = 0.0;
+  double usual_cost_ = -1.0;  // m^2, of settled frames; below 0: none yet
   std::int64_t frame_ = 0, restarts_ = 0;
-  bool flagged_ = false;
+  bool flagged_ = false, lost_ = false;
 };
 
 }  // namespace kinemark::motion::internal
