@@ -117,7 +117,7 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
                           const motion::IkResult& least_squares, std::string set,
                           const data::JointMotion* truth) {
   constexpr double kBeyondFirstOrder = 0.01 * kRadPerDeg;
-  constexpr double kRounding = 1e-6;  // rad: to which least squares converges
+  constexpr double kRounding = 1e-5;  // rad: to which both converge
   const auto& ours = control.motion;
   const auto& theirs = least_squares.motion;
   check(ours.coordinates == theirs.coordinates, "compare() needs motions of one model");
@@ -148,8 +148,13 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
                                           2.0 * std::numbers::pi);
       all.add(error);
       if (!is_determined) continue;
+      ++out.values;
+      // Around a stretched arm an angle may be undetermined for some frames.
+      if (!ours.determined.empty() && ours.determined[ours.index(f, c)] == 0) continue;
+      ++out.determined_values;
       determined.add(error);
-      if (!control.goal_bound.empty() && !std::isnan(control.goal_bound[ours.index(f, c)])) {
+      // Both equations hold where all levels together have full rank.
+      if (!control.goal_bound.empty() && ours.status[static_cast<std::size_t>(f)] == data::FrameStatus::converged) {
         ++out.bounded;
         out.held_15 += std::abs(error) <= std::abs(control.goal_error[ours.index(f, c)]) + kBeyondFirstOrder;
         out.held_16 += std::abs(error) <= control.goal_bound[ours.index(f, c)] + kRounding;

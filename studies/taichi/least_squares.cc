@@ -12,6 +12,22 @@
 
 namespace kinemark::studies {
 
+namespace {
+
+/// Whether some clamped coordinate of the frame is within 0.1 of its range's end.
+bool near_a_limit(const model::Model& model, const data::JointMotion& motion, std::int64_t f) {
+  constexpr double kNear_rad = 0.1;
+  for (std::int64_t c = 0; c < motion.size(); ++c) {
+    const auto& coordinate = model.description().coordinates[static_cast<std::size_t>(c)];
+    if (!coordinate.clamped || coordinate.locked) continue;
+    const double q = motion.q[motion.index(f, c)];
+    if (q < coordinate.range_min + kNear_rad || q > coordinate.range_max - kNear_rad) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
                                       std::span<const std::string> landmarks) {
   // Of the sum of squared distances; few landmarks leave much undetermined, which must not affect them.
@@ -45,11 +61,51 @@ motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
 
 motion::IkOptions reference_ik_options(const data::ModelDescription& model,
                                        std::span<const std::string> landmarks) {
-  constexpr double kWeaker = 1e-3;
+  constexpr double kWeaker = 1e-6;
   auto options = landmark_ik_options(model, landmarks);
   options.limits = true;
   for (auto& task : options.coordinate_tasks) task.weight *= kWeaker;
   return options;
+}
+
+Result<motion::IkResult> reference_ik(const model::Model& model, const data::Trajectories& goals,
+                                      const motion::IkOptions& options) {
+  auto forth = motion::solve_ik(model, goals, options);
+  if (!forth) return forth;
+  const auto F = goals.frames();
+  auto turned = data::Trajectories::all_missing(goals.names, goals.time);
+  for (std::int64_t f = 0; f < F; ++f)
+    for (std::int64_t m = 0; m < goals.markers(); ++m) {
+      turned.x(f, m) = goals.x(F - 1 - f, m);
+      turned.state[turned.index(f, m)] = goals.state[goals.index(F - 1 - f, m)];
+    }
+  const auto back = motion::solve_ik(model, turned, options);
+  if (!back) return back;
+  auto& motion = forth->motion;
+  const auto numbers = 3 * static_cast<std::int64_t>(motion.markers.size());
+  const auto cost = [&](const data::JointMotion& of, std::int64_t f) {
+    double sum = 0.0;
+    for (std::int64_t i = f * numbers; i < (f + 1) * numbers; ++i)
+      if (const double e = of.marker_error[static_cast<std::size_t>(i)]; !std::isnan(e)) sum += e * e;
+    return sum;
+  };
+  const auto take_better = [&](const data::JointMotion& from, std::int64_t g, std::int64_t f) {
+    if (!(cost(from, g) < cost(motion, f))) return;
+    std::copy_n(from.q.data() + from.index(g, 0), motion.size(), motion.q.data() + motion.index(f, 0));
+    std::copy_n(from.marker_error.data() + g * numbers, numbers, motion.marker_error.data() + f * numbers);
+    motion.status[static_cast<std::size_t>(f)] = from.status[static_cast<std::size_t>(g)];
+  };
+  for (std::int64_t f = 0; f < F; ++f) take_better(back->motion, F - 1 - f, f);
+  auto single = options;
+  for (std::int64_t f = 0; f < F; ++f) {
+    if (!near_a_limit(model, motion, f)) continue;
+    single.first_time_s = goals.time.time_s(f) - 0.5 / goals.time.rate_hz;
+    single.last_time_s = goals.time.time_s(f) + 0.5 / goals.time.rate_hz;
+    const auto alone = motion::solve_ik(model, goals, single);
+    if (!alone) return alone;
+    take_better(alone->motion, 0, f);
+  }
+  return forth;
 }
 
 data::Trajectories carried_landmarks(const model::Model& model, const data::JointMotion& motion) {

@@ -59,7 +59,7 @@ Status track(const ModelDescription& description, const Trajectories& landmarks,
              const data::JointMotion* truth, Parts& parts, bool draw, TaiChiSubject& out) {
   const auto model = model::Model::compile(description);
   if (!model) return std::unexpected(model.error());
-  auto all = motion::solve_ik(*model, landmarks, reference_ik_options(description));
+  auto all = reference_ik(*model, landmarks, reference_ik_options(description));
   if (!all) return std::unexpected(all.error());
   const auto made = carried_landmarks(*model, all->motion);
   if (draw) out.drawing.emplace();
@@ -125,9 +125,9 @@ Result<SetOutcome> study_set(const model::Model& model, const Trajectories& goal
                              motion::TrackResult* drawn) {
   constexpr double kFine_s = 0.001, kCoarse_s = 1.0 / 60.0;
   const auto ik = reference_ik_options(model.description(), set.all());
-  const auto of_goals = motion::solve_ik(model, goals, ik);
+  const auto of_goals = reference_ik(model, goals, ik);
   if (!of_goals) return std::unexpected(of_goals.error());
-  const auto of_made = motion::solve_ik(model, made, ik);
+  const auto of_made = reference_ik(model, made, ik);
   if (!of_made) return std::unexpected(of_made.error());
   const auto run = [&](const Trajectories& to, const motion::IkResult& fitted, double step_s,
                        motion::TrackResult* keep) -> Result<ControlComparison> {

@@ -88,6 +88,12 @@ void add_run(const Subjects& subjects, const std::string& what, const Asked& ask
        .classic = worst(subjects, kMillimetres, [&](auto& s) { return run(s).least_squares_max_m; }),
        .ours = worst(subjects, kMillimetres, [&](auto& s) { return run(s).control_max_m; })});
   if (asked.bounds)
+    rows.push_back({.quantity = what + ": determined angles, in frames that determine all",
+                    .unit = "%",
+                    .ours = -worst(subjects, -100.0, [&](auto& s) {
+                      return static_cast<double>(run(s).bounded) / static_cast<double>(run(s).values);
+                    })});
+  if (asked.bounds)
     for (const bool fifteen : {true, false})
       rows.push_back({.quantity = fmt::format("{}: angles that equation {} bounds against least squares", what,
                                               fifteen ? "15" : "16"),

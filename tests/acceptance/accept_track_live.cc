@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <thread>
 #include <vector>
 
 #include "acceptance/track_subject.h"
@@ -42,8 +43,11 @@ int run_check(int argc, char** argv) {
   const auto compared = std::min<std::int64_t>(F, static_cast<std::int64_t>(30.0 * kRate_hz));
   std::int64_t flagged = 0;
   Eigen::Matrix3Xd x(3, s.markers.markers());
+  const auto started = Clock::now();
   for (std::int64_t f = 0; f < F; ++f) {
     for (std::int64_t m = 0; m < s.markers.markers(); ++m) x.col(m) = s.markers.x(f, m);
+    std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(
+                                                std::chrono::duration<double>(static_cast<double>(f) / kRate_hz)));
     const auto begin = Clock::now();
     const auto begun = std::clock();
     tracker.push(s.markers.time.time_s(f), x).value();
@@ -57,11 +61,13 @@ int run_check(int argc, char** argv) {
     busy.push_back(static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC);
     wait.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
   }
-  // Measured in processor time: wall time on a busy machine includes other work.
+  // By the clock on the wall, frames coming when they are due: what a user waits. Only an idle machine can tell.
   const double answer_s = exceeded_by_one_percent(busy), wall_s = exceeded_by_one_percent(wait);
-  print_row(answer_s < 2e-3,
-            fmt::format("{} frames at 240 Hz with bounds and deviations: 99 % of the answers within", F),
-            "2 ms",
+  print_row(wall_s < 2e-3,
+            fmt::format("{} frames at 240 Hz, each when it is due, with bounds and deviations: 99 % of the answers "
+                        "within",
+                        F),
+            "2 ms by the clock on the wall",
             fmt::format("{:.3f} ms of the processor, {:.3f} ms by the clock on the wall; {} frames behind by "
                         "design",
                         1e3 * answer_s, 1e3 * wall_s, tracker.delay_frames()));

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/control/internal/walker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/start.h"
@@ -21,6 +23,9 @@ constexpr double kCheaper = 0.98;
 constexpr double kMemory = 0.95;    // of the usual cost, per frame
 constexpr double kLostPose = 0.3;   // rad or m: a body so far from the best fit may have come to a wrong one
 constexpr double kSameCost = 1e-6;  // of the cost
+constexpr double kAtLimit = 1e-9;   // rad or m
+constexpr double kBend = 0.1;       // rad or m: near a limit
+constexpr double kRemembered_s = 0.5;  // that a coordinate was at its limit
 
 Problem without_tasks(Problem problem) {
   problem.coordinate_tasks.clear();
@@ -46,6 +51,7 @@ Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, doubl
       settled_(plan.rest),
       other_(plan.rest),
       move_(Eigen::VectorXd::Zero(plan.problem.model.speed_count())),
+      at_limit_(at(plan.problem.model.speed_count()), -1),
       t0_s_(t0_s) {}
 
 void Walker::use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d) {
@@ -118,6 +124,7 @@ bool Walker::settle() {
       outcome = near;
     }
   }
+  outcome.cost = try_limits(outcome.cost);
   bool kept = true;
   if (usual_cost_ >= 0.0 && outcome.cost > kCostly * usual_cost_ + kCostly_m2) {
     other_ = settled_;
@@ -139,6 +146,37 @@ bool Walker::settle() {
     controller_.start(settled_, goal_, time_s() + plan_.steps_per_frame * plan_.step_s);
   }
   return kept;
+}
+
+// A stretched arm: with the elbow at its limit the arm turns freely about itself, and may have turned to where
+// bending the elbow does not help any more, while it would help in another direction; and the other way round.
+// So a coordinate at its limit is bent a little, one that was there and is still near it is stretched, and it is
+// held there until all others have found their best, and then let go.
+double Walker::try_limits(double cost) {
+  const auto& p = plan_.problem;
+  for (const auto& c : p.model.coordinates()) {
+    const int k = c.speed_idx;
+    if (k < 0 || p.fixed_speed[at(k)] != 0) continue;
+    const double low = p.lower[k], high = p.upper[k], bend = std::min(kBend, 0.25 * (high - low));
+    const double q = settled_[c.state_idx];
+    const bool at_limit = q <= low + kAtLimit || q >= high - kAtLimit;
+    if (at_limit) at_limit_[at(k)] = frame_;
+    if (at_limit_[at(k)] < 0 ||
+        static_cast<double>(frame_ - at_limit_[at(k)]) > kRemembered_s * plan_.rate_hz)
+      continue;
+    const bool is_low = q < low + bend;
+    if (!is_low && q <= high - bend) continue;
+    other_ = settled_;
+    other_[c.state_idx] = is_low ? (at_limit ? low + bend : low) : (at_limit ? high - bend : high);
+    unbiased_.fixed_speed[at(k)] = 1;
+    settler_.solve(led_.x, led_.weight, 0, other_);
+    unbiased_.fixed_speed[at(k)] = 0;
+    const auto outcome = settler_.solve(led_.x, led_.weight, 0, other_);
+    if (!(outcome.cost < (1.0 - kSameCost) * cost)) continue;
+    settled_ = other_;
+    cost = outcome.cost;
+  }
+  return cost;
 }
 
 void Walker::lead_new_markers(double time_s, double u) {

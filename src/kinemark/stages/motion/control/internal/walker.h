@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "kinemark/data/derivatives.h"
 #include "kinemark/stages/motion/control/internal/controller.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
@@ -46,6 +49,8 @@ class Walker {
   /// Bring the pose of a frame to the best fit of its goals. False when the body had lost them and was set
   /// anew.
   bool settle();
+  /// Look for a better fit than `settled_`, which costs `cost`, on the other side of limits. What the best costs.
+  double try_limits(double cost);
   /// Position and velocity errors of model markers whose goals become active now.
   void lead_new_markers(double time_s, double u);
   void judge();
@@ -63,6 +68,7 @@ class Walker {
   const data::Derivatives* derivatives_ = nullptr;
   std::int64_t markers_in_derivatives_ = 0;
   Eigen::VectorXd last_good_, settled_, other_, move_;
+  std::vector<std::int64_t> at_limit_;  // per speed: frame in which it last was at a limit; -1: never
   double t0_s_ = 0.0;
   double usual_cost_ = -1.0;  // m^2, of settled frames; below 0: none yet
   std::int64_t frame_ = 0, restarts_ = 0;
