@@ -154,7 +154,8 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
       ++out.determined_values;
       determined.add(error);
       // Both equations hold where all levels together have full rank.
-      if (!control.goal_bound.empty() && ours.status[static_cast<std::size_t>(f)] == data::FrameStatus::converged) {
+      if (!control.goal_bound.empty() &&
+          ours.status[static_cast<std::size_t>(f)] == data::FrameStatus::converged) {
         ++out.bounded;
         out.held_15 += std::abs(error) <= std::abs(control.goal_error[ours.index(f, c)]) + kBeyondFirstOrder;
         out.held_16 += std::abs(error) <= control.goal_bound[ours.index(f, c)] + kRounding;

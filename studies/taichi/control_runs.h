@@ -57,13 +57,14 @@ struct ControlComparison {
   /// Control against least squares, over coordinates that the set determines (not those of the root), in the
   /// frames in which it does.
   double angle_rms_rad = 0.0, angle_max_rad = 0.0;
-  std::int64_t values = 0, determined_values = 0;  ///< of those coordinates: all, and determined in their frame
-  double all_angles_rms_rad = 0.0;  ///< over all that the model does not lock
+  std::int64_t values = 0,
+               determined_values = 0;  ///< of those coordinates: all, and determined in their frame
+  double all_angles_rms_rad = 0.0;     ///< over all that the model does not lock
   /// The same coordinates against the simulated subject's own; NaN without one.
   double control_truth_rms_rad = kNaN, least_squares_truth_rms_rad = kNaN;
-  /// Values of those coordinates in frames whose every coordinate is determined, which both equations require, and
-  /// how many of them lie no farther from least squares than equation 15, and 16, says; equation 15, the first order
-  /// alone, has 0.01 deg for the rest.
+  /// Values of those coordinates in frames whose every coordinate is determined, which both equations
+  /// require, and how many of them lie no farther from least squares than equation 15, and 16, says; equation
+  /// 15, the first order alone, has 0.01 deg for the rest.
   std::int64_t bounded = 0, held_15 = 0, held_16 = 0;
   int determined = 0, coordinates = 0;
   int rank_min = 0, rank_max = 0, free_speeds = 0;

@@ -19,14 +19,14 @@ namespace kinemark::studies {
 [[nodiscard]] motion::IkOptions landmark_ik_options(const data::ModelDescription& model,
                                                     std::span<const std::string> landmarks = {});
 
-/// The same to stand beside direct marker control: within the limits of clamped coordinates, and with tasks so
-/// weak (a millionth of those) that they move nothing that the landmarks determine.
+/// The same to stand beside direct marker control: within the limits of clamped coordinates, and with tasks
+/// so weak (a millionth of those) that they move nothing that the landmarks determine.
 [[nodiscard]] motion::IkOptions reference_ik_options(const data::ModelDescription& model,
                                                      std::span<const std::string> landmarks = {});
 
-/// Least squares with those options: from the first frame to the last, from the last to the first, and, where a
-/// coordinate comes near a limit, from many starts; in each frame the pose that fits best. From its neighbour
-/// alone a frame can hold to a poorer fit, where a stretched arm has turned about itself.
+/// Least squares with those options: from the first frame to the last, from the last to the first, and, where
+/// a coordinate comes near a limit, from many starts; in each frame the pose that fits best. From its
+/// neighbour alone a frame can hold to a poorer fit, where a stretched arm has turned about itself.
 [[nodiscard]] Result<motion::IkResult> reference_ik(const model::Model& model,
                                                     const data::Trajectories& goals,
                                                     const motion::IkOptions& options);

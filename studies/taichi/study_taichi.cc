@@ -169,9 +169,8 @@ Result<TaiChiStudy> study_taichi(const TaiChiJob& job, const Progress& progress)
     for (const auto seed : job.seeds) {
       const auto simulated = simulate_tai_chi(job.human, seed);
       if (!simulated) return fail_at(fmt::format("seed {}", seed), simulated.error());
-      auto subject =
-          study_subject(job.human, simulated->landmarks, &simulated->truth, seed, job.threads,
-                        out.subjects.empty(), parts);
+      auto subject = study_subject(job.human, simulated->landmarks, &simulated->truth, seed, job.threads,
+                                   out.subjects.empty(), parts);
       if (!subject) return fail_at(fmt::format("seed {}", seed), subject.error());
       out.subjects.push_back(std::move(*subject));
     }

@@ -60,8 +60,8 @@ struct TaiChiStudy {
 [[nodiscard]] Result<TaiChiStudy> study_taichi(const TaiChiJob& job, const Progress& progress = {});
 
 /// One set on a compiled model and recorded goals; `made`: goals that the model made. `coarse`: at 1/60 s too
-/// on goals that the model made. `truth`: the simulated subject's own motion, or null. Where `drawn` is not null
-/// it gets the track on recorded goals at 1 ms, with bounds.
+/// on goals that the model made. `truth`: the simulated subject's own motion, or null. Where `drawn` is not
+/// null it gets the track on recorded goals at 1 ms, with bounds.
 [[nodiscard]] Result<SetOutcome> study_set(const model::Model& model, const data::Trajectories& goals,
                                            const data::Trajectories& made, const LandmarkSet& set,
                                            bool coarse, const data::JointMotion* truth = nullptr,

@@ -95,8 +95,8 @@ void add_run(const Subjects& subjects, const std::string& what, const Asked& ask
                     })});
   if (asked.bounds)
     for (const bool fifteen : {true, false})
-      rows.push_back({.quantity = fmt::format("{}: angles that equation {} bounds against least squares", what,
-                                              fifteen ? "15" : "16"),
+      rows.push_back({.quantity = fmt::format("{}: angles that equation {} bounds against least squares",
+                                              what, fifteen ? "15" : "16"),
                       .unit = "%",
                       .ours = -worst(subjects, -100.0,
                                      [&](auto& s) {
@@ -161,10 +161,12 @@ std::vector<StudyRow> taichi_rows(const Subjects& subjects, bool recorded) {
   add_geometry(subjects, recorded, rows);
   const auto whole = [](auto& s) -> const SetOutcome& { return s.whole; };
   add_run(
-      subjects, "whole body, 1 ms", {.over_least_squares_mm = 0.1, .angle_deg = 0.5, .truth = true, .bounds = true},
+      subjects, "whole body, 1 ms",
+      {.over_least_squares_mm = 0.1, .angle_deg = 0.5, .truth = true, .bounds = true},
       [&](auto& s) -> auto& { return whole(s).recorded_fine; }, rows);
   add_run(
-      subjects, "whole body, 1/60 s", {.over_least_squares_mm = 0.1, .angle_deg = 1.0, .truth = true, .bounds = true},
+      subjects, "whole body, 1/60 s",
+      {.over_least_squares_mm = 0.1, .angle_deg = 1.0, .truth = true, .bounds = true},
       [&](auto& s) -> auto& { return whole(s).recorded_coarse; }, rows);
   add_run(
       subjects, "whole body, goals that the model made, 1 ms", {.rms_mm = 0.05, .bounds = true},

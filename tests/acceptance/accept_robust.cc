@@ -89,14 +89,13 @@ Result<Estimate> estimate(const Case& c, const data::Trajectories& markers, bool
     if (!result) return std::unexpected(result.error());
     return Estimate{.motion = std::move(result->motion), .fit = std::move(result->fit)};
   }
-  auto result =
-      motion::track_markers(c.model, markers,
-                            {.marker_weights = c.options.marker_weights,
-                             .limits = c.options.limits,
-                             .judge_samples = judged,
-                             .first_time_s = c.options.first_time_s,
-                             .last_time_s = c.options.last_time_s,
-                             .error_bars = error_bars});
+  auto result = motion::track_markers(c.model, markers,
+                                      {.marker_weights = c.options.marker_weights,
+                                       .limits = c.options.limits,
+                                       .judge_samples = judged,
+                                       .first_time_s = c.options.first_time_s,
+                                       .last_time_s = c.options.last_time_s,
+                                       .error_bars = error_bars});
   if (!result) return std::unexpected(result.error());
   return Estimate{.motion = std::move(result->motion), .fit = std::move(result->fit)};
 }
@@ -204,8 +203,7 @@ struct Tally {
   std::string worst;
 };
 
-void compare(const Case& c, const Corruption& done, const Estimate& r, std::uint64_t seed,
-             Tally& tally) {
+void compare(const Case& c, const Corruption& done, const Estimate& r, std::uint64_t seed, Tally& tally) {
   const auto& a = c.clean.motion;
   const auto& b = r.motion;
   std::vector<std::uint8_t> found(static_cast<std::size_t>(a.frames()), 0);
@@ -323,7 +321,7 @@ int run_check(int argc, char** argv) {
     else
       print_note(name + ": as it was recorded", measured + "; known: " + r.defects);
     print_note(name + ": processor time", fmt::format("{:.2f} times that without judging ({:.1f} ms)",
-                                                        judged_s / plain_s, 1e3 * plain_s));
+                                                      judged_s / plain_s, 1e3 * plain_s));
     for (const Kind kind : {Kind::spike, Kind::zero, Kind::swap, Kind::held, Kind::exchange}) {
       const char* word = kKinds[static_cast<int>(kind)];
       if (!kinds.empty() && !kinds.contains(word)) continue;

@@ -46,8 +46,9 @@ int run_check(int argc, char** argv) {
   const auto started = Clock::now();
   for (std::int64_t f = 0; f < F; ++f) {
     for (std::int64_t m = 0; m < s.markers.markers(); ++m) x.col(m) = s.markers.x(f, m);
-    std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(
-                                                std::chrono::duration<double>(static_cast<double>(f) / kRate_hz)));
+    std::this_thread::sleep_until(started +
+                                  std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(static_cast<double>(f) / kRate_hz)));
     const auto begin = Clock::now();
     const auto begun = std::clock();
     tracker.push(s.markers.time.time_s(f), x).value();
@@ -61,16 +62,18 @@ int run_check(int argc, char** argv) {
     busy.push_back(static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC);
     wait.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
   }
-  // By the clock on the wall, frames coming when they are due: what a user waits. Only an idle machine can tell.
+  // By the clock on the wall, frames coming when they are due: what a user waits. Only an idle machine can
+  // tell.
   const double answer_s = exceeded_by_one_percent(busy), wall_s = exceeded_by_one_percent(wait);
-  print_row(wall_s < 2e-3,
-            fmt::format("{} frames at 240 Hz, each when it is due, with bounds and deviations: 99 % of the answers "
-                        "within",
-                        F),
-            "2 ms by the clock on the wall",
-            fmt::format("{:.3f} ms of the processor, {:.3f} ms by the clock on the wall; {} frames behind by "
-                        "design",
-                        1e3 * answer_s, 1e3 * wall_s, tracker.delay_frames()));
+  print_row(
+      wall_s < 2e-3,
+      fmt::format("{} frames at 240 Hz, each when it is due, with bounds and deviations: 99 % of the answers "
+                  "within",
+                  F),
+      "2 ms by the clock on the wall",
+      fmt::format("{:.3f} ms of the processor, {:.3f} ms by the clock on the wall; {} frames behind by "
+                  "design",
+                  1e3 * answer_s, 1e3 * wall_s, tracker.delay_frames()));
   const double per_minute = 60.0 * kRate_hz * static_cast<double>(list.size());
   const double begin = kDegPerRad * std::sqrt(squares.front() / per_minute);
   const double end = kDegPerRad * std::sqrt(squares.back() / per_minute);

@@ -39,7 +39,7 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
       1e3 * result.fit.rms_error_m);
 }
 
-constexpr double kMostFramesOff = 5.0;   // %: frames that fit worse than a recording may as a whole
+constexpr double kMostFramesOff = 5.0;  // %: frames that fit worse than a recording may as a whole
 
 /// Gates of single frames and samples, which the RMS of a whole recording hides.
 void add_frame_gates(report::IkRun& run, const IkJob& job, const data::JointMotion& motion) {

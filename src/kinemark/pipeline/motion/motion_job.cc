@@ -148,9 +148,8 @@ void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion) {
   const auto there =
       std::ssize(motion.marker_state) - std::ranges::count(motion.marker_state, data::SampleState::missing);
   const double percent = there > 0 ? 100.0 * static_cast<double>(out) / static_cast<double>(there) : 0.0;
-  add_gate(
-      run, "samples_left_out", percent, kMostOut, "%",
-      fmt::format("{} of {} samples were left out; at most {:g} % are accepted.", out, there, kMostOut));
+  add_gate(run, "samples_left_out", percent, kMostOut, "%",
+           fmt::format("{} of {} samples were left out; at most {:g} % are accepted.", out, there, kMostOut));
 }
 
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,

@@ -21,10 +21,10 @@ struct LivePose {
   double time_s = 0.0;              ///< of the frame
   Eigen::VectorXd q, qd, qdd, tau;  ///< coordinates (rad, m), their rates and accelerations, forces (N m, N)
   Eigen::VectorXd q_sd, q_bound;    ///< NaN where not determined; empty without error bars
-  std::vector<std::uint8_t> determined;                      ///< empty without error bars
-  std::vector<int> left_out;  ///< markers, by their place in the stream, whose sample was not believed
-  int rank = 0;                                              ///< directions of motion that the markers hold
-  double smallest_singular = 0.0;                            ///< as TrackResult, kg^-1/2
+  std::vector<std::uint8_t> determined;  ///< empty without error bars
+  std::vector<int> left_out;       ///< markers, by their place in the stream, whose sample was not believed
+  int rank = 0;                    ///< directions of motion that the markers hold
+  double smallest_singular = 0.0;  ///< as TrackResult, kg^-1/2
   data::FrameStatus status = data::FrameStatus::no_markers;  ///< how well the frame was followed
 };
 

@@ -138,7 +138,8 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
   const auto judged = judge(*plan, markers, options, progress);
   if (!judged) return fail(Code::cancelled, "direct marker control was stopped");
   const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
-  // What was left out is followed where its marker lies on the body in the frames beside, lest the goals jump.
+  // What was left out is followed where its marker lies on the body in the frames beside, lest the goals
+  // jump.
   const data::Trajectories& followed =
       judged->filled && options.derivatives == nullptr ? *judged->filled : kept;
 

@@ -215,8 +215,7 @@ TEST(Track, FramesAreSettledOnTheBestFitOfTheirGoals) {
   // Markers that no pose fits: each 20 mm off, and more than the speed of the body can hide.
   auto markers = record(model, 120, 2e-3, 8);
   for (std::int64_t f = 0; f < 120; ++f)
-    for (std::int64_t m = 0; m < markers.markers(); ++m)
-      markers.x(f, m)[m % 3] += m % 2 == 0 ? 0.02 : -0.02;
+    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m)[m % 3] += m % 2 == 0 ? 0.02 : -0.02;
   const auto goals = control_goals(markers).value();
   const auto ik = solve_ik(model, goals, {.judge_samples = false, .error_bars = false}).value();
   const auto distance = [&](const TrackOptions& options) {
@@ -225,8 +224,8 @@ TEST(Track, FramesAreSettledOnTheBestFitOfTheirGoals) {
     double most = 0.0;
     for (std::int64_t f = 0; f < 120; ++f)
       for (std::int64_t c = 6; c < track.motion.size(); ++c)
-        most = std::max(most, std::abs(track.motion.q[track.motion.index(f, c)] -
-                                       ik.motion.q[ik.motion.index(f, c)]));
+        most = std::max(
+            most, std::abs(track.motion.q[track.motion.index(f, c)] - ik.motion.q[ik.motion.index(f, c)]));
     return most;
   };
   EXPECT_LT(distance({.judge_samples = false}), 1e-5);

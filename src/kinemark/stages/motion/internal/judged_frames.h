@@ -14,7 +14,7 @@ namespace kinemark::motion::internal {
 struct JudgedFrames {
   SolvedFrames solved;
   std::optional<data::Trajectories>
-      kept;                       ///< the recording without what was left out; none where all was kept
+      kept;  ///< the recording without what was left out; none where all was kept
   std::optional<data::Trajectories>
       filled;  ///< the same with what was left out where its marker lies on the body in the frames beside
   std::vector<Outlier> rejected;  ///< by marker and frame, none overlaps another of the same marker

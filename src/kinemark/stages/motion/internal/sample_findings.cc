@@ -23,8 +23,7 @@ data::Finding finding_of(const Problem& problem, const Outlier& outlier) {
 }  // namespace
 
 void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
-                         const data::Trajectories& markers, data::JointMotion& motion,
-                         data::MarkerFit& fit) {
+                         const data::Trajectories& markers, data::JointMotion& motion, data::MarkerFit& fit) {
   const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
   const auto M = problem.data_marker.size();
   motion.marker_state.resize(at(problem.frames) * M);

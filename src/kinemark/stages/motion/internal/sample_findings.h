@@ -10,7 +10,6 @@ namespace kinemark::motion::internal {
 /// Say what was left out, and what is doubtful: findings of the fit, its count of frames left out for each
 /// marker, and the state of every sample of the motion.
 void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
-                         const data::Trajectories& markers, data::JointMotion& motion,
-                         data::MarkerFit& fit);
+                         const data::Trajectories& markers, data::JointMotion& motion, data::MarkerFit& fit);
 
 }  // namespace kinemark::motion::internal

@@ -38,7 +38,7 @@ struct JudgedFrame {
   const Eigen::Matrix3Xd* y = {};    ///< 3 x M samples, m
   const Eigen::VectorXd* seen = {};  ///< M; 0 where not seen
   const double* state = {};          ///< pose that fits best when all samples are believed
-  const float* position = {};        ///< 3 x M: of each marker on its body in that pose, m; NaN where not seen
+  const float* position = {};  ///< 3 x M: of each marker on its body in that pose, m; NaN where not seen
 };
 
 /// Judges frame after frame, for recordings and live streams.

@@ -14,8 +14,8 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr double kFirstLesson_s = 0.5, kWindow_s = 4.0;
-constexpr std::int64_t kFewest = 30;       // frames, to learn from
-constexpr std::int64_t kHeldFrames = 3;    // as in recordings
+constexpr std::int64_t kFewest = 30;     // frames, to learn from
+constexpr std::int64_t kHeldFrames = 3;  // as in recordings
 constexpr double kHeldTravel_m = 2e-3;
 
 Problem with_frames(Problem problem, std::int64_t frames) {
@@ -65,8 +65,8 @@ void StreamJudge::keep_frame(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& w
   window_.states.col(column) = x_;
   window_.cost[at(column)] = cost;
   window_.status[at(column)] = !(weight.maxCoeff() > 0.0) ? data::FrameStatus::no_markers
-                               : converged               ? data::FrameStatus::converged
-                                                         : data::FrameStatus::not_converged;
+                               : converged                ? data::FrameStatus::converged
+                                                          : data::FrameStatus::not_converged;
   ++frames_;
 }
 
@@ -93,8 +93,8 @@ void StreamJudge::drop_held(const Eigen::Matrix3Xd& y, Eigen::VectorXd& weight) 
   const auto& marker = solver_.workspace().marker;  // in the frame before
   for (Eigen::Index m = 0; m < weight.size(); ++m) {
     if (weight[m] == 0.0 || y.col(m) != held_.col(m)) {
-      held_.col(m) = weight[m] == 0.0 ? Eigen::Vector3d(Eigen::Vector3d::Constant(kNaN))
-                                      : Eigen::Vector3d(y.col(m));
+      held_.col(m) =
+          weight[m] == 0.0 ? Eigen::Vector3d(Eigen::Vector3d::Constant(kNaN)) : Eigen::Vector3d(y.col(m));
       repeats_[at(m)] = 1;
       continue;
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Samples of a live stream judged as they come: the judge of recordings, with scales learnt from the frames so
-// far.
+// Samples of a live stream judged as they come: the judge of recordings, with scales learnt from the frames
+// so far.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@
 namespace kinemark::motion::internal {
 
 /// Judges every sample of a stream once, before it is used. During the first half second nothing is left out:
-/// scales are not known yet. They are learnt again after 1, 2 and 4 s, then every 4 s, from the last 4 s. Memory
-/// use is constant.
+/// scales are not known yet. They are learnt again after 1, 2 and 4 s, then every 4 s, from the last 4 s.
+/// Memory use is constant.
 class StreamJudge {
  public:
   /// Both references must outlive the judge.
@@ -46,7 +46,7 @@ class StreamJudge {
   Eigen::VectorXd x_, before_;
   std::vector<float> position_;
   std::vector<std::uint8_t> out_;
-  Eigen::Matrix3Xd held_, begun_;     // per marker: value that repeats, and where the model had it at first
+  Eigen::Matrix3Xd held_, begun_;      // per marker: value that repeats, and where the model had it at first
   std::vector<std::int64_t> repeats_;  // per marker: frames with that value
 };
 

@@ -136,8 +136,7 @@ bool Walker::settle() {
       kept = false;
     }
   }
-  usual_cost_ =
-      usual_cost_ < 0.0 ? outcome.cost : kMemory * usual_cost_ + (1.0 - kMemory) * outcome.cost;
+  usual_cost_ = usual_cost_ < 0.0 ? outcome.cost : kMemory * usual_cost_ + (1.0 - kMemory) * outcome.cost;
   if (kept) {
     controller_.place(settled_);
   } else {
@@ -148,10 +147,10 @@ bool Walker::settle() {
   return kept;
 }
 
-// A stretched arm: with the elbow at its limit the arm turns freely about itself, and may have turned to where
-// bending the elbow does not help any more, while it would help in another direction; and the other way round.
-// So a coordinate at its limit is bent a little, one that was there and is still near it is stretched, and it is
-// held there until all others have found their best, and then let go.
+// A stretched arm: with the elbow at its limit the arm turns freely about itself, and may have turned to
+// where bending the elbow does not help any more, while it would help in another direction; and the other way
+// round. So a coordinate at its limit is bent a little, one that was there and is still near it is stretched,
+// and it is held there until all others have found their best, and then let go.
 double Walker::try_limits(double cost) {
   const auto& p = plan_.problem;
   for (const auto& c : p.model.coordinates()) {

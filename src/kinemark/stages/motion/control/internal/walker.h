@@ -49,7 +49,8 @@ class Walker {
   /// Bring the pose of a frame to the best fit of its goals. False when the body had lost them and was set
   /// anew.
   bool settle();
-  /// Look for a better fit than `settled_`, which costs `cost`, on the other side of limits. What the best costs.
+  /// Look for a better fit than `settled_`, which costs `cost`, on the other side of limits. What the best
+  /// costs.
   double try_limits(double cost);
   /// Position and velocity errors of model markers whose goals become active now.
   void lead_new_markers(double time_s, double u);
