@@ -80,7 +80,7 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
             options.judge_samples = what == "reject";
           },
           "reject: leave out samples that neither the model nor the frames beside explain; keep: believe all")
-      ->default_str("reject")
+      ->default_str(job.options.judge_samples ? "reject" : "keep")
       ->group("Estimate");
   command.add_option("--max-rms", a.max_rms_mm, "Gate: RMS marker error, mm")
       ->capture_default_str()

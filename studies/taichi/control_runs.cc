@@ -96,7 +96,6 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
   options.damping = setting.damping;
   options.cutoff_hz = 0.0;
   options.limits = setting.limits;
-  options.judge_samples = false;  // every landmark is a goal, as it was for the paper
   options.posture_kp = setting.posture_kp;
   options.posture_kd = setting.posture_kd;
   options.error_bars = setting.error_bars;

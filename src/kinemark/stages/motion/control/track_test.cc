@@ -290,13 +290,14 @@ TEST(Track, ABodyThatLostItsGoalsSaysSoAndIsBackWithinAFifthOfASecond) {
 TEST(Track, BadSamplesAreLeftOutNamedAndDoNoHarm) {
   const auto model = body();
   const auto markers = record(model, 120, 0.5e-3, 3);
-  const auto clean = track_markers(model, markers).value();
-  EXPECT_EQ(clean.motion.q, track_markers(model, markers, {.judge_samples = false})->motion.q)
+  const TrackOptions judging{.judge_samples = true};
+  const auto clean = track_markers(model, markers, judging).value();
+  EXPECT_EQ(clean.motion.q, track_markers(model, markers)->motion.q)
       << "a clean recording gives the same bits";
   auto bad = markers;
   bad.x(60, 6) += Eigen::Vector3d(0.2, -0.1, 0.1);
-  const auto judged = track_markers(model, bad).value();
-  const auto believed = track_markers(model, bad, {.judge_samples = false}).value();
+  const auto judged = track_markers(model, bad, judging).value();
+  const auto believed = track_markers(model, bad).value();
   const auto off = [&](const TrackResult& track) {
     double most = 0.0;
     for (std::size_t i = 0; i < clean.motion.q.size(); ++i)
