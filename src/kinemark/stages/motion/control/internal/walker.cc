@@ -126,7 +126,9 @@ bool Walker::settle() {
   }
   outcome.cost = try_limits(outcome.cost);
   bool kept = true;
-  if (usual_cost_ >= 0.0 && outcome.cost > kCostly * usual_cost_ + kCostly_m2) {
+  // Goals that are still eased in come from where the body was and fit no pose.
+  const bool eased = led_.x != goal_.x;
+  if (!eased && usual_cost_ >= 0.0 && outcome.cost > kCostly * usual_cost_ + kCostly_m2) {
     other_ = settled_;
     const auto second =
         find_start(unbiased_, plan_.start_options, settler_, goal_.x, goal_.weight, 0, kOtherStarts, other_);
