@@ -270,7 +270,9 @@ TEST(Track, ABodyThatLostItsGoalsSaysSoAndIsBackWithinAFifthOfASecond) {
     }
   for (const double step_s : {1e-3, 1e-2}) {
     const auto track =
-        track_markers(model, markers, {.omega_rad_s = step_s > 5e-3 ? 40.0 : 100.0, .step_s = step_s})
+        track_markers(
+            model, markers,
+            {.omega_rad_s = step_s > 5e-3 ? 40.0 : 100.0, .step_s = step_s, .marker_noise_sd_m = 1e-3})
             .value();
     EXPECT_LT(angle_rms(model, track.motion, 121), 2e-3) << step_s;
     for (std::int64_t f = 100; f < 121; ++f) {

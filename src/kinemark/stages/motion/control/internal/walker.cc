@@ -138,7 +138,8 @@ bool Walker::settle() {
       kept = false;
     }
   }
-  usual_cost_ = usual_cost_ < 0.0 ? outcome.cost : kMemory * usual_cost_ + (1.0 - kMemory) * outcome.cost;
+  if (!eased)
+    usual_cost_ = usual_cost_ < 0.0 ? outcome.cost : kMemory * usual_cost_ + (1.0 - kMemory) * outcome.cost;
   if (kept) {
     controller_.place(settled_);
   } else {
