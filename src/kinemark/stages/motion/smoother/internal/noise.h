@@ -18,7 +18,6 @@ struct NoiseSplit {
   Eigen::VectorXd white, slow;     ///< M, parts of the marker's own variance
   Eigen::VectorXd common_slow;     ///< per body, part that its markers share
   std::vector<MarkerTrust> trust;  ///< M, for the smoother: white noise, pooled between markers
-  bool any_slow = false;
 };
 
 /// Least squares has no robust loss: one outlier raises the estimated noise of its own marker and lowers that
