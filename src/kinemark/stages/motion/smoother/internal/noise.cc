@@ -117,6 +117,7 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
     share[m] = slow_share(start.motion, m);
   }
   const double usual = std::max(kSmallestVariance, usual_of(own));
+  split.raised = std::sqrt(usual / usual_of(own));
   own = own.cwiseMax(usual / kWidest).cwiseMin(usual * kWidest);
   split.white = own.cwiseProduct((1.0 - share.array()).matrix()).cwiseMax(kSmallestVariance);
   split.slow = own.cwiseProduct(share);
