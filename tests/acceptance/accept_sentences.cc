@@ -206,10 +206,9 @@ void defects(std::uint64_t seed, int draws) {
       t.x(f, a) = t.x(f, b);
       t.x(f, b) = x;
     }
-    swap.planted += said(trajectory::screen(t).value(), time, FindingKind::label_swap,
-                         "carry each other's label", name(a), name(b)) ||
-                    said(trajectory::screen(t).value(), time, FindingKind::label_swap, "exchange", name(a),
-                         name(b));
+    const auto exchanged = trajectory::screen(t).value();
+    swap.planted +=
+        said(exchanged, time, FindingKind::label_swap, "carry each other's label", name(a), name(b));
 
     t = clean.markers;
     for (auto f = first; f < first + 10; ++f) {
