@@ -11,10 +11,10 @@
 #include <numbers>
 #include <set>
 
+#include "acceptance/ik_recordings.h"
 #include "kinemark/core/random.h"
 #include "kinemark/core/units.h"
 #include "kinemark/stages/motion/ik.h"
-#include "acceptance/ik_recordings.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
 

@@ -56,10 +56,10 @@ data::Trajectories coloured_marker(std::uint64_t seed, double keeps) {
     for (int axis = 0; axis < 3; ++axis) {
       noise[axis] = keeps * noise[axis] + news_m * random.gaussian();
       for (int k = 1; k <= 3; ++k)
-        in.x(f, 0)[axis] = (k == 1 ? noise[axis] : in.x(f, 0)[axis]) +
-                           0.1 / (k * k) *
-                               std::sin(2.0 * M_PI * (k * base_hz * static_cast<double>(f) / kRateHz +
-                                                      k * k * phase[axis]));
+        in.x(f, 0)[axis] =
+            (k == 1 ? noise[axis] : in.x(f, 0)[axis]) +
+            0.1 / (k * k) *
+                std::sin(2.0 * M_PI * (k * base_hz * static_cast<double>(f) / kRateHz + k * k * phase[axis]));
     }
     in.state[static_cast<std::size_t>(f)] = data::SampleState::measured;
   }
@@ -142,8 +142,8 @@ Subject simulate(const model::Model& model, std::uint64_t seed) {
     data::SegmentLayout::Segment segment{.name = model.description().bodies[b].name, .markers = {}};
     for (int m = 0; m < model.marker_count(); ++m)
       if (model.markers()[static_cast<std::size_t>(m)].body == static_cast<int>(b))
-        segment.markers.push_back(
-            static_cast<int>(subject.markers.find(model.description().markers[static_cast<std::size_t>(m)].name)));
+        segment.markers.push_back(static_cast<int>(
+            subject.markers.find(model.description().markers[static_cast<std::size_t>(m)].name)));
     if (segment.markers.size() >= 4) subject.layout.segments.push_back(std::move(segment));
   }
   return subject;
@@ -216,20 +216,19 @@ void defects(std::uint64_t seed, int draws) {
       t.set_missing(f, b);
     }
     const auto visited = trajectory::screen(t).value();
-    visit.planted +=
-        said(visited, time, FindingKind::swap_within, "to the path of", name(a), name(b));
+    visit.planted += said(visited, time, FindingKind::swap_within, "to the path of", name(a), name(b));
 
     t = clean.markers;
     for (auto f = first; f <= last; ++f) t.x(f, a) *= 1000.0;
-    unit.planted += said(trajectory::screen(t).value(), time, FindingKind::unit_slip, "too large", name(a),
-                         name(a));
+    unit.planted +=
+        said(trajectory::screen(t).value(), time, FindingKind::unit_slip, "too large", name(a), name(a));
 
     // A marker slides by 25 mm on its segment.
     t = clean.markers;
     const auto& segments = clean.layout.segments;
-    const auto& segment = segments[static_cast<std::size_t>(
-        std::min(random.uniform() * static_cast<double>(segments.size()),
-                 static_cast<double>(segments.size()) - 1.0))];
+    const auto& segment =
+        segments[static_cast<std::size_t>(std::min(random.uniform() * static_cast<double>(segments.size()),
+                                                   static_cast<double>(segments.size()) - 1.0))];
     const int m = segment.markers[static_cast<std::size_t>(random.uniform() * 3.99)];
     const int other = segment.markers[segment.markers[0] == m ? 1 : 0];
     for (auto f = first; f < t.frames(); ++f)

@@ -29,7 +29,7 @@ using namespace kinemark;
 using testing_support::print_note;
 using testing_support::print_row;
 
-constexpr double kMostUnsettled = 0.5;    // % of the frames
+constexpr double kMostUnsettled = 0.5;     // % of the frames
 constexpr double kLeastNoise_m = 0.01e-3;  // that the smoother assumes: computed markers have less
 
 double percent(std::int64_t n, std::int64_t of) {
@@ -128,7 +128,8 @@ void check_subjects(int subjects, std::uint64_t first_seed) {
   }
   const auto name = fmt::format("smoother, {} subjects with soft tissue and gaps", subjects);
   print_row(percent(all.unsettled, all.frames) <= kMostUnsettled, name + ": frames not converged",
-            fmt::format("<= {} %", kMostUnsettled), fmt::format("{:.2f} %", percent(all.unsettled, all.frames)));
+            fmt::format("<= {} %", kMostUnsettled),
+            fmt::format("{:.2f} %", percent(all.unsettled, all.frames)));
   print_row(all.smoother.rms() <= all.least_squares.rms(), name + ": RMS error of angles that both determine",
             "<= least squares'",
             fmt::format("{:.3f} deg against {:.3f} deg", kDegPerRad * all.smoother.rms(),
@@ -140,7 +141,8 @@ void check_subjects(int subjects, std::uint64_t first_seed) {
             "60-75 % within 1 SD, 90-98 % within 2 SD", fmt::format("{:.1f} % and {:.1f} %", one, two));
 }
 
-/// Hide stretches of 0.05 to 0.3 s, a tenth of all samples. Returns which ones (recording's frames x markers).
+/// Hide stretches of 0.05 to 0.3 s, a tenth of all samples. Returns which ones (recording's frames x
+/// markers).
 std::vector<std::uint8_t> hide(data::Trajectories& t, std::uint64_t seed) {
   Random random(seed, 0x68696465);
   std::vector<std::uint8_t> hidden(t.state.size(), 0);

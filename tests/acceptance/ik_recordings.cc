@@ -38,9 +38,7 @@ const std::vector<IkRecording>& ik_recordings() {
        .markers = "bmc-rajagopal-run/ExpData/motion_capture_run.trc",
        .setup = "bmc-rajagopal-run/IK/IK_setup.xml",
        .defects = "RTOE and RMT5 carry each other's label in every third frame"},
-      {.name = "arm",
-       .model = "opensim-arm26/arm26.osim",
-       .markers = "opensim-arm26/arm26_elbow_flex.trc"}};
+      {.name = "arm", .model = "opensim-arm26/arm26.osim", .markers = "opensim-arm26/arm26_elbow_flex.trc"}};
   return all;
 }
 

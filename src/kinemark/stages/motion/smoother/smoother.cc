@@ -181,7 +181,8 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   for (const auto unsettled : outcome.unsettled)
     result.motion.status.push_back(unsettled ? data::FrameStatus::not_converged
                                              : data::FrameStatus::converged);
-  if (options.error_bars) fill_bars(problem, observations, noise, states, options.ik.threads, trajectory, result);
+  if (options.error_bars)
+    fill_bars(problem, observations, noise, states, options.ik.threads, trajectory, result);
   fill_marker_errors(problem, markers, states, result);
   result.solve_seconds = seconds_since(solving);
   return result;

@@ -123,7 +123,8 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
   std::vector<double> y(at(F)), sd(at(F));
   const auto estimate = [&](int speed) {
     // Noise beyond the error bars would be motion taken for noise.
-    const auto smooth = smooth_coordinate(y, sd, motion.time.rate_hz, motion.q_sd.empty() ? kAnyNoise : raised);
+    const auto smooth =
+        smooth_coordinate(y, sd, motion.time.rate_hz, motion.q_sd.empty() ? kAnyNoise : raised);
     if (smooth.known) variance[speed] = std::pow(std::max(smooth.step_sd, kSmallestStep), 2);
   };
   for (int c = 0; c < model.coordinate_count(); ++c) {

@@ -85,9 +85,9 @@ void WholeTrajectory::each_limited(const MatrixXd& states, const Visit& visit) {
     }
 }
 
-// The step that is best within the limits, as far as the cost is a parabola. A coordinate that would leave its
-// range is drawn to the limit by a stiff spring, which its neighbours in time feel through the prior (cutting
-// single frames off would make the path ragged), and is let go where the spring would have to pull.
+// The step that is best within the limits, as far as the cost is a parabola. A coordinate that would leave
+// its range is drawn to the limit by a stiff spring, which its neighbours in time feel through the prior
+// (cutting single frames off would make the path ragged), and is let go where the spring would have to pull.
 void WholeTrajectory::find_step(const MatrixXd& states) {
   const Index n = gradient_.rows();
   VectorXd next(3 * n), own(n);

@@ -175,7 +175,8 @@ TEST(UnitSlips, AMarkerThatMovesFastNearTheOrigin) {
   expect_one(t, 2, 80, 120, 1000.0);
 }
 
-// One step through the origin, after a frame that happens to lie a thousandth of the next one's distance away.
+// One step through the origin, after a frame that happens to lie a thousandth of the next one's distance
+// away.
 TEST(UnitSlips, APassageThroughTheOriginIsNoSlip) {
   Trajectories t = testing::walker({.frames = 200});
   for (std::int64_t f = 0; f < t.frames(); ++f)
