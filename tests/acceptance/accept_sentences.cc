@@ -181,7 +181,7 @@ std::pair<std::int64_t, std::int64_t> two_markers(const data::Trajectories& t, s
 
 void defects(std::uint64_t seed, int draws) {
   const auto model = model::Model::compile(pipeline::human_model().value()).value();
-  Said swap, visit, unit, slip;
+  Said swap, visit, slip;
   for (int i = 0; i < draws; ++i) {
     const auto stream = seed + static_cast<std::uint64_t>(i);
     Random random(stream, 0x64656665);
@@ -189,10 +189,9 @@ void defects(std::uint64_t seed, int draws) {
     const auto& time = clean.markers.time;
     const auto none = trajectory::screen(clean.markers).value();
     const auto no_slip = skeleton::find_slips(clean.markers, clean.layout).value();
-    for (Said* s : {&swap, &visit, &unit, &slip}) ++s->cases, ++s->other_cases;
+    for (Said* s : {&swap, &visit, &slip}) ++s->cases, ++s->other_cases;
     swap.elsewhere += said_at_all(none, FindingKind::label_swap);
     visit.elsewhere += said_at_all(none, FindingKind::swap_within);
-    unit.elsewhere += said_at_all(none, FindingKind::unit_slip);
     slip.elsewhere += said_at_all(no_slip, FindingKind::marker_slip);
 
     const auto first = static_cast<std::int64_t>(random.uniform(150.0, 300.0)),
@@ -218,11 +217,6 @@ void defects(std::uint64_t seed, int draws) {
     const auto visited = trajectory::screen(t).value();
     visit.planted += said(visited, time, FindingKind::swap_within, "to the path of", name(a), name(b));
 
-    t = clean.markers;
-    for (auto f = first; f <= last; ++f) t.x(f, a) *= 1000.0;
-    unit.planted +=
-        said(trajectory::screen(t).value(), time, FindingKind::unit_slip, "too large", name(a), name(a));
-
     // A marker slides by 25 mm on its segment.
     t = clean.markers;
     const auto& segments = clean.layout.segments;
@@ -238,7 +232,6 @@ void defects(std::uint64_t seed, int draws) {
   }
   print("carry each other's label", swap, 0.95, 0.0);
   print("jumps to the path of ... and back to its own", visit, 0.95, 0.0);
-  print("is 1000 times too large", unit, 0.95, 0.0);
   print("moved on its segment", slip, 0.95, 0.0);
 }
 

@@ -11,8 +11,7 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 constexpr double kThousand = 1000.0;
-constexpr double kNeighbour = 1.0;   // m, on the same body
-constexpr double kUsualSteps = 2.0;  // of the fast ones
+constexpr double kNeighbour = 1.0;  // m, on the same body
 
 struct Extent {
   double distance = 0.0;  ///< median distance from the origin, m
@@ -38,28 +37,13 @@ Extent extent_of(const data::Trajectories& t, std::int64_t marker) {
   return e;
 }
 
-/// What a marker moves in a frame when it is fast: nineteen of twenty steps are shorter.
-double fast_step(const data::Trajectories& t, std::int64_t marker) {
-  std::vector<double> steps;
-  for (std::int64_t f = 1; f < t.frames(); ++f)
-    if (t.present(f - 1, marker) && t.present(f, marker))
-      steps.push_back((t.x(f, marker) - t.x(f - 1, marker)).norm());
-  if (steps.empty()) return 0.0;
-  const auto at = steps.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(steps.size() - 1));
-  std::ranges::nth_element(steps, at);
-  return *at;
-}
-
-/// 1 when `b` is a thousand times `a` and where the marker goes from there, -1 for the reverse, else 0. Near
-/// the origin a marker changes its direction and its distance from it in one step, and may even do what looks
-/// like a slip: no step that it usually makes is one.
-int slip_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double step) {
-  if ((b - a).norm() <= kUsualSteps * step) return 0;
-  const auto alike = [step](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-    return (p - q).norm() < std::max(0.05 * p.norm(), std::min(kUsualSteps * step, 0.5 * p.norm()));
+/// 1 when `b` is a thousand times `a` and in its direction, -1 for the reverse, else 0.
+int slip_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const auto alike = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    return (p - q).norm() < 0.05 * p.norm();
   };
   if (alike(a, b / kThousand)) return 1;
-  if (alike(b, a / kThousand)) return -1;
+  if (alike(a, b * kThousand)) return -1;
   return 0;
 }
 
@@ -67,11 +51,10 @@ int slip_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double step
 void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Defects& out) {
   std::vector<std::pair<std::int64_t, int>> levels{{0, 0}};  // from frame: power of a thousand
   std::int64_t last = -1;
-  const double step = fast_step(t, m);
   for (std::int64_t f = 0; f < t.frames(); ++f) {
     if (!t.present(f, m)) continue;
     if (last >= 0)
-      if (const int slip = slip_between(t.x(last, m), t.x(f, m), step); slip != 0)
+      if (const int slip = slip_between(t.x(last, m), t.x(f, m)); slip != 0)
         levels.emplace_back(f, levels.back().second + slip);
     last = f;
   }

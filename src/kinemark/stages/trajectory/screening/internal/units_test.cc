@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "kinemark/core/random.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
@@ -160,28 +159,6 @@ TEST(UnitSlips, AMarkerAtTheOriginOrNeverSeenIsNoSlip) {
   EXPECT_TRUE(slips_in(t).empty());
   EXPECT_TRUE(slips_in(testing::walker({.frames = 0})).empty());
   EXPECT_TRUE(slips_in(testing::walker({.frames = 1})).empty());
-}
-
-// Round and round at 30 mm, in steps of a fifth of that: from one frame to the next the direction changes by
-// more than what tells a slip elsewhere.
-TEST(UnitSlips, AMarkerThatMovesFastNearTheOrigin) {
-  Trajectories t = testing::walker({.frames = 200});
-  for (std::int64_t f = 0; f < t.frames(); ++f) {
-    const double phase = 0.2 * static_cast<double>(f);
-    t.x(f, 2) = 0.03 * Eigen::Vector3d(std::cos(phase), std::sin(phase), 0.5);
-  }
-  EXPECT_TRUE(slips_in(t).empty());
-  rescale(t, 2, 80, 120, 1000.0);
-  expect_one(t, 2, 80, 120, 1000.0);
-}
-
-// One step through the origin, after a frame that happens to lie a thousandth of the next one's distance
-// away.
-TEST(UnitSlips, APassageThroughTheOriginIsNoSlip) {
-  Trajectories t = testing::walker({.frames = 200});
-  for (std::int64_t f = 0; f < t.frames(); ++f)
-    t.x(f, 2) = Eigen::Vector3d(0.01 * static_cast<double>(f - 99) - 0.00999, 0.0, 0.0);
-  EXPECT_TRUE(slips_in(t).empty());
 }
 
 TEST(UnitSlips, WhatWasFoundBeforeIsKept) {
