@@ -30,7 +30,8 @@ bool is_of_markers(const AnalyzeArguments& arguments) {
   const auto& job = arguments.job;
   if (arguments.measures.list) return true;
   const auto ending = pipeline::ending_of(job.motion);
-  return !job.motion.empty() && job.model.empty() && job.setup.empty() && ending != ".mot" && ending != ".sto";
+  return !job.motion.empty() && job.model.empty() && job.setup.empty() && ending != ".mot" &&
+         ending != ".sto";
 }
 
 /// NAME=BODY:X,Y,Z
@@ -90,7 +91,8 @@ int run_command(const CommonOptions& common, AnalyzeArguments& arguments) {
 void add_options(CLI::App& command, AnalyzeArguments& a) {
   auto& job = a.job;
   command.add_option("IN", job.motion,
-                     "Markers, whose paths are measured; or a motion: .mot or .sto of coordinates, with Q_sd.sto beside it if "
+                     "Markers, whose paths are measured; or a motion: .mot or .sto of coordinates, with "
+                     "Q_sd.sto beside it if "
                      "there is one");
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command
@@ -131,10 +133,13 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
 
 void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand(
-      "analyze", "Measures of markers' paths with intervals; what bodies do along a motion: positions, rates, torques");
+      "analyze",
+      "Measures of markers' paths with intervals; what bodies do along a motion: positions, rates, torques");
   command->footer(
-      "Of a recording of markers: shape, timing and smoothness of each path, freed of the bias of noise, with 95 % "
-      "intervals\n(docs/stages/measures.md); --list tells what there is.\nOf a motion: writes into the folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
+      "Of a recording of markers: shape, timing and smoothness of each path, freed of the bias of noise, "
+      "with 95 % "
+      "intervals\n(docs/stages/measures.md); --list tells what there is.\nOf a motion: writes into the "
+      "folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
       "NAME_BodyKinematics_pos,\n_vel, _acc_global.sto (mass centres, body-fixed X-Y-Z angles), "
       "NAME_PointKinematics_POINT_pos, _vel, _acc.sto,\nNAME_inverse_dynamics.sto, beside each its standard "
       "deviations (_sd.sto), and NAME_analysis.json. Degrees, metres, seconds, N m.");

@@ -38,13 +38,14 @@ data::Trajectories recording_of(const analysis::PathSamples& path, double noise_
     const int gaps = 1 + std::min(2, static_cast<int>(random.uniform(0.0, 3.0)));
     for (int g = 0; g < gaps; ++g) {
       const auto length = static_cast<std::int64_t>(random.uniform(0.03, 0.1) * path.rate_hz) + 1;
-      const auto first = static_cast<std::int64_t>(
-          random.uniform(0.12 * path.rate_hz, static_cast<double>(n) - 0.12 * path.rate_hz - static_cast<double>(length)));
+      const auto first = static_cast<std::int64_t>(random.uniform(
+          0.12 * path.rate_hz, static_cast<double>(n) - 0.12 * path.rate_hz - static_cast<double>(length)));
       for (std::int64_t i = first; i < first + length; ++i) seen[static_cast<std::size_t>(i)] = false;
     }
   }
   for (std::int64_t i = 0; i < n; ++i) {
-    const Eigen::Vector3d noise = 1e-3 * noise_mm * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+    const Eigen::Vector3d noise =
+        1e-3 * noise_mm * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
     if (!seen[static_cast<std::size_t>(i)]) continue;
     out.x(i, 0) = path.x.row(i).transpose() + noise;
     out.state[out.index(i, 0)] = data::SampleState::measured;
@@ -60,12 +61,14 @@ analysis::PathSamples raw_of(const data::Trajectories& markers) {
     if (!markers.present(i, 0)) continue;
     x.row(i) = markers.x(i, 0).transpose();
     for (std::int64_t k = before + 1; k < i; ++k)
-      x.row(k) = x.row(before) + (x.row(i) - x.row(before)) * static_cast<double>(k - before) / static_cast<double>(i - before);
+      x.row(k) = x.row(before) + (x.row(i) - x.row(before)) * static_cast<double>(k - before) /
+                                     static_cast<double>(i - before);
     before = i;
   }
   const auto slope = [&](const analysis::SeriesMatrix& of) {
     analysis::SeriesMatrix out = analysis::SeriesMatrix::Zero(of.rows(), 3);
-    for (std::int64_t i = 1; i + 1 < of.rows(); ++i) out.row(i) = 0.5 * markers.time.rate_hz * (of.row(i + 1) - of.row(i - 1));
+    for (std::int64_t i = 1; i + 1 < of.rows(); ++i)
+      out.row(i) = 0.5 * markers.time.rate_hz * (of.row(i + 1) - of.row(i - 1));
     return out;
   };
   analysis::PathSamples out{.rate_hz = markers.time.rate_hz, .x = x};
@@ -74,8 +77,11 @@ analysis::PathSamples raw_of(const data::Trajectories& markers) {
 }
 
 analysis::PathSamples stretch_of(const analysis::PathSamples& path, std::int64_t first, std::int64_t count) {
-  return {.rate_hz = path.rate_hz, .x = path.x.middleRows(first, count), .v = path.v.middleRows(first, count),
-          .a = path.a.middleRows(first, count), .j = path.j.middleRows(first, count)};
+  return {.rate_hz = path.rate_hz,
+          .x = path.x.middleRows(first, count),
+          .v = path.v.middleRows(first, count),
+          .a = path.a.middleRows(first, count),
+          .j = path.j.middleRows(first, count)};
 }
 
 std::vector<Told> tell(const std::string& family, std::uint64_t seed) {
@@ -99,8 +105,12 @@ std::vector<Told> tell(const std::string& family, std::uint64_t seed) {
   for (const auto& measure : measured->measures)
     for (const auto& definition : analysis::path_definitions())
       if (definition.what.id == measure.id)
-        out.push_back({.family = family, .periodic = frame.periodic, .discrete = frame.discrete,
-                       .truth = definition.value(truth), .raw = definition.value(as_recorded), .measure = measure});
+        out.push_back({.family = family,
+                       .periodic = frame.periodic,
+                       .discrete = frame.discrete,
+                       .truth = definition.value(truth),
+                       .raw = definition.value(as_recorded),
+                       .measure = measure});
   return out;
 }
 
@@ -137,10 +147,12 @@ int run(int argc, char** argv) {
     }
   for (const auto& [id, families] : table)
     for (const auto& [family, c] : families)
-      fmt::print("{:20} {:13} told {:4} interval {:4} one-sided {:4} covered {:5.1f} % upper {:5.1f} %  bias/raw {:8.4f} bias/sd {:6.2f}\n", id,
-                 family, c.told, c.with_interval, c.one_sided, 100.0 * c.covered / std::max(1, c.with_interval),
-                 100.0 * c.below_high / std::max(1, c.with_interval), c.bias / c.raw_bias,
-                 c.bias / c.told / std::sqrt(c.squares / c.told));
+      fmt::print(
+          "{:20} {:13} told {:4} interval {:4} one-sided {:4} covered {:5.1f} % upper {:5.1f} %  bias/raw "
+          "{:8.4f} bias/sd {:6.2f}\n",
+          id, family, c.told, c.with_interval, c.one_sided, 100.0 * c.covered / std::max(1, c.with_interval),
+          100.0 * c.below_high / std::max(1, c.with_interval), c.bias / c.raw_bias,
+          c.bias / c.told / std::sqrt(c.squares / c.told));
   return testing_support::exit_status();
 }
 

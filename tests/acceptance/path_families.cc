@@ -49,7 +49,8 @@ Eigen::Vector3d gaussian3(Random& random) {
 }
 
 std::function<Axes(double)> reach(Random& random, double& duration_s) {
-  const double a = random.uniform(100.0, 500.0), d = random.uniform(0.4, 1.0), arch = random.uniform(0.0, 0.15);
+  const double a = random.uniform(100.0, 500.0), d = random.uniform(0.4, 1.0),
+               arch = random.uniform(0.0, 0.15);
   duration_s = 1.0 + d;
   return [=](double t) -> Axes {
     const Jet up = minimum_jerk(t, 0.5, 0.6 * d), down = minimum_jerk(t, 0.5 + 0.4 * d, 0.6 * d);
@@ -86,7 +87,8 @@ std::function<Jet(double)> uneven(double rate, double first, double second, Rand
 }
 
 std::function<Axes(double)> loop(Random& random, double& duration_s, int folds) {
-  const double a = random.uniform(60.0, 250.0), b = a * random.uniform(0.25, 0.9), rate = random.uniform(0.6, 1.6);
+  const double a = random.uniform(60.0, 250.0), b = a * random.uniform(0.25, 0.9),
+               rate = random.uniform(0.6, 1.6);
   const double off = random.uniform(0.0, 12.0), phase = random.uniform(0.0, kTurn);
   const auto theta = uneven(rate, 0.10, 0.06, random);
   duration_s = 5.0;
@@ -98,8 +100,10 @@ std::function<Axes(double)> loop(Random& random, double& duration_s, int folds) 
 }
 
 std::function<Axes(double)> sign(Random& random, double& duration_s) {
-  const double a = random.uniform(100.0, 200.0), b = a * random.uniform(0.3, 0.7), rate = random.uniform(1.1, 1.6);
-  const double rhythm = random.uniform(0.4, 0.75), off = random.uniform(2.0, 10.0), phase = random.uniform(0.0, kTurn);
+  const double a = random.uniform(100.0, 200.0), b = a * random.uniform(0.3, 0.7),
+               rate = random.uniform(1.1, 1.6);
+  const double rhythm = random.uniform(0.4, 0.75), off = random.uniform(2.0, 10.0),
+               phase = random.uniform(0.0, kTurn);
   const auto turn = uneven(rate, 0.05, 0.03, random);
   duration_s = 4.0;
   return [=](double t) -> Axes {
@@ -111,7 +115,8 @@ std::function<Axes(double)> sign(Random& random, double& duration_s) {
 }
 
 std::function<Axes(double)> wheel(Random& random, double& duration_s) {
-  const double r = random.uniform(100.0, 250.0), w = kTurn * random.uniform(0.8, 1.6), phase = random.uniform(0.0, kTurn);
+  const double r = random.uniform(100.0, 250.0), w = kTurn * random.uniform(0.8, 1.6),
+               phase = random.uniform(0.0, kTurn);
   duration_s = 4.0;
   return [=](double t) -> Axes {
     return {r * sine(t, w, phase + 0.5 * std::numbers::pi), r * sine(t, w, phase), Jet{}};
@@ -120,7 +125,8 @@ std::function<Axes(double)> wheel(Random& random, double& duration_s) {
 
 std::function<Axes(double)> tremor(Random& random, double& duration_s) {
   const double rate = random.uniform(4.5, 11.0);
-  const double size = std::exp(random.uniform(std::log(0.3), std::log(4.0))), drift = random.uniform(3.0, 15.0);
+  const double size = std::exp(random.uniform(std::log(0.3), std::log(4.0))),
+               drift = random.uniform(3.0, 15.0);
   const Eigen::Vector3d first = gaussian3(random).normalized(), second = gaussian3(random).normalized(),
                         way = gaussian3(random).normalized();
   std::array<double, 7> phase{};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Eight families of simulated movements of one point, with exact derivatives: reaches, submovements, ellipses,
-// figures of eight, signs, wheels, tremor, a walking ankle.
+// Eight families of simulated movements of one point, with exact derivatives: reaches, submovements,
+// ellipses, figures of eight, signs, wheels, tremor, a walking ankle.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace kinemark::acceptance {
 
-inline constexpr std::array kFamilies{"reach", "submovements", "ellipse", "eight", "sign", "wheel", "tremor", "walk"};
+inline constexpr std::array kFamilies{"reach", "submovements", "ellipse", "eight",
+                                      "sign",  "wheel",        "tremor",  "walk"};
 
 /// A value and its first three derivatives in time.
 struct Jet {

@@ -44,7 +44,7 @@ class DifferenceSmoother {
   /// count, but must be finite. factor() first.
   void smooth(SeriesMatrix& series) const;
 
-  [[nodiscard]] int order() const { return order_; }                    ///< m
+  [[nodiscard]] int order() const { return order_; }                     ///< m
   [[nodiscard]] const std::vector<bool>& seen() const { return seen_; }  ///< n flags
   [[nodiscard]] std::int64_t samples() const {                           ///< n
     return static_cast<std::int64_t>(seen_.size());

@@ -59,7 +59,8 @@ Eigen::MatrixXd dense_smoother(const std::vector<bool>& seen, int m, double half
   const Eigen::MatrixXd po = p(o, Eigen::all);
   const Eigen::MatrixXd v = k(o, o) + Eigen::MatrixXd::Identity(po.rows(), po.rows());
   const Eigen::LDLT<Eigen::MatrixXd> inverse(v);
-  const Eigen::MatrixXd trend = (po.transpose() * inverse.solve(po)).ldlt().solve(inverse.solve(po).transpose());
+  const Eigen::MatrixXd trend =
+      (po.transpose() * inverse.solve(po)).ldlt().solve(inverse.solve(po).transpose());
   const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(po.rows(), po.rows()) - po * trend;
   return p * trend + k(Eigen::all, o) * inverse.solve(rest);
 }

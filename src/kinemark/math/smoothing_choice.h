@@ -16,18 +16,18 @@ namespace kinemark::math {
 /// Order and cut-off of a DifferenceSmoother, common to all series, so that the choice does not depend on how
 /// the axes of the laboratory stand.
 struct SmoothingChoice {
-  int order = 3;           ///< m
+  int order = 3;             ///< m
   double half_power = kNaN;  ///< cycles per sample
-  double risk = kNaN;      ///< expected squared error of a smoothed sample over the noise variance
+  double risk = kNaN;        ///< expected squared error of a smoothed sample over the noise variance
   double parameters = kNaN;  ///< trace of the smoother: how many free numbers the path has, per series
 };
 
 /// Which orders and cut-offs are tried.
 struct SmoothingSearch {
   std::vector<int> orders{3, 4, 5};  ///< 1 to 5 each
-  double lowest = 0.0;     ///< lowest half-power frequency, cycles per sample, above 0
-  double highest = 0.45;   ///< highest, below 0.5
-  int frequencies = 13;    ///< tried between them at equal ratios, then five around the best
+  double lowest = 0.0;               ///< lowest half-power frequency, cycles per sample, above 0
+  double highest = 0.45;             ///< highest, below 0.5
+  int frequencies = 13;              ///< tried between them at equal ratios, then five around the best
 };
 
 /// The order and cut-off of least expected error by Stein's unbiased estimate (SURE: residual sum of squares

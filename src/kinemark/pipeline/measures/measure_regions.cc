@@ -38,9 +38,10 @@ std::vector<std::string> labels_of(const data::Trial& trial) {
 }  // namespace
 
 Result<data::Region> parse_region(const std::string& text, const TimeBase& time) {
-  const auto wrong = fail(Code::usage, fmt::format("'{}' is no region; need NAME=FIRST-LAST in frames (reach=120-300) or "
-                                                   "seconds (reach=1.2s-3s)",
-                                                   text));
+  const auto wrong =
+      fail(Code::usage, fmt::format("'{}' is no region; need NAME=FIRST-LAST in frames (reach=120-300) or "
+                                    "seconds (reach=1.2s-3s)",
+                                    text));
   const auto equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) return wrong;
   const std::string_view ends = std::string_view(text).substr(equals + 1);

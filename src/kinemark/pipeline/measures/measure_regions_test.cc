@@ -17,7 +17,8 @@ TEST(ParseRegion, TakesFramesOfTheFileAndSecondsOfItsClock) {
 }
 
 TEST(ParseRegion, RefusesWhatIsNone) {
-  for (const char* text : {"", "reach", "=1-2", "reach=1", "reach=1.5-2", "reach=a-b", "reach=1s", "reach=1e30-2", "reach=nan-2"}) {
+  for (const char* text : {"", "reach", "=1-2", "reach=1", "reach=1.5-2", "reach=a-b", "reach=1s",
+                           "reach=1e30-2", "reach=nan-2"}) {
     const auto region = parse_region(text, kTime);
     ASSERT_FALSE(region) << text;
     EXPECT_EQ(region.error().code, Code::usage);
@@ -48,7 +49,8 @@ TEST_F(RegionsBetween, GoFromEachEventToTheNextOfItsSide) {
 TEST_F(RegionsBetween, OfOneEventThereAreNone) {
   const auto found = regions_between("Foot Off", trial_);
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().message, "no two events of one side are called 'Foot Off'; the recording has Foot Strike and Foot Off");
+  EXPECT_EQ(found.error().message,
+            "no two events of one side are called 'Foot Off'; the recording has Foot Strike and Foot Off");
   trial_.events.clear();
   EXPECT_NE(regions_between("Foot Off", trial_).error().message.find("has no events"), std::string::npos);
 }

@@ -29,15 +29,16 @@ Status check_output(const std::filesystem::path& output) {
 
 // What the recorder made is no sample, what screening is sure of neither.
 Status screen_trial(const MeasuresJob& job, data::Trial& trial, MeasuresOutcome& outcome) {
-  const auto screening = screen_markers(trial, {.recorder_made = RecorderMade::mark,
-                                                .find_defects = !job.keep_defects,
-                                                .reject_defects = true});
+  const auto screening = screen_markers(
+      trial,
+      {.recorder_made = RecorderMade::mark, .find_defects = !job.keep_defects, .reject_defects = true});
   if (!screening) return std::unexpected(screening.error());
   const auto& sure = screening->sure;
   for (std::size_t i = 0; i < std::min(sure.size(), kDefectsListed); ++i)
     outcome.warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));
   if (sure.size() > kDefectsListed)
-    outcome.warnings.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsListed));
+    outcome.warnings.push_back(
+        fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsListed));
   return {};
 }
 
@@ -57,8 +58,12 @@ Result<std::vector<data::Region>> regions_of(const MeasuresJob& job, const data:
 }
 
 // Edits, selection, screening; the regions to measure.
-Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& trial, MeasuresOutcome& outcome) {
-  auto taken = take_edits({.edits = job.edits, .recording = job.input, .force = job.force, .seed = job.seed,
+Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& trial,
+                                          MeasuresOutcome& outcome) {
+  auto taken = take_edits({.edits = job.edits,
+                           .recording = job.input,
+                           .force = job.force,
+                           .seed = job.seed,
                            .threads = job.threads},
                           trial);
   if (!taken) return std::unexpected(taken.error());
@@ -73,13 +78,19 @@ Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& t
 Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
   if (auto s = check_output(job.output); !s) return std::unexpected(s.error());
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
-  analysis::PathMeasureOptions options{.measures = job.measures, .refits = job.refits, .noise_sd_m = job.noise_sd_m,
-                                       .level = job.level, .seed = job.seed, .threads = job.threads};
+  analysis::PathMeasureOptions options{.measures = job.measures,
+                                       .refits = job.refits,
+                                       .noise_sd_m = job.noise_sd_m,
+                                       .level = job.level,
+                                       .seed = job.seed,
+                                       .threads = job.threads};
   if (auto s = options.check(); !s) return std::unexpected(s.error());
-  auto staging = Staging::create(job.output.empty() ? std::vector<std::filesystem::path>{} : std::vector{job.output},
-                                 job.force, {job.input, job.edits});
+  auto staging =
+      Staging::create(job.output.empty() ? std::vector<std::filesystem::path>{} : std::vector{job.output},
+                      job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());
-  auto input = read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .needs_samples = true, .record = true});
+  auto input =
+      read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .needs_samples = true, .record = true});
   if (!input) return std::unexpected(input.error());
   MeasuresOutcome outcome;
   outcome.input = std::move(input->file);
@@ -91,14 +102,17 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
   auto measured = analysis::measure_paths(input->trial.markers, options);
   if (!measured) return fail_at(name, measured.error());
   if (measured->measures.empty())
-    return fail(Code::bad_input, fmt::format("{}: nothing can be measured: {}", name,
-                                             measured->warnings.empty() ? "no measure applies" : measured->warnings.front()));
+    return fail(Code::bad_input,
+                fmt::format("{}: nothing can be measured: {}", name,
+                            measured->warnings.empty() ? "no measure applies" : measured->warnings.front()));
   outcome.measures = std::move(measured->measures);
   std::ranges::move(measured->warnings, std::back_inserter(outcome.warnings));
   if (job.output.empty()) return outcome;
   const bool csv = ending_of(job.output) == ".csv";
-  const auto file = csv ? text_file(job.output, [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
-                        : json_file(job.output, [&] { return measures_outcome_json(outcome); });
+  const auto file =
+      csv ? text_file(job.output,
+                      [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
+          : json_file(job.output, [&] { return measures_outcome_json(outcome); });
   auto written = write_results(*staging, {file}, {}, "the measures");
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
@@ -107,7 +121,9 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
 
 nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {
   nlohmann::ordered_json out;
-  out["input"] = {{"path", outcome.input.path}, {"bytes", outcome.input.bytes}, {outcome.input.hash_kind, outcome.input.hash}};
+  out["input"] = {{"path", outcome.input.path},
+                  {"bytes", outcome.input.bytes},
+                  {outcome.input.hash_kind, outcome.input.hash}};
   out["measures"] = measures_json(outcome.measures);
   out["written"] = nlohmann::ordered_json::array();
   for (const auto& path : outcome.written) out["written"].push_back(path.string());

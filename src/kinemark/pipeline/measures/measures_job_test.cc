@@ -27,12 +27,14 @@ class MeasuresJobTest : public ::testing::Test {
     const auto ellipse = analysis::testing::sampled(300, 100.0, analysis::testing::ellipse);
     data::Trial trial;
     trial.first_frame = 41;
-    trial.markers = data::Trajectories::all_missing({"RFIN", "RELB"}, {.rate_hz = 100.0, .t0_s = 0.4, .frames = 300, .first_number = 41});
+    trial.markers = data::Trajectories::all_missing(
+        {"RFIN", "RELB"}, {.rate_hz = 100.0, .t0_s = 0.4, .frames = 300, .first_number = 41});
     Random random(3, 0);
     for (std::int64_t f = 0; f < 300; ++f)
       for (int m = 0; m < 2; ++m) {
-        trial.markers.x(f, m) = (m == 0 ? reach : ellipse).row(f).transpose() +
-                                5e-4 * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+        trial.markers.x(f, m) =
+            (m == 0 ? reach : ellipse).row(f).transpose() +
+            5e-4 * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
         trial.markers.state[trial.markers.index(f, m)] = data::SampleState::measured;
       }
     for (const double t : {0.6, 1.6, 2.6}) trial.events.push_back({"Turn", "", t});
@@ -76,7 +78,8 @@ TEST_F(MeasuresJobTest, RegionsComeFromOptionsEventsAndTheJournal) {
   job_.between = {"Turn"};
   auto journal = io::EditJournal::open(edits_of(recording_), identify_recording(recording_).value());
   ASSERT_TRUE(journal);
-  ASSERT_TRUE(journal->append({.kind = data::EditKind::region, .first_frame = 100, .last_frame = 199, .name = "signed"}));
+  ASSERT_TRUE(journal->append(
+      {.kind = data::EditKind::region, .first_frame = 100, .last_frame = 199, .name = "signed"}));
   job_.edits = kEditsBeside;
   const auto outcome = run_measures(job_);
   ASSERT_TRUE(outcome) << outcome.error().message;
@@ -108,11 +111,15 @@ TEST_F(MeasuresJobTest, SaysInOneSentenceWhatIsWrong) {
     const auto outcome = run_measures(job);
     return outcome ? std::string("no failure") : outcome.error().message;
   };
-  EXPECT_THAT(says([](auto& job) { job.measures = {"peek_speed"}; }), HasSubstr("no measure 'peek_speed' (nearest: peak_speed)"));
-  EXPECT_THAT(says([](auto& job) { job.output = "a.xlsx"; }), HasSubstr("a.xlsx: measures are written as .csv or .json"));
+  EXPECT_THAT(says([](auto& job) { job.measures = {"peek_speed"}; }),
+              HasSubstr("no measure 'peek_speed' (nearest: peak_speed)"));
+  EXPECT_THAT(says([](auto& job) { job.output = "a.xlsx"; }),
+              HasSubstr("a.xlsx: measures are written as .csv or .json"));
   EXPECT_THAT(says([](auto& job) { job.selection.select = {"NOSE"}; }), HasSubstr("NOSE"));
-  EXPECT_THAT(says([](auto& job) { job.between = {"Strike"}; }), HasSubstr("no two events of one side are called 'Strike'; the recording has Turn"));
-  EXPECT_THAT(says([](auto& job) { job.regions = {"late=900-950"}; }), HasSubstr("frames 900 to 950, lies outside the recording, whose frames are 41 to 340"));
+  EXPECT_THAT(says([](auto& job) { job.between = {"Strike"}; }),
+              HasSubstr("no two events of one side are called 'Strike'; the recording has Turn"));
+  EXPECT_THAT(says([](auto& job) { job.regions = {"late=900-950"}; }),
+              HasSubstr("frames 900 to 950, lies outside the recording, whose frames are 41 to 340"));
   EXPECT_THAT(says([](auto& job) { job.input = "none.c3d"; }), HasSubstr("none.c3d"));
 }
 
@@ -121,7 +128,8 @@ TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {
   job_.output = scratch_ / "short.csv";
   const auto outcome = run_measures(job_);
   ASSERT_FALSE(outcome);
-  EXPECT_THAT(outcome.error().message, HasSubstr("nothing can be measured: RFIN was measured in 20 frames; need 30 at least"));
+  EXPECT_THAT(outcome.error().message,
+              HasSubstr("nothing can be measured: RFIN was measured in 20 frames; need 30 at least"));
   EXPECT_FALSE(std::filesystem::exists(job_.output));
 }
 

@@ -60,12 +60,20 @@ std::string interval_text(const data::Measure& measure, double factor) {
 }
 
 std::string value_text(const data::Measure& measure) {
+  if (measure.quantity == data::Quantity::count && std::isfinite(measure.value)) {
+    const auto& ends = measure.interval;
+    const bool same = ends.kind != data::IntervalKind::two_sided || ends.low == ends.high;
+    return fmt::format("{:.0f}", measure.value) +
+           (same ? "" : fmt::format(" [{:.0f} to {:.0f}]", ends.low, ends.high));
+  }
   const auto unit = data::shown_unit(measure.quantity);
   const auto& interval = measure.interval;
   const double width = interval.kind == data::IntervalKind::two_sided ? interval.high - interval.low
-                       : interval.kind == data::IntervalKind::at_most ? std::abs(interval.high - measure.value)
-                                                                      : kNaN;
-  std::string out = rounded(unit.per_si * measure.value, unit.per_si * width) + interval_text(measure, unit.per_si);
+                       : interval.kind == data::IntervalKind::at_most
+                           ? std::abs(interval.high - measure.value)
+                           : kNaN;
+  std::string out =
+      rounded(unit.per_si * measure.value, unit.per_si * width) + interval_text(measure, unit.per_si);
   if (!unit.name.empty() && std::isfinite(measure.value)) out += fmt::format(" {}", unit.name);
   return out;
 }
@@ -74,16 +82,18 @@ std::string value_text(const data::Measure& measure) {
 
 std::string measures_csv(std::span<const data::Measure> measures, const std::string& file) {
   std::string out =
-      "file,subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,approximate,sd,"
+      "file,subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,"
+      "approximate,sd,"
       "uncorrected,share_not_measured,method,remark\n";
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
     const auto shown = [&unit](double si) { return cell(unit.per_si * si); };
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", quoted(file), quoted(m.subject),
-                       quoted(m.context), quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
-                       cell(m.end_s), m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
-                       m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
-                       shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), quoted(m.method), quoted(m.remark));
+    out += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", quoted(file), quoted(m.subject),
+        quoted(m.context), quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
+        cell(m.end_s), m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
+        m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
+        shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), quoted(m.method), quoted(m.remark));
   }
   return out;
 }
@@ -124,11 +134,12 @@ std::string measures_text(std::span<const data::Measure> measures) {
     if (!same)
       out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject,
                          m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
-                         m.share_not_measured > 0.0 ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
-                                                    : "");
+                         m.share_not_measured > 0.0
+                             ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
+                             : "");
     const auto* definition = definition_of(m.id);
-    out += fmt::format("  {:<40} {}{}\n", definition ? definition->title : std::string_view(m.id), value_text(m),
-                       m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
+    out += fmt::format("  {:<40} {}{}\n", definition ? definition->title : std::string_view(m.id),
+                       value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
   }
   return out;
 }
@@ -138,8 +149,8 @@ std::string measure_list() {
   for (const auto& definition : analysis::path_definitions()) {
     const auto& what = definition.what;
     const auto unit = data::shown_unit(what.quantity).name;
-    out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title, unit.empty() ? "" : fmt::format(", {}", unit),
-                       what.formula, what.source);
+    out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
+                       unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
   }
   return out;
 }

@@ -12,7 +12,8 @@ namespace kinemark::pipeline {
 namespace {
 
 std::vector<data::Measure> measures() {
-  data::Measure length{.id = "path_length", .subject = "R, \"FIN\"", .region = "reach", .start_s = 0.5, .end_s = 1.2};
+  data::Measure length{
+      .id = "path_length", .subject = "R, \"FIN\"", .region = "reach", .start_s = 0.5, .end_s = 1.2};
   length.value = 0.3041234567891;
   length.uncorrected = 0.305;
   length.sd = 0.0004;
@@ -36,7 +37,8 @@ std::vector<data::Measure> measures() {
 TEST(MeasuresCsv, HasOneRowEachInTheUnitOfTheField) {
   const std::string text = measures_csv(measures(), "walk.c3d");
   EXPECT_EQ(std::ranges::count(text, '\n'), 4);
-  EXPECT_NE(text.find("walk.c3d,\"R, \"\"FIN\"\"\",,reach,,0.5,1.2,path_length,304.123457,mm,303.3,304.9,0.95,two-sided,no,"
+  EXPECT_NE(text.find("walk.c3d,\"R, "
+                      "\"\"FIN\"\"\",,reach,,0.5,1.2,path_length,304.123457,mm,303.3,304.9,0.95,two-sided,no,"
                       "0.4,305,0.125,\"order 4, 7.5 Hz, 99 refits\",\n"),
             std::string::npos)
       << text;
@@ -59,7 +61,8 @@ TEST(MeasuresJson, HasNullWhereNothingIsDetermined) {
 
 TEST(MeasuresText, RoundsToWhatTheIntervalSupports) {
   const std::string text = measures_text(measures());
-  EXPECT_NE(text.find("R, \"FIN\", reach, 0.500 to 1.200 s, 12.5 % not measured\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("R, \"FIN\", reach, 0.500 to 1.200 s, 12.5 % not measured\n"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("304.1 [303.3 to 304.9] mm\n"), std::string::npos) << text;
   EXPECT_NE(text.find("0.20 [at most 0.80] mm  (not distinguishable from 0)\n"), std::string::npos) << text;
   EXPECT_NE(text.find("not determined  (the stretch does not begin"), std::string::npos) << text;

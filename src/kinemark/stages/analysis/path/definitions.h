@@ -13,7 +13,7 @@
 namespace kinemark::analysis {
 
 /// Of which movements a measure is told unless it is asked for by name.
-enum class Applies : std::uint8_t { always, periodic, discrete };
+enum class Applies : std::uint8_t { always, periodic, closed, discrete };
 
 /// How value and interval follow from refits of simulated noise (docs/theory/measures.md).
 enum class Pivot : std::uint8_t {
@@ -29,16 +29,17 @@ enum class Weakness : std::uint8_t {
   none,
   lengthened_at_rest,      ///< a path's noise at rest adds up: at most, where part of the stretch is at rest
   extreme_of_constant,     ///< the largest of a speed that hardly changes: at most then
+  needs_change,            ///< says nothing of a speed that hardly changes
   approximate,             ///< covers less than its level in simulated movements
   approximate_if_discrete  ///< likewise for discrete movements alone
 };
 
 /// One measure of a path.
 struct PathDefinition {
-  data::MeasureDefinition what;          ///< its line in `analyze --list`
-  Applies applies = Applies::always;     ///< to which movements
-  Pivot pivot = Pivot::plain;            ///< how bias and interval are found
-  Weakness weakness = Weakness::none;    ///< what the interval may not claim
+  data::MeasureDefinition what;                       ///< its line in `analyze --list`
+  Applies applies = Applies::always;                  ///< to which movements
+  Pivot pivot = Pivot::plain;                         ///< how bias and interval are found
+  Weakness weakness = Weakness::none;                 ///< what the interval may not claim
   double (*value)(const PathFacts& facts) = nullptr;  ///< SI; NaN where not determined
 };
 

@@ -16,23 +16,26 @@
 namespace kinemark::analysis {
 namespace {
 
-constexpr std::int64_t kLeastSamples = 30;      // measured, for a smoother to be chosen
-constexpr std::int64_t kLeastStretch = 5;       // samples of a stretch
-constexpr double kLowestCutOff_hz = 0.4;        // of those tried
-constexpr double kEdge_s = 0.08;                // at both ends, where a smoother knows one side only
-constexpr double kNoiseDisagrees = 0.15;        // of the stated noise
+constexpr std::int64_t kLeastSamples = 30;  // measured, for a smoother to be chosen
+constexpr std::int64_t kLeastStretch = 5;   // samples of a stretch
+constexpr double kLowestCutOff_hz = 0.4;    // of those tried
+constexpr double kEdge_s = 0.08;            // at both ends, where a smoother knows one side only
+constexpr double kNoiseDisagrees = 0.15;    // of the stated noise
 
 std::int64_t edge_samples(double rate_hz) {
   return std::max<std::int64_t>(kDerivativeMargin + 1, static_cast<std::int64_t>(kEdge_s * rate_hz));
 }
 
 bool is_asked(const PathDefinition& definition, const PathMeasureOptions& options, const PathFrame& frame) {
-  if (!options.measures.empty()) return std::ranges::find(options.measures, definition.what.id) != options.measures.end();
+  if (!options.measures.empty())
+    return std::ranges::find(options.measures, definition.what.id) != options.measures.end();
   switch (definition.applies) {
     case Applies::always:
       return true;
     case Applies::periodic:
       return frame.periodic;
+    case Applies::closed:
+      return frame.closed;
     case Applies::discrete:
       return frame.discrete;
   }
@@ -80,16 +83,18 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
 
   const double found = math::noise_from_differences(recording.x, recording.seen), stated = options.noise_sd_m;
   if (stated > 0.0 && std::abs(found / stated - 1.0) > kNoiseDisagrees)
-    out.warning_ = fmt::format("the noise of {} is {:.3g} mm by its differences, not the {:.3g} mm that were stated",
-                               out.name_, 1e3 * found, 1e3 * stated);
+    out.warning_ =
+        fmt::format("the noise of {} is {:.3g} mm by its differences, not the {:.3g} mm that were stated",
+                    out.name_, 1e3 * found, 1e3 * stated);
   recording.noise_sd_m = std::isnan(found) ? stated : std::max(found, stated);
   if (!(recording.noise_sd_m > 0.0))
-    return std::unexpected(fmt::format("the noise of {} is not known: no seven frames in a row differ; state it",
-                                       out.name_));
+    return std::unexpected(
+        fmt::format("the noise of {} is not known: no seven frames in a row differ; state it", out.name_));
   const double lowest = kLowestCutOff_hz / recording.rate_hz;
   constexpr double kHighest = 0.45;
   if (!(lowest < kHighest))
-    return std::unexpected(fmt::format("{:g} frames a second are too few to measure movement", recording.rate_hz));
+    return std::unexpected(
+        fmt::format("{:g} frames a second are too few to measure movement", recording.rate_hz));
   const SeriesMatrix in_noise = (recording.x.rowwise() - recording.x.row(0)) / recording.noise_sd_m;
   const auto choice =
       math::choose_smoothing(in_noise, recording.seen, {.lowest = lowest, .highest = kHighest});
@@ -137,7 +142,7 @@ bool MeasuredPath::below_noise(const Stretch& stretch) const {
 // Values of every measure that is asked for: of what was recorded, of the pilot, and of the refits.
 struct MeasuredPath::Refits {
   std::vector<const PathDefinition*> definitions;
-  std::vector<double> less, least, raw, pilot;           // one for each definition
+  std::vector<double> less, least, raw, pilot;                 // one for each definition
   std::vector<std::vector<double>> by_less, by_least, by_raw;  // deviations of the refits
 
   std::vector<double> values(const PathFacts& facts) const {
@@ -150,13 +155,16 @@ struct MeasuredPath::Refits {
   }
 };
 
-std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(const data::Region& region) const {
+std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(
+    const data::Region& region) const {
   const Stretch stretch = stretch_of(region);
   if (stretch.count < kLeastStretch)
-    return std::unexpected(fmt::format("{} frames without the edges of {:g} ms; need {} at least", stretch.count,
-                                       1e3 * kEdge_s, kLeastStretch));
+    return std::unexpected(fmt::format("{} frames without the edges of {:g} ms; need {} at least",
+                                       stretch.count, 1e3 * kEdge_s, kLeastStretch));
   const double rate = recording_.rate_hz;
-  const auto part = [&](const SeriesMatrix& x) { return differentiate(x, stretch.first, stretch.count, rate); };
+  const auto part = [&](const SeriesMatrix& x) {
+    return differentiate(x, stretch.first, stretch.count, rate);
+  };
   // The same noise for the same marker, whichever regions and measures are asked for.
   const auto stream = mix64(static_cast<std::uint64_t>(marker_) + 1);
   const SeriesMatrix pilot = pilot_path(recording_, stretch.first, stretch.count, options_.seed, stream);
@@ -194,7 +202,6 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
                    }
                  });
 
-  const PathFacts facts(pilot_part, frame);
   const ToldStretch told{.subject = name_,
                          .region = region.name,
                          .start_s = frame.start_s,
@@ -202,7 +209,6 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
                          .share_not_measured = stretch.share_not_measured,
                          .longest_gap_s = stretch.longest_gap_s,
                          .below_noise = below_noise(stretch),
-                         .constant_speed = hardly_changes(facts.speed),
                          .noise_sd_m = recording_.noise_sd_m,
                          .cut_off_hz = recording_.choice.half_power * rate,
                          .order = recording_.choice.order,
@@ -212,11 +218,12 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
   for (std::size_t i = 0; i < count; ++i) {
     const auto& definition = *refits.definitions[i];
     const bool raw_one = definition.pivot == Pivot::raw_squared;
-    out.push_back(tell_measure(definition, told, frame,
-                               {.estimate = raw_one ? refits.raw[i] : refits.less[i],
-                                .estimate_of_interval = definition.pivot == Pivot::of_derivative ? refits.least[i] : kNaN,
-                                .deviations = raw_one ? refits.by_raw[i] : refits.by_less[i],
-                                .deviations_of_interval = refits.by_least[i]}));
+    out.push_back(tell_measure(
+        definition, told, frame,
+        {.estimate = raw_one ? refits.raw[i] : refits.less[i],
+         .estimate_of_interval = definition.pivot == Pivot::of_derivative ? refits.least[i] : kNaN,
+         .deviations = raw_one ? refits.by_raw[i] : refits.by_less[i],
+         .deviations_of_interval = refits.by_least[i]}));
   }
   return out;
 }

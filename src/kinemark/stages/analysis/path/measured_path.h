@@ -16,8 +16,8 @@
 
 namespace kinemark::analysis {
 
-/// A marker from its first to its last measured sample. Failures are sentences for people, which the caller puts
-/// beside the measures of others.
+/// A marker from its first to its last measured sample. Failures are sentences for people, which the caller
+/// puts beside the measures of others.
 class MeasuredPath {
  public:
   /// Fails where too few samples were measured or no smoother fits them.
@@ -26,7 +26,8 @@ class MeasuredPath {
                                                                        const PathMeasureOptions& options);
 
   /// The measures of a stretch, in the order of path_definitions(). Fails where the stretch is too short.
-  [[nodiscard]] std::expected<std::vector<data::Measure>, std::string> measure(const data::Region& region) const;
+  [[nodiscard]] std::expected<std::vector<data::Measure>, std::string> measure(
+      const data::Region& region) const;
 
   [[nodiscard]] const std::string& name() const { return name_; }        ///< of the marker
   [[nodiscard]] const std::string& warning() const { return warning_; }  ///< on the noise; may be empty
@@ -44,7 +45,7 @@ class MeasuredPath {
 
   std::string name_, warning_;
   std::int64_t marker_ = 0;
-  double first_s_ = 0.0;            // time of the first measured sample
+  double first_s_ = 0.0;           // time of the first measured sample
   std::int64_t first_number_ = 0;  // of its frame, in the file
   PathMeasureOptions options_;
   Recording recording_;

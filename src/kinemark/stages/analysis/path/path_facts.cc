@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::analysis {
 namespace {
 
-constexpr double kAround_s = 0.05;          // kept before onset and behind the end
-constexpr double kRegularCycles = 0.25;     // largest SD of cycles over their mean
+constexpr double kAround_s = 0.05;       // kept before onset and behind the end
+constexpr double kRegularCycles = 0.25;  // largest SD of cycles over their mean
 constexpr std::int64_t kLeastCycles = 2;
+constexpr double kComesBack = 0.25;  // largest way of a cycle's trend over the extent without it
 
 // The samples from onset to end and those around them; all where there is no onset or end.
 PathSamples moving_part(const PathSamples& path, const MovementWindow& window) {
@@ -25,7 +29,21 @@ PathSamples moving_part(const PathSamples& path, const MovementWindow& window) {
           .j = path.j.middleRows(first, count)};
 }
 
+// Way of the straight trend in a time, over the extent of the path without the trend.
+double drift_of(const PathSamples& path, double time_s) {
+  const SeriesMatrix level = without_trend(path.x);
+  const SeriesMatrix trend = path.x - level;
+  const double speed = (trend.row(path.count() - 1) - trend.row(0)).norm() * path.rate_hz /
+                       static_cast<double>(std::max<std::int64_t>(1, path.count() - 1));
+  return speed * time_s / (level.colwise().maxCoeff() - level.colwise().minCoeff()).norm();
+}
+
 }  // namespace
+
+bool hardly_changes(const Eigen::VectorXd& values) {
+  const std::span<const double> all(values.data(), static_cast<std::size_t>(values.size()));
+  return math::quantile(all, 0.95) - math::quantile(all, 0.05) < 0.1 * math::median(all);
+}
 
 PathFrame recognise(const PathSamples& path) {
   PathFrame out;
@@ -33,6 +51,7 @@ PathFrame recognise(const PathSamples& path) {
   const double peak = speed.maxCoeff();
   out.share_at_rest =
       static_cast<double>((speed.array() <= kMovingShare * peak).count()) / static_cast<double>(path.count());
+  out.steady = hardly_changes(speed);
   out.cycle_axis = detrended_axis(path.x);
   const auto window = movement_window(speed, path.rate_hz);
   const double last_s = static_cast<double>(path.count() - 1) / path.rate_hz;
@@ -42,6 +61,7 @@ PathFrame recognise(const PathSamples& path) {
   if (out.discrete) return out;
   const auto cycles = cycles_along(path.x, out.cycle_axis, path.rate_hz);
   out.periodic = cycles.count >= kLeastCycles && cycles.sd_s < kRegularCycles * cycles.mean_s;
+  out.closed = out.periodic && drift_of(path, cycles.mean_s) < kComesBack;
   return out;
 }
 
@@ -55,7 +75,7 @@ PathFacts::PathFacts(const PathSamples& samples, const PathFrame& settled)
       principal(principal_axes(samples.x)),
       along(along_axes(samples.x, principal)),
       cycles(cycles_along(samples.x, settled.cycle_axis, samples.rate_hz)),
-      ellipse(settled.periodic ? ellipse_axes(along) : EllipseAxes{.major = kNaN, .minor = kNaN}),
+      ellipse(settled.closed ? ellipse_axes(along) : EllipseAxes{.major = kNaN, .minor = kNaN}),
       distances(diameters(samples.x)),
       box(smallest_box(samples.x)) {}
 

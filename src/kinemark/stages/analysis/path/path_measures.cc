@@ -30,12 +30,13 @@ Status check_regions(const TimeBase& time, const std::vector<data::Region>& regi
   const std::int64_t first = time.number(0), last = time.number(time.frames - 1);
   for (const auto& region : regions) {
     if (region.first_frame > region.last_frame)
-      return fail(Code::bad_input, fmt::format("region '{}' ends in frame {}, before it begins in frame {}", region.name,
-                                               region.last_frame, region.first_frame));
+      return fail(Code::bad_input, fmt::format("region '{}' ends in frame {}, before it begins in frame {}",
+                                               region.name, region.last_frame, region.first_frame));
     if (region.first_frame > last || region.last_frame < first)
-      return fail(Code::bad_input,
-                  fmt::format("region '{}', frames {} to {}, lies outside the recording, whose frames are {} to {}",
-                              region.name, region.first_frame, region.last_frame, first, last));
+      return fail(
+          Code::bad_input,
+          fmt::format("region '{}', frames {} to {}, lies outside the recording, whose frames are {} to {}",
+                      region.name, region.first_frame, region.last_frame, first, last));
   }
   return {};
 }
@@ -55,8 +56,9 @@ PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t mark
   for (const auto& region : options.regions.empty() ? whole : options.regions) {
     auto measures = path->measure(region);
     if (!measures) {
-      out.warnings.push_back(fmt::format("{}{}: {}", path->name(), region.name.empty() ? "" : fmt::format(" in region '{}'", region.name),
-                                         measures.error()));
+      out.warnings.push_back(fmt::format(
+          "{}{}: {}", path->name(), region.name.empty() ? "" : fmt::format(" in region '{}'", region.name),
+          measures.error()));
       continue;
     }
     std::ranges::move(*measures, std::back_inserter(out.measures));
@@ -72,14 +74,16 @@ Status PathMeasureOptions::check() const {
   if (!(level > 0.5 && level < 1.0))
     return fail(Code::usage, fmt::format("intervals of level {}; need one above 0.5 and below 1", level));
   if (!(noise_sd_m >= 0.0) || !std::isfinite(noise_sd_m))
-    return fail(Code::usage, fmt::format("a noise of {} m; need 0 (found from the data) or more", noise_sd_m));
+    return fail(Code::usage,
+                fmt::format("a noise of {} m; need 0 (found from the data) or more", noise_sd_m));
   for (const auto& id : measures)
     if (!find_definition(id)) {
       std::vector<std::string> known;
       for (const auto& definition : path_definitions()) known.emplace_back(definition.what.id);
       const auto nearest = nearest_names(id, known);
-      return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
-                                           nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+      return fail(Code::usage,
+                  fmt::format("there is no measure '{}'{}; --list shows them all", id,
+                              nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
     }
   return {};
 }

@@ -49,8 +49,7 @@ TEST(MeasurePaths, OfAReachComeWithTheTruthInTheirIntervals) {
 }
 
 TEST(MeasurePaths, OfCyclesAreThoseOfTheEllipse) {
-  const auto markers =
-      testing::recording_of(testing::sampled(400, 100.0, testing::ellipse), 100.0, 1e-3, 2);
+  const auto markers = testing::recording_of(testing::sampled(400, 100.0, testing::ellipse), 100.0, 1e-3, 2);
   const auto found = measure_paths(markers, {.refits = 39});
   ASSERT_TRUE(found);
   EXPECT_NEAR(find(*found, "ellipse_major").value, 0.4, 1e-3);
@@ -75,7 +74,8 @@ TEST(MeasurePaths, AreTheSameForAnyNumberOfThreadsAndWhateverElseIsMeasured) {
   ASSERT_EQ(single->measures.size(), threaded->measures.size());
   for (std::size_t i = 0; i < single->measures.size(); ++i) {
     EXPECT_EQ(single->measures[i].id, threaded->measures[i].id);
-    if (std::isfinite(single->measures[i].value)) EXPECT_EQ(single->measures[i].value, threaded->measures[i].value);
+    if (std::isfinite(single->measures[i].value))
+      EXPECT_EQ(single->measures[i].value, threaded->measures[i].value);
   }
   ASSERT_EQ(alone->measures.size(), 2u);
   EXPECT_EQ(find(*alone, "peak_speed").interval.high, find(*single, "peak_speed").interval.high);
@@ -83,8 +83,9 @@ TEST(MeasurePaths, AreTheSameForAnyNumberOfThreadsAndWhateverElseIsMeasured) {
 }
 
 TEST(MeasurePaths, OfARegionAreItsOwn) {
-  const auto found = measure_paths(
-      reach(), {.measures = {"mean_speed", "path_length"}, .regions = {{"rest", 10, 40}, {"reach", 50, 120}}, .refits = 0});
+  const auto found = measure_paths(reach(), {.measures = {"mean_speed", "path_length"},
+                                             .regions = {{"rest", 10, 40}, {"reach", 50, 120}},
+                                             .refits = 0});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->measures.size(), 4u);
   EXPECT_EQ(found->measures[0].region, "rest");
@@ -110,7 +111,9 @@ TEST(MeasurePaths, ShareOfWhatWasNotMeasuredIsTold) {
 }
 
 TEST(MeasurePaths, MovementBelowTheNoiseHasNoInterval) {
-  const auto still = [](double t) { return Eigen::Vector3d(2e-4 * std::sin(testing::kTurn * 6.0 * t), 0.0, 0.01 * t); };
+  const auto still = [](double t) {
+    return Eigen::Vector3d(2e-4 * std::sin(testing::kTurn * 6.0 * t), 0.0, 0.01 * t);
+  };
   const auto markers = testing::recording_of(testing::sampled(500, 100.0, still), 100.0, 1e-3, 4);
   const auto found = measure_paths(markers, {.measures = {"peak_speed", "tremor"}, .refits = 39});
   ASSERT_TRUE(found);
@@ -120,12 +123,15 @@ TEST(MeasurePaths, MovementBelowTheNoiseHasNoInterval) {
 }
 
 TEST(MeasurePaths, NoiseThatDisagreesIsTold) {
-  const auto agrees = measure_paths(reach(1e-3), {.measures = {"peak_speed"}, .refits = 0, .noise_sd_m = 1e-3});
+  const auto agrees =
+      measure_paths(reach(1e-3), {.measures = {"peak_speed"}, .refits = 0, .noise_sd_m = 1e-3});
   ASSERT_TRUE(agrees);
   EXPECT_TRUE(agrees->warnings.empty());
-  const auto not_so = measure_paths(reach(1e-3), {.measures = {"peak_speed"}, .refits = 0, .noise_sd_m = 5e-4});
+  const auto not_so =
+      measure_paths(reach(1e-3), {.measures = {"peak_speed"}, .refits = 0, .noise_sd_m = 5e-4});
   ASSERT_EQ(not_so->warnings.size(), 1u);
-  EXPECT_NE(not_so->warnings[0].find("not the 0.5 mm that were stated"), std::string::npos) << not_so->warnings[0];
+  EXPECT_NE(not_so->warnings[0].find("not the 0.5 mm that were stated"), std::string::npos)
+      << not_so->warnings[0];
 }
 
 TEST(MeasurePaths, WhatCannotBeMeasuredIsToldAndTheOthersAre) {
@@ -138,7 +144,8 @@ TEST(MeasurePaths, WhatCannotBeMeasuredIsToldAndTheOthersAre) {
     both.x(f, 1) = one.x(f, 0);
     both.state[both.index(f, 1)] = data::SampleState::measured;
   }
-  const auto found = measure_paths(both, {.measures = {"peak_speed"}, .regions = {{"all", 0, 169}, {"blink", 50, 52}}, .refits = 0});
+  const auto found = measure_paths(
+      both, {.measures = {"peak_speed"}, .regions = {{"all", 0, 169}, {"blink", 50, 52}}, .refits = 0});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->measures.size(), 1u);
   ASSERT_EQ(found->warnings.size(), 2u);
@@ -157,11 +164,13 @@ TEST(MeasurePaths, RefuseWhatMakesNoSense) {
   EXPECT_EQ(says(reach(), {.level = 1.0}), "intervals of level 1; need one above 0.5 and below 1");
   EXPECT_EQ(says(reach(), {.regions = {{"back", 100, 50}}}),
             "region 'back' ends in frame 50, before it begins in frame 100");
-  EXPECT_NE(says(reach(), {.regions = {{"late", 500, 600}}}).find("lies outside the recording"), std::string::npos);
+  EXPECT_NE(says(reach(), {.regions = {{"late", 500, 600}}}).find("lies outside the recording"),
+            std::string::npos);
   auto without_rate = reach();
   without_rate.time.rate_hz = 0.0;
   EXPECT_NE(says(without_rate, {}).find("no frame rate"), std::string::npos);
-  EXPECT_NE(says(data::Trajectories::all_missing({}, {.rate_hz = 100.0, .frames = 5}), {}).find("no markers"), std::string::npos);
+  EXPECT_NE(says(data::Trajectories::all_missing({}, {.rate_hz = 100.0, .frames = 5}), {}).find("no markers"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ Pivoted pivot(double estimate, std::span<const double> deviations, double level)
 
 Pivoted pivot_of_square(double estimate, std::span<const double> deviations, double level) {
   Pivoted out = pivot(estimate * estimate, deviations, level);
-  const auto root = [](double square) { return std::isnan(square) ? kNaN : std::sqrt(std::max(0.0, square)); };
+  const auto root = [](double square) {
+    return std::isnan(square) ? kNaN : std::sqrt(std::max(0.0, square));
+  };
   out.value = root(out.value);
   out.low = root(out.low);
   out.high = root(out.high);

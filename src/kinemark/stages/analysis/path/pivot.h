@@ -17,9 +17,10 @@ struct Pivoted {
   double high = kNaN;   ///< the estimate less the lower quantile
 };
 
-/// The pivot of an estimate: deviations of refits from what they were made of stand for its own deviation from the
-/// truth. Quantiles at (S + 1) p of S deviations, exact for exchangeable ones (Weibull).
-/// @param deviations  values of refits less the value of their path; NaN (a measure that a refit does not determine)
+/// The pivot of an estimate: deviations of refits from what they were made of stand for its own deviation
+/// from the truth. Quantiles at (S + 1) p of S deviations, exact for exchangeable ones (Weibull).
+/// @param deviations  values of refits less the value of their path; NaN (a measure that a refit does not
+/// determine)
 ///                    is left out, and nothing is said where more than a tenth are
 [[nodiscard]] Pivoted pivot(double estimate, std::span<const double> deviations, double level);
 

@@ -14,9 +14,9 @@
 namespace kinemark::analysis {
 namespace {
 
-constexpr double kHighestCutOff = 0.45;      // cycles per sample
-constexpr std::int64_t kPilotRefits = 40;    // that tell the energy of noise
-constexpr std::int64_t kBatch = 16;          // recordings smoothed at once
+constexpr double kHighestCutOff = 0.45;    // cycles per sample
+constexpr std::int64_t kPilotRefits = 40;  // that tell the energy of noise
+constexpr std::int64_t kBatch = 16;        // recordings smoothed at once
 constexpr std::uint64_t kPilotStream = 1ULL << 62;
 
 math::DifferenceSmoother smoother_of(const Recording& recording, double factor) {
@@ -57,8 +57,8 @@ Eigen::VectorXd hann(std::int64_t size) {
 
 }  // namespace
 
-SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen, double sd, std::uint64_t seed,
-                        std::uint64_t stream, std::int64_t number) {
+SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen, double sd,
+                        std::uint64_t seed, std::uint64_t stream, std::int64_t number) {
   Random random(seed, mix64(stream) ^ static_cast<std::uint64_t>(number));
   SeriesMatrix out = path;
   for (std::int64_t i = 0; i < path.rows(); ++i)
@@ -75,8 +75,8 @@ SeriesMatrix smoothed(const Recording& recording, double factor) {
   return out;
 }
 
-SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int64_t count, std::uint64_t seed,
-                        std::uint64_t stream) {
+SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int64_t count,
+                        std::uint64_t seed, std::uint64_t stream) {
   const auto smoother = smoother_of(recording, 1.0);
   SeriesMatrix fit = recording.x;
   smoother.smooth(fit);
@@ -104,7 +104,8 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
 
   // Principal components, less the variance that noise has along them.
   const SeriesMatrix stretch = fit.middleRows(first, count).rowwise() - mean;
-  const Eigen::Matrix3d spread = stretch.transpose() * stretch / static_cast<double>(std::max<std::int64_t>(1, count - 1));
+  const Eigen::Matrix3d spread =
+      stretch.transpose() * stretch / static_cast<double>(std::max<std::int64_t>(1, count - 1));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   Eigen::Vector3d noise_variance = Eigen::Vector3d::Zero();
   for (std::int64_t k = 0; k < kPilotRefits; ++k) {
@@ -115,15 +116,18 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   Eigen::Vector3d kept;
   for (int axis = 0; axis < 3; ++axis) {
     const double variance = solver.eigenvalues()[axis];
-    kept[axis] = variance > 0.0 ? std::sqrt(std::clamp(1.0 - noise_variance[axis] / variance, 0.0, 1.0)) : 0.0;
+    kept[axis] =
+        variance > 0.0 ? std::sqrt(std::clamp(1.0 - noise_variance[axis] / variance, 0.0, 1.0)) : 0.0;
   }
-  const Eigen::Matrix3d shrink = solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
+  const Eigen::Matrix3d shrink =
+      solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
   return ((pilot.rowwise() - mean) * shrink).rowwise() + mean;
 }
 
-void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::int64_t refits, std::uint64_t seed,
-                    std::uint64_t stream,
-                    const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit) {
+void for_each_refit(
+    const Recording& recording, const SeriesMatrix& path, std::int64_t refits, std::uint64_t seed,
+    std::uint64_t stream,
+    const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit) {
   const auto less = smoother_of(recording, kLessSmooth), least = smoother_of(recording, kLeastSmooth);
   for (std::int64_t first = 0; first < refits; first += kBatch) {
     const std::int64_t count = std::min(kBatch, refits - first);
@@ -131,8 +135,7 @@ void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::i
     SeriesMatrix b = a;
     less.smooth(a);
     least.smooth(b);
-    for (std::int64_t k = 0; k < count; ++k)
-      visit(first + k, a.middleCols(3 * k, 3), b.middleCols(3 * k, 3));
+    for (std::int64_t k = 0; k < count; ++k) visit(first + k, a.middleCols(3 * k, 3), b.middleCols(3 * k, 3));
   }
 }
 

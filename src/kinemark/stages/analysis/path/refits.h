@@ -22,10 +22,10 @@ inline constexpr double kLeastSmooth = 2.5;
 
 /// One recording of a point and how it is smoothed.
 struct Recording {
-  SeriesMatrix x;             ///< n x 3, m; missing samples hold any finite number
-  std::vector<bool> seen;     ///< n
-  double rate_hz = 0.0;       ///< above 0
-  double noise_sd_m = 0.0;    ///< per axis, above 0
+  SeriesMatrix x;                ///< n x 3, m; missing samples hold any finite number
+  std::vector<bool> seen;        ///< n
+  double rate_hz = 0.0;          ///< above 0
+  double noise_sd_m = 0.0;       ///< per axis, above 0
   math::SmoothingChoice choice;  ///< of least expected error
 };
 
@@ -40,10 +40,10 @@ struct Recording {
                                       std::uint64_t seed, std::uint64_t stream);
 
 /// For every simulated recording of `path`: call `visit` with its number and with the smoothed path of it at
-/// kLessSmooth and kLeastSmooth. Noise is white, of the recording's SD, on seen samples; that of refit k comes
-/// from stream (stream, k) of the seed, whatever else is computed.
-void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::int64_t refits, std::uint64_t seed,
-                    std::uint64_t stream,
+/// kLessSmooth and kLeastSmooth. Noise is white, of the recording's SD, on seen samples; that of refit k
+/// comes from stream (stream, k) of the seed, whatever else is computed.
+void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::int64_t refits,
+                    std::uint64_t seed, std::uint64_t stream,
                     const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit);
 
 /// White noise of `sd` added to seen samples, from stream (stream, number) of the seed.

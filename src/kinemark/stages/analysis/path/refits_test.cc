@@ -13,8 +13,11 @@ namespace kinemark::analysis {
 namespace {
 
 Recording recording_of(const SeriesMatrix& truth, double noise_m) {
-  Recording out{.x = truth, .seen = std::vector<bool>(static_cast<std::size_t>(truth.rows()), true), .rate_hz = 100.0,
-                .noise_sd_m = noise_m, .choice = {.order = 4, .half_power = 0.06}};
+  Recording out{.x = truth,
+                .seen = std::vector<bool>(static_cast<std::size_t>(truth.rows()), true),
+                .rate_hz = 100.0,
+                .noise_sd_m = noise_m,
+                .choice = {.order = 4, .half_power = 0.06}};
   for (std::size_t i = 70; i < 76; ++i) out.seen[i] = false;
   out.x = with_noise(truth, out.seen, noise_m, 5, 0, 0);
   return out;
@@ -62,8 +65,10 @@ TEST(Refits, AreTheSameWhateverTheirNumber) {
   const auto truth = testing::sampled(120, 100.0, testing::ellipse);
   const auto recording = recording_of(truth, 0.001);
   std::vector<SeriesMatrix> few, many;
-  for_each_refit(recording, truth, 5, 1, 7, [&](std::int64_t, const SeriesMatrix& less, const SeriesMatrix&) { few.push_back(less); });
-  for_each_refit(recording, truth, 40, 1, 7, [&](std::int64_t, const SeriesMatrix& less, const SeriesMatrix&) { many.push_back(less); });
+  for_each_refit(recording, truth, 5, 1, 7,
+                 [&](std::int64_t, const SeriesMatrix& less, const SeriesMatrix&) { few.push_back(less); });
+  for_each_refit(recording, truth, 40, 1, 7,
+                 [&](std::int64_t, const SeriesMatrix& less, const SeriesMatrix&) { many.push_back(less); });
   ASSERT_EQ(few.size(), 5u);
   ASSERT_EQ(many.size(), 40u);
   for (std::size_t k = 0; k < few.size(); ++k) EXPECT_EQ(few[k], many[k]) << k;

@@ -98,8 +98,9 @@ double circle_diameter(const SeriesMatrix& in_plane) {
     if (distance.minCoeff() <= 0.0) break;
     Eigen::MatrixXd jacobian(n, 3);
     jacobian << (ray.array().colwise() / -distance.array()).matrix(), -Eigen::VectorXd::Ones(n);
-    const Eigen::Vector3d change =
-        (jacobian.transpose() * jacobian).ldlt().solve(-jacobian.transpose() * (distance.array() - radius).matrix());
+    const Eigen::Vector3d change = (jacobian.transpose() * jacobian)
+                                       .ldlt()
+                                       .solve(-jacobian.transpose() * (distance.array() - radius).matrix());
     centre += change.head<2>().transpose();
     radius += change[2];
     if (change.norm() < 1e-14 * std::max(1e-300, std::abs(radius))) break;
@@ -135,7 +136,8 @@ EllipseAxes ellipse_axes(const SeriesMatrix& in_plane) {
     const Eigen::Vector2d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(form).eigenvalues();
     const Eigen::Array2d axes = (level / values.array());
     if (!(axes > 0.0).all()) continue;
-    return {.major = 2.0 * scale * std::sqrt(axes.maxCoeff()), .minor = 2.0 * scale * std::sqrt(axes.minCoeff())};
+    return {.major = 2.0 * scale * std::sqrt(axes.maxCoeff()),
+            .minor = 2.0 * scale * std::sqrt(axes.minCoeff())};
   }
   return none;
 }

@@ -20,9 +20,9 @@ namespace kinemark::analysis {
 /// Directions in which a path spreads most, next and least (principal components): the last is the normal of
 /// its best-fit plane, in the sense of total least squares.
 struct PrincipalAxes {
-  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();       ///< of the positions, m
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();         ///< unit vectors in its columns, right-handed
-  Eigen::Vector3d variance = Eigen::Vector3d::Zero();         ///< along them, m^2, over n, descending
+  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();  ///< of the positions, m
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();    ///< unit vectors in its columns, right-handed
+  Eigen::Vector3d variance = Eigen::Vector3d::Zero();    ///< along them, m^2, over n, descending
 };
 /// Signs so that the first two axes point to the farther end of the path along them.
 [[nodiscard]] PrincipalAxes principal_axes(const SeriesMatrix& x);

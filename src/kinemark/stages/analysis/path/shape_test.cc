@@ -14,9 +14,9 @@ namespace {
 
 using testing::kTurn;
 
-const Eigen::Matrix3d kTilt =
-    (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) * Eigen::AngleAxisd(-1.1, Eigen::Vector3d::UnitY()))
-        .toRotationMatrix();
+const Eigen::Matrix3d kTilt = (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
+                               Eigen::AngleAxisd(-1.1, Eigen::Vector3d::UnitY()))
+                                  .toRotationMatrix();
 const Eigen::Vector3d kPlace(1.0, -2.0, 0.5);
 
 // x(t), y(t), z(t) in a tilted frame, somewhere.
@@ -26,7 +26,9 @@ PathSamples tilted(std::int64_t n, double rate_hz, const Own& own) {
 }
 
 PathSamples helix() {
-  return tilted(1208, 400.0, [](double t) { return Eigen::Vector3d(0.3 * std::cos(4 * t), 0.3 * std::sin(4 * t), 0.2 * t); });
+  return tilted(1208, 400.0, [](double t) {
+    return Eigen::Vector3d(0.3 * std::cos(4 * t), 0.3 * std::sin(4 * t), 0.2 * t);
+  });
 }
 
 TEST(Derivatives, AreExactForPolynomials) {
@@ -45,7 +47,8 @@ TEST(PathLength, OfAHelixIsItsArc) {
   const auto path = helix();
   const double duration = static_cast<double>(path.count() - 1) / 400.0;
   EXPECT_NEAR(path_length(path.x), duration * std::hypot(1.2, 0.2), 1e-5 * duration);
-  EXPECT_NEAR(straightness(testing::sampled(9, 1.0, [](double t) { return Eigen::Vector3d(t, 2 * t, 0); })), 1.0, 1e-15);
+  EXPECT_NEAR(straightness(testing::sampled(9, 1.0, [](double t) { return Eigen::Vector3d(t, 2 * t, 0); })),
+              1.0, 1e-15);
   EXPECT_EQ(path_length(SeriesMatrix::Zero(1, 3)), 0.0);
   EXPECT_TRUE(std::isnan(straightness(SeriesMatrix::Zero(5, 3))));
 }
@@ -54,7 +57,9 @@ TEST(Plane, DistanceAndAxesOfATiltedRectangleOfPoints) {
   // Coordinates of +-a, +-b, +-c, each sign with each: variances a^2, b^2, c^2.
   SeriesMatrix x(8, 3);
   for (int k = 0; k < 8; ++k)
-    x.row(k) = (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : -0.3, k & 2 ? 0.1 : -0.1, k & 4 ? 0.002 : -0.002)).transpose();
+    x.row(k) =
+        (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : -0.3, k & 2 ? 0.1 : -0.1, k & 4 ? 0.002 : -0.002))
+            .transpose();
   const auto axes = principal_axes(x);
   EXPECT_NEAR(std::sqrt(axes.variance[2]), 0.002, 1e-12);
   EXPECT_NEAR(std::sqrt(axes.variance[0] / axes.variance[1]), 3.0, 1e-9);
@@ -73,7 +78,9 @@ TEST(Circle, DiameterOfAnArcAndOfTheWholeInATiltedPlane) {
 }
 
 TEST(Ellipse, AxesOfATiltedOneAndNoneOfALine) {
-  const auto path = tilted(150, 100.0, [](double t) { return Eigen::Vector3d(0.2 * std::cos(kTurn * t), 0.05 * std::sin(kTurn * t), 0); });
+  const auto path = tilted(150, 100.0, [](double t) {
+    return Eigen::Vector3d(0.2 * std::cos(kTurn * t), 0.05 * std::sin(kTurn * t), 0);
+  });
   const auto axes = ellipse_axes(along_axes(path.x, principal_axes(path.x)));
   EXPECT_NEAR(axes.major, 0.4, 1e-9);
   EXPECT_NEAR(axes.minor, 0.1, 1e-9);
@@ -82,7 +89,9 @@ TEST(Ellipse, AxesOfATiltedOneAndNoneOfALine) {
 
 TEST(Diameters, OfAWheelAreItsDiameter) {
   // 40 samples a turn: each has one right across.
-  const auto path = tilted(168, 40.0, [](double t) { return Eigen::Vector3d(0.15 * std::cos(kTurn * t), 0.15 * std::sin(kTurn * t), 0); });
+  const auto path = tilted(168, 40.0, [](double t) {
+    return Eigen::Vector3d(0.15 * std::cos(kTurn * t), 0.15 * std::sin(kTurn * t), 0);
+  });
   const auto found = diameters(path.x);
   EXPECT_NEAR(found.median_farthest, 0.3, 1e-9);
   EXPECT_NEAR(found.largest, 0.3, 1e-9);
@@ -91,7 +100,8 @@ TEST(Diameters, OfAWheelAreItsDiameter) {
 TEST(SmallestBox, OfTheCornersOfATiltedBox) {
   SeriesMatrix x(9, 3);
   for (int k = 0; k < 8; ++k)
-    x.row(k) = (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : 0.0, k & 2 ? 0.2 : 0.0, k & 4 ? 0.05 : 0.0)).transpose();
+    x.row(k) = (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : 0.0, k & 2 ? 0.2 : 0.0, k & 4 ? 0.05 : 0.0))
+                   .transpose();
   x.row(8) = (kPlace + kTilt * Eigen::Vector3d(0.29, 0.01, 0.01)).transpose();  // turns the principal axes
   const auto sides = smallest_box(x);
   EXPECT_NEAR(sides[0], 0.3, 1e-9);
@@ -132,7 +142,8 @@ TEST(Curvature, AndTorsionOfAHelixAreThoseOfItsFormula) {
 }
 
 TEST(PowerLaw, ExponentOfAHarmonicEllipseIsAThird) {
-  const auto path = tilted(808, 400.0, [](double t) { return Eigen::Vector3d(0.2 * std::cos(5 * t), 0.07 * std::sin(5 * t), 0); });
+  const auto path = tilted(
+      808, 400.0, [](double t) { return Eigen::Vector3d(0.2 * std::cos(5 * t), 0.07 * std::sin(5 * t), 0); });
   EXPECT_NEAR(power_law_exponent(path), 1.0 / 3.0, 1e-9);
 }
 

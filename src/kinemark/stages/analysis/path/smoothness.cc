@@ -10,9 +10,9 @@
 namespace kinemark::analysis {
 namespace {
 
-constexpr int kPadding = 4;          // powers of two
+constexpr int kPadding = 4;           // powers of two
 constexpr double kHighest_hz = 10.0;  // frequencies above do not count
-constexpr double kThreshold = 0.05;  // of the largest amplitude
+constexpr double kThreshold = 0.05;   // of the largest amplitude
 
 }  // namespace
 
@@ -26,7 +26,8 @@ SpectralArc spectral_arc(const Eigen::VectorXd& speed, double rate_hz) {
   const Eigen::VectorXd spectrum = amplitudes(speed, length);
   const double scale = 1.0 / spectrum.maxCoeff();
   const auto highest = std::min<std::int64_t>(
-      length / 2, static_cast<std::int64_t>(std::floor(kHighest_hz * static_cast<double>(length) / rate_hz + 1e-9)));
+      length / 2,
+      static_cast<std::int64_t>(std::floor(kHighest_hz * static_cast<double>(length) / rate_hz + 1e-9)));
   std::int64_t first = -1, last = -1;
   for (std::int64_t k = 0; k <= highest; ++k)
     if (spectrum[k] * scale >= kThreshold) {
@@ -64,8 +65,6 @@ double log_dimensionless_jerk_of_speed(const Eigen::VectorXd& speed, double rate
   return peak > 0.0 && integral > 0.0 ? -std::log(std::pow(duration, 3) / (peak * peak) * integral) : kNaN;
 }
 
-double rms_jerk(const PathSamples& path) {
-  return std::sqrt(path.j.rowwise().squaredNorm().mean());
-}
+double rms_jerk(const PathSamples& path) { return std::sqrt(path.j.rowwise().squaredNorm().mean()); }
 
 }  // namespace kinemark::analysis

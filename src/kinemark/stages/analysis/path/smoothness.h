@@ -14,8 +14,8 @@ namespace kinemark::analysis {
 
 /// Length of the arc of the speed's amplitude spectrum.
 struct SpectralArc {
-  double value = kNaN;              ///< SPARC; NaN of fewer than two frequencies beyond the threshold
-  double last_hz = kNaN;            ///< highest frequency beyond the threshold: where the arc ends
+  double value = kNaN;    ///< SPARC; NaN of fewer than two frequencies beyond the threshold
+  double last_hz = kNaN;  ///< highest frequency beyond the threshold: where the arc ends
 };
 /// SPARC (Balasubramanian, Melendez-Calderon, Roby-Brami & Burdet 2015): spectrum on 2^(ceil(log2 n) + 4)
 /// frequencies, over its largest value, up to 10 Hz, from the first to the last value of 0.05 or more. It

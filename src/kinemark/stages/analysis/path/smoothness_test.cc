@@ -26,12 +26,20 @@ struct Row {
 
 // Ten speed profiles with the values that the authors' own program gives them.
 const std::vector<Row> kRows{
-    {"Gaussian", 100, 199, [](int k) { const double t = -1.0 + 0.01 * k; return std::exp(-5.0 * t * t); },
+    {"Gaussian", 100, 199,
+     [](int k) {
+       const double t = -1.0 + 0.01 * k;
+       return std::exp(-5.0 * t * t);
+     },
      -1.414031261710, -5.816357414756},
-    {"reach", 100, 100, [](int k) { return minimum_jerk_speed(k / 100.0); }, -1.405829324421, -5.301633248098},
-    {"reach, 60 Hz", 60, 60, [](int k) { return minimum_jerk_speed(k / 60.0); }, -1.400407742538, -5.287586537542},
-    {"reach, 240 Hz", 240, 240, [](int k) { return minimum_jerk_speed(k / 240.0); }, -1.400407412273, -5.313631067785},
-    {"reach, 128 Hz", 128, 127, [](int k) { return minimum_jerk_speed(k / 127.0); }, -1.392315993110, -5.306285552067},
+    {"reach", 100, 100, [](int k) { return minimum_jerk_speed(k / 100.0); }, -1.405829324421,
+     -5.301633248098},
+    {"reach, 60 Hz", 60, 60, [](int k) { return minimum_jerk_speed(k / 60.0); }, -1.400407742538,
+     -5.287586537542},
+    {"reach, 240 Hz", 240, 240, [](int k) { return minimum_jerk_speed(k / 240.0); }, -1.400407412273,
+     -5.313631067785},
+    {"reach, 128 Hz", 128, 127, [](int k) { return minimum_jerk_speed(k / 127.0); }, -1.392315993110,
+     -5.306285552067},
     {"reach between rests", 100, 100, [](int k) { return minimum_jerk_speed((k / 100.0 - 0.2) / 0.6); },
      -1.400531236992, -6.841826213034},
     {"two", 100, 100,
@@ -47,7 +55,8 @@ const std::vector<Row> kRows{
     {"tremulous", 120, 120,
      [](int k) { return minimum_jerk_speed(k / 120.0) * (1.0 + 0.3 * std::sin(6.0 * kTurn * k / 120.0)); },
      -1.882068201036, -10.082041952565},
-    {"wave", 100, 399, [](int k) { return 1.0 + 0.5 * std::sin(kTurn * k / 100.0); }, -2.701797982652, -10.005636243505},
+    {"wave", 100, 399, [](int k) { return 1.0 + 0.5 * std::sin(kTurn * k / 100.0); }, -2.701797982652,
+     -10.005636243505},
 };
 
 TEST(Smoothness, EqualsTheAuthorsValues) {
@@ -55,7 +64,8 @@ TEST(Smoothness, EqualsTheAuthorsValues) {
     Eigen::VectorXd speed(row.last + 1);
     for (int k = 0; k <= row.last; ++k) speed[k] = row.speed(k);
     EXPECT_NEAR(spectral_arc(speed, row.rate_hz).value, row.sparc, 1e-9 * std::abs(row.sparc)) << row.what;
-    EXPECT_NEAR(log_dimensionless_jerk_of_speed(speed, row.rate_hz), row.ldlj, 1e-9 * std::abs(row.ldlj)) << row.what;
+    EXPECT_NEAR(log_dimensionless_jerk_of_speed(speed, row.rate_hz), row.ldlj, 1e-9 * std::abs(row.ldlj))
+        << row.what;
   }
 }
 
@@ -78,7 +88,8 @@ TEST(Smoothness, JerkOfAMinimumJerkReachIsItsClosedForm) {
 
 TEST(Smoothness, CircleAtConstantSpeedHasTheJerkOfItsTurns) {
   // -4 ln(2 pi N) of N turns.
-  for (const auto& [turns, value] : {std::pair{1, -7.351508265637}, {2, -10.124096987877}, {5, -13.789259915374}}) {
+  for (const auto& [turns, value] :
+       {std::pair{1, -7.351508265637}, {2, -10.124096987877}, {5, -13.789259915374}}) {
     const int n = 2000 * turns;
     PathSamples path{.rate_hz = 2000.0, .x = SeriesMatrix::Zero(n + 1, 3)};
     path.v = path.a = path.j = path.x;

@@ -21,11 +21,10 @@ Eigen::VectorXd centred_index(std::int64_t n) {
 // |FFT|^2 of windowed positions, axes added; frequencies k rate / n, k = 0 .. n / 2.
 Eigen::VectorXd periodogram(const SeriesMatrix& x, double* window_power) {
   const std::int64_t n = x.rows();
-  const Eigen::VectorXd window =
-      (0.5 - 0.5 * ((centred_index(n).array() + 0.5 * static_cast<double>(n - 1)) *
-                    (2.0 * M_PI / static_cast<double>(n - 1)))
-                       .cos())
-          .matrix();
+  const Eigen::VectorXd window = (0.5 - 0.5 * ((centred_index(n).array() + 0.5 * static_cast<double>(n - 1)) *
+                                               (2.0 * M_PI / static_cast<double>(n - 1)))
+                                                  .cos())
+                                     .matrix();
   *window_power = window.squaredNorm();
   const SeriesMatrix level = without_trend(x);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(n / 2 + 1);
@@ -139,7 +138,8 @@ double peak_frequency(const SeriesMatrix& x, double rate_hz, double low_hz) {
   if (n < 8) return kNaN;
   double window_power = 0.0;
   const Eigen::VectorXd power = periodogram(x, &window_power);
-  const auto first = std::max<std::int64_t>(1, std::llround(std::ceil(low_hz * static_cast<double>(n) / rate_hz)));
+  const auto first =
+      std::max<std::int64_t>(1, std::llround(std::ceil(low_hz * static_cast<double>(n) / rate_hz)));
   if (first + 1 >= power.size()) return kNaN;
   Eigen::Index at = 0;
   power.segment(first, power.size() - 1 - first).maxCoeff(&at);

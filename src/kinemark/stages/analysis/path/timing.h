@@ -26,12 +26,12 @@ struct MovementWindow {
   double onset_s = kNaN;  ///< NaN: it moves from the first sample on
   double end_s = kNaN;    ///< NaN: it moves to the last sample
 };
-/// Where the speed first crosses kMovingShare of its peak and stays above for kMovingHold_s, and where it last
-/// falls below likewise. About 40 ms after the true start of a minimum-jerk reach of 0.7 s.
+/// Where the speed first crosses kMovingShare of its peak and stays above for kMovingHold_s, and where it
+/// last falls below likewise. About 40 ms after the true start of a minimum-jerk reach of 0.7 s.
 [[nodiscard]] MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz);
 
-/// Number of submovements: peaks of the speed above a tenth of the largest that rise a twentieth of it above the
-/// higher of the valleys on both sides (prominence).
+/// Number of submovements: peaks of the speed above a tenth of the largest that rise a twentieth of it above
+/// the higher of the valleys on both sides (prominence).
 [[nodiscard]] std::int64_t count_submovements(const Eigen::VectorXd& speed);
 
 /// Time from the first sample to the largest speed, s.
@@ -39,12 +39,12 @@ struct MovementWindow {
 
 /// Duration of the cycles of a periodic movement, s.
 struct Cycles {
-  double mean_s = kNaN;        ///< NaN: fewer than two crossings
-  double sd_s = kNaN;          ///< between cycles; NaN: fewer than three crossings
-  std::int64_t count = 0;      ///< whole cycles
+  double mean_s = kNaN;    ///< NaN: fewer than two crossings
+  double sd_s = kNaN;      ///< between cycles; NaN: fewer than three crossings
+  std::int64_t count = 0;  ///< whole cycles
 };
-/// Upward crossings of zero of the positions along an axis, freed of their straight trend; crossings nearer to
-/// the one before than 0.4 of the median cycle are noise and do not count.
+/// Upward crossings of zero of the positions along an axis, freed of their straight trend; crossings nearer
+/// to the one before than 0.4 of the median cycle are noise and do not count.
 [[nodiscard]] Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz);
 
 /// The direction in which positions freed of their straight trend spread most.

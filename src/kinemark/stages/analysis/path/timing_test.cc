@@ -33,7 +33,8 @@ TEST(MovementWindow, CrossesATwentiethOfThePeak) {
 TEST(MovementWindow, PassesOverWhatIsShorterThanTheHold) {
   Eigen::VectorXd speed = reach_speed(100.0);
   speed.segment(10, 5).setConstant(1.0);  // a twitch of 50 ms
-  EXPECT_NEAR(movement_window(speed, 100.0).onset_s, movement_window(reach_speed(100.0), 100.0).onset_s, 1e-12);
+  EXPECT_NEAR(movement_window(speed, 100.0).onset_s, movement_window(reach_speed(100.0), 100.0).onset_s,
+              1e-12);
 }
 
 TEST(MovementWindow, HasNoOnsetOfWhatMovesFromTheBeginning) {
@@ -66,11 +67,13 @@ TEST(Cycles, OfASineOnATrendAreItsPeriods) {
   EXPECT_NEAR(cycles.mean_s, 1.25, 1e-3);
   EXPECT_LT(cycles.sd_s, 1e-3);
   EXPECT_GE(cycles.count, 6);
-  EXPECT_EQ(cycles_along(testing::sampled(50, 100.0, testing::reach), Eigen::Vector3d::UnitX(), 100.0).count, 0);
+  EXPECT_EQ(cycles_along(testing::sampled(50, 100.0, testing::reach), Eigen::Vector3d::UnitX(), 100.0).count,
+            0);
 }
 
 TEST(DetrendedAxis, IsThatOfTheOscillationNotOfTheTrend) {
-  const auto x = testing::sampled(600, 100.0, [](double t) { return Eigen::Vector3d(3.0 * t, 0.1 * std::sin(kTurn * t), 0.0); });
+  const auto x = testing::sampled(
+      600, 100.0, [](double t) { return Eigen::Vector3d(3.0 * t, 0.1 * std::sin(kTurn * t), 0.0); });
   EXPECT_GT(std::abs(detrended_axis(x).y()), 0.999);
 }
 
@@ -84,7 +87,8 @@ TEST(BandRms, OfASineInTheBandIsItsRms) {
 }
 
 TEST(PeakFrequency, IsFoundBetweenTheLinesOfThePeriodogram) {
-  const auto x = testing::sampled(500, 100.0, [](double t) { return Eigen::Vector3d(std::sin(kTurn * 5.137 * t), 0.0, 2.0 * t); });
+  const auto x = testing::sampled(
+      500, 100.0, [](double t) { return Eigen::Vector3d(std::sin(kTurn * 5.137 * t), 0.0, 2.0 * t); });
   EXPECT_NEAR(peak_frequency(x, 100.0, 0.3), 5.137, 0.02);
   EXPECT_TRUE(std::isnan(peak_frequency(x.topRows(5), 100.0, 0.3)));
 }
@@ -101,6 +105,27 @@ TEST(Recognise, TellsReachesFromCycles) {
   // A part of a turn is neither.
   const auto part = recognise(testing::path_of(60, 100.0, testing::ellipse));
   EXPECT_FALSE(part.discrete || part.periodic);
+}
+
+TEST(Recognise, AWalkRepeatsAndDoesNotComeBack) {
+  const auto walk = recognise(testing::path_of(500, 100.0, [](double t) -> Eigen::Vector3d {
+    return testing::ellipse(t) + Eigen::Vector3d(0.0, 1.2 * t, 0.0);
+  }));
+  EXPECT_TRUE(walk.periodic);
+  EXPECT_FALSE(walk.closed);
+  EXPECT_TRUE(recognise(testing::path_of(400, 100.0, testing::ellipse)).closed);
+}
+
+TEST(Recognise, ASteadyWheelHardlyChangesItsSpeed) {
+  EXPECT_TRUE(recognise(testing::path_of(400, 100.0, [](double t) {
+                return Eigen::Vector3d(std::cos(testing::kTurn * t), std::sin(testing::kTurn * t), 0.0);
+              })).steady);
+  EXPECT_FALSE(recognise(testing::path_of(400, 100.0, testing::ellipse)).steady);
+}
+
+TEST(HardlyChanges, IsSaidOfSteadyValuesAlone) {
+  EXPECT_TRUE(hardly_changes(Eigen::VectorXd::LinSpaced(100, 0.96, 1.04)));
+  EXPECT_FALSE(hardly_changes(Eigen::VectorXd::LinSpaced(100, 0.8, 1.2)));
 }
 
 TEST(PathFacts, MovementOfAReachIsBetweenItsRests) {

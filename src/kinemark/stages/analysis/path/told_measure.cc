@@ -8,15 +8,15 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemark/math/statistics.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 #include "kinemark/stages/analysis/path/refits.h"
 
 namespace kinemark::analysis {
 namespace {
 
-constexpr double kRestCounts = 0.05;  // share of a stretch at rest from which a path's length is an upper bound
-constexpr double kTooWide = 0.5;      // half-width over value
+constexpr double kRestCounts =
+    0.05;                         // share of a stretch at rest from which a path's length is an upper bound
+constexpr double kTooWide = 0.5;  // half-width over value
 
 void remark(data::Measure& measure, std::string_view sentence) {
   if (!measure.remark.empty()) measure.remark += "; ";
@@ -41,8 +41,14 @@ std::string method_of(const PathDefinition& definition, const ToldStretch& stret
 
 // Values whose half-width over them says something: sizes, not instants and logarithms.
 bool is_size(const PathDefinition& definition) {
-  return definition.what.quantity != data::Quantity::time && definition.what.quantity != data::Quantity::ratio &&
+  return definition.what.quantity != data::Quantity::time &&
+         definition.what.quantity != data::Quantity::ratio &&
          definition.what.quantity != data::Quantity::count;
+}
+
+// Sizes cannot be below 0, whatever the bias that is taken off.
+double at_least_none(const PathDefinition& definition, double value) {
+  return is_size(definition) ? std::max(0.0, value) : value;
 }
 
 // Why there is no interval, or an empty text.
@@ -57,11 +63,11 @@ std::string no_interval(const PathDefinition& definition, const ToldStretch& str
 }
 
 void put_interval(data::Measure& measure, const PathDefinition& definition, const Pivoted& pivoted,
-                  const ToldStretch& stretch, const PathFrame& frame) {
+                  const PathFrame& frame) {
   auto& interval = measure.interval;
   interval.kind = data::IntervalKind::two_sided;
-  interval.low = pivoted.low;
-  interval.high = pivoted.high;
+  interval.low = at_least_none(definition, pivoted.low);
+  interval.high = at_least_none(definition, pivoted.high);
   interval.approximate = definition.weakness == Weakness::approximate ||
                          (definition.weakness == Weakness::approximate_if_discrete && frame.discrete);
   const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
@@ -70,7 +76,7 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
   else if (definition.weakness == Weakness::lengthened_at_rest && frame.share_at_rest > kRestCounts)
     only_at_most(measure, fmt::format("{:.0f} % of the stretch are at rest, where noise can only lengthen",
                                       100.0 * frame.share_at_rest));
-  else if (definition.weakness == Weakness::extreme_of_constant && stretch.constant_speed)
+  else if (definition.weakness == Weakness::extreme_of_constant && frame.steady)
     only_at_most(measure, "the speed hardly changes, so that its largest value is the noise's");
   if (interval.kind == data::IntervalKind::two_sided && is_size(definition) &&
       0.5 * (interval.high - interval.low) > kTooWide * std::abs(measure.value))
@@ -79,15 +85,14 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
 
 }  // namespace
 
-bool hardly_changes(const Eigen::VectorXd& values) {
-  const std::span<const double> all(values.data(), static_cast<std::size_t>(values.size()));
-  return math::quantile(all, 0.95) - math::quantile(all, 0.05) < 0.1 * math::median(all);
-}
-
-data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& stretch, const PathFrame& frame,
-                           const ToldNumbers& numbers) {
-  data::Measure out{.id = std::string(definition.what.id), .subject = stretch.subject, .region = stretch.region,
-                    .start_s = stretch.start_s, .end_s = stretch.end_s, .quantity = definition.what.quantity};
+data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& stretch,
+                           const PathFrame& frame, const ToldNumbers& numbers) {
+  data::Measure out{.id = std::string(definition.what.id),
+                    .subject = stretch.subject,
+                    .region = stretch.region,
+                    .start_s = stretch.start_s,
+                    .end_s = stretch.end_s,
+                    .quantity = definition.what.quantity};
   out.share_not_measured = stretch.share_not_measured;
   out.method = method_of(definition, stretch);
   out.interval.level = stretch.level;
@@ -95,14 +100,19 @@ data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& 
   const auto pivoted = square ? pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
                               : pivot(numbers.estimate, numbers.deviations, stretch.level);
   const std::string why_none = no_interval(definition, stretch);
+  if (definition.weakness == Weakness::needs_change && frame.steady) {
+    remark(out, "the speed hardly changes");
+    return out;
+  }
   if (!std::isfinite(numbers.estimate)) {
-    remark(out, definition.applies == Applies::discrete ? "the stretch does not begin and end at rest"
+    remark(out, definition.applies == Applies::discrete   ? "the stretch does not begin and end at rest"
                 : definition.applies == Applies::periodic ? "the movement does not repeat"
+                : definition.applies == Applies::closed   ? "the movement does not come back to where it was"
                                                           : "too little movement");
     return out;
   }
   out.uncorrected = numbers.estimate;
-  out.value = std::isfinite(pivoted.value) ? pivoted.value : numbers.estimate;
+  out.value = at_least_none(definition, std::isfinite(pivoted.value) ? pivoted.value : numbers.estimate);
   if (definition.pivot == Pivot::whole_number) out.value = std::round(out.value);
   if (!why_none.empty()) {
     remark(out, why_none);
@@ -116,7 +126,11 @@ data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& 
   Pivoted ends = pivoted;
   if (definition.pivot == Pivot::of_derivative)
     ends = pivot(numbers.estimate_of_interval, numbers.deviations_of_interval, stretch.level);
-  if (std::isfinite(ends.low)) put_interval(out, definition, ends, stretch, frame);
+  if (definition.pivot == Pivot::of_derivative && !(ends.low <= out.value && out.value <= ends.high)) {
+    remark(out, "no interval: the value depends on how strongly the path is smoothed");
+    return out;
+  }
+  if (std::isfinite(ends.low)) put_interval(out, definition, ends, frame);
   return out;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What may be said of a measure: its value, which kind of interval is honest, and the remark that belongs to it.
+// What may be said of a measure: its value, which kind of interval is honest, and the remark that belongs to
+// it.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,7 +23,6 @@ struct ToldStretch {
   double share_not_measured = 0.0;  ///< of its samples
   double longest_gap_s = 0.0;       ///< in it
   bool below_noise = false;         ///< it moves about its slow trend by half the noise at most
-  bool constant_speed = false;      ///< hardly_changes()
   double noise_sd_m = 0.0;          ///< per axis
   double cut_off_hz = kNaN;         ///< of least expected error
   int order = 0;                    ///< of the smoother
@@ -41,9 +40,6 @@ struct ToldNumbers {
 
 /// Longest gap across which intervals were tried; there is none beyond it, s.
 inline constexpr double kLongestGap_s = 0.2;
-
-/// The middle nine tenths of the values lie within a tenth of their median.
-[[nodiscard]] bool hardly_changes(const Eigen::VectorXd& values);
 
 /// A measure with all that belongs to it; valid by Measure::validate().
 [[nodiscard]] data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& stretch,

@@ -24,14 +24,21 @@ std::vector<double> around(double middle, double spread) {
 
 class ToldMeasure : public ::testing::Test {
  protected:
-  ToldStretch stretch_{.subject = "RFIN", .start_s = 0.0, .end_s = 2.0, .noise_sd_m = 1e-3, .cut_off_hz = 5.0,
-                       .order = 4, .refits = 99};
+  ToldStretch stretch_{.subject = "RFIN",
+                       .start_s = 0.0,
+                       .end_s = 2.0,
+                       .noise_sd_m = 1e-3,
+                       .cut_off_hz = 5.0,
+                       .order = 4,
+                       .refits = 99};
   PathFrame frame_;
 
   data::Measure tell(std::string_view id, double estimate, double middle, double spread) {
     const auto deviations = around(middle, spread);
     const auto out = tell_measure(definition(id), stretch_, frame_,
-                                  {.estimate = estimate, .estimate_of_interval = estimate, .deviations = deviations,
+                                  {.estimate = estimate,
+                                   .estimate_of_interval = estimate,
+                                   .deviations = deviations,
                                    .deviations_of_interval = deviations});
     EXPECT_TRUE(out.validate()) << id;
     return out;
@@ -64,7 +71,7 @@ TEST_F(ToldMeasure, LengthsAcrossARestAreAtMost) {
 
 TEST_F(ToldMeasure, PeaksOfAConstantSpeedAreAtMost) {
   EXPECT_EQ(tell("peak_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
-  stretch_.constant_speed = true;
+  frame_.steady = true;
   const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
   EXPECT_TRUE(says(m, "hardly changes"));
@@ -125,11 +132,36 @@ TEST_F(ToldMeasure, ApproximateIntervalsAreMarked) {
 
 TEST_F(ToldMeasure, IntervalsOfJerkComeFromTheLeastSmoothed) {
   const auto near = around(0.0, 0.1), far = around(0.0, 0.4);
-  const auto m = tell_measure(definition("rms_jerk"), stretch_, frame_,
-                              {.estimate = 5.0, .estimate_of_interval = 6.0, .deviations = near, .deviations_of_interval = far});
+  const auto m = tell_measure(
+      definition("rms_jerk"), stretch_, frame_,
+      {.estimate = 5.0, .estimate_of_interval = 6.0, .deviations = near, .deviations_of_interval = far});
   EXPECT_NEAR(m.value, 5.0, 1e-12);
   EXPECT_NEAR(0.5 * (m.interval.low + m.interval.high), 6.0, 1e-9);
   EXPECT_EQ(m.method, "order 4, 7.5 Hz, interval 12.5 Hz, 99 refits");
+}
+
+TEST_F(ToldMeasure, ValuesThatDependOnTheSmoothingHaveNone) {
+  const auto near = around(0.0, 0.1), far = around(3.0, 0.4);
+  const auto m = tell_measure(
+      definition("curvature"), stretch_, frame_,
+      {.estimate = 5.0, .estimate_of_interval = 6.0, .deviations = near, .deviations_of_interval = far});
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
+  EXPECT_TRUE(says(m, "depends on how strongly the path is smoothed"));
+  EXPECT_FALSE(says(tell("curvature", 5.0, 0.0, 0.1), "depends on how strongly"));
+}
+
+TEST_F(ToldMeasure, SizesAreNotBelowZero) {
+  const auto m = tell("extent_thick", 0.1, 0.3, 0.05);
+  EXPECT_EQ(m.value, 0.0);
+  EXPECT_EQ(m.interval.low, 0.0);
+  EXPECT_LT(tell("ldlj", -5.0, 0.1, 0.4).value, -5.0);
+}
+
+TEST_F(ToldMeasure, WhatNeedsAChangingSpeedSaysSo) {
+  EXPECT_TRUE(std::isfinite(tell("power_law_exponent", 0.33, 0.0, 0.1).value));
+  frame_.steady = true;
+  EXPECT_TRUE(says(tell("power_law_exponent", 0.33, 0.0, 0.1), "hardly changes"));
+  EXPECT_TRUE(std::isnan(tell("ldlj_speed", -5.0, 0.0, 0.1).value));
 }
 
 TEST_F(ToldMeasure, CountsAreWholeNumbers) { EXPECT_EQ(tell("submovements", 3.0, 0.2, 0.4).value, 3.0); }
@@ -138,11 +170,6 @@ TEST_F(ToldMeasure, WhatIsNotDeterminedSaysWhy) {
   EXPECT_TRUE(says(tell("onset", kNaN, 0.0, 0.1), "does not begin and end at rest"));
   EXPECT_TRUE(says(tell("cycle_time", kNaN, 0.0, 0.1), "does not repeat"));
   EXPECT_TRUE(says(tell("peak_speed", kNaN, 0.0, 0.1), "too little movement"));
-}
-
-TEST(HardlyChanges, IsSaidOfSteadyValuesAlone) {
-  EXPECT_TRUE(hardly_changes(Eigen::VectorXd::LinSpaced(100, 0.96, 1.04)));
-  EXPECT_FALSE(hardly_changes(Eigen::VectorXd::LinSpaced(100, 0.8, 1.2)));
 }
 
 TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {

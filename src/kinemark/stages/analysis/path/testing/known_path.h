@@ -50,7 +50,8 @@ inline Eigen::Vector3d ellipse(double t) {
 }
 
 /// One marker "P", all measured, with white noise.
-inline data::Trajectories recording_of(const SeriesMatrix& x, double rate_hz, double noise_m, std::uint64_t seed) {
+inline data::Trajectories recording_of(const SeriesMatrix& x, double rate_hz, double noise_m,
+                                       std::uint64_t seed) {
   auto out = data::Trajectories::all_missing({"P"}, {.rate_hz = rate_hz, .frames = x.rows()});
   Random random(seed, 3);
   for (std::int64_t i = 0; i < x.rows(); ++i) {
