@@ -140,7 +140,11 @@ bool DifferenceSmoother::factor(double half_power) {
 void DifferenceSmoother::smooth(SeriesMatrix& series) const {
   const std::int64_t n = samples(), m = order_;
   check(series.rows() == n, "a smoother takes series of its own length");
-  const Eigen::RowVectorXd level = series.colwise().mean();
+  // Row by row, so that a column's digits do not depend on those beside it.
+  Eigen::RowVectorXd level = Eigen::RowVectorXd::Zero(series.cols());
+  for (std::int64_t i = 0; i < n; ++i)
+    if (seen_[at(i)]) level += series.row(i);
+  level /= static_cast<double>(std::ranges::count(seen_, true));
   series.rowwise() -= level;
   fill_straight(seen_, series);
   SeriesMatrix unknown = SeriesMatrix::Zero(unknowns_, series.cols());

@@ -83,7 +83,7 @@ TEST(Smoothness, JerkOfAMinimumJerkReachIsItsClosedForm) {
     path.j(k, 0) = 60.0 - 360.0 * u + 360.0 * u * u;
   }
   EXPECT_NEAR(log_dimensionless_jerk(path), -5.322033893165, 1e-5);
-  EXPECT_NEAR(rms_jerk(path), std::sqrt(720.0), 1e-2);
+  EXPECT_NEAR(rms_jerk(path), std::sqrt(720.0), 0.03);  // the ends count in full
 }
 
 TEST(Smoothness, CircleAtConstantSpeedHasTheJerkOfItsTurns) {

@@ -61,7 +61,7 @@ TEST(Submovements, AreCountedByTheirPeaks) {
 
 TEST(Cycles, OfASineOnATrendAreItsPeriods) {
   const auto x = testing::sampled(1000, 100.0, [](double t) {
-    return Eigen::Vector3d(0.1 * std::sin(kTurn * 0.8 * t) + 0.002 * t, 0.0, 0.3 * t);
+    return Eigen::Vector3d(0.1 * std::cos(kTurn * 0.8 * t) + 0.002 * t, 0.0, 0.3 * t);
   });
   const auto cycles = cycles_along(x, Eigen::Vector3d::UnitX(), 100.0);
   EXPECT_NEAR(cycles.mean_s, 1.25, 1e-3);
