@@ -134,7 +134,8 @@ TEST_F(ToldMeasure, IntervalsOfJerkComeFromTheLeastSmoothed) {
   const auto near = around(0.0, 0.1), far = around(0.0, 0.4);
   const auto m = tell_measure(
       definition("rms_jerk"), stretch_, frame_,
-      {.estimate = 5.0, XX, 1e-12);
+      {.estimate = 5.0, .estimate_of_interval = 5.2, .deviations = near, .deviations_of_interval = far});
+  EXPECT_NEAR(m.value, 5.0, 1e-12);
   EXPECT_NEAR(0.5 * (m.interval.low + m.interval.high), 5.2, 1e-9);
   EXPECT_EQ(m.method, "order 4, 7.5 Hz, interval 12.5 Hz, 99 refits");
 }
