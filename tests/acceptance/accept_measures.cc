@@ -24,7 +24,7 @@ using namespace kinemark;
 using testing_support::print_row;
 
 // One measure of one movement beside its truth.
-struct Told {
+struct Judged {
   std::string family;
   bool periodic = false, discrete = false;
   double truth = kNaN, raw = kNaN, sd = kNaN;
@@ -85,7 +85,7 @@ analysis::PathSamples stretch_of(const analysis::PathSamples& path, std::int64_t
           .j = path.j.middleRows(first, count)};
 }
 
-std::vector<Told> tell(const std::string& family, std::uint64_t seed) {
+std::vector<Judged> measure_one(const std::string& family, std::uint64_t seed) {
   Random random(seed, 7);
   const auto movement = acceptance::draw_movement(family, random);
   constexpr std::array kRates{60.0, 100.0, 120.0, 240.0};
@@ -94,7 +94,7 @@ std::vector<Told> tell(const std::string& family, std::uint64_t seed) {
   const auto path = acceptance::sample_movement(movement, rate);
   const auto markers = recording_of(path, noise_mm, random);
   const auto measured = analysis::measure_paths(markers, {.noise_sd_m = 1e-3 * noise_mm, .seed = seed});
-  std::vector<Told> out;
+  std::vector<Judged> out;
   if (!measured || measured->measures.empty()) return out;
   const auto& one = measured->measures.front();
   const auto first = std::llround(one.start_s * rate), last = std::llround(one.end_s * rate);
@@ -185,10 +185,10 @@ Trimmed trimmed(std::vector<double> values) {
   return out;
 }
 
-void tell_row(const Row& row, const std::vector<std::vector<Told>>& told) {
+void judge_row(const Row& row, const std::vector<std::vector<Judged>>& judged) {
   int movements = 0, with_interval = 0, covered = 0;
   std::vector<double> error, raw_error;  // over the truth, which differs from movement to movement
-  for (const auto& movement : told)
+  for (const auto& movement : judged)
     for (const auto& one : movement) {
       if (one.measure.id != row.id || !std::string_view(row.families).contains(" " + one.family + " "))
         continue;
@@ -219,15 +219,15 @@ void tell_row(const Row& row, const std::vector<std::vector<Told>>& told) {
 int run(int argc, char** argv) {
   const int count = argc > 1 ? std::atoi(argv[1]) : 200;
   const std::uint64_t first_seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
-  std::vector<std::vector<Told>> told(acceptance::kFamilies.size() * static_cast<std::size_t>(count));
-  parallel_for(static_cast<std::int64_t>(told.size()), 1, 0, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<std::vector<Judged>> judged(acceptance::kFamilies.size() * static_cast<std::size_t>(count));
+  parallel_for(static_cast<std::int64_t>(judged.size()), 1, 0, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const auto family = static_cast<std::size_t>(i) % acceptance::kFamilies.size();
-      told[static_cast<std::size_t>(i)] =
-          tell(acceptance::kFamilies[family], first_seed + static_cast<std::uint64_t>(i));
+      judged[static_cast<std::size_t>(i)] =
+          measure_one(acceptance::kFamilies[family], first_seed + static_cast<std::uint64_t>(i));
     }
   });
-  for (const auto& row : kRows) tell_row(row, told);
+  for (const auto& row : kRows) judge_row(row, judged);
   return testing_support::exit_status();
 }
 

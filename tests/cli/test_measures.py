@@ -54,15 +54,15 @@ class Measures(CommandTest):
         table = self.folder / "wheel.csv"
         result = self.run_in("analyze", self.file, "--refits", "39", "-o", table, "--json")
         self.assertEqual(result.status, 0, result.err)
-        told = json.loads(result.out)
+        reported = json.loads(result.out)
         with table.open(newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual([m["measure"] for m in told["measures"]], [row["measure"] for row in rows])
-        for measure, row in zip(told["measures"], rows):
+        self.assertEqual([m["measure"] for m in reported["measures"]], [row["measure"] for row in rows])
+        for measure, row in zip(reported["measures"], rows):
             if measure["value"] is not None:
                 self.assertAlmostEqual(measure["value"], float(row["value"]), delta=1e-7 * abs(measure["value"]) + 1e-12)
             self.assertEqual(measure["interval"]["kind"], row["interval"])
-        self.assertEqual(told["written"], [str(table)])
+        self.assertEqual(reported["written"], [str(table)])
 
     def test_same_bits_for_any_number_of_threads(self):
         a, b = (
@@ -86,8 +86,8 @@ class Measures(CommandTest):
         self.assertEqual(result.status, 0)
         self.assertIn("path_length", result.out)
         self.assertGreater(len(result.out.splitlines()), 30)
-        told = json.loads(self.run_in("analyze", "--list", "--json").out)
-        self.assertTrue(all(m["formula"] and m["source"] for m in told))
+        reported = json.loads(self.run_in("analyze", "--list", "--json").out)
+        self.assertTrue(all(m["formula"] and m["source"] for m in reported))
 
     def test_what_is_wrong_is_one_sentence(self):
         for arguments, status, words in (

@@ -11,7 +11,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/path/definitions.h"
-#include "kinemark/stages/analysis/path/told_measure.h"
+#include "kinemark/stages/analysis/path/stated_measure.h"
 
 namespace kinemark::analysis {
 namespace {
@@ -202,24 +202,24 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(
                    }
                  });
 
-  const ToldStretch told{.subject = name_,
-                         .region = region.name,
-                         .start_s = frame.start_s,
-                         .end_s = frame.start_s + static_cast<double>(stretch.count - 1) / rate,
-                         .share_not_measured = stretch.share_not_measured,
-                         .longest_gap_s = stretch.longest_gap_s,
-                         .below_noise = below_noise(stretch),
-                         .noise_sd_m = recording_.noise_sd_m,
-                         .cut_off_hz = recording_.choice.half_power * rate,
-                         .order = recording_.choice.order,
-                         .level = options_.level,
-                         .refits = options_.refits};
+  const StretchSummary summary{.subject = name_,
+                               .region = region.name,
+                               .start_s = frame.start_s,
+                               .end_s = frame.start_s + static_cast<double>(stretch.count - 1) / rate,
+                               .share_not_measured = stretch.share_not_measured,
+                               .longest_gap_s = stretch.longest_gap_s,
+                               .below_noise = below_noise(stretch),
+                               .noise_sd_m = recording_.noise_sd_m,
+                               .cut_off_hz = recording_.choice.half_power * rate,
+                               .order = recording_.choice.order,
+                               .level = options_.level,
+                               .refits = options_.refits};
   std::vector<data::Measure> out;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& definition = *refits.definitions[i];
     const bool raw_one = definition.pivot == Pivot::raw_squared;
-    out.push_back(tell_measure(
-        definition, told, frame,
+    out.push_back(state_measure(
+        definition, summary, frame,
         {.estimate = raw_one ? refits.raw[i] : refits.less[i],
          .estimate_of_interval = definition.pivot == Pivot::of_derivative ? refits.least[i] : kNaN,
          .deviations = raw_one ? refits.by_raw[i] : refits.by_less[i],

@@ -95,7 +95,7 @@ TEST(MeasurePaths, OfARegionAreItsOwn) {
   EXPECT_NEAR(found->measures[2].end_s, 1.2, 1e-9);
 }
 
-TEST(MeasurePaths, ShareOfWhatWasNotMeasuredIsTold) {
+TEST(MeasurePaths, ShareOfWhatWasNotMeasuredIsReported) {
   auto markers = reach();
   for (std::int64_t f = 60; f < 75; ++f) markers.set_missing(f, 0);
   for (std::int64_t f = 75; f < 80; ++f) markers.state[markers.index(f, 0)] = data::SampleState::interpolated;
@@ -122,7 +122,7 @@ TEST(MeasurePaths, MovementBelowTheNoiseHasNoInterval) {
   EXPECT_GT(find(*found, "tremor").interval.high, std::sqrt(0.5) * 2e-4);
 }
 
-TEST(MeasurePaths, NoiseThatDisagreesIsTold) {
+TEST(MeasurePaths, NoiseThatDisagreesIsReported) {
   const auto agrees =
       measure_paths(reach(1e-3), {.measures = {"peak_speed"}, .refits = 0, .noise_sd_m = 1e-3});
   ASSERT_TRUE(agrees);
@@ -134,7 +134,7 @@ TEST(MeasurePaths, NoiseThatDisagreesIsTold) {
       << not_so->warnings[0];
 }
 
-TEST(MeasurePaths, WhatCannotBeMeasuredIsToldAndTheOthersAre) {
+TEST(MeasurePaths, WhatCannotBeMeasuredIsReportedAndTheOthersAre) {
   const auto one = reach();
   auto both = data::Trajectories::all_missing({"P", "SELDOM"}, one.time);
   for (std::int64_t f = 0; f < one.frames(); ++f) {

@@ -161,15 +161,15 @@ double median_torsion(const PathSamples& path) {
 double power_law_exponent(const PathSamples& path) {
   const auto samples = moving(path);
   if (samples.size() < 3) return kNaN;
-  Eigen::ArrayXd speed(static_cast<Eigen::Index>(samples.size())), bend(speed.size());
+  Eigen::ArrayXd speed(static_cast<Eigen::Index>(samples.size())), log_curvature(speed.size());
   for (Eigen::Index k = 0; k < speed.size(); ++k) {
     const auto i = samples[static_cast<std::size_t>(k)];
     speed[k] = std::log(path.v.row(i).norm());
-    bend[k] = std::log(std::max(curvature(path, i), 1e-9));
+    log_curvature[k] = std::log(std::max(curvature(path, i), 1e-9));
   }
-  bend -= bend.mean();
-  const double spread = bend.square().sum();
-  return spread > 0.0 ? -(bend * speed).sum() / spread : kNaN;
+  log_curvature -= log_curvature.mean();
+  const double spread = log_curvature.square().sum();
+  return spread > 0.0 ? -(log_curvature * speed).sum() / spread : kNaN;
 }
 
 }  // namespace kinemark::analysis

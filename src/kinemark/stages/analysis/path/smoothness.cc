@@ -57,9 +57,9 @@ double log_dimensionless_jerk(const PathSamples& path) {
 double log_dimensionless_jerk_of_speed(const Eigen::VectorXd& speed, double rate_hz) {
   const std::int64_t n = speed.size();
   if (n < 3) return kNaN;
-  const Eigen::VectorXd bend =
+  const Eigen::VectorXd second_difference =
       (speed.tail(n - 2) - 2.0 * speed.segment(1, n - 2) + speed.head(n - 2)) * (rate_hz * rate_hz);
-  const double integral = bend.squaredNorm() / rate_hz;
+  const double integral = second_difference.squaredNorm() / rate_hz;
   const double duration = static_cast<double>(n) / rate_hz;
   const double peak = speed.cwiseAbs().maxCoeff();
   return peak > 0.0 && integral > 0.0 ? -std::log(std::pow(duration, 3) / (peak * peak) * integral) : kNaN;

@@ -146,8 +146,9 @@ double peak_frequency(const SeriesMatrix& x, double rate_hz, double low_hz) {
   const std::int64_t k = first + at;
   if (!(power[k - 1] > 0.0 && power[k] > 0.0 && power[k + 1] > 0.0)) return kNaN;
   const double before = std::log(power[k - 1]), here = std::log(power[k]), after = std::log(power[k + 1]);
-  const double bend = before - 2.0 * here + after;
-  const double shift = bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+  const double second_difference = before - 2.0 * here + after;
+  const double shift =
+      second_difference < 0.0 ? std::clamp(0.5 * (before - after) / second_difference, -0.5, 0.5) : 0.0;
   return (static_cast<double>(k) + shift) * rate_hz / static_cast<double>(n);
 }
 

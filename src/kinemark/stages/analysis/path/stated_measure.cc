@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/analysis/path/told_measure.h"
+#include "kinemark/stages/analysis/path/stated_measure.h"
 
 #include <fmt/core.h>
 
@@ -29,7 +29,7 @@ void only_at_most(data::Measure& measure, std::string_view why) {
   remark(measure, why);
 }
 
-std::string method_of(const PathDefinition& definition, const ToldStretch& stretch) {
+std::string method_of(const PathDefinition& definition, const StretchSummary& stretch) {
   if (definition.pivot == Pivot::raw_squared)
     return stretch.refits > 0 ? fmt::format("unsmoothed, {} refits of noise", stretch.refits) : "unsmoothed";
   std::string out = fmt::format("order {}, {:.3g} Hz", stretch.order, kLessSmooth * stretch.cut_off_hz);
@@ -52,7 +52,7 @@ double at_least_none(const PathDefinition& definition, double value) {
 }
 
 // Why there is no interval, or an empty text.
-std::string no_interval(const PathDefinition& definition, const ToldStretch& stretch) {
+std::string no_interval(const PathDefinition& definition, const StretchSummary& stretch) {
   if (stretch.refits == 0) return "no interval was asked for";
   if (stretch.longest_gap_s > kLongestGap_s)
     return fmt::format("no interval: what happened in a gap of {:.2g} s is not known", stretch.longest_gap_s);
@@ -85,8 +85,8 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
 
 }  // namespace
 
-data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& stretch,
-                           const PathFrame& frame, const ToldNumbers& numbers) {
+data::Measure state_measure(const PathDefinition& definition, const StretchSummary& stretch,
+                            const PathFrame& frame, const MeasureNumbers& numbers) {
   data::Measure out{.id = std::string(definition.what.id),
                     .subject = stretch.subject,
                     .region = stretch.region,

@@ -15,7 +15,7 @@
 namespace kinemark::analysis {
 
 /// What all measures of a stretch share.
-struct ToldStretch {
+struct StretchSummary {
   std::string subject;              ///< marker
   std::string region;               ///< its name
   double start_s = kNaN;            ///< first sample, on the recording's clock
@@ -31,7 +31,7 @@ struct ToldStretch {
 };
 
 /// Numbers of one measure. Deviations as Pivot says, of squares where it says so.
-struct ToldNumbers {
+struct MeasureNumbers {
   double estimate = kNaN;              ///< of the path smoothed with kLessSmooth, or unsmoothed
   double estimate_of_interval = kNaN;  ///< of that with kLeastSmooth, where the interval comes from it
   std::span<const double> deviations;  ///< of the refits
@@ -42,7 +42,7 @@ struct ToldNumbers {
 inline constexpr double kLongestGap_s = 0.2;
 
 /// A measure with all that belongs to it; valid by Measure::validate().
-[[nodiscard]] data::Measure tell_measure(const PathDefinition& definition, const ToldStretch& stretch,
-                                         const PathFrame& frame, const ToldNumbers& numbers);
+[[nodiscard]] data::Measure state_measure(const PathDefinition& definition, const StretchSummary& stretch,
+                                          const PathFrame& frame, const MeasureNumbers& numbers);
 
 }  // namespace kinemark::analysis
