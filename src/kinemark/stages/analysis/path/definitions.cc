@@ -109,7 +109,7 @@ const std::array kDefinitions{
                     "rectangles of least area across each axis in turn", "Freeman & Shapira 1975"},
                    Applies::always,
                    Pivot::plain,
-                   Weakness::approximate,
+                   Weakness::upper_alone,
                    [](const PathFacts& f) { return f.box[2]; }},
     PathDefinition{{"curvature", "shape", Quantity::curvature, "Curvature",
                     "median of |v x a| / |v|^3 where |v| > 10 % of its peak", kDefinition},
@@ -223,7 +223,7 @@ const std::array kDefinitions{
                     "-ln(T^3 / v_peak^2 integral |jerk|^2 dt) from onset to end", kBalasubramanian},
                    Applies::always,
                    Pivot::of_derivative,
-                   Weakness::approximate_if_discrete,
+                   Weakness::upper_alone_if_discrete,
                    [](const PathFacts& f) { return log_dimensionless_jerk(f.movement); }},
     PathDefinition{
         {"ldlj_speed", "smoothness", Quantity::ratio, "Log dimensionless jerk of the speed",

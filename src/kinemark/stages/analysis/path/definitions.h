@@ -27,11 +27,13 @@ enum class Pivot : std::uint8_t {
 /// What keeps an interval from being two-sided and sure.
 enum class Weakness : std::uint8_t {
   none,
-  lengthened_at_rest,      ///< a path's noise at rest adds up: at most, where part of the stretch is at rest
-  extreme_of_constant,     ///< the largest of a speed that hardly changes: at most then
-  needs_change,            ///< says nothing of a speed that hardly changes
-  approximate,             ///< covers less than its level in simulated movements
-  approximate_if_discrete  ///< likewise for discrete movements alone
+  lengthened_at_rest,       ///< a path's noise at rest adds up: at most, where part of the stretch is at rest
+  extreme_of_constant,      ///< the largest of a speed that hardly changes: at most then
+  needs_change,             ///< says nothing of a speed that hardly changes
+  upper_alone,              ///< the lower end fails: the least side of a box
+  upper_alone_if_discrete,  ///< likewise for discrete movements: a start has jerk that no filter passes
+  approximate,              ///< covers less than its level in simulated movements
+  approximate_if_discrete   ///< likewise for discrete movements alone
 };
 
 /// One measure of a path.

@@ -78,6 +78,10 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
                                       100.0 * frame.share_at_rest));
   else if (definition.weakness == Weakness::extreme_of_constant && frame.steady)
     only_at_most(measure, "the speed hardly changes, so that its largest value is the noise's");
+  else if (definition.weakness == Weakness::upper_alone)
+    only_at_most(measure, "noise can only lengthen it");
+  else if (definition.weakness == Weakness::upper_alone_if_discrete && frame.discrete)
+    only_at_most(measure, "a start has jerk that no filter passes");
   if (interval.kind == data::IntervalKind::two_sided && is_size(definition) &&
       0.5 * (interval.high - interval.low) > kTooWide * std::abs(measure.value))
     remark(measure, "the interval is too wide to support a claim");
@@ -127,8 +131,10 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
   if (definition.pivot == Pivot::of_derivative)
     ends = pivot(numbers.estimate_of_interval, numbers.deviations_of_interval, stretch.level);
   if (definition.pivot == Pivot::of_derivative && !(ends.low <= out.value && out.value <= ends.high)) {
-    remark(out, "no interval: the value depends on how strongly the path is smoothed");
-    return out;
+    out.value = at_least_none(definition, ends.value);  // as the interval has it
+    out.uncorrected = numbers.estimate_of_interval;
+    out.sd = ends.sd;
+    remark(out, "depends on how strongly the path is smoothed: value and interval of the weaker smoothing");
   }
   if (std::isfinite(ends.low)) put_interval(out, definition, ends, frame);
   return out;

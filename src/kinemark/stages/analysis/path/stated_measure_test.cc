@@ -140,14 +140,25 @@ TEST_F(StatedMeasure, IntervalsOfJerkComeFromTheLeastSmoothed) {
   EXPECT_EQ(m.method, "order 4, 7.5 Hz, interval 12.5 Hz, 99 refits");
 }
 
-TEST_F(StatedMeasure, ValuesThatDependOnTheSmoothingHaveNone) {
+TEST_F(StatedMeasure, ValuesThatDependOnTheSmoothingSaySo) {
   const auto near = around(0.0, 0.1), far = around(3.0, 0.4);
   const auto m = state_measure(
       definition("curvature"), stretch_, frame_,
       {.estimate = 5.0, .estimate_of_interval = 6.0, .deviations = near, .deviations_of_interval = far});
-  EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
+  EXPECT_NEAR(m.value, 3.0, 1e-12);
+  EXPECT_LT(m.interval.low, 3.0);
+  EXPECT_GT(m.interval.high, 3.0);
   EXPECT_TRUE(says(m, "depends on how strongly the path is smoothed"));
   EXPECT_FALSE(says(tell("curvature", 5.0, 0.0, 0.1), "depends on how strongly"));
+}
+
+TEST_F(StatedMeasure, OnlyTheUpperEndWhereTheLowerFails) {
+  EXPECT_EQ(tell("box_height", 1.0, 0.1, 0.1).interval.kind, data::IntervalKind::at_most);
+  EXPECT_EQ(tell("ldlj", -5.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  frame_.discrete = true;
+  const auto m = tell("ldlj", -5.0, 0.0, 0.1);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
+  EXPECT_TRUE(says(m, "jerk that no filter passes"));
 }
 
 TEST_F(StatedMeasure, SizesAreNotBelowZero) {
