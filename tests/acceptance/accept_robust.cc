@@ -11,12 +11,9 @@
 #include <numbers>
 #include <set>
 
+#include "acceptance/ik_recordings.h"
 #include "kinemark/core/random.h"
 #include "kinemark/core/units.h"
-#include "kinemark/io/markers/marker_file.h"
-#include "kinemark/io/osim/osim_model.h"
-#include "kinemark/model/model.h"
-#include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/stages/motion/control/track.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/acceptance.h"
@@ -27,31 +24,6 @@ namespace {
 using namespace kinemark;
 using testing_support::print_note;
 using testing_support::print_row;
-
-struct Recording {
-  std::string name, model, markers, setup;
-  /// What is wrong with the recording itself; empty: nothing that anyone knows of.
-  std::string defects = {};
-};
-
-const std::vector<Recording> kRecordings = {
-    {"nimble", "nimble-arnold-synthetic/subject01/subject01.osim",
-     "nimble-arnold-synthetic/subject01/trials/walk2/markers.trc", ""},
-    {"core_ik", "opensim-core-ik/subject01_simbody.osim",
-     "opensim-core-ik/subject01_synthetic_marker_data.trc",
-     "opensim-core-ik/subject01_Setup_InverseKinematics.xml"},
-    {"gait2354", "opensim-gait2354/subject01_simbody.osim", "opensim-gait2354/subject01_walk1.trc",
-     "opensim-gait2354/subject01_Setup_IK.xml"},
-    {"gait2354_whole", "opensim-gait2354/subject01_simbody.osim", "opensim-gait2354/subject01_walk1.trc", ""},
-    {"shoulder", "opensim-core-ik/subject1_abdbonepin.osim", "opensim-core-ik/abdbonepin.trc",
-     "opensim-core-ik/setup_ik_abdbonepin.xml",
-     "the upper arm leaves the shoulder blade by 40 mm for six frames, twice"},
-    {"hamner", "opensim-hamner-fullbody/subject02_registered.osim",
-     "opensim-hamner-fullbody/subject02_running.trc", "opensim-hamner-fullbody/Setup_IK.xml"},
-    {"running", "bmc-rajagopal-run/Scale/Rajagopal2015_scaled.osim",
-     "bmc-rajagopal-run/ExpData/motion_capture_run.trc", "bmc-rajagopal-run/IK/IK_setup.xml",
-     "RTOE and RMT5 carry each other's label in every third frame"},
-    {"arm", "opensim-arm26/arm26.osim", "opensim-arm26/arm26_elbow_flex.trc", ""}};
 
 enum class Kind { spike, zero, swap, held, exchange };
 constexpr const char* kKinds[] = {"spike", "zero", "swap", "held", "exchange"};
@@ -71,10 +43,7 @@ struct Estimate {
   data::MarkerFit fit;
 };
 
-struct Case {
-  model::Model model;
-  data::Trajectories markers;
-  motion::IkOptions options;
+struct Case : testing_support::IkCase {
   Method method = Method::ik;
   Estimate clean;
   std::vector<std::int64_t> column;  // of each used marker in the recording
@@ -276,23 +245,9 @@ int run_check(int argc, char** argv) {
     else
       named.insert(word);
   }
-  for (const auto& r : kRecordings) {
+  for (const auto& r : testing_support::ik_recordings()) {
     if (!named.empty() && !named.contains(r.name)) continue;
-    Case c{.model = model::Model::compile(io::read_osim(*data / r.model).value()).value(),
-           .markers = io::read_markers(*data / r.markers).value().markers,
-           .options = {},
-           .method = method,
-           .clean = {},
-           .column = {}};
-    pipeline::IkJob job;
-    if (!r.setup.empty()) {
-      job.setup = *data / r.setup;
-      job.model = *data / r.model;
-      job.markers = *data / r.markers;
-      pipeline::apply_setup(job).value();
-      pipeline::apply_tasks(job, c.model, c.markers).value();
-    }
-    c.options = job.options;
+    Case c{testing_support::open_ik_recording(*data, r), method, {}, {}};
     double judged_s = 1e9, plain_s = 1e9;
     Estimate without;
     // Deviations are part of what tracking costs, and inverse kinematics is judged without them.

@@ -58,7 +58,8 @@ Result<SmootherResult> smooth_images(const model::Model& model, const data::Imag
     return fail(Code::bad_input, "the image tracks have no marker in common with model and recording");
   auto noise =
       internal::split_noise(problem, prepared->start, options.ik.marker_noise_sd_m, options.huber_sd);
-  noise.any_slow = false;
+  noise.slow.setZero();  // of images nobody knows it
+  noise.common_slow.setZero();
   const CameraObservations observations(tracks, std::move(column), problem.first_frame, options.huber_sd);
   return internal::run(*prepared, prepared->believed(markers), observations, noise, options, progress);
 }

@@ -103,8 +103,8 @@ std::vector<Index> stretches(Index frames) {
   return first;
 }
 
-/// -2 log of the marginal likelihood of a ratio, the noise variance profiled out.
-double misfit(const VectorXd& y, const VectorXd& weight, double ratio) {
+/// -2 log of the marginal likelihood of a ratio, the noise variance profiled out, but not above `largest`.
+double misfit(const VectorXd& y, const VectorXd& weight, double ratio, double largest) {
   const auto first = stretches(y.size());
   const Index length = first.size() == 1 ? y.size() : kBlock;
   double squares = 0.0, determinants = 0.0, freedom = 0.0;
@@ -119,11 +119,12 @@ double misfit(const VectorXd& y, const VectorXd& weight, double ratio) {
     determinants += band.log_determinant() + static_cast<double>(length - 3) * std::log(ratio);
     freedom += seen - 3.0;
   }
-  return freedom * std::log(squares + 1e-30) + determinants;
+  const double variance = std::min(largest, squares / std::max(freedom, 1.0)) + 1e-30;
+  return squares / variance + freedom * std::log(variance) + determinants;
 }
 
-double best_ratio(const VectorXd& y, const VectorXd& weight) {
-  const auto at_log = [&](double log_ratio) { return misfit(y, weight, std::exp(log_ratio)); };
+double best_ratio(const VectorXd& y, const VectorXd& weight, double largest) {
+  const auto at_log = [&](double log_ratio) { return misfit(y, weight, std::exp(log_ratio), largest); };
   const double low = std::log(kSmallestRatio), high = std::log(kLargestRatio);
   constexpr int kGrid = 13;
   const double spacing = (high - low) / (kGrid - 1);
@@ -194,7 +195,8 @@ void five_point_rates(const VectorXd& y, double rate_hz, VectorXd& rate, VectorX
   }
 }
 
-SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const double> sd, double rate_hz) {
+SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const double> sd, double rate_hz,
+                                     double largest_noise_scale) {
   const auto F = static_cast<Index>(y.size());
   check(sd.empty() || sd.size() == y.size(), "sd must be empty or as long as y");
   SmoothedCoordinate out;
@@ -208,11 +210,6 @@ SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const 
   // About the mean: large offsets cost digits.
   const double mean = weight.dot(out.value) / weight.sum();
   const VectorXd values = out.value.array() - mean;
-  const double ratio = best_ratio(values, weight);
-  const Band band(weight, ratio);
-  VectorXd x = weight.cwiseProduct(values);
-  band.solve_in_place(x);
-  const double variance = squares_of(values, weight, x, ratio) / static_cast<double>(seen - 3);
   double usual = 1.0;
   if (!sd.empty()) {
     std::vector<double> all;
@@ -220,6 +217,13 @@ SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const 
       if (s >= 0.0) all.push_back(s);
     if (const double middle = math::upper_median(all); middle > 0.0) usual = middle;
   }
+  const double largest = std::pow(largest_noise_scale * usual, 2);
+  const double ratio = best_ratio(values, weight, largest);
+  const Band band(weight, ratio);
+  VectorXd x = weight.cwiseProduct(values);
+  band.solve_in_place(x);
+  const double variance =
+      std::min(largest, squares_of(values, weight, x, ratio) / static_cast<double>(seen - 3));
   out.known = true;
   out.noise_scale = std::sqrt(variance) / usual;
   out.step_sd = std::sqrt(variance * ratio);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 
 namespace kinemark::motion {
@@ -30,8 +31,12 @@ inline constexpr int kFewestSamples = 8;  ///< below it nothing is estimated
 /// Smooth y (finite). `sd`: one standard deviation of each sample relative to the others; NaN: this sample
 /// was not seen (y is then not used). An empty sd means equal samples. Gaps and both ends are bridged by the
 /// prior, with growing variance. O(F), about 2 us per frame.
-[[nodiscard]] SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const double> sd,
-                                                   double rate_hz);
+/// @param largest_noise_scale  > 0, bound of noise_scale: where the noise is known not to be above sd, what
+/// is
+///                             rough beyond it is motion
+[[nodiscard]] SmoothedCoordinate smooth_coordinate(
+    std::span<const double> y, std::span<const double> sd, double rate_hz,
+    double largest_noise_scale = std::numeric_limits<double>::infinity());
 
 /// Rate and acceleration of an evenly sampled smooth number: five-point differences, at the ends continued
 /// with a constant second difference. F >= 3.

@@ -45,6 +45,22 @@ TEST(CoordinateSmoother, FivePointRatesAreExactOnAParabola) {
   }
 }
 
+// A path as rough as noise, measured a thousand times better than it is rough.
+TEST(CoordinateSmoother, WhatIsRougherThanTheNoiseCanBeIsMotion) {
+  constexpr double kNoise = 1e-5;
+  const auto rough = sampled(200, 0.01, 7);
+  const std::vector<double> sd(200, kNoise);
+  const auto any = smooth_coordinate(rough, sd, kRate), bounded = smooth_coordinate(rough, sd, kRate, 1.0);
+  EXPECT_GT(any.noise_scale, 300.0) << "unbounded, the roughness is noise";
+  EXPECT_LE(bounded.noise_scale, 1.0 + 1e-12);
+  for (Eigen::Index f = 0; f < bounded.value.size(); ++f)
+    EXPECT_NEAR(bounded.value[f], rough[static_cast<std::size_t>(f)], 10.0 * kNoise);
+  // Where noise is below the bound nothing changes.
+  const auto fine = sampled(200, 0.01, 8);
+  const std::vector<double> wide(200, 0.03);
+  EXPECT_EQ(smooth_coordinate(fine, wide, kRate).value, smooth_coordinate(fine, wide, kRate, 1.0).value);
+}
+
 // The same estimate by dense matrices: posterior mean, and the covariance of three-point rates.
 TEST(CoordinateSmoother, IsTheDensePosterior) {
   constexpr int kFrames = 40;

@@ -23,6 +23,9 @@ constexpr std::int64_t kBlocksASide = 8;
 constexpr double kEdge = 0.1;  ///< of the frames at either end, excluded from the search
 /// Noise of the poses biases a joint's position equally in both halves; this share of it is subtracted.
 constexpr double kOpenDiffers = 0.99;
+constexpr double kAtOnce = 0.5;           ///< share of the way that a slip makes at its frame
+constexpr Eigen::Index kPartBeside = 50;  ///< compared there: this part of the frames on either side,
+constexpr Eigen::Index kLeastBeside = 4;  ///< but no fewer than so many
 constexpr double kAlsoShare =
     0.5;  ///< a slipped marker shifts the pose: others that move by less than this share are not reported
 
@@ -79,6 +82,16 @@ Part summarise(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
   return part;
 }
 
+/// Whether most of the way is made at once. Skin that slides with a movement slower than the recording is
+/// long also lies elsewhere before than after, and gets there with the movement.
+bool jumps(const Path& path, Eigen::Index at, const Eigen::Vector3d& way) {
+  const Eigen::Index n = path.x.cols(),
+                     beside = std::min({std::max(kLeastBeside, n / kPartBeside), at, n - at});
+  const Eigen::Vector3d jump = path.x.middleCols(at, beside).rowwise().mean() -
+                               path.x.middleCols(at - beside, beside).rowwise().mean();
+  return jump.dot(way) >= kAtOnce * way.squaredNorm();
+}
+
 std::optional<data::Finding> compare_marker(const Path& path, const SlipOptions& options) {
   if (path.x.cols() < kLeastSlipFrames) return std::nullopt;
   const Eigen::Index at = change_point(path);
@@ -89,6 +102,7 @@ std::optional<data::Finding> compare_marker(const Path& path, const SlipOptions&
                      .size_sd = std::sqrt(before.variance + after.variance)};
   // NaN is not reported as a slip.
   if (!(slip.size >= options.least_m) || !(slip.size >= options.sure_sd * slip.size_sd)) return std::nullopt;
+  if (!jumps(path, at, after.mean - before.mean)) return std::nullopt;
   return slip;
 }
 

@@ -80,6 +80,20 @@ TEST(Slip, AFewFramesAtTheEndHaveAScatterOfTheirOwn) {
   for (const data::Finding& slip : *none) EXPECT_EQ(slip.kind, data::FindingKind::joint_slip) << slip.subject;
 }
 
+// Half a period of a slow movement over the recording, with which the skin goes to and not fro.
+TEST(Slip, SkinThatGoesWithASlowMovementDoesNotSlip) {
+  auto chain = testing::make_chain(setup());
+  for (std::int64_t f = 0; f < chain.markers.frames(); ++f) {
+    const double phase = M_PI * static_cast<double>(f) / static_cast<double>(chain.markers.frames());
+    chain.markers.x(f, 6) +=
+        -0.012 * std::cos(phase) * chain.world_from_segment[1][static_cast<std::size_t>(f)].col(2);
+  }
+  const auto slips = find_slips(chain.markers, chain.layout);
+  ASSERT_TRUE(slips);
+  for (const data::Finding& slip : *slips)
+    EXPECT_NE(slip.kind, data::FindingKind::marker_slip) << slip.subject;
+}
+
 TEST(Slip, AWholeSleeveIsSeenByItsJoint) {
   auto chain = testing::make_chain(setup());
   slide(chain, 300, chain.layout.segments[1].markers, 0.010);

@@ -43,7 +43,8 @@ double slow_share(const data::JointMotion& motion, Index m) {
   }
   if (count < 30 || plain <= 0.0) return 0.0;
   const double chance = kChance * std::sqrt(2.0 / (3.0 * static_cast<double>(count)));
-  return std::clamp(1.0 - second / plain - chance, 0.0, 1.0);
+  const double share = 1.0 - second / plain;
+  return share > chance ? std::min(share, 1.0) : 0.0;
 }
 
 struct Spread {
@@ -116,6 +117,7 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
     share[m] = slow_share(start.motion, m);
   }
   const double usual = std::max(kSmallestVariance, usual_of(own));
+  split.raised = std::sqrt(usual / usual_of(own));
   own = own.cwiseMax(usual / kWidest).cwiseMin(usual * kWidest);
   split.white = own.cwiseProduct((1.0 - share.array()).matrix()).cwiseMax(kSmallestVariance);
   split.slow = own.cwiseProduct(share);
@@ -126,7 +128,6 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
     count[body] += 1.0;
   }
   split.common_slow.array() /= count.array().max(1.0);
-  split.any_slow = share.maxCoeff() > 0.0;
 
   // Weights follow from the whole variance of a marker, shrunk half way towards equal weights: a marker with
   // small residuals would otherwise attract the pose and obtain even smaller residuals.

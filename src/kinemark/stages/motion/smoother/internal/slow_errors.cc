@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/smoother/internal/slow_errors.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kinemark/core/index.h"
-#include "kinemark/math/statistics.h"
+#include "kinemark/core/parallel.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/model/weighted_normal.h"
 #include "kinemark/stages/motion/smoother/internal/frame_rows.h"
+#include "kinemark/stages/motion/smoother/internal/step_prior.h"
+#include "kinemark/stages/motion/smoother/internal/window.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -21,106 +20,181 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBlock_s = 0.2;            // three of them are about the smoother's time constant
-constexpr std::int64_t kFramesOfBlock = 4;  // frames used of each block
-constexpr double kBlind = 100.0;  // times the usual variance: the block is not determined by its markers
+constexpr double kNode_s = 0.05;
+constexpr std::int64_t kFramesOfNode = 2;  // frames used of each node, at most
+// Nodes are solved in stretches, each with so many more on either side: 2 s, beyond which the smoother
+// remembers nothing.
+constexpr Index kStretch = 160, kBeside = 40;
+constexpr double kFloorSd = 30.0;  // rad or m, prior SD over a stretch of a speed that nothing determines
 
-/// J'W S W J of one frame.
-void spread_of(const model::Model& model, FrameRows& rows, const NoiseSplit& noise, MatrixXd& B) {
-  auto& w = rows.workspace();
-  const VectorXd& weight = rows.information().weight;
-  const VectorXd spread = weight.cwiseAbs2().cwiseProduct(noise.slow);
-  model::marker_normal_matrix(model, w, spread, B);
-  MatrixXd segment;
-  for (Index b = 0; b < noise.common_slow.size(); ++b) {
-    if (noise.common_slow[b] == 0.0) continue;
-    segment.setZero(3, model.speed_count());
-    for (int m = 0; m < model.marker_count(); ++m) {
-      if (model.markers()[at(m)].body != b || weight[m] == 0.0) continue;
-      for (const int c : model.bodies()[at(b)].support) {
-        const auto& s = w.column[at(c)];
-        segment.col(model.columns()[at(c)].speed) +=
-            weight[m] * (s.v + s.w.cross(Eigen::Vector3d(w.marker.col(m))));
+/// What slides: single markers and whole segments, each along three axes.
+struct Slides {
+  std::vector<int> markers;  ///< with a slow part of their own
+  std::vector<int> bodies;   ///< with a slow part that their markers share
+  [[nodiscard]] Index columns() const { return 3 * static_cast<Index>(markers.size() + bodies.size()); }
+};
+
+Slides slides_of(const NoiseSplit& noise) {
+  Slides slides;
+  for (Index m = 0; m < noise.slow.size(); ++m)
+    if (noise.slow[m] > 0.0) slides.markers.push_back(static_cast<int>(m));
+  for (Index b = 0; b < noise.common_slow.size(); ++b)
+    if (noise.common_slow[b] > 0.0) slides.bodies.push_back(static_cast<int>(b));
+  return slides;
+}
+
+/// Normal equations of the nodes and the answers to the slides.
+class Stretch {
+ public:
+  Stretch(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
+          const Slides& slides, const std::vector<std::uint8_t>& fixed, const MatrixXd& states,
+          const VectorXd& node_variance, std::int64_t frames_per_node)
+      : model_(model),
+        observations_(observations),
+        noise_(noise),
+        slides_(slides),
+        fixed_(fixed),
+        states_(states),
+        per_node_(frames_per_node),
+        rows_(model),
+        prior_(model, node_variance),
+        window_(model.speed_count()) {}
+
+  /// Nodes [first, end) of all, of whose answers E x, squared and summed, the variances of [keep_first,
+  /// keep_end) are written.
+  void solve(Index first, Index end, Index keep_first, Index keep_end, const data::JointMotion& motion,
+             MatrixXd& variance) {
+    const Index n = model_.speed_count(), count = end - first;
+    const double floor = 1.0 / (kFloorSd * kFloorSd * static_cast<double>(count));
+    window_.clear();
+    factors_.resize(at(count));
+    answers_.assign(at(count + 3), MatrixXd::Zero(n, slides_.columns()));
+    for (Index k = 0; k < count; ++k) {
+      load_node(first + k, answers_[at(k)]);
+      H_.diagonal().array() += floor;
+      window_.add(0, H_, VectorXd::Zero(n));
+      if (k + 3 < count) {
+        (void)prior_.visit(state(first + k), state(first + k + 1), state(first + k + 2),
+                           state(first + k + 3));
+        prior_.add_to(window_, false);
       }
+      window_.eliminate(fixed_.data(), factors_[at(k)]);
     }
-    B.noalias() += noise.common_slow[b] * segment.transpose() * segment;
+    for (Index k = 0; k < count; ++k) {  // forward
+      const auto& factor = factors_[at(k)];
+      factor.L.triangularView<Eigen::Lower>().solveInPlace(answers_[at(k)]);
+      for (Index a = 0; a < 3; ++a)
+        answers_[at(k + 1 + a)].noalias() -= factor.Y.middleRows(a * n, n) * answers_[at(k)];
+    }
+    for (Index a = 0; a < 3; ++a) answers_[at(count + a)].setZero();
+    for (Index k = count - 1; k >= 0; --k) {  // and back
+      const auto& factor = factors_[at(k)];
+      for (Index a = 0; a < 3; ++a)
+        answers_[at(k)].noalias() -= factor.Y.middleRows(a * n, n).transpose() * answers_[at(k + 1 + a)];
+      factor.L.transpose().triangularView<Eigen::Upper>().solveInPlace(answers_[at(k)]);
+    }
+    VectorXd q(motion.size());
+    for (Index k = keep_first; k < keep_end; ++k) {
+      const std::int64_t f = frame(k);
+      std::copy_n(motion.q.data() + motion.index(f, 0), q.size(), q.data());
+      auto& w = rows_.workspace();
+      model::kinematics(model_, w, states_.col(f));
+      model::coordinate_jacobian(model_, w, q, E_);
+      variance.col(k) = (E_ * answers_[at(k - first)]).rowwise().squaredNorm();
+    }
   }
-}
 
-/// Undetermined blocks take the value of the nearest determined ones.
-void bridge(VectorXd& row) {
-  Index last = -1;
-  for (Index b = 0; b < row.size(); ++b) {
-    if (std::isnan(row[b])) continue;
-    for (Index gap = last + 1; gap < b; ++gap) row[gap] = last < 0 ? row[b] : std::max(row[last], row[b]);
-    last = b;
+ private:
+  /// The frame in the middle of a node.
+  [[nodiscard]] std::int64_t frame(Index node) const {
+    return std::min<std::int64_t>(states_.cols() - 1, node * per_node_ + per_node_ / 2);
   }
-  for (Index gap = last + 1; gap < row.size(); ++gap) row[gap] = last < 0 ? 0.0 : row[last];
-}
+  [[nodiscard]] VectorXd state(Index node) const { return states_.col(frame(node)); }
+
+  /// Normal matrix of a node's frames, and J'W u for every slide u of one standard deviation.
+  void load_node(Index node, MatrixXd& right) {
+    const std::int64_t begin = node * per_node_,
+                       end = std::min<std::int64_t>(states_.cols(), begin + per_node_);
+    const std::int64_t stride = (end - begin + kFramesOfNode - 1) / kFramesOfNode;
+    const auto used = static_cast<double>((end - begin + stride - 1) / stride);
+    const double share = static_cast<double>(end - begin) / used;
+    MatrixXd own;
+    H_.setZero(model_.speed_count(), model_.speed_count());
+    for (std::int64_t f = begin; f < end; f += stride) {
+      (void)rows_.visit(observations_, f, states_.col(f));
+      rows_.matrix(own);
+      H_ += share * own;
+      add_slides(share, right);
+    }
+    for (Index i = 0; i < right.rows(); ++i)
+      if (fixed_[at(i)]) right.row(i).setZero();
+  }
+
+  void add_slides(double share, MatrixXd& right) {
+    Index column = 0;
+    for (const int m : slides_.markers) {
+      add_slide(m, share * std::sqrt(noise_.slow[m]), column, right);
+      column += 3;
+    }
+    for (const int b : slides_.bodies) {
+      for (int m = 0; m < model_.marker_count(); ++m)
+        if (model_.markers()[at(m)].body == b)
+          add_slide(m, share * std::sqrt(noise_.common_slow[b]), column, right);
+      column += 3;
+    }
+  }
+
+  void add_slide(int m, double size, Index column, MatrixXd& right) {
+    const int body = model_.markers()[at(m)].body;
+    auto& w = rows_.workspace();
+    const double weight = size * rows_.information().weight[m];
+    if (body < 0 || weight == 0.0) return;
+    const Eigen::Vector3d p = w.marker.col(m);
+    for (const int c : model_.bodies()[at(body)].support) {
+      const auto& s = w.column[at(c)];
+      right.row(model_.columns()[at(c)].speed).segment<3>(column) += weight * (s.v + s.w.cross(p));
+    }
+  }
+
+  const model::Model& model_;
+  const Observations& observations_;
+  const NoiseSplit& noise_;
+  const Slides& slides_;
+  const std::vector<std::uint8_t>& fixed_;
+  const MatrixXd& states_;
+  std::int64_t per_node_;
+  FrameRows rows_;
+  StepPrior prior_;
+  Window window_;
+  MatrixXd H_, E_;
+  std::vector<NodeFactor> factors_;
+  std::vector<MatrixXd> answers_;  ///< nv x slides, per node
+};
 
 }  // namespace
 
 SlowErrors::SlowErrors(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
                        const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
-                       const MatrixXd& states) {
+                       const MatrixXd& states, const VectorXd& step_variance, int threads) {
   const std::int64_t F = motion.frames();
-  block_ = std::max<std::int64_t>(1, std::llround(kBlock_s * motion.time.rate_hz));
-  const Index blocks = (F + block_ - 1) / block_, n = model.speed_count(), C = model.coordinate_count();
-  variance_.setZero(C, blocks);
-  if (!noise.any_slow) return;
-  std::vector<MatrixXd> H(at(blocks), MatrixXd::Zero(n, n)), B = H;
-  FrameRows rows(model);
-  MatrixXd own;
-  const std::int64_t stride = std::max<std::int64_t>(1, block_ / kFramesOfBlock);
-  for (std::int64_t f = 0; f < F; f += stride) {
-    (void)rows.visit(observations, f, states.col(f));
-    rows.matrix(own);
-    H[at(f / block_)] += own;
-    spread_of(model, rows, noise, own);
-    B[at(f / block_)] += own;
-  }
-  MatrixXd sum_H, sum_B, E;
-  VectorXd q(C);
-  model::Workspace w(model);
-  for (Index b = 0; b < blocks; ++b) {
-    sum_H.setZero(n, n);
-    sum_B.setZero(n, n);
-    for (Index k = std::max<Index>(0, b - 1); k <= std::min(blocks - 1, b + 1); ++k) {
-      sum_H += H[at(k)];
-      sum_B += B[at(k)];
+  frames_per_node_ = std::max<std::int64_t>(1, std::llround(kNode_s * motion.time.rate_hz));
+  const Index nodes = (F + frames_per_node_ - 1) / frames_per_node_;
+  variance_.setZero(model.coordinate_count(), nodes);
+  const Slides slides = slides_of(noise);
+  if (slides.columns() == 0) return;
+  // The same density of the jerk, seen in wider steps.
+  const VectorXd node_variance = step_variance * std::pow(static_cast<double>(frames_per_node_), 5);
+  const Index stretches = (nodes + kStretch - 1) / kStretch;
+  parallel_for(stretches, 1, threads, [&](std::int64_t begin, std::int64_t end) {
+    Stretch stretch(model, observations, noise, slides, fixed, states, node_variance, frames_per_node_);
+    for (std::int64_t s = begin; s < end; ++s) {
+      const Index first = s * kStretch, last = std::min(nodes, first + kStretch);
+      stretch.solve(std::max<Index>(0, first - kBeside), std::min(nodes, last + kBeside), first, last, motion,
+                    variance_);
     }
-    sum_H.diagonal().array() += 1e-12 * sum_H.trace() + 1e-300;
-    for (Index i = 0; i < n; ++i) {
-      if (!fixed[at(i)]) continue;
-      sum_H.row(i).setZero();
-      sum_H.col(i).setZero();
-      sum_H(i, i) = 1.0;
-      sum_B.row(i).setZero();
-      sum_B.col(i).setZero();
-    }
-    // Errors of neighbouring frames are fully correlated: sums of B grow with the square of the number of
-    // frames used.
-    const std::int64_t used =
-        1 + (std::min((b + 2) * block_, F) - 1 - std::max<Index>(0, b - 1) * block_) / stride;
-    const auto frames_used = static_cast<double>(used);
-    const std::int64_t middle = std::min(F - 1, b * block_ + block_ / 2);
-    std::copy_n(motion.q.data() + motion.index(middle, 0), C, q.data());
-    model::kinematics(model, w, states.col(middle));
-    model::coordinate_jacobian(model, w, q, E);
-    const MatrixXd gain = sum_H.ldlt().solve(E.transpose());  // n x C
-    for (Index c = 0; c < C; ++c)
-      variance_(c, b) = std::max(0.0, frames_used * gain.col(c).dot(sum_B * gain.col(c)));
-  }
-  for (Index c = 0; c < C; ++c) {
-    VectorXd row = variance_.row(c).transpose();
-    const double usual = math::upper_median({row.data(), at(row.size())});
-    for (double& v : row)
-      if (!(v <= kBlind * usual)) v = std::numeric_limits<double>::quiet_NaN();
-    bridge(row);
-    variance_.row(c) = row.transpose();
-  }
+  });
 }
 
-double SlowErrors::variance(std::int64_t f, int c) const { return variance_(c, f / block_); }
+double SlowErrors::variance(std::int64_t f, int c) const { return variance_(c, f / frames_per_node_); }
 
 }  // namespace kinemark::motion::internal

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Effect of soft tissue on smoothed coordinates. Errors that change more slowly than the smoother's time
-// constant are not averaged out: over a stretch of frames with mean normal matrix H = mean J'WJ and mean
-// spread
-// B = mean J'W S W J (S the slow part of the marker covariance) the coordinates err by H^-1 B H^-1.
+// Effect of soft tissue on smoothed coordinates. Skin that slides with the posture changes as slowly as the
+// posture does: no smoothing averages it out, and beside a gap it goes on through the gap. The smoother is
+// linear in the markers near its solution, so its answer to a marker that lies elsewhere throughout, and to
+// a segment whose markers all do, is another solution of the same normal equations with J'W u on the right;
+// the answers, times the slow standard deviations, squared and summed, are the variance.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,17 +19,18 @@ namespace kinemark::motion::internal {
 
 class SlowErrors {
  public:
-  /// At the solved states. Fixed speeds have no error.
+  /// At the solved states. Fixed speeds have no error. Frames are taken together in nodes of 0.05 s.
+  /// @param step_variance  of the smoother, per speed, of a third difference between frames
   SlowErrors(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
              const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
-             const Eigen::MatrixXd& states);
+             const Eigen::MatrixXd& states, const Eigen::VectorXd& step_variance, int threads);
 
   /// Variance of coordinate c in frame f.
   [[nodiscard]] double variance(std::int64_t f, int c) const;
 
  private:
-  std::int64_t block_ = 1;
-  Eigen::MatrixXd variance_;  ///< n x blocks
+  std::int64_t frames_per_node_ = 1;
+  Eigen::MatrixXd variance_;  ///< n x nodes
 };
 
 }  // namespace kinemark::motion::internal

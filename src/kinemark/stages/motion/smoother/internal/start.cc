@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "kinemark/core/index.h"
@@ -20,6 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSmallestStep = 1e-10;  // rad or m
+constexpr double kAnyNoise = std::numeric_limits<double>::infinity();
 // Default third difference at 100 Hz, from a typical jerk of human motion, 100 rad/s^3.
 constexpr double kUsualStep = 1e-4, kUsualRate_hz = 100.0;
 
@@ -113,13 +115,16 @@ MatrixXd bridged_states(const model::Model& model, const data::JointMotion& moti
   return states;
 }
 
-VectorXd step_variances(const model::Model& model, const data::JointMotion& motion, const MatrixXd& states) {
+VectorXd step_variances(const model::Model& model, const data::JointMotion& motion, const MatrixXd& states,
+                        double raised) {
   const std::int64_t F = motion.frames();
   VectorXd variance = VectorXd::Constant(model.speed_count(), kNaN);
   std::vector<std::uint8_t> is_rotation(at(model.speed_count()), 0);
   std::vector<double> y(at(F)), sd(at(F));
   const auto estimate = [&](int speed) {
-    const auto smooth = smooth_coordinate(y, sd, motion.time.rate_hz);
+    // Noise beyond the error bars would be motion taken for noise.
+    const auto smooth =
+        smooth_coordinate(y, sd, motion.time.rate_hz, motion.q_sd.empty() ? kAnyNoise : raised);
     if (smooth.known) variance[speed] = std::pow(std::max(smooth.step_sd, kSmallestStep), 2);
   };
   for (int c = 0; c < model.coordinate_count(); ++c) {

@@ -15,8 +15,9 @@ namespace kinemark::motion::internal {
 [[nodiscard]] Eigen::MatrixXd bridged_states(const model::Model& model, const data::JointMotion& motion);
 
 /// Variance of a third difference of every speed's coordinate, by the likelihood of the states (frames are
-/// weighted by q_sd). Speeds that are never determined get the usual variance of their kind.
+/// weighted by q_sd, beyond which, times `raised`, nothing is noise). Speeds that are never determined get
+/// the usual variance of their kind.
 [[nodiscard]] Eigen::VectorXd step_variances(const model::Model& model, const data::JointMotion& motion,
-                                             const Eigen::MatrixXd& states);
+                                             const Eigen::MatrixXd& states, double raised);
 
 }  // namespace kinemark::motion::internal

@@ -22,6 +22,8 @@ class StepPrior {
   /// @param variance  nv, of a third difference; > 0.
   StepPrior(const model::Model& model, Eigen::VectorXd variance);
 
+  [[nodiscard]] const Eigen::VectorXd& variance() const { return variance_; }
+
   /// Four neighbouring postures; returns half the sum of e^2 / s.
   double visit(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1, const Eigen::VectorXd& x2,
                const Eigen::VectorXd& x3);

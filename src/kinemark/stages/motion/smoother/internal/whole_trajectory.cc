@@ -23,6 +23,10 @@ constexpr std::int64_t kOneSegment = 1024, kSegment = 256;  // frames whose fact
 constexpr double kFloorSd = 30.0;
 constexpr double kDone = 1e-4;  // half the squared step over its variance: 0.015 standard deviations
 constexpr int kHalvings = 10;
+constexpr int kRounds = 12;  // in which the coordinates at a limit are found, at most
+constexpr double kFar = 1e100;
+constexpr double kSpring = 1e6;        // at a limit, over what else holds a coordinate
+constexpr double kPriorOfStep = 20.0;  // 1 + 9 + 9 + 1: how the prior holds one frame
 
 }  // namespace
 
@@ -41,7 +45,7 @@ WholeTrajectory::WholeTrajectory(const model::Model& model, const Observations& 
   const auto n = static_cast<Index>(model.speed_count());
   gradient_.setZero(n, frames);
   step_.setZero(n, frames);
-  held_.assign(at(n * frames), 0);
+  side_.assign(at(n * frames), 0);
   factors_.resize(at(segment_));
 }
 
@@ -69,18 +73,55 @@ double WholeTrajectory::evaluate(const MatrixXd& states) {
   return sum;
 }
 
-// Locked speeds never move; limited ones rest while the cost pushes them against their limit.
-void WholeTrajectory::hold(const MatrixXd& states) {
+template <class Visit>
+void WholeTrajectory::each_limited(const MatrixXd& states, const Visit& visit) {
   const Index n = gradient_.rows();
-  for (std::int64_t k = 0; k < frames_; ++k) {
-    std::copy(bounds_.fixed.begin(), bounds_.fixed.end(), held_.begin() + k * n);
+  for (std::int64_t k = 0; k < frames_; ++k)
     for (const auto& c : model_.coordinates()) {
-      if (c.speed_idx < 0) continue;
-      const double value = states(c.state_idx, k), push = -gradient_(c.speed_idx, k), slack = 1e-12;
-      if ((value <= bounds_.lower[c.speed_idx] + slack && push <= 0.0) ||
-          (value >= bounds_.upper[c.speed_idx] - slack && push >= 0.0))
-        held_[at(k * n + c.speed_idx)] = 1;
+      const int i = c.speed_idx;
+      if (i < 0 || bounds_.fixed[at(i)] || !(bounds_.lower[i] > -kFar || bounds_.upper[i] < kFar)) continue;
+      const double value = states(c.state_idx, k);
+      visit(k, i, bounds_.lower[i] - value, bounds_.upper[i] - value, side_[at(k * n + i)]);
     }
+}
+
+// The step that is best within the limits, as far as the cost is a parabola. A coordinate that would leave
+// its range is drawn to the limit by a stiff spring, which its neighbours in time feel through the prior
+// (cutting single frames off would make the path ragged), and is let go where the spring would have to pull.
+void WholeTrajectory::find_step(const MatrixXd& states) {
+  const Index n = gradient_.rows();
+  VectorXd next(3 * n), own(n);
+  for (int round = 0; round < kRounds; ++round) {
+    next.setZero();
+    sweep(states, true, [&](std::int64_t k, const NodeFactor& factor) {
+      step_back(factor, next, own);
+      step_.col(k) = own;
+      next.tail(2 * n) = next.head(2 * n).eval();
+      next.head(n) = own;
+    });
+    bool changed = false;
+    each_limited(states, [&](std::int64_t k, int i, double low, double high, std::int8_t& side) {
+      const double step = step_(i, k);
+      const std::int8_t now = step > high ? 1 : step < low ? -1 : 0;
+      changed = changed || now != side;
+      side = now;
+    });
+    if (!changed) break;
+  }
+  each_limited(states, [&](std::int64_t k, int i, double low, double high, std::int8_t&) {
+    step_(i, k) = std::clamp(step_(i, k), std::min(low, 0.0), std::max(high, 0.0));
+  });
+}
+
+void WholeTrajectory::add_springs(const MatrixXd& states, std::int64_t k) {
+  const Index n = gradient_.rows();
+  for (const auto& c : model_.coordinates()) {
+    const int i = c.speed_idx;
+    if (i < 0 || side_[at(k * n + i)] == 0) continue;
+    const double spring = kSpring * (H_(i, i) + kPriorOfStep / prior_.variance()[i]);
+    const double limit = side_[at(k * n + i)] > 0 ? bounds_.upper[i] : bounds_.lower[i];
+    H_(i, i) += spring;
+    g_[i] += spring * (limit - states(c.state_idx, k));
   }
 }
 
@@ -89,10 +130,13 @@ void WholeTrajectory::load(const MatrixXd& states, std::int64_t k, bool with_rig
   (void)rows_.visit(observations_, k, states.col(k));
   rows_.matrix(H_);
   H_.diagonal().array() += floor_;
-  if (with_right)
-    window_.add(0, H_, -gradient_.col(k));
-  else
+  if (with_right) {
+    g_ = -gradient_.col(k);
+    add_springs(states, k);
+    window_.add(0, H_, g_);
+  } else {
     window_.add(0, H_, VectorXd::Zero(H_.rows()));
+  }
   if (k + 3 >= frames_) return;
   (void)prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
   prior_.add_to(window_, false);
@@ -100,10 +144,9 @@ void WholeTrajectory::load(const MatrixXd& states, std::int64_t k, bool with_rig
 
 void WholeTrajectory::forward(const MatrixXd& states, std::int64_t first, std::int64_t last, bool keep,
                               bool with_right) {
-  const Index n = gradient_.rows();
   for (std::int64_t k = first; k < last; ++k) {
     load(states, k, with_right);
-    window_.eliminate(held_.data() + k * n, keep ? factors_[at(k - first)] : scratch_);
+    window_.eliminate(bounds_.fixed.data(), keep ? factors_[at(k - first)] : scratch_);
   }
 }
 
@@ -128,25 +171,11 @@ void WholeTrajectory::sweep(const MatrixXd& states, bool with_right,
   }
 }
 
-void WholeTrajectory::clip(const MatrixXd& states) {
-  for (std::int64_t k = 0; k < frames_; ++k) {
-    const double longest = step_.col(k).cwiseAbs().maxCoeff();
-    if (longest > kLongestStep) step_.col(k) *= kLongestStep / longest;
-    for (const auto& c : model_.coordinates()) {
-      if (c.speed_idx < 0) continue;
-      const double low = bounds_.lower[c.speed_idx] - states(c.state_idx, k),
-                   high = bounds_.upper[c.speed_idx] - states(c.state_idx, k);
-      step_(c.speed_idx, k) = std::clamp(step_(c.speed_idx, k), std::min(low, 0.0), std::max(high, 0.0));
-    }
-  }
-}
-
 WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterations,
                                                 const Progress& progress) {
   Outcome outcome;
-  const Index n = gradient_.rows();
   MatrixXd moved(states.rows(), states.cols());
-  VectorXd next(3 * n), own(n), x;
+  VectorXd x;
   outcome.cost = evaluate(states);
   outcome.unsettled.assign(at(frames_), 1);
   for (int i = 0; i < max_iterations; ++i) {
@@ -155,20 +184,12 @@ WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterat
       return outcome;
     }
     ++outcome.iterations;
-    hold(states);
-    next.setZero();
-    sweep(states, true, [&](std::int64_t k, const NodeFactor& factor) {
-      step_back(factor, next, own);
-      step_.col(k) = own;
-      next.tail(2 * n) = next.head(2 * n).eval();
-      next.head(n) = own;
-    });
+    find_step(states);
     if (!step_.allFinite()) break;
     const VectorXd decrements = -0.5 * step_.cwiseProduct(gradient_).colwise().sum().transpose();
     const double decrement = decrements.sum();
     for (std::int64_t k = 0; k < frames_; ++k) outcome.unsettled[at(k)] = std::abs(decrements[k]) > kDone;
-    clip(states);
-    double share = 1.0, moved_cost = 0.0;
+    double share = std::min(1.0, kLongestStep / step_.cwiseAbs().maxCoeff()), moved_cost = 0.0;
     bool better = false;
     for (int h = 0; h < kHalvings && !better; ++h, share *= 0.5) {
       moved = states;
@@ -197,8 +218,6 @@ WholeTrajectory::Outcome WholeTrajectory::solve(MatrixXd& states, int max_iterat
 
 void WholeTrajectory::covariances(const MatrixXd& states, const Visitor& visitor) {
   const Index n = gradient_.rows();
-  for (std::int64_t k = 0; k < frames_; ++k)
-    std::copy(bounds_.fixed.begin(), bounds_.fixed.end(), held_.begin() + k * n);
   CovarianceWindow window(n);
   sweep(states, false, [&](std::int64_t k, const NodeFactor& factor) {
     window.step_back(factor);

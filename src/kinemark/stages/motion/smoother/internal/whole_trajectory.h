@@ -48,14 +48,16 @@ class WholeTrajectory {
  private:
   double cost(const Eigen::MatrixXd& states);
   double evaluate(const Eigen::MatrixXd& states);
-  void hold(const Eigen::MatrixXd& states);
+  template <class Visit>
+  void each_limited(const Eigen::MatrixXd& states, const Visit& visit);
+  void find_step(const Eigen::MatrixXd& states);
+  void add_springs(const Eigen::MatrixXd& states, std::int64_t k);
   void load(const Eigen::MatrixXd& states, std::int64_t k, bool with_right);
   /// Eliminate [first, last); factors are kept for it when asked.
   void forward(const Eigen::MatrixXd& states, std::int64_t first, std::int64_t last, bool keep,
                bool with_right);
   void sweep(const Eigen::MatrixXd& states, bool with_right,
              const std::function<void(std::int64_t k, const NodeFactor& factor)>& back);
-  void clip(const Eigen::MatrixXd& states);
 
   const model::Model& model_;
   const Observations& observations_;
@@ -67,7 +69,7 @@ class WholeTrajectory {
   double floor_;
   std::vector<NodeFactor> factors_;
   NodeFactor scratch_;
-  std::vector<std::uint8_t> held_;  ///< nv per frame
+  std::vector<std::int8_t> side_;  ///< nv per frame: 1 at its upper limit, -1 at its lower, 0 between
   Eigen::MatrixXd gradient_, step_, H_;
   Eigen::VectorXd g_;
 };
