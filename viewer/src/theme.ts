@@ -22,6 +22,9 @@ export interface Palette {
   /** The same in space: strong enough to stand alone on the background. */
   marks: [string, string, string, string, string, string];
   stick: string;
+  /** Joint centres, and what joins them. */
+  joint: string;
+  bone: string;
   shadow: string;
   floor: string;
   floorStrong: string;
@@ -52,6 +55,8 @@ const light: Palette = {
   states: ["#a9d3df", "#7d6bc4", "#e3a62f", "#1f8a5f", "#33414c", "#d2401c"],
   marks: ["#0b6583", "#6a55c0", "#d98a00", "#12804f", "#33414c", "#d2401c"],
   stick: "#9fb0bb",
+  joint: "#7a2a8a",
+  bone: "#c9a0d2",
   shadow: "#dbe1e5",
   floor: "#e9edf0",
   floorStrong: "#d3dade",
@@ -78,6 +83,8 @@ const dark: Palette = {
   states: ["#2a6377", "#a99be6", "#d9a036", "#3fbf8a", "#dbe3e8", "#f0653f"],
   marks: ["#5cc3e2", "#b3a6f0", "#f0b43c", "#4fd09a", "#dbe3e8", "#f0653f"],
   stick: "#647683",
+  joint: "#e6a8f2",
+  bone: "#8a5c96",
   shadow: "#0a0e12",
   floor: "#202b33",
   floorStrong: "#2f3d47",

@@ -3,7 +3,7 @@
 import { decode } from "../decode.ts";
 import { unpackScene } from "../scene/scene.ts";
 import { angles } from "../sections/angles.ts";
-import { findings } from "../sections/findings.ts";
+import { findingGroups, groupFindings } from "../sections/finding_groups.ts";
 import { gaps } from "../sections/gaps.ts";
 import { header } from "../sections/header.ts";
 import { markers } from "../sections/markers.ts";
@@ -42,11 +42,11 @@ export async function ikPage(data: PageData): Promise<Content> {
       ["settings", "Settings"],
     ]),
     sections: [
-      findings(
-        summary.findings,
-        summary.gates,
-        "Nothing. Every frame converged, every coordinate is determined in every frame, and there are no warnings.",
+      findingGroups(
+        groupFindings(summary.findings),
+        { title: "What needs your attention", nothing: "Nothing. Every frame converged, every coordinate is determined in every frame, and there are no warnings." },
         jump,
+        summary.gates,
       ),
       ...plots.map((p) => p.node),
       worstFrames(summary, view),

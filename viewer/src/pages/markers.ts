@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { MarkersPageData } from "../markers_types.ts";
 import { unpackScene } from "../scene/scene.ts";
-import { groupedFindings, markersHeader } from "../sections/markers_header.ts";
+import { findingGroups } from "../sections/finding_groups.ts";
+import { markersHeader } from "../sections/markers_header.ts";
 import { recordedCurves, recordedGaps, recordedRest, recordedTable } from "../sections/recorded.ts";
 import { plain } from "../sections/settings.ts";
 import { space } from "../sections/space.ts";
@@ -38,7 +39,7 @@ export async function markersPage({ summary, scene: packed }: MarkersPageData): 
       ["settings", "File"],
     ]),
     sections: [
-      groupedFindings(summary, (finding, time) => {
+      findingGroups(summary.groups, { title: "What stands out", nothing: "Nothing. Every marker was measured in every frame." }, (finding, time) => {
         const marker = summary.markers.findIndex((m) => m.name === finding.subject);
         if (marker >= 0) view.set({ marker });
         view.jumpTo(time, "space");

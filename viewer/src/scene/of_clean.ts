@@ -40,6 +40,8 @@ export function sceneOfClean(trial: CleanTrial): Scene | null {
     worst: markers.states,
     plates: [],
     forces: [],
+    skeleton: null,
+    cameras: [],
   };
 }
 

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { el, section } from "../dom.ts";
+import { bytes, number } from "../format.ts";
+import type { ResultSummary } from "../result_types.ts";
+import { findingGroups } from "./finding_groups.ts";
+import { tile, titleRow } from "./header.ts";
+import { plain } from "./settings.ts";
+import { sortableTable, type Column } from "./table.ts";
+
+export type Tile = readonly [value: string, label: string, detail: string];
+
+/** Name, verdict and the numbers that people look for first: the same on every page. */
+export const resultHeader = (what: string, below: string, summary: ResultSummary, tiles: readonly Tile[]): HTMLElement =>
+  el(
+    "header",
+    {},
+    titleRow(what, summary.trial, el("p", { class: "model" }, below), {
+      verdict: summary.verdict,
+      findings: summary.groups.flatMap((g) => g.items.map((item) => ({ ...item, level: g.level }))),
+    }),
+    el("dl", { class: "tiles" }, ...tiles.map(([value, label, detail]) => tile(value, label, detail))),
+  );
+
+/** Links to the sections, and nothing else where there is no time. */
+export const linkBar = (links: readonly (readonly [string, string])[]): HTMLElement =>
+  el("nav", { class: "bar", "aria-label": "Page" }, el("span", { class: "links" }, ...links.map(([id, words]) => el("a", { href: `#${id}` }, words))));
+
+export const resultFindings = (summary: ResultSummary, nothing: string, jump: Parameters<typeof findingGroups>[2] = null): HTMLElement =>
+  findingGroups(summary.groups, { title: "What needs your attention", nothing }, jump);
+
+/** How it came about. */
+export const resultRun = (summary: ResultSummary, facts: readonly [string, string][]): HTMLElement =>
+  section(
+    "settings",
+    "How it was made",
+    "",
+    summary.command_line === "" ? null : el("pre", { tabindex: 0, "aria-label": "Command line" }, summary.command_line),
+    plain("Run", ["What", "Value"], [["Program", `kinemark ${summary.version}`], ...facts]),
+    plain("Input files", ["Role", "File", "Size", "Hash"], summary.inputs.map((i) => [i.role, i.path, bytes(i.bytes), `${i.hash_kind} ${i.hash}`])),
+  );
+
+export const text = <T>(title: string, cell: (row: T) => string): Column<T> => ({ title, key: cell, cell });
+
+/** A number with its unit; a dash where it is not known. */
+export const numeric = <T>(title: string, unit: string, decimals: number, value: (row: T) => number | null | undefined): Column<T> => ({
+  title,
+  ...(unit === "" ? {} : { unit }),
+  numeric: true,
+  key: (row) => value(row) ?? null,
+  cell: (row) => number(value(row), decimals),
+});
+
+/** Value and interval in one cell: "43.5 ± 1.2". */
+export const withSd = <T>(title: string, unit: string, decimals: number, value: (row: T) => number | null | undefined, sd: (row: T) => number | null | undefined): Column<T> => ({
+  title,
+  unit,
+  numeric: true,
+  key: (row) => value(row) ?? null,
+  cell: (row) => {
+    const [v, s] = [value(row), sd(row)];
+    return v === null || v === undefined ? "–" : s === null || s === undefined ? number(v, decimals) : `${number(v, decimals)} ± ${number(s, decimals)}`;
+  },
+});
+
+/** A table in the order of its first column, or as it came with `column` -1. */
+export const table = <T>(caption: string, columns: Column<T>[], rows: readonly T[], column = -1): HTMLElement | null =>
+  rows.length === 0 ? null : sortableTable(caption, columns, rows, { column, direction: "descending" }).node;
+
+export const median = (values: readonly (number | null | undefined)[]): number | null => {
+  const known = values.filter((v): v is number => typeof v === "number" && Number.isFinite(v)).sort((a, b) => a - b);
+  const half = known.length / 2;
+  return known.length === 0 ? null : (known[Math.floor(half - 0.5)]! + known[Math.floor(half)]!) / 2;
+};
