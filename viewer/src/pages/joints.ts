@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { section } from "../dom.ts";
+import { el, section } from "../dom.ts";
 import { number, percent, plural } from "../format.ts";
 import { forest, type Estimate } from "../plots/forest.ts";
 import { svgFigure } from "../plots/svg_figure.ts";
@@ -78,10 +78,10 @@ export async function jointsPage({ summary, result, scene: packed }: ResultPageD
             numeric("Range of motion", "deg", 0, (j) => j.range_of_motion_deg),
             numeric("Placed", "frames", 0, placedIn),
             numeric("of these ambiguous", "", 0, (j) => j.frames.ambiguous),
-            text("What the motion shows", (j) => j.words),
           ],
           joints,
         ),
+        table<Joint>("What the motion shows of each joint", [text("Joint", (j) => j.name), { ...text<Joint>("In words", (j) => j.words), cell: (j) => el("span", { class: "wide" }, j.words) }], joints),
         table<Joint>(
           "Where they lie in the parent segment",
           [text("Joint", (j) => j.name), text("Parent", (j) => j.parent), ...[0, 1, 2].map((k) => withSd<Joint>("xyz"[k]!, "mm", 1, (j) => mm(j.centre_in_parent_m?.[k]), (j) => rootMm(j.covariance_in_parent_m2?.[k]?.[k]))), text("Axis", (j) => (j.axis_in_parent ?? []).map((v) => number(v, 3)).join(", ") || "–")],

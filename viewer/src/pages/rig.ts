@@ -58,7 +58,7 @@ export async function calibratePage(data: ResultPageData<CalibrateResult>): Prom
             ]),
         table<(typeof aligned)[number]>(
           "Cameras against their nominal poses",
-          [text("Camera", (c) => c.camera), ...shifts.map((name, k) => withSd<(typeof aligned)[number]>(name, "mm", 1, (c) => c.right_down_forward_mm[k], (c) => c.right_down_forward_sd_mm[k] || null)), ...turns.map((name, k) => withSd<(typeof aligned)[number]>(name, "deg", 2, (c) => c.tilt_pan_roll_deg[k], (c) => c.tilt_pan_roll_sd_deg[k] || null))],
+          [text("Camera", (c) => c.camera), ...shifts.map((name, k) => withSd<(typeof aligned)[number]>(name, "mm", 1, (c) => c.right_down_forward_mm[k], (c) => c.right_down_forward_sd_mm[k] || null)), ...turns.map((name, k) => withSd<(typeof aligned)[number]>(name, "deg", 3, (c) => c.tilt_pan_roll_deg[k], (c) => c.tilt_pan_roll_sd_deg[k] || null))],
           aligned,
         ),
       ),

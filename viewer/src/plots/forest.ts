@@ -31,12 +31,14 @@ export interface ForestOptions {
 const rowHeight = 19;
 const width = 720;
 const top = 8;
+/** Pixels of a letter, on the safe side. */
+const letter = 7.2;
 
 /** Estimates below each other, each with its interval. */
 export function forest(rows: readonly Estimate[], options: ForestOptions): SVGElement {
   const shown = rows.filter((r) => r.value !== null);
   const longest = Math.max(4, ...shown.map((r) => r.name.length));
-  const left = Math.min(290, 14 + 6.6 * longest);
+  const left = Math.min(290, 16 + letter * longest);
   const right = width - 16;
   const known = shown.flatMap((r) => [r.value, r.low, r.high, r.before ?? null].filter((v): v is number => v !== null && Number.isFinite(v)));
   if (options.reference !== undefined) known.push(options.reference);
@@ -57,7 +59,7 @@ export function forest(rows: readonly Estimate[], options: ForestOptions): SVGEl
   if (options.reference !== undefined) parts.push(svg("path", { class: "cutoff", d: `M${x(options.reference).toFixed(1)} ${top}V${bottom}` }));
   shown.forEach((row, i) => {
     const y = top + (i + 0.5) * rowHeight;
-    const name = row.name.length * 6.6 > left - 8 ? `${row.name.slice(0, Math.floor((left - 14) / 6.6) - 1)}…` : row.name;
+    const name = row.name.length * letter > left - 10 ? `${row.name.slice(0, Math.floor((left - 16) / letter) - 1)}…` : row.name;
     const label = words(left - 8, y + 4, "end", name);
     if (name !== row.name) label.append(Object.assign(svg("title", {}), { textContent: row.name }));
     parts.push(label);

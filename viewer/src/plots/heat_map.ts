@@ -18,7 +18,7 @@ export interface Cells {
 
 const shades = 6;
 const width = 460;
-const [left, right, top] = [58, 12, 8];
+const [left, right, top] = [58, 30, 26];
 
 /** Edges of the shades: so many cells in each as can be, the largest cell inside the last. */
 export function edgesOf(values: readonly (number | null)[], count = shades): number[] {
@@ -53,7 +53,7 @@ export function heatMap(cells: Cells, label: string): SVGElement {
       parts.push(k === 0 ? words(left + along, bottom + 16, "middle", number(t, decimals)) : words(left - 6, bottom - along + 4, "end", number(t, decimals)));
     }
   }
-  parts.push(words(left + plotWidth / 2, bottom + 34, "middle", `${"xyz"[cells.axes[0]]!} (m)`), words(14, top + 12, "start", `${"xyz"[cells.axes[1]]!} (m)`));
+  parts.push(words(left + plotWidth / 2, bottom + 34, "middle", `${"xyz"[cells.axes[0]]!} (m)`), words(14, top - 10, "start", `${"xyz"[cells.axes[1]]!} (m)`));
   const decimals = edges.length > 0 && edges[edges.length - 1]! < 1 ? 3 : 2;
   const step = Math.min(70, (width - left - right) / shades);
   edges.slice(0, -1).forEach((edge, i) => {

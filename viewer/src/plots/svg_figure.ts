@@ -48,7 +48,7 @@ export function svgFigure(caption: string, drawing: SVGElement, ...below: (Node 
     el("button", { type: "button", title: "Save this figure as a drawing", click: () => save(name("svg"), new Blob([standalone(drawing)], { type: "image/svg+xml" })) }, "SVG"),
     el("button", { type: "button", title: "Save this figure as a picture", click: () => void picture(drawing).then((blob) => blob !== null && save(name("png"), blob)) }, "PNG"),
   );
-  const box = el("div", { class: "drawing" });
+  const box = el("div", { class: "drawing", tabindex: 0, role: "group", "aria-label": caption });
   box.append(drawing);
   return el("figure", { class: "plot drawn" }, el("figcaption", {}, caption), box, tools, ...below);
 }

@@ -31,8 +31,6 @@ export class TimePlot {
     this.#view = view;
     this.#box = box;
     this.#height = options.height;
-    box.setAttribute("role", "img");
-    box.setAttribute("aria-label", options.label);
     const axis = (extra: uPlot.Axis): uPlot.Axis => ({
       stroke: () => palette().muted,
       grid: { stroke: () => palette().grid, width: 1 },
@@ -88,6 +86,8 @@ export class TimePlot {
       },
     };
     this.plot = new uPlot(config, undefined, box);
+    this.plot.root.setAttribute("role", "img");
+    this.plot.root.setAttribute("aria-label", options.label);
     this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
     let pressed = 0;
     this.plot.over.addEventListener("mousedown", (e) => (pressed = e.offsetX));

@@ -63,9 +63,15 @@ export const withSd = <T>(title: string, unit: string, decimals: number, value: 
   },
 });
 
-/** A table in the order of its first column, or as it came with `column` -1. */
-export const table = <T>(caption: string, columns: Column<T>[], rows: readonly T[], column = -1): HTMLElement | null =>
-  rows.length === 0 ? null : sortableTable(caption, columns, rows, { column, direction: "descending" }).node;
+/** Rows above which a table is folded. */
+const longTable = 24;
+
+/** A table in the order of its rows; a long one is folded, and on paper left out unless somebody unfolded it. */
+export function table<T>(caption: string, columns: Column<T>[], rows: readonly T[]): HTMLElement | null {
+  if (rows.length === 0) return null;
+  const { node } = sortableTable(caption, columns, rows, { column: -1, direction: "descending" });
+  return rows.length <= longTable ? node : el("details", { class: "long" }, el("summary", {}, `${caption}: ${number(rows.length)} rows`), node);
+}
 
 export const median = (values: readonly (number | null | undefined)[]): number | null => {
   const known = values.filter((v): v is number => typeof v === "number" && Number.isFinite(v)).sort((a, b) => a - b);

@@ -13,7 +13,8 @@ import { at, bounds, isEverThere, isThere, pointAt, type Scene } from "../scene/
 import { statePaths } from "../scene/shapes.ts";
 import { SpaceView, type Look } from "../scene/space_view.ts";
 import { areConventional, sticks } from "../scene/sticks.ts";
-import { add, dot, scaled, type Vec } from "../scene/vec.ts";
+import { boundsAt, goesFar, middleAt } from "../scene/journey.ts";
+import { add, dot, scaled, sub, type Vec } from "../scene/vec.ts";
 import { firstAbsent, stateWords } from "../states.ts";
 import { svg } from "../svg.ts";
 import { onThemeChange, palette } from "../theme.ts";
@@ -70,8 +71,10 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let speed = 1;
   let loop = true;
   let trails: "none" | "picked" | "all" = "picked";
-  let labelled: "none" | "picked" | "all" = M <= 16 ? "all" : "picked";
-  let follow = false;
+  let labelled: "none" | "picked" | "all" = M <= 16 && scene.skeleton === null ? "all" : "picked";
+  const travels = goesFar(scene);
+  let follow = travels;
+  let followed: Vec | null = null;
   let showLines = true;
   let showOthers = true;
   let showFurther = !scene.isMain.includes(true);
@@ -92,7 +95,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   /** The same direction, with all that moves in the picture. */
   function framed(towards: Camera): Camera {
-    const [low, high] = bounds(scene);
+    const [low, high] = travels ? boundsAt(scene, point) : bounds(scene);
     const middle = scaled(add(low, high), 0.5);
     const height = floorHeight(scene);
     const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i): Vec => [(i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]]);
@@ -134,9 +137,16 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   function draw(): void {
     if (picture === null) return;
-    if (follow && view.marker >= 0 && view.marker < M && isThere(scene.markers, scene.points, view.marker, point)) {
-      camera = { ...camera, target: at(scene.markers.x, scene.points, view.marker, point) };
-    }
+    if (follow) {
+      const one = view.marker >= 0 && view.marker < M && isThere(scene.markers, scene.points, view.marker, point) && !travels;
+      const place = one ? at(scene.markers.x, scene.points, view.marker, point) : middleAt(scene, point);
+      if (place !== null) {
+        // What people chose to look at stays where it is in the picture.
+        if (followed !== null) camera = { ...camera, target: add(camera.target, sub(place, followed)) };
+        else if (one) camera = { ...camera, target: place };
+        followed = place;
+      }
+    } else followed = null;
     picture.draw(look());
     frame.dataset["camera"] = JSON.stringify(camera);
     frame.dataset["point"] = String(point);
@@ -433,7 +443,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       viewButton("Top", "top", "3"),
       viewButton("Corner", "corner", "4"),
       toggle("Perspective", true, (on) => { camera = { ...camera, perspective: on }; redraw(); }),
-      toggle("Follow", false, (on) => { follow = on; redraw(); }),
+      toggle("Follow", follow, (on) => { follow = on; followed = null; redraw(); }),
       lines.length === 0 ? null : toggle("Lines", true, (on) => { showLines = on; redraw(); }),
       options.others === null ? null : toggle(options.others.switch, true, (on) => { showOthers = on; redraw(); }),
       further === 0 || showFurther ? null : toggle(`${number(further)} further`, false, (on) => { showFurther = on; redraw(); }),
