@@ -10,6 +10,6 @@ export function sceneWith(names: string[], points: number, place: (m: number, p:
   const states = new Uint8Array(names.length * points);
   return {
     points, frameStep: 1, firstFrame: 0, rateHz: 100, time: Float64Array.from({ length: points }, (_, i) => 1 + i / 100), names, isMain: names.map(() => true),
-    up: [0, 0, 1], upFrom: "", markers: { x, states }, before: null, model: null, worst: states, plates: [], forces: [], skeleton: null, cameras: [], ...more,
+    up: [0, 0, 1], upFrom: "", markers: { x, states }, before: null, model: null, worst: states, plates: [], forces: [], bodies: null, skeleton: null, cameras: [], ...more,
   };
 }

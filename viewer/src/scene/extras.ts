@@ -20,7 +20,7 @@ import { Kind } from "./kind.ts";
 import { cornersOf, type Plane } from "./plane.ts";
 import { at, type CameraPlace, type Scene } from "./scene.ts";
 import type { Look } from "./space_view.ts";
-import { add, scaled, type Vec } from "./vec.ts";
+import { add, cross, length, scaled, sub, unit, type Vec } from "./vec.ts";
 
 /** Of a normal distribution in space: 95 % lie within so many standard deviations. */
 export const within95 = 2.7955;
@@ -33,6 +33,7 @@ export class Extras {
   readonly #scene: Scene;
   readonly #centres: Kind;
   readonly #links: Kind;
+  readonly #bodies: Kind;
   readonly #regions: Kind;
   readonly #cameras: LineSegments;
   readonly #nominal: LineSegments;
@@ -45,6 +46,7 @@ export class Extras {
     this.#scene = scene;
     const joints = scene.skeleton?.names.length ?? 0;
     this.#links = new Kind(stage, new CylinderGeometry(1, 1, 1, 12, 1, true), new MeshLambertMaterial(), scene.skeleton?.links.length ?? 0);
+    this.#bodies = new Kind(stage, new SphereGeometry(1, 20, 14), new MeshLambertMaterial({ transparent: true, opacity: 0.5, depthWrite: false }), scene.bodies?.names.length ?? 0, 1);
     this.#centres = new Kind(stage, new SphereGeometry(1, 16, 11), new MeshLambertMaterial(), joints);
     this.#regions = new Kind(stage, new SphereGeometry(1, 24, 16), new MeshLambertMaterial({ transparent: true, opacity: 0.38, depthWrite: false }), joints, 3);
     const lines = (dashed = false): LineSegments => {
@@ -68,6 +70,7 @@ export class Extras {
 
   paint(p: Palette): void {
     (this.#centres.mesh.material as MeshLambertMaterial).color.set(p.joint);
+    (this.#bodies.mesh.material as MeshLambertMaterial).color.set(p.body);
     (this.#links.mesh.material as MeshLambertMaterial).color.set(p.bone);
     (this.#regions.mesh.material as MeshLambertMaterial).color.set(p.second);
     (this.#cameras.material as LineBasicMaterial).color.set(p.ink);
@@ -80,9 +83,25 @@ export class Extras {
   #axisColours: Color[] = [];
 
   put(look: Look, radius: (x: Vec) => number, shown: (marker: number) => boolean): void {
+    this.#putBodies(look);
     this.#putSkeleton(look, radius);
     this.#putRays(look, shown);
     this.#putPlane(look.plane, radius);
+  }
+
+  #putBodies(look: Look): void {
+    const { bodies, points } = this.#scene;
+    this.#bodies.begin();
+    bodies?.names.forEach((_, b) => {
+      if (!look.bodies) return;
+      const [from, to] = [at(bodies.origin, points, b, look.point), at(bodies.end, points, b, look.point)];
+      const way = sub(to, from);
+      const along = unit(way);
+      const aside = unit(cross(along, Math.abs(along[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]));
+      const r = girth(bodies.massKg[b]!, length(way));
+      this.#bodies.put(scaled(aside, r), scaled(way, 0.5), scaled(cross(aside, along), r), scaled(add(from, to), 0.5));
+    });
+    this.#bodies.end();
   }
 
   #putSkeleton(look: Look, radius: (x: Vec) => number): void {
@@ -134,6 +153,10 @@ export class Extras {
     this.#axes.end();
   }
 }
+
+/** Half axis across an ellipsoid of this length that holds the mass at 1,000 kg/m^3; not wider than long. */
+export const girth = (massKg: number, lengthM: number): number =>
+  Math.min(0.6 * lengthM, Math.sqrt(massKg / 1000 / ((4 / 3) * Math.PI * 0.5 * Math.max(1e-3, lengthM))));
 
 /** Columns of the root of a covariance, mm: a sphere of them is an ellipsoid of one standard deviation. */
 export function rootOf(skeleton: NonNullable<Scene["skeleton"]>, points: number, joint: number, point: number): [Vec, Vec, Vec] {

@@ -35,6 +35,15 @@ export interface Joints {
   states: Uint8Array;
 }
 
+/** Bodies of a model, each about the line from its origin to its end. */
+export interface Bodies {
+  names: readonly string[];
+  massKg: readonly number[];
+  /** B x 3 x P, m */
+  origin: Float32Array;
+  end: Float32Array;
+}
+
 export interface CameraPlace {
   name: string;
   centre: Vec;
@@ -69,6 +78,7 @@ export interface Scene {
   worst: Uint8Array;
   plates: Vec[][];
   forces: Force[];
+  bodies: Bodies | null;
   skeleton: Joints | null;
   cameras: CameraPlace[];
 }
@@ -116,7 +126,7 @@ export function areComputed(names: readonly string[]): boolean[] {
 export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (marker: number) => boolean = () => true): Promise<Scene> {
   const { points, frame_step } = packed;
   const M = packed.names.length;
-  const [markers, before, model, worst, forces, skeleton] = await Promise.all([
+  const [markers, before, model, worst, forces, skeleton, bodies] = await Promise.all([
     unpackTrack(packed.markers, M, points),
     packed.before === null ? null : unpackTrack(packed.before, M, points),
     packed.model_m === null ? null : unpack(packed.model_m),
@@ -125,6 +135,9 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
       packed.forces.map(async (f) => ({ name: f.name, force: await unpack(f.force_n), point: await unpack(f.point_m) })),
     ),
     packed.skeleton ? unpackJoints(packed.skeleton, points) : null,
+    packed.bodies
+      ? Promise.all([unpack(packed.bodies.origin_m), unpack(packed.bodies.end_m)]).then(([origin, end]): Bodies => ({ names: packed.bodies!.names, massKg: packed.bodies!.mass_kg.map((m) => m ?? 0), origin, end }))
+      : null,
   ]);
   const computed = areComputed(packed.names);
   const found = packed.up === null ? upright(markers, M, points) : null;
@@ -146,6 +159,7 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
       .map((p) => p.corners_m.filter((c): c is [number, number, number] => c.length === 3 && c.every((v) => v !== null)))
       .filter((corners) => corners.length === 4),
     forces,
+    bodies,
     skeleton,
     cameras: (packed.cameras ?? []).map((c) => ({ name: c.name, centre: c.centre_m, right: c.right, down: c.down, forward: c.forward, halfView: c.half_view, nominal: c.nominal })),
   };

@@ -53,6 +53,8 @@ export interface Look {
   hidden: (marker: number) => boolean;
   /** How many times as large as it is the region of a joint centre is drawn; 0: not at all. */
   regions: number;
+  /** The bodies of a model. */
+  bodies: boolean;
   /** Lines of sight. */
   rays: boolean;
   /** Share of the depth of the scene that is cut away in front, 0 to 1. */

@@ -48,6 +48,7 @@ export interface PackedScene {
   worst: string | null;
   plates: { type: number; corners_m: (number | null)[][] }[];
   forces: { name: string; force_n: PackedSeries; point_m: PackedSeries }[];
+  bodies?: { names: string[]; mass_kg: (number | null)[]; origin_m: PackedSeries; end_m: PackedSeries };
   skeleton?: PackedJoints;
   cameras?: PackedCamera[];
 }

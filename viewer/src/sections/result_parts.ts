@@ -4,7 +4,9 @@ import { el, section } from "../dom.ts";
 import { bytes, number } from "../format.ts";
 import type { ResultSummary } from "../result_types.ts";
 import { findingGroups } from "./finding_groups.ts";
-import { tile, titleRow } from "./header.ts";
+import { medianOf, tile, titleRow } from "./header.ts";
+
+export { medianOf as median };
 import { plain } from "./settings.ts";
 import { sortableTable, type Column } from "./table.ts";
 
@@ -72,9 +74,3 @@ export function table<T>(caption: string, columns: Column<T>[], rows: readonly T
   const { node } = sortableTable(caption, columns, rows, { column: -1, direction: "descending" });
   return rows.length <= longTable ? node : el("details", { class: "long" }, el("summary", {}, `${caption}: ${number(rows.length)} rows`), node);
 }
-
-export const median = (values: readonly (number | null | undefined)[]): number | null => {
-  const known = values.filter((v): v is number => typeof v === "number" && Number.isFinite(v)).sort((a, b) => a - b);
-  const half = known.length / 2;
-  return known.length === 0 ? null : (known[Math.floor(half - 0.5)]! + known[Math.floor(half)]!) / 2;
-};

@@ -80,6 +80,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let showFurther = !scene.isMain.includes(true);
   let regions = 1;
   let rays = true;
+  let bodies = true;
   let cut = 0;
   let plane: Plane | null = null;
   let filming: { finish: () => Promise<Blob> } | null = null;
@@ -121,6 +122,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       hidden,
       regions,
       rays,
+      bodies,
       cut,
       plane,
     };
@@ -425,6 +427,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   const facts = [
     `${axisWords(scene.up)} is up${scene.upFrom === "" ? " (assumed)" : ` (from ${scene.upFrom})`}`,
     further > 0 && scene.isMain.includes(true) ? "further points: not named, or computed by the recorder's model" : "",
+    scene.bodies !== null ? "bodies are ellipsoids of the model's masses at 1,000 kg/m³, not its shape" : "",
     scene.forces.length > 0 ? "force arrows: 1 m for 1,000 N" : "",
     lines.length > 0 ? (areConventional(scene.names) ? "lines follow the conventional gait marker set" : "lines join markers whose distance stays the same") : "",
   ].filter((f) => f !== "");
@@ -450,6 +453,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       choice("Names", [["none", "none"], ["picked", "picked"], ["all", "all"]], labelled, (v) => { labelled = v; redraw(); }),
       choice("Paths", [["none", "none"], ["picked", "picked"], ["all", "all"]], trails, (v) => { trails = v; redraw(); }),
       scene.skeleton === null ? null : choice("95 % regions", [["0", "none"], ["1", "true size"], ["3", "3 ×"], ["10", "10 ×"]], "1", (v) => { regions = Number(v); redraw(); }),
+      scene.bodies === null ? null : toggle("Bodies", true, (on) => { bodies = on; redraw(); }),
       scene.cameras.length === 0 ? null : toggle("Rays", true, (on) => { rays = on; redraw(); }),
       planeButton,
       el("label", { class: "pick" }, el("span", {}, "Cut"), cutSlider),

@@ -170,7 +170,7 @@ describe("header", () => {
     const calm = { ...summary, verdict: "good" as const, findings: [], frames_per_s: null, determined_fraction: null, rms_error_mm: null, method: "" };
     const node = fake(header(calm));
     expect(node.classed("verdict")[0]!.textContent).toBe("Goodno problems");
-    expect(words(node.classed("tile")).slice(3)).toEqual(["–determinedof 3 coordinates", "– mmRMS marker errorlargest 40.0 mm", "–frames per secondnot timed"]);
+    expect(words(node.classed("tile")).slice(3)).toEqual(["–determinedof 3 coordinates", "– mmRMS marker errorlargest 40.0 mm", "1.50 degmedian SD of an anglenot timed"]);
     expect(node.classed("brand")[0]!.textContent).toContain("inverse kinematics");
   });
 });

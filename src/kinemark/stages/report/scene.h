@@ -29,6 +29,15 @@ struct SceneCamera {
   bool nominal = false;  ///< where it was meant to stand, not where it stands
 };
 
+/// Rigid bodies, each drawn as a plain shape of its own mass about the line from its origin to its end: F
+/// frames, B bodies.
+struct SceneBodies {
+  std::vector<std::string> names;  ///< B
+  std::vector<double> mass_kg;     ///< B, >= 0
+  Array<double> origin_in_world;   ///< F x B x 3, m
+  Array<double> end_in_world;      ///< F x B x 3, m: where the next body begins
+};
+
 /// Points through time to draw, all in one laboratory frame.
 struct Scene {
   const data::Trajectories* markers = nullptr;  ///< F x M; must be set
@@ -37,6 +46,7 @@ struct Scene {
   const data::Wrenches* forces = nullptr;      ///< on the markers' clock; may be absent
   std::vector<data::ForcePlate> plates;        ///< corners, m
   const data::Skeleton* skeleton = nullptr;    ///< joint centres on the markers' clock; may be absent
+  const SceneBodies* bodies = nullptr;         ///< on the markers' clock; may be absent
   std::vector<SceneCamera> cameras;            ///< may be none
   std::optional<Eigen::Vector3d>
       up;               ///< axis of the laboratory that points up, length 1; none: the page finds it

@@ -14,6 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr double kFinest_m = 2e-5, kCoarsest_m = 5e-4;
+constexpr double kFinestBody_m = 2e-4;  // shapes are rough anyway
 /// Of the roots of covariances: what an ellipsoid's half axis may be off.
 constexpr double kFinestSd_mm = 1e-2, kCoarsestSd_mm = 2e-1;
 
@@ -67,6 +68,21 @@ Json skeleton_json(const data::Skeleton& skeleton, std::int64_t step) {
           {"roots_mm", pack_series(series_of(roots, frames, 6 * joints, step), points, kFinestSd_mm,
                                    kCoarsestSd_mm)},
           {"states", deflated(states)}};
+}
+
+Json bodies_json(const SceneBodies& bodies, std::int64_t step) {
+  const auto count = std::ssize(bodies.names);
+  const auto frames = std::ssize(bodies.origin_in_world) / (3 * count);
+  const auto pack = [&](std::span<const double> rows) {
+    return pack_series(series_of(rows, frames, 3 * count, step), (frames + step - 1) / step, kFinestBody_m,
+                       kCoarsest_m);
+  };
+  Json masses = Json::array();
+  for (const double mass : bodies.mass_kg) masses.push_back(number(mass, 4));
+  return {{"names", bodies.names},
+          {"mass_kg", std::move(masses)},
+          {"origin_m", pack(bodies.origin_in_world)},
+          {"end_m", pack(bodies.end_in_world)}};
 }
 
 Json cameras_json(std::span<const SceneCamera> cameras) {
