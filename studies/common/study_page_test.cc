@@ -81,7 +81,8 @@ TEST(StudyPage, ARowWithoutABoundMissesNone) {
                       .expected_is = Expectation::predicted_sd}};
   const auto data = data_of(study_html(page));
   EXPECT_EQ(data["summary"]["verdict"], "good");
-  EXPECT_THAT(data["result"]["columns"].get<std::string>(), HasSubstr("SD: the standard deviation that ours states"));
+  EXPECT_THAT(data["result"]["columns"].get<std::string>(),
+              HasSubstr("SD: the standard deviation that ours states"));
   EXPECT_THAT(data["result"]["columns"].get<std::string>(), Not(HasSubstr("Cramer-Rao")));
 }
 

@@ -95,7 +95,7 @@ StudyPage study_page(const PoiznerStudy& study) {
   StudyPage out{.title = "Study: Poizner, Wooten and Salot 1986",
                 .heading = "The rig of 1986",
                 .description = fmt::format("Figures: rig {}. Table: {} {}.", seed.seed, study.seeds.size(),
-                                             study.seeds.size() == 1 ? "rig" : "rigs"),
+                                           study.seeds.size() == 1 ? "rig" : "rigs"),
                 .classic = "1986 method",
                 .figures = {},
                 .table = study.table};

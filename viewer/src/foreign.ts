@@ -11,7 +11,9 @@ const kept = new Set([
 
 /** Drawings and words that the program wrote as markup: known elements with known attributes, nothing else. */
 export function foreign(markup: string): (HTMLElement | SVGElement | Text)[] {
-  const parsed = new DOMParser().parseFromString(markup, "text/html");
+  // Handlers go first: the parser would already complain of them under the page's policy.
+  const quiet = markup.replaceAll(/\son\w+\s*=\s*("[^"]*"|'[^']*'|[^\s>]+)/gi, "");
+  const parsed = new DOMParser().parseFromString(quiet, "text/html");
   return [...parsed.body.childNodes].flatMap((node) => copied(node));
 }
 

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { el } from "../dom.ts";
 import { fileName, save } from "../save.ts";
+import { svg } from "../svg.ts";
 import { palette } from "../theme.ts";
 
 /** What the style sheet says of a drawing, and a file of its own has to say itself. */
 const carried = ["fill", "stroke", "stroke-width", "stroke-dasharray", "opacity", "fill-opacity", "font-size", "font-weight", "text-anchor"] as const;
+
+const boxOf = (drawing: SVGElement): [x: number, y: number, width: number, height: number] =>
+  (drawing.getAttribute("viewBox") ?? "0 0 640 400").split(" ").map(Number) as [number, number, number, number];
 
 /** The drawing as a file that looks the same without this page. */
 export function standalone(drawing: SVGElement): string {
@@ -21,13 +25,14 @@ export function standalone(drawing: SVGElement): string {
   });
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
   copy.setAttribute("font-family", "system-ui, sans-serif");
-  copy.setAttribute("style", `background:${palette().background}`);
+  const [x, y, width, height] = boxOf(drawing);
+  copy.prepend(svg("rect", { x, y, width, height, fill: palette().background }));
   return new XMLSerializer().serializeToString(copy);
 }
 
 /** The same as a picture, twice as fine as the drawing says. */
 async function picture(drawing: SVGElement): Promise<Blob | null> {
-  const box = (drawing.getAttribute("viewBox") ?? "0 0 640 400").split(" ").map(Number) as [number, number, number, number];
+  const box = boxOf(drawing);
   const image = new Image(2 * box[2], 2 * box[3]);
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(standalone(drawing))}`;
   await image.decode();

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import validator from "gltf-validator";
+import { createRequire } from "node:module";
 import { hostile } from "../simulated.ts";
 import { centreOf } from "../simulated_results.ts";
 import type { Camera } from "../../src/scene/camera.ts";
 import { settle, type Check } from "./browser.ts";
+
+const validator = createRequire(import.meta.url)("gltf-validator") as { validateBytes: (bytes: Uint8Array) => Promise<{ issues: { numErrors: number; numWarnings: number } }> };
 
 /** True of every page of a result. */
 export const alwaysOfResults: Record<string, Check> = {

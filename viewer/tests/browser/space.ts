@@ -22,7 +22,7 @@ const pointOf = async (page: Page): Promise<number> => Number(await page.locator
 
 /** Show a frame of the recording in every plot. */
 async function goTo(page: Page, frame: number): Promise<void> {
-  await page.locator("#space input[type=range]").evaluate((node, value) => {
+  await page.locator("#space .transport input[type=range]").evaluate((node, value) => {
     (node as HTMLInputElement).value = String(value);
     node.dispatchEvent(new Event("input"));
   }, frame);
@@ -90,7 +90,7 @@ export const alwaysOfMarkers: Record<string, Check> = {
   "all sections are there, and nothing is broken": async ({ page }) => {
     assert.deepEqual(
       await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id)),
-      ["attention", "space", "marker", "gaps", "markers", "rest", "settings"],
+      ["attention", "space", "ground", "marker", "gaps", "markers", "rest", "settings"],
     );
     assert.equal(await page.locator(".broken").count(), 0);
   },
@@ -102,7 +102,7 @@ export const alwaysOfMarkers: Record<string, Check> = {
     assert.ok(calls > 2 && calls <= 20, `${calls} draw calls: one a kind`);
   },
   "play, scrub and step show the same instant in every plot": async ({ page }) => {
-    const last = Number(await page.locator("#space input[type=range]").getAttribute("max"));
+    const last = Number(await page.locator("#space .transport input[type=range]").getAttribute("max"));
     await goTo(page, Math.floor(last / 2));
     const [space, curve, map] = [await ink(page, ".space-canvas"), await ink(page, "#plot-x canvas"), await ink(page, "#gap-map canvas")];
     const before = await pointOf(page);
@@ -334,7 +334,7 @@ export const comparesInSpace = (name: string, legend: string): Record<string, Ch
     assert.equal((await ink(page, ".space-canvas")).hash, both.hash);
   },
   "space is on the instant of the plots": async ({ page }) => {
-    await page.locator("#space input[type=range]").evaluate((node) => {
+    await page.locator("#space .transport input[type=range]").evaluate((node) => {
       (node as HTMLInputElement).value = "150";
       node.dispatchEvent(new Event("input"));
     });

@@ -15,8 +15,8 @@ Result<PageFile> PageFile::begin(const std::filesystem::path& path,
   PageFile out;
   if (path.empty()) return out;
   if (ending_of(path) != ".html")
-    return fail(Code::usage,
-                fmt::format("{}: a page ends in .html; '{}' is another ending", path.string(), ending_of(path)));
+    return fail(Code::usage, fmt::format("{}: a page ends in .html; '{}' is another ending", path.string(),
+                                         ending_of(path)));
   // check_apart() compares files that are there; a target that is not yet there is compared by name.
   if (auto s = check_apart({path}, others); !s) return std::unexpected(s.error());
   for (const auto& other : others)

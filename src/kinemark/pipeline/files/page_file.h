@@ -14,8 +14,8 @@
 
 namespace kinemark::pipeline {
 
-/// A page that is begun before a long computation, so that a place where it cannot be written is told at once,
-/// and appears when the results are there.
+/// A page that is begun before a long computation, so that a place where it cannot be written is told at
+/// once, and appears when the results are there.
 class PageFile {
  public:
   /// @param path    of the page; empty: none is wanted, and write() does nothing

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 class PageFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ =
+        fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -38,7 +38,9 @@ TEST_F(PageFileTest, AppearsWhenItIsWrittenAndNotBefore) {
 }
 
 TEST_F(PageFileTest, NothingStaysOfAPageThatWasNotWritten) {
-  { ASSERT_TRUE(PageFile::begin(folder_ / "page.html", {}, false)); }
+  {
+    ASSERT_TRUE(PageFile::begin(folder_ / "page.html", {}, false));
+  }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

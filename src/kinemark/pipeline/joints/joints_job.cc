@@ -270,7 +270,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   if (page->wanted())
-    if (auto s = page->write(joints_page(job, outcome, trial), outcome); !s) return std::unexpected(s.error());
+    if (auto s = page->write(joints_page(job, outcome, trial), outcome); !s)
+      return std::unexpected(s.error());
   return outcome;
 }
 

@@ -36,8 +36,7 @@ std::vector<Notice> partly_placed(const data::Skeleton& skeleton) {
 std::vector<report::NoticeGroup> groups_of(const JointsOutcome& outcome) {
   std::vector<report::NoticeGroup> groups;
   std::vector<Notice> left_out, slips, doubts;
-  for (const auto& bad : outcome.left_out)
-    left_out.push_back({.subject = bad.name, .text = bad.sentence()});
+  for (const auto& bad : outcome.left_out) left_out.push_back({.subject = bad.name, .text = bad.sentence()});
   std::vector<data::Gate> others;
   for (const auto& gate : outcome.gates)
     if (gate.name != "plausible") others.push_back(gate);
@@ -61,16 +60,16 @@ std::vector<report::NoticeGroup> groups_of(const JointsOutcome& outcome) {
 }  // namespace
 
 std::string joints_page(const JointsJob& job, const JointsOutcome& outcome, const data::Trial& trial) {
-  return report::result_report_html({.kind = "joints",
-                                     .trial = job.input.filename().string(),
-                                     .version = std::string(kVersion),
-                                     .command_line = job.command_line,
-                                     .groups = groups_of(outcome),
-                                     .inputs = {outcome.input},
-                                     .result = joints_json(job, outcome),
-                                     .scene = report::Scene{.markers = &trial.markers,
-                                                            .skeleton = &outcome.skeleton},
-                                     .first_frame = trial.first_frame});
+  return report::result_report_html(
+      {.kind = "joints",
+       .trial = job.input.filename().string(),
+       .version = std::string(kVersion),
+       .command_line = job.command_line,
+       .groups = groups_of(outcome),
+       .inputs = {outcome.input},
+       .result = joints_json(job, outcome),
+       .scene = report::Scene{.markers = &trial.markers, .skeleton = &outcome.skeleton},
+       .first_frame = trial.first_frame});
 }
 
 }  // namespace kinemark::pipeline

@@ -11,8 +11,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// An upper arm that swings about z at the origin, and a forearm that is fixed to its end; a third body has no
-/// mass.
+/// An upper arm that swings about z at the origin, and a forearm that is fixed to its end; a third body has
+/// no mass.
 model::Model arm() {
   data::ModelDescription d;
   d.name = "arm";
@@ -21,10 +21,15 @@ model::Model arm() {
               {.name = "nothing", .mass = 0.0, .com_in_body = {0.0, -0.1, 0.0}}};
   d.coordinates = {{.name = "swing"}};
   data::JointDescription shoulder{.name = "shoulder", .type = "PinJoint", .child_body_idx = 0};
-  shoulder.axes = {{.axis = Eigen::Vector3d::UnitZ(), .is_rotation = true, .coordinate_idx = 0}};
-  data::JointDescription elbow{.name = "elbow", .type = "WeldJoint", .parent_body_idx = 0, .child_body_idx = 1};
+  shoulder.axes = {{.is_rotation = true,
+                    .axis = Eigen::Vector3d::UnitZ(),
+                    .coordinate_idx = 0,
+                    .function = math::ScalarFunction::linear(1.0, 0.0)}};
+  data::JointDescription elbow{
+      .name = "elbow", .type = "WeldJoint", .parent_body_idx = 0, .child_body_idx = 1};
   elbow.parent_from_joint.translation = {0.0, -0.3, 0.0};
-  data::JointDescription wrist{.name = "wrist", .type = "WeldJoint", .parent_body_idx = 1, .child_body_idx = 2};
+  data::JointDescription wrist{
+      .name = "wrist", .type = "WeldJoint", .parent_body_idx = 1, .child_body_idx = 2};
   wrist.parent_from_joint.translation = {0.0, -0.25, 0.0};
   d.joints = {shoulder, elbow, wrist};
   return model::Model::compile(d).value();

@@ -171,9 +171,8 @@ Result<IkOutcome> run_ik(IkJob job) {
     files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
-    files.push_back(text_file(job.report, [&] {
-      return internal::motion_page(model, outcome.summary, motion, &solved);
-    }));
+    files.push_back(text_file(
+        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved); }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
   return outcome;

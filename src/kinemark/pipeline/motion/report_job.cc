@@ -119,6 +119,22 @@ struct Page {
   std::vector<fs::path> read;
 };
 
+/// Numbers of a torque table of the same set and frames; empty where there is no such file.
+Array<double> torques_from(const fs::path& path, const data::JointMotion& motion, std::string_view set) {
+  if (!fs::is_regular_file(path)) return {};
+  const auto read = io::read_table(path);
+  if (!read || set_of(*read) != set || read->columns.size() != motion.coordinates.size() ||
+      std::ssize(read->values) != motion.frames() * motion.size())
+    return {};
+  for (std::size_t j = 0; j < motion.coordinates.size(); ++j)
+    if (read->columns[j] != motion.coordinates[j] + "_moment" &&
+        read->columns[j] != motion.coordinates[j] + "_force")
+      return {};
+  Array<double> out(read->values.size());
+  std::ranges::copy(read->values, out.begin());
+  return out;
+}
+
 Result<Page> solved_page(const fs::path& solved) {
   std::string stem = solved.stem().string();
   if (ending_of(solved) == ".json") stem.resize(stem.size() - 7);
@@ -146,6 +162,9 @@ Result<Page> solved_page(const fs::path& solved) {
   if (!motion) return fail_at(base.string(), motion.error());
   if (const auto first = json->find("first_frame"); first != json->end() && first->is_number_integer())
     motion->time.first_number = first->get<std::int64_t>();
+  motion->tau = torques_from(beside(base, "_tau.sto"), *motion, set_of(*json));
+  if (!motion->tau.empty())
+    motion->tau_sd = torques_from(beside(base, "_tau_sd.sto"), *motion, set_of(*json));
   const auto states = recorded_states(*run, *motion);
   const bool turned = std::ranges::any_of(
       run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });

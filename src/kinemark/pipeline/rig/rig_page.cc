@@ -25,13 +25,15 @@ using report::Verdict;
 constexpr double kFewLocated = 0.8;
 
 report::SceneCamera drawn(const data::Camera& camera, bool nominal) {
-  report::SceneCamera out{.name = camera.name, .centre_in_world = camera.centre_in_world(), .nominal = nominal};
+  report::SceneCamera out{
+      .name = camera.name, .centre_in_world = camera.centre_in_world(), .nominal = nominal};
   out.axes_in_world = camera.cam_from_world.inverse().rotation;
   // A detector reaches from -1 to 1; of an image in pixels the principal point is taken for its middle.
   const Eigen::Vector2d half = camera.kind == data::CameraKind::lateral_effect
                                    ? Eigen::Vector2d(1.0, 1.0)
                                    : Eigen::Vector2d(camera.principal_point);
-  out.half_view = Eigen::Vector2d(half.x() / camera.focal, half.y() / (camera.focal * camera.aspect)).cwiseAbs();
+  out.half_view =
+      Eigen::Vector2d(half.x() / camera.focal, half.y() / (camera.focal * camera.aspect)).cwiseAbs();
   return out;
 }
 
@@ -51,7 +53,8 @@ std::vector<report::NoticeGroup> groups_of(const ReconstructOutcome& outcome) {
   std::vector<report::NoticeGroup> groups;
   std::vector<Notice> never, few, contradicted;
   for (const auto& led : outcome.leds) {
-    const double share = led.frames > 0 ? static_cast<double>(led.located) / static_cast<double>(led.frames) : 0.0;
+    const double share =
+        led.frames > 0 ? static_cast<double>(led.located) / static_cast<double>(led.frames) : 0.0;
     const Notice notice{.subject = led.name,
                         .text = fmt::format("{}: located in {} of {} frames; {} occluded, {} saturated, {} "
                                             "where the cameras contradict each other.",
@@ -68,8 +71,8 @@ std::vector<report::NoticeGroup> groups_of(const ReconstructOutcome& outcome) {
                                led.name, led.inconsistent, led.frames)});
   }
   report::add_gates(groups, outcome.gates);
-  report::add_group(groups, Verdict::attention, "marker", "LED located in no frame", "LEDs located in no frame",
-                    std::move(never));
+  report::add_group(groups, Verdict::attention, "marker", "LED located in no frame",
+                    "LEDs located in no frame", std::move(never));
   report::add_group(groups, Verdict::attention, "marker", "LED located in less than 80 % of the frames",
                     "LEDs located in less than 80 % of the frames", std::move(few));
   report::add_group(groups, Verdict::good, "marker", "LED with frames that the cameras contradict",
@@ -84,13 +87,8 @@ Json map_json(const PrecisionMap& map) {
   if (map.columns == 0) return nullptr;
   Json cells = Json::array();
   for (const double sd : map.sd_m) cells.push_back(number(sd, 1e3));
-  return {{"axes", map.axes},
-          {"first_m", map.first},
-          {"cell_m", map.cell_m},
-          {"columns", map.columns},
-          {"rows", map.rows},
-          {"sd_mm", std::move(cells)},
-          {"samples", map.samples}};
+  return {{"axes", map.axes}, {"first_m", map.first},      {"cell_m", map.cell_m},  {"columns", map.columns},
+          {"rows", map.rows}, {"sd_mm", std::move(cells)}, {"samples", map.samples}};
 }
 
 /// Where a camera's lens and axes are known to, from the rig's covariance.
@@ -99,7 +97,10 @@ Json cameras_json(const data::Rig& rig) {
   for (int c = 0; c < rig.camera_count(); ++c) {
     const auto& camera = rig.cameras[static_cast<std::size_t>(c)];
     const Eigen::Vector3d x = camera.centre_in_world();
-    Json entry{{"name", camera.name}, {"centre_mm", {1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z()}}, {"centre_sd_mm", nullptr}, {"rotation_sd_deg", nullptr}};
+    Json entry{{"name", camera.name},
+               {"centre_mm", {1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z()}},
+               {"centre_sd_mm", nullptr},
+               {"rotation_sd_deg", nullptr}};
     if (rig.covariance.size() > 0) {
       const auto sd = [&](int first, double unit) {
         const auto rows = rig.covariance.diagonal().segment<3>(rig.first_parameter(c) + first);
@@ -137,8 +138,8 @@ std::string calibrate_page(const CalibrateJob& job, const CalibrateOutcome& outc
   return report::result_report_html(page);
 }
 
-std::string reconstruct_page(const ReconstructJob& job, const ReconstructOutcome& outcome, const data::Rig& rig,
-                             const data::Trajectories& points) {
+std::string reconstruct_page(const ReconstructJob& job, const ReconstructOutcome& outcome,
+                             const data::Rig& rig, const data::Trajectories& points) {
   report::ResultReport page{.kind = "reconstruct",
                             .trial = job.recording.filename().string(),
                             .version = std::string(kVersion),

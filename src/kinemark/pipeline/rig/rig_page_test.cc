@@ -41,15 +41,18 @@ TEST(RigPage, AReconstructionJudgesEachLed) {
   outcome.leds = {{.name = "hand", .frames = 100, .located = 100},
                   {.name = "wrist", .frames = 100, .located = 70, .occluded = 25, .inconsistent = 5},
                   {.name = "lost", .frames = 100, .occluded = 100}};
-  const auto points = data::Trajectories::all_missing({"hand", "wrist", "lost"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 100});
+  const auto points = data::Trajectories::all_missing({"hand", "wrist", "lost"},
+                                                      {.rate_hz = 100.0, .t0_s = 0.0, .frames = 100});
   const auto page = reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points);
   EXPECT_THAT(page, HasSubstr(R"("verdict":"attention")"));
   EXPECT_THAT(page, HasSubstr("1 LED located in no frame"));
   EXPECT_THAT(page, HasSubstr("1 LED located in less than 80 % of the frames"));
-  EXPECT_THAT(page, HasSubstr("wrist: the cameras contradict each other in 5 of 100 frames; no point there."));
+  EXPECT_THAT(page,
+              HasSubstr("wrist: the cameras contradict each other in 5 of 100 frames; no point there."));
   EXPECT_THAT(page, HasSubstr(R"("precision":[null,null])"));
   outcome.leds.resize(1);
-  EXPECT_THAT(reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points), HasSubstr(R"("verdict":"good")"));
+  EXPECT_THAT(reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points),
+              HasSubstr(R"("verdict":"good")"));
 }
 
 }  // namespace

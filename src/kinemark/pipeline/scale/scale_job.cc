@@ -203,7 +203,8 @@ class ScaleRun {
     if (!staging) return std::unexpected(staging.error());
     std::vector<ResultFile> files{model_file(job_.output, text->text),
                                   json_file(report, [this] { return scale_json(job_, out_); })};
-    if (!job_.report.empty()) files.push_back(text_file(job_.report, [this] { return scale_page(job_, out_); }));
+    if (!job_.report.empty())
+      files.push_back(text_file(job_.report, [this] { return scale_page(job_, out_); }));
     auto written = write_results(*staging, files, {}, "scaling", name_set(text->text));
     if (!written) return std::unexpected(written.error());
     out_.written = std::move(*written);

@@ -87,9 +87,11 @@ Json coordinate_series(const JointMotion& motion, std::int64_t coordinate, const
 }
 
 /// N m or N of one coordinate and its standard deviation; null where the motion has none.
-Json torque_series(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points, Column& column) {
+Json torque_series(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
+                   Column& column) {
   if (motion.tau.empty()) return nullptr;
-  for (std::int64_t f = 0; f < motion.frames(); ++f) column.values[f] = motion.tau[motion.index(f, coordinate)];
+  for (std::int64_t f = 0; f < motion.frames(); ++f)
+    column.values[f] = motion.tau[motion.index(f, coordinate)];
   if (std::ranges::none_of(column.values, [](double v) { return std::isfinite(v); })) return nullptr;
   Json out = {{"value", base64(points.extremes(column.values))}, {"sd", nullptr}};
   if (motion.tau_sd.empty()) return out;
@@ -166,7 +168,8 @@ PlotPoints plot_grid(const IkReport& report, const ReportOptions& options) {
   // adds a third.
   const auto coordinates = report.motion->size();
   const auto markers = std::ssize(report.summary.markers);
-  const std::int64_t bytes = ((report.motion->tau.empty() ? 9 : 17) * coordinates + 5 * markers + 5) * 4 / 3 + 1;
+  const std::int64_t bytes =
+      ((report.motion->tau.empty() ? 9 : 17) * coordinates + 5 * markers + 5) * 4 / 3 + 1;
   return {report.motion->frames(),
           std::max<std::int64_t>(2, std::min(options.max_points, options.max_series_bytes / bytes))};
 }

@@ -24,7 +24,7 @@ struct IkReport {
       nullptr;  ///< states for the gap map; nullptr: seen or not, from the errors
   /// Positions of `markers` are in the model's axes, so that the space view can show both.
   bool in_model_axes = true;
-  std::optional<Eigen::Vector3d> up;  ///< against the model's gravity, length 1; none: the page finds it
+  std::optional<Eigen::Vector3d> up;    ///< against the model's gravity, length 1; none: the page finds it
   const SceneBodies* bodies = nullptr;  ///< of the model in this motion; nullptr: not known
 };
 

@@ -50,14 +50,14 @@ struct IkRun {
 
 /// One coordinate over the recording.
 struct CoordinateSummary {
-  std::string name;                    ///< in the model
-  bool is_rotation = true;             ///< true: rad, false: m
-  bool keeps_radians = false;          ///< MOT and STO files hold it in rad
-  bool locked = false;                 ///< the model holds it
-  std::int64_t determined_frames = 0;  ///< frames in which the markers fix it
-  double min = kNaN;                   ///< rad or m, over determined frames
-  double max = kNaN;                   ///< rad or m, over determined frames
-  double median_sd = kNaN;             ///< rad or m, over determined frames
+  std::string name;                           ///< in the model
+  bool is_rotation = true;                    ///< true: rad, false: m
+  bool keeps_radians = false;                 ///< MOT and STO files hold it in rad
+  bool locked = false;                        ///< the model holds it
+  std::int64_t determined_frames = 0;         ///< frames in which the markers fix it
+  double min = kNaN;                          ///< rad or m, over determined frames
+  double max = kNaN;                          ///< rad or m, over determined frames
+  double median_sd = kNaN;                    ///< rad or m, over determined frames
   double limit_min = kNaN, limit_max = kNaN;  ///< rad or m; NaN: none
   std::int64_t at_limit_frames = 0;           ///< determined frames that lie at a limit, or beyond
   std::int64_t first_at_limit = -1;           ///< the first of them; -1: none

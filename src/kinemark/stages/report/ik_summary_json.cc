@@ -162,8 +162,7 @@ IkRun read_run(const Json& json) {
     }
   }
   run.fit.findings = read_rejected(json);
-  for (const Json& c : json.at("coordinates"))
-    add_coordinate(c, run);
+  for (const Json& c : json.at("coordinates")) add_coordinate(c, run);
   if (const Json mass = json.value("mass_kg", Json()); mass.is_number()) mass.get_to(run.mass_kg);
   json.at("warnings").get_to(run.warnings);
   return run;

@@ -22,7 +22,8 @@ void add_group(std::vector<NoticeGroup>& groups, Verdict level, std::string_view
                std::string_view many, std::vector<Notice> items) {
   if (items.empty()) return;
   for (auto& item : items) item.level = level, item.about = about;
-  groups.push_back({level, fmt::format("{} {}", items.size(), items.size() == 1 ? one : many), std::move(items)});
+  groups.push_back(
+      {level, fmt::format("{} {}", items.size(), items.size() == 1 ? one : many), std::move(items)});
 }
 
 Verdict verdict_of(const std::vector<NoticeGroup>& groups) {

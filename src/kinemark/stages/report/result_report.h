@@ -15,10 +15,10 @@ namespace kinemark::report {
 
 /// A result and what a page says besides its numbers.
 struct ResultReport {
-  std::string kind;          ///< "joints", "scale", "calibrate", "reconstruct" or "study"
-  std::string trial;         ///< name for the heading, usually the file's
-  std::string version;       ///< of the program
-  std::string command_line;  ///< as typed; may be empty
+  std::string kind;                 ///< "joints", "scale", "calibrate", "reconstruct" or "study"
+  std::string trial;                ///< name for the heading, usually the file's
+  std::string version;              ///< of the program
+  std::string command_line;         ///< as typed; may be empty
   std::vector<NoticeGroup> groups;  ///< what stands out, the serious first
   std::vector<InputFile> inputs;    ///< files that were read
   nlohmann::ordered_json result;    ///< the document of the command

@@ -18,7 +18,8 @@ TEST(ResultReport, TellsItsKindItsVerdictAndItsDocument) {
   EXPECT_EQ(json["result"]["mass_kg"], 70.0);
   add_remarks(report.groups, std::vector<std::string>{"a", "b"});
   EXPECT_EQ(result_report_json(report)["summary"]["verdict"], "good") << "remarks alone are notes";
-  add_gates(report.groups, std::vector<Gate>{{.name = "g", .passed = true}, {.name = "h", .passed = false, .sentence = "too far"}});
+  add_gates(report.groups, std::vector<Gate>{{.name = "g", .passed = true},
+                                             {.name = "h", .passed = false, .sentence = "too far"}});
   json = result_report_json(report);
   EXPECT_EQ(json["summary"]["verdict"], "attention");
   ASSERT_EQ(json["summary"]["groups"].size(), 2U);

@@ -146,9 +146,8 @@ Json scene_json(const Scene& scene, const SceneOptions& options) {
         "a scene needs the same markers and frames before as after");
   check(scene.forces == nullptr || scene.forces->frames() == markers.frames(),
         "a scene needs forces on the markers' clock");
-  check(scene.bodies == nullptr ||
-            std::ssize(scene.bodies->origin_in_world) ==
-                3 * markers.frames() * std::ssize(scene.bodies->names),
+  check(scene.bodies == nullptr || std::ssize(scene.bodies->origin_in_world) ==
+                                       3 * markers.frames() * std::ssize(scene.bodies->names),
         "a scene needs a place of each body in each frame");
   check(scene.skeleton == nullptr || scene.skeleton->frames() == markers.frames(),
         "a scene needs joint centres on the markers' clock");

@@ -54,8 +54,7 @@ Json skeleton_json(const data::Skeleton& skeleton, std::int64_t step) {
   const std::int64_t frames = skeleton.frames(), points = (frames + step - 1) / step;
   Json names = Json::array(), links = Json::array();
   for (const auto& joint : skeleton.joints) names.push_back(joint.name);
-  for (const auto& length : skeleton.lengths)
-    links.push_back(Json::array({length.joint_a, length.joint_b}));
+  for (const auto& length : skeleton.lengths) links.push_back(Json::array({length.joint_a, length.joint_b}));
   std::vector<std::uint8_t> states;
   for (std::int64_t j = 0; j < joints; ++j)
     for (std::int64_t f = 0; f < frames; f += step)
@@ -65,8 +64,8 @@ Json skeleton_json(const data::Skeleton& skeleton, std::int64_t step) {
           {"links", std::move(links)},
           {"centres_m", pack_series(series_of(skeleton.centre_in_world, frames, 3 * joints, step), points,
                                     kFinest_m, kCoarsest_m)},
-          {"roots_mm", pack_series(series_of(roots, frames, 6 * joints, step), points, kFinestSd_mm,
-                                   kCoarsestSd_mm)},
+          {"roots_mm",
+           pack_series(series_of(roots, frames, 6 * joints, step), points, kFinestSd_mm, kCoarsestSd_mm)},
           {"states", deflated(states)}};
 }
 
@@ -88,13 +87,14 @@ Json bodies_json(const SceneBodies& bodies, std::int64_t step) {
 Json cameras_json(std::span<const SceneCamera> cameras) {
   Json out = Json::array();
   for (const auto& camera : cameras)
-    out.push_back({{"name", camera.name},
-                   {"centre_m", vector_json(camera.centre_in_world)},
-                   {"right", vector_json(camera.axes_in_world.col(0))},
-                   {"down", vector_json(camera.axes_in_world.col(1))},
-                   {"forward", vector_json(camera.axes_in_world.col(2))},
-                   {"half_view", Json::array({number(camera.half_view.x(), 4), number(camera.half_view.y(), 4)})},
-                   {"nominal", camera.nominal}});
+    out.push_back(
+        {{"name", camera.name},
+         {"centre_m", vector_json(camera.centre_in_world)},
+         {"right", vector_json(camera.axes_in_world.col(0))},
+         {"down", vector_json(camera.axes_in_world.col(1))},
+         {"forward", vector_json(camera.axes_in_world.col(2))},
+         {"half_view", Json::array({number(camera.half_view.x(), 4), number(camera.half_view.y(), 4)})},
+         {"nominal", camera.nominal}});
   return out;
 }
 

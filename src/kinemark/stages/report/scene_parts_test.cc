@@ -33,7 +33,8 @@ data::Skeleton two_joints() {
       const std::size_t i = s.index(f, j);
       s.state[i] = data::CentreState::determined;
       for (std::size_t k = 0; k < 3; ++k)
-        s.centre_in_world[3 * i + k] = 0.1 * static_cast<double>(f) + static_cast<double>(j) + 0.01 * static_cast<double>(k);
+        s.centre_in_world[3 * i + k] =
+            0.1 * static_cast<double>(f) + static_cast<double>(j) + 0.01 * static_cast<double>(k);
       if (j == 1) continue;
       std::size_t k = 6 * i;
       for (int row = 0; row < 3; ++row)

@@ -14,8 +14,8 @@
 namespace kinemark::pipeline::internal {
 
 /// The used markers on the frames that were solved, under the model's names, without what was left out.
-[[nodiscard]] data::Trajectories solved_markers(const data::Trajectories& recorded, const data::MarkerFit& fit,
-                                                const data::JointMotion& motion);
+[[nodiscard]] data::Trajectories solved_markers(const data::Trajectories& recorded,
+                                                const data::MarkerFit& fit, const data::JointMotion& motion);
 
 /// HTML with the model's bodies in space. @param markers  on the motion's clock; nullptr: not known
 [[nodiscard]] std::string motion_page(const model::Model& model, const report::IkSummary& summary,
