@@ -7,7 +7,7 @@
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/stages/report/ik_report.h"
 
-#include "kinemark/pipeline/motion/internal/body_places.h"
+#include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 
 namespace kinemark::pipeline::internal {
@@ -32,7 +32,7 @@ data::Trajectories solved_markers(const data::Trajectories& recorded, const data
 
 std::string motion_page(const model::Model& model, const report::IkSummary& summary,
                         const data::JointMotion& motion, const data::Trajectories* markers) {
-  const auto bodies = body_places(model, motion);
+  const auto bodies = body_positions(model, motion);
   return report::report_html(
       {.summary = summary, .motion = &motion, .markers = markers, .up = up_of(model), .bodies = &bodies});
 }

@@ -19,7 +19,7 @@
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/vertical.h"
-#include "kinemark/pipeline/motion/internal/body_places.h"
+#include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -100,7 +100,7 @@ std::optional<report::SceneBodies> bodies_of(const std::optional<model::Model>& 
   const auto& coordinates = model->description().coordinates;
   if (!std::ranges::equal(coordinates, motion.coordinates, {}, &data::CoordinateDescription::name))
     return std::nullopt;
-  return internal::body_places(*model, motion);
+  return internal::body_positions(*model, motion);
 }
 
 std::string set_of(const Json& json) {

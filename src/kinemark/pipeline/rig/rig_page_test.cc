@@ -18,7 +18,7 @@ data::Rig one_camera(const Eigen::Vector3d& at) {
   return rig;
 }
 
-TEST(RigPage, ACalibrationShowsBothPlacesOfACameraAndWhatToTurn) {
+TEST(RigPage, ACalibrationShowsBothPositionsOfACameraAndWhatToTurn) {
   CalibrateJob job;
   job.inputs = {"lab/tree.mcap"};
   CalibrateOutcome outcome;

@@ -11,6 +11,6 @@ namespace kinemark::pipeline::internal {
 /// Where the bodies of a model are in a motion of it. A body ends where the bodies that it carries begin (the
 /// middle of them), one that carries none as far beyond its mass centre as that lies from its origin. Bodies
 /// without mass or length are left out.
-[[nodiscard]] report::SceneBodies body_places(const model::Model& model, const data::JointMotion& motion);
+[[nodiscard]] report::SceneBodies body_positions(const model::Model& model, const data::JointMotion& motion);
 
 }  // namespace kinemark::pipeline::internal

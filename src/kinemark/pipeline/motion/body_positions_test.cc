@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/motion/internal/body_places.h"
+#include "kinemark/pipeline/motion/internal/body_positions.h"
 
 #include <gmock/gmock.h>
 
@@ -45,18 +45,18 @@ data::JointMotion two_poses() {
   return motion;
 }
 
-TEST(BodyPlaces, BodiesEndWhereTheNextBeginsAndTurnWithTheModel) {
-  const auto places = body_places(arm(), two_poses());
-  EXPECT_THAT(places.names, ElementsAre("upper", "fore"));
-  EXPECT_THAT(places.mass_kg, ElementsAre(2.0, 1.0));
-  ASSERT_EQ(places.end_in_world.size(), 12U);
+TEST(BodyPositions, BodiesEndWhereTheNextBeginsAndTurnWithTheModel) {
+  const auto bodies = body_positions(arm(), two_poses());
+  EXPECT_THAT(bodies.names, ElementsAre("upper", "fore"));
+  EXPECT_THAT(bodies.mass_kg, ElementsAre(2.0, 1.0));
+  ASSERT_EQ(bodies.end_in_world.size(), 12U);
   const auto end = [&](std::size_t frame, std::size_t body) {
-    return Eigen::Vector3d(places.end_in_world.data() + 6 * frame + 3 * body);
+    return Eigen::Vector3d(bodies.end_in_world.data() + 6 * frame + 3 * body);
   };
   EXPECT_LT((end(0, 0) - Eigen::Vector3d(0.0, -0.3, 0.0)).norm(), 1e-12);
   EXPECT_LT((end(0, 1) - Eigen::Vector3d(0.0, -0.55, 0.0)).norm(), 1e-12);
   EXPECT_LT((end(1, 1) - Eigen::Vector3d(0.55, 0.0, 0.0)).norm(), 1e-12);
-  EXPECT_LT((Eigen::Vector3d(places.origin_in_world.data() + 6 + 3) - end(1, 0)).norm(), 1e-12)
+  EXPECT_LT((Eigen::Vector3d(bodies.origin_in_world.data() + 6 + 3) - end(1, 0)).norm(), 1e-12)
       << "the forearm begins at the elbow";
 }
 

@@ -6,7 +6,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
 
-#include "kinemark/pipeline/motion/internal/body_places.h"
+#include "kinemark/pipeline/motion/internal/body_positions.h"
 
 namespace kinemark::pipeline::internal {
 namespace {
@@ -34,7 +34,7 @@ Eigen::Vector3d end_of(const data::ModelDescription& model, const model::Workspa
 
 }  // namespace
 
-report::SceneBodies body_places(const model::Model& model, const data::JointMotion& motion) {
+report::SceneBodies body_positions(const model::Model& model, const data::JointMotion& motion) {
   const auto& description = model.description();
   const auto n = static_cast<std::int64_t>(model.coordinate_count());
   check(std::ssize(motion.q) == motion.frames() * n, "the motion is of this model");
