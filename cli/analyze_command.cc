@@ -10,6 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/measures_options.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/motion/analysis_job.h"
@@ -19,9 +20,19 @@ namespace {
 
 struct AnalyzeArguments {
   pipeline::AnalysisJob job;
+  MeasuresArguments measures;
   std::vector<std::string> points;
   bool no_error_bars = false;
 };
+
+/// A motion is a table, and only a motion has a model or a setup; all else is markers.
+bool is_of_markers(const AnalyzeArguments& arguments) {
+  const auto& job = arguments.job;
+  if (arguments.measures.list) return true;
+  const auto ending = pipeline::ending_of(job.motion);
+  return !job.motion.empty() && job.model.empty() && job.setup.empty() && ending != ".mot" &&
+         ending != ".sto";
+}
 
 /// NAME=BODY:X,Y,Z
 Result<pipeline::AnalysisPoint> parse_point(const std::string& text) {
@@ -58,7 +69,15 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
   print_result(json.dump(2) + "\n");
 }
 
-int run_command(const CommonOptions& common, const AnalyzeArguments& arguments) {
+int run_command(const CommonOptions& common, AnalyzeArguments& arguments) {
+  if (is_of_markers(arguments)) {
+    auto& job = arguments.measures.job;
+    job.input = arguments.job.motion;
+    job.output = arguments.job.output;
+    job.selection.first_time_s = arguments.job.first_time_s;
+    job.selection.last_time_s = arguments.job.last_time_s;
+    return run_measures_command(common, arguments.measures);
+  }
   auto job = arguments.job;
   job.error_bars = !arguments.no_error_bars;
   for (const auto& text : arguments.points) {
@@ -72,7 +91,9 @@ int run_command(const CommonOptions& common, const AnalyzeArguments& arguments) 
 void add_options(CLI::App& command, AnalyzeArguments& a) {
   auto& job = a.job;
   command.add_option("IN", job.motion,
-                     "Motion: .mot or .sto of coordinates, with Q_sd.sto beside it if there is one");
+                     "Markers, whose paths are measured; or a motion: .mot or .sto of coordinates, with "
+                     "Q_sd.sto beside it if "
+                     "there is one");
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command
       .add_option("--forces", job.forces,
@@ -82,10 +103,10 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
       .add_option("--setup", job.setup,
                   "OpenSim AnalyzeTool or InverseDynamicsTool setup; other options take precedence")
       ->group("Input");
-  command.add_option("--start", job.first_time_s, "First time to write, s")->group("Input");
-  command.add_option("--end", job.last_time_s, "Last time to write, s")->group("Input");
-  command.add_option("-o,--output", job.output, "Folder for the results")
-      ->type_name("FOLDER")
+  command.add_option("--start", job.first_time_s, "First time to write or to measure, s")->group("Input");
+  command.add_option("--end", job.last_time_s, "Last time to write or to measure, s")->group("Input");
+  command.add_option("-o,--output", job.output, "Folder for the results; of markers a table, .csv or .json")
+      ->type_name("PATH")
       ->group("Output");
   command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations")->group("Output");
   command.add_option("--bodies", job.bodies, "Bodies to follow, center_of_mass among them; all when absent")
@@ -112,14 +133,19 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
 
 void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand(
-      "analyze", "What bodies and points do along a motion: positions, velocities, accelerations, torques");
+      "analyze",
+      "Measures of markers' paths with intervals; what bodies do along a motion: positions, rates, torques");
   command->footer(
-      "Writes into the folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
+      "Of a recording of markers: shape, timing and smoothness of each path, freed of the bias of noise, "
+      "with 95 % "
+      "intervals\n(docs/stages/measures.md); --list tells what there is.\nOf a motion: writes into the "
+      "folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
       "NAME_BodyKinematics_pos,\n_vel, _acc_global.sto (mass centres, body-fixed X-Y-Z angles), "
       "NAME_PointKinematics_POINT_pos, _vel, _acc.sto,\nNAME_inverse_dynamics.sto, beside each its standard "
       "deviations (_sd.sto), and NAME_analysis.json. Degrees, metres, seconds, N m.");
   const auto arguments = std::make_shared<AnalyzeArguments>();
   add_options(*command, *arguments);
+  add_measures_options(*command, arguments->measures);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/measures_options.h"
+
+#include "cli/console.h"
+#include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/measures/measures_table.h"
+
+namespace kinemark::cli {
+namespace {
+
+void print_measures(const CommonOptions& common, const pipeline::MeasuresOutcome& outcome) {
+  for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
+  if (common.json)
+    print_result(pipeline::json_text(pipeline::measures_outcome_json(outcome)) + "\n");
+  else if (outcome.written.empty())
+    print_result(pipeline::measures_text(outcome.measures));
+  say_written(common, outcome);
+}
+
+}  // namespace
+
+void add_measures_options(CLI::App& command, MeasuresArguments& a) {
+  auto& job = a.job;
+  const char* what = "Measures of markers";
+  const auto list = [&](const char* name, auto& value, const char* type, const char* text) {
+    command.add_option(name, value, text)
+        ->type_name(type)
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->group(what);
+  };
+  command.add_flag("--list", a.list, "What measures there are: formula, unit and source of each")
+      ->group(what);
+  list("--measures", job.measures, "NAME",
+       "Which, with commas between; all that apply to each movement when absent");
+  list("--select", job.selection.select, "NAME",
+       "Markers to measure, with commas between; * is any text, ? any letter");
+  list("--drop", job.selection.drop, "NAME", "Markers to leave out");
+  command
+      .add_option("--region", job.regions,
+                  "A stretch to measure: reach=120-300 in frames, reach=1.2s-3s. Repeatable.")
+      ->type_name("NAME=FIRST-LAST")
+      ->allow_extra_args(false)
+      ->group(what);
+  command
+      .add_option("--between", job.between,
+                  "Stretches from each event of this label to the next. Repeatable.")
+      ->type_name("LABEL")
+      ->allow_extra_args(false)
+      ->group(what);
+  command.add_option("--rate", job.rate_hz, "Frame rate of a file that tells none")
+      ->type_name("HZ")
+      ->group(what);
+  command.add_option("--noise", a.noise_mm, "Marker noise per axis; 0: found from the data")
+      ->type_name("MM")
+      ->capture_default_str()
+      ->group(what);
+  command.add_option("--refits", job.refits, "Simulated recordings behind each interval; 0: no intervals")
+      ->capture_default_str()
+      ->group(what);
+  command.add_option("--level", job.level, "Coverage of the intervals")->capture_default_str()->group(what);
+  command
+      .add_option("--edits", job.edits,
+                  "Journal of edits to apply first; 'beside': the one beside the recording")
+      ->type_name("FILE")
+      ->group(what);
+  command.add_flag("--keep-defects", job.keep_defects, "Measure spikes, swaps and stuck samples too")
+      ->group(what);
+}
+
+int run_measures_command(const CommonOptions& common, MeasuresArguments& arguments) {
+  if (arguments.list) {
+    print_result(common.json ? pipeline::json_text(pipeline::measure_list_json()) + "\n"
+                             : pipeline::measure_list());
+    return 0;
+  }
+  auto& job = arguments.job;
+  job.noise_sd_m = 1e-3 * arguments.noise_mm;
+  return run_job(common, "markers", job, pipeline::run_measures, print_measures);
+}
+
+}  // namespace kinemark::cli

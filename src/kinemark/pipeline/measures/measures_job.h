@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Measures of the paths of a recording's markers.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/measure.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/selection.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark analyze` is asked to do with a recording of markers. Paths that are empty are not used.
+struct MeasuresJob : JobSettings {
+  std::filesystem::path input;  ///< marker file
+  double rate_hz = 0.0;         ///< for a file that tells none; 0: not given
+  std::filesystem::path
+      edits;            ///< journal, applied first; "beside": the one beside the recording, if there is one
+  Selection selection;  ///< which markers, which frames
+  std::vector<std::string> measures;  ///< ids; empty: those that apply to each movement
+  std::vector<std::string> regions;   ///< parse_region(); beside those of the journal
+  std::vector<std::string> between;   ///< labels of events: regions_between()
+  std::filesystem::path output;       ///< .csv or .json
+  std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
+  double noise_sd_m = 0.0;            ///< per axis; 0: found from the samples
+  double level = 0.95;                ///< of the intervals
+  bool keep_defects = false;          ///< measure what screening calls spikes, swaps, stuck too
+};
+
+/// Warnings: what was left out, and markers that could not be measured.
+struct MeasuresOutcome : JobOutcome {
+  data::InputFile input;                ///< the recording
+  std::vector<data::Measure> measures;  ///< markers in the recording's order, their regions, their measures
+};
+
+/// Read, screen, measure, write. Samples that the recorder made, that were filled or that screening rejects
+/// are not measured; nothing is written where nothing can be measured. Progress counts nothing.
+///
+/// Code::usage as analysis::PathMeasureOptions::check(), parse_region() and for another ending than .csv and
+/// .json; Code::bad_input as the readers, take_selection(), regions_between() and analysis::measure_paths(),
+/// and where no marker can be measured.
+[[nodiscard]] Result<MeasuresOutcome> run_measures(const MeasuresJob& job);
+
+/// "input", "measures" (measures_json()), "written", "warnings".
+[[nodiscard]] nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome);
+
+}  // namespace kinemark::pipeline

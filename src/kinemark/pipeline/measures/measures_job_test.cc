@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/measures_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kinemark/io/edits/edit_journal.h"
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/stages/analysis/path/testing/known_path.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Two markers: RFIN reaches, RELB goes around an ellipse; events every second.
+class MeasuresJobTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto reach = analysis::testing::sampled(300, 100.0, analysis::testing::reach);
+    const auto ellipse = analysis::testing::sampled(300, 100.0, analysis::testing::ellipse);
+    data::Trial trial;
+    trial.first_frame = 41;
+    trial.markers = data::Trajectories::all_missing(
+        {"RFIN", "RELB"}, {.rate_hz = 100.0, .t0_s = 0.4, .frames = 300, .first_number = 41});
+    Random random(3, 0);
+    for (std::int64_t f = 0; f < 300; ++f)
+      for (int m = 0; m < 2; ++m) {
+        trial.markers.x(f, m) =
+            (m == 0 ? reach : ellipse).row(f).transpose() +
+            5e-4 * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+        trial.markers.state[trial.markers.index(f, m)] = data::SampleState::measured;
+      }
+    for (const double t : {0.6, 1.6, 2.6}) trial.events.push_back({"Turn", "", t});
+    ASSERT_TRUE(io::write_markers(recording_, trial, false));
+    job_.input = recording_;
+    job_.measures = {"peak_speed", "path_length"};
+    job_.refits = 39;
+  }
+
+  testing_support::ScratchFolder scratch_;
+  std::filesystem::path recording_ = scratch_ / "signs.c3d";
+  MeasuresJob job_;
+};
+
+TEST_F(MeasuresJobTest, MeasuresEveryMarkerAndWritesATable) {
+  job_.output = scratch_ / "signs.csv";
+  const auto outcome = run_measures(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->measures.size(), 4u);
+  EXPECT_EQ(outcome->measures[0].subject, "RFIN");
+  EXPECT_NEAR(outcome->measures[1].value, 1.875 * std::hypot(0.3, 0.05) / 0.7, 0.02);
+  EXPECT_THAT(io::read_text(job_.output).value(), HasSubstr("signs.c3d,RFIN,"));
+  EXPECT_EQ(outcome->written, std::vector{job_.output});
+  const auto again = run_measures(job_);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, Code::io);
+}
+
+TEST_F(MeasuresJobTest, JsonNamesTheInputAndItsChecksum) {
+  job_.output = scratch_ / "signs.json";
+  ASSERT_TRUE(run_measures(job_));
+  const auto json = nlohmann::json::parse(io::read_text(job_.output).value());
+  EXPECT_EQ(json["input"]["XXH3-64"].get<std::string>().size(), 16u);
+  EXPECT_EQ(json["measures"].size(), 4u);
+}
+
+TEST_F(MeasuresJobTest, RegionsComeFromOptionsEventsAndTheJournal) {
+  job_.selection.select = {"RELB"};
+  job_.measures = {"path_length"};
+  job_.regions = {"half=60-109"};
+  job_.between = {"Turn"};
+  auto journal = io::EditJournal::open(edits_of(recording_), identify_recording(recording_).value());
+  ASSERT_TRUE(journal);
+  ASSERT_TRUE(journal->append(
+      {.kind = data::EditKind::region, .first_frame = 100, .last_frame = 199, .name = "signed"}));
+  job_.edits = kEditsBeside;
+  const auto outcome = run_measures(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  std::vector<std::string> regions;
+  for (const auto& measure : outcome->measures) regions.push_back(measure.region);
+  EXPECT_EQ(regions, (std::vector<std::string>{"signed", "half", "Turn 1", "Turn 2"}));
+  EXPECT_NEAR(outcome->measures[0].start_s, 0.99, 1e-9);
+}
+
+TEST_F(MeasuresJobTest, SamplesThatScreeningRejectsAreNotMeasured) {
+  auto trial = io::read_markers(recording_).value();
+  trial.markers.x(120, 0) += Eigen::Vector3d(0.4, 0.0, 0.0);
+  const auto spoilt = scratch_ / "spoilt.c3d";
+  ASSERT_TRUE(io::write_markers(spoilt, trial, false));
+  job_.input = spoilt;
+  const auto outcome = run_measures(job_);
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->warnings, ::testing::Contains(HasSubstr("RFIN")));
+  EXPECT_GT(outcome->measures[1].share_not_measured, 0.0);
+  EXPECT_NEAR(outcome->measures[1].value, 1.875 * std::hypot(0.3, 0.05) / 0.7, 0.03);
+  job_.keep_defects = true;
+  EXPECT_EQ(run_measures(job_)->measures[1].share_not_measured, 0.0);
+}
+
+TEST_F(MeasuresJobTest, SaysInOneSentenceWhatIsWrong) {
+  const auto says = [this](const auto& change) {
+    MeasuresJob job = job_;
+    change(job);
+    const auto outcome = run_measures(job);
+    return outcome ? std::string("no failure") : outcome.error().message;
+  };
+  EXPECT_THAT(says([](auto& job) { job.measures = {"peek_speed"}; }),
+              HasSubstr("no measure 'peek_speed' (nearest: peak_speed"));
+  EXPECT_THAT(says([](auto& job) { job.output = "a.xlsx"; }),
+              HasSubstr("a.xlsx: measures are written as .csv or .json"));
+  EXPECT_THAT(says([](auto& job) { job.selection.select = {"NOSE"}; }), HasSubstr("NOSE"));
+  EXPECT_THAT(says([](auto& job) { job.between = {"Strike"}; }),
+              HasSubstr("no two events of one side are called 'Strike'; the recording has Turn"));
+  EXPECT_THAT(says([](auto& job) { job.regions = {"late=900-950"}; }),
+              HasSubstr("frames 900 to 950, lies outside the recording, whose frames are 41 to 340"));
+  EXPECT_THAT(says([](auto& job) { job.input = "none.c3d"; }), HasSubstr("none.c3d"));
+}
+
+TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {
+  job_.selection.frames = "41-60";
+  job_.output = scratch_ / "short.csv";
+  const auto outcome = run_measures(job_);
+  ASSERT_FALSE(outcome);
+  EXPECT_THAT(outcome.error().message,
+              HasSubstr("nothing can be measured: RFIN was measured in 20 frames; need 30 at least"));
+  EXPECT_FALSE(std::filesystem::exists(job_.output));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/measures_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/stages/analysis/path/definitions.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const data::MeasureDefinition* definition_of(std::string_view id) {
+  for (const auto& definition : analysis::path_definitions())
+    if (definition.what.id == id) return &definition.what;
+  return nullptr;
+}
+
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+// As RFC 4180 has it.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+// As many digits as the interval's width supports, two of it, and four significant ones without.
+std::string rounded(double value, double width) {
+  if (!std::isfinite(value)) return "not determined";
+  if (!(width > 0.0)) return fmt::format("{:.4g}", value);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9);
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string interval_text(const data::Measure& measure, double factor) {
+  const auto& interval = measure.interval;
+  const double low = factor * interval.low, high = factor * interval.high, value = factor * measure.value;
+  const char* about = interval.approximate ? "about " : "";
+  switch (interval.kind) {
+    case data::IntervalKind::none:
+      return {};
+    case data::IntervalKind::at_most:
+      return fmt::format(" [{}at most {}]", about, rounded(high, std::abs(high - value)));
+    case data::IntervalKind::at_least:
+      return fmt::format(" [{}at least {}]", about, rounded(low, std::abs(high - value)));
+    case data::IntervalKind::two_sided:
+      return fmt::format(" [{}{} to {}]", about, rounded(low, high - low), rounded(high, high - low));
+  }
+  return {};
+}
+
+std::string value_text(const data::Measure& measure) {
+  if (measure.quantity == data::Quantity::count && std::isfinite(measure.value)) {
+    const auto& ends = measure.interval;
+    const bool same = ends.kind != data::IntervalKind::two_sided || ends.low == ends.high;
+    return fmt::format("{:.0f}", measure.value) +
+           (same ? "" : fmt::format(" [{:.0f} to {:.0f}]", ends.low, ends.high));
+  }
+  const auto unit = data::shown_unit(measure.quantity);
+  const auto& interval = measure.interval;
+  const double width = interval.kind == data::IntervalKind::two_sided ? interval.high - interval.low
+                       : interval.kind == data::IntervalKind::at_most
+                           ? std::abs(interval.high - measure.value)
+                           : kNaN;
+  std::string out =
+      rounded(unit.per_si * measure.value, unit.per_si * width) + interval_text(measure, unit.per_si);
+  if (!unit.name.empty() && std::isfinite(measure.value)) out += fmt::format(" {}", unit.name);
+  return out;
+}
+
+}  // namespace
+
+std::string measures_csv(std::span<const data::Measure> measures, const std::string& file) {
+  std::string out =
+      "file,subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,"
+      "approximate,sd,"
+      "uncorrected,share_not_measured,method,remark\n";
+  for (const auto& m : measures) {
+    const auto unit = data::shown_unit(m.quantity);
+    const auto shown = [&unit](double si) { return cell(unit.per_si * si); };
+    out += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", quoted(file), quoted(m.subject),
+        quoted(m.context), quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
+        cell(m.end_s), m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
+        m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
+        shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), quoted(m.method), quoted(m.remark));
+  }
+  return out;
+}
+
+nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
+  Json out = Json::array();
+  for (const auto& m : measures) {
+    const auto unit = data::shown_unit(m.quantity);
+    const auto shown = [&unit](double si) { return number(unit.per_si * si); };
+    Json one{{"measure", m.id}, {"subject", m.subject}};
+    if (!m.context.empty()) one["context"] = m.context;
+    if (!m.region.empty()) one["region"] = m.region;
+    if (m.cycle >= 0) one["cycle"] = m.cycle;
+    one["start_s"] = number(m.start_s);
+    one["end_s"] = number(m.end_s);
+    one["value"] = shown(m.value);
+    one["unit"] = unit.name;
+    one["interval"] = {{"kind", data::to_string(m.interval.kind)},
+                       {"low", shown(m.interval.low)},
+                       {"high", shown(m.interval.high)},
+                       {"level", m.interval.level},
+                       {"approximate", m.interval.approximate}};
+    one["sd"] = shown(m.sd);
+    one["uncorrected"] = shown(m.uncorrected);
+    one["share_not_measured"] = number(m.share_not_measured);
+    one["method"] = m.method;
+    if (!m.remark.empty()) one["remark"] = m.remark;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+std::string measures_text(std::span<const data::Measure> measures) {
+  std::string out;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    const auto& m = measures[i];
+    const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region;
+    if (!same)
+      out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject,
+                         m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
+                         m.share_not_measured > 0.0
+                             ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
+                             : "");
+    const auto* definition = definition_of(m.id);
+    out += fmt::format("  {:<40} {}{}\n", definition ? definition->title : std::string_view(m.id),
+                       value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
+  }
+  return out;
+}
+
+std::string measure_list() {
+  std::string out;
+  for (const auto& definition : analysis::path_definitions()) {
+    const auto& what = definition.what;
+    const auto unit = data::shown_unit(what.quantity).name;
+    out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
+                       unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
+  }
+  return out;
+}
+
+nlohmann::ordered_json measure_list_json() {
+  Json out = Json::array();
+  for (const auto& definition : analysis::path_definitions()) {
+    const auto& what = definition.what;
+    out.push_back({{"measure", what.id},
+                   {"group", what.group},
+                   {"title", what.title},
+                   {"unit", data::shown_unit(what.quantity).name},
+                   {"formula", what.formula},
+                   {"source", what.source}});
+  }
+  return out;
+}
+
+}  // namespace kinemark::pipeline

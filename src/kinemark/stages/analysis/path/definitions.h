@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The measures of a path: what each is, when it means something, and how its interval is made.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "kinemark/data/measure.h"
+#include "kinemark/stages/analysis/path/path_facts.h"
+
+namespace kinemark::analysis {
+
+/// Of which movements a measure is told unless it is asked for by name.
+enum class Applies : std::uint8_t { always, periodic, closed, discrete };
+
+/// How value and interval follow from refits of simulated noise (docs/theory/measures.md).
+enum class Pivot : std::uint8_t {
+  plain,          ///< both from 1.5 times the cut-off of least error
+  of_derivative,  ///< the value likewise, the interval from 2.5 times: third derivatives, curvature, torsion
+  squared,        ///< on the squares of the values, which noise raises by a constant: thickness
+  raw_squared,    ///< on the squares, from unsmoothed samples: what is in a band of frequencies
+  whole_number,   ///< counts: rounded
+};
+
+/// What keeps an interval from being two-sided and sure.
+enum class Weakness : std::uint8_t {
+  none,
+  lengthened_at_rest,       ///< a path's noise at rest adds up: at most, where part of the stretch is at rest
+  extreme_of_constant,      ///< the largest of a speed that hardly changes: at most then
+  needs_change,             ///< says nothing of a speed that hardly changes
+  upper_alone,              ///< the lower end fails: the least side of a box
+  upper_alone_if_discrete,  ///< likewise for discrete movements: a start has jerk that no filter passes
+  approximate,              ///< covers less than its level in simulated movements
+  approximate_if_discrete   ///< likewise for discrete movements alone
+};
+
+/// One measure of a path.
+struct PathDefinition {
+  data::MeasureDefinition what;                       ///< its line in `analyze --list`
+  Applies applies = Applies::always;                  ///< to which movements
+  Pivot pivot = Pivot::plain;                         ///< how bias and interval are found
+  Weakness weakness = Weakness::none;                 ///< what the interval may not claim
+  double (*value)(const PathFacts& facts) = nullptr;  ///< SI; NaN where not determined
+};
+
+/// All of them, in the order in which they are shown.
+[[nodiscard]] std::span<const PathDefinition> path_definitions();
+
+}  // namespace kinemark::analysis

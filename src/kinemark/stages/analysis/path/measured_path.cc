@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/measured_path.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/stated_measure.h"
+
+namespace kinemark::analysis {
+namespace {
+
+constexpr std::int64_t kLeastSamples = 30;  // measured, for a smoother to be chosen
+constexpr std::int64_t kLeastStretch = 5;   // samples of a stretch
+constexpr double kLowestCutOff_hz = 0.4;    // of those tried
+constexpr double kEdge_s = 0.08;            // at both ends, where a smoother knows one side only
+constexpr double kNoiseDisagrees = 0.15;    // of the stated noise
+
+std::int64_t edge_samples(double rate_hz) {
+  return std::max<std::int64_t>(kDerivativeMargin + 1, static_cast<std::int64_t>(kEdge_s * rate_hz));
+}
+
+bool is_asked(const PathDefinition& definition, const PathMeasureOptions& options, const PathFrame& frame) {
+  if (!options.measures.empty())
+    return std::ranges::find(options.measures, definition.what.id) != options.measures.end();
+  switch (definition.applies) {
+    case Applies::always:
+      return true;
+    case Applies::periodic:
+      return frame.periodic;
+    case Applies::closed:
+      return frame.closed;
+    case Applies::discrete:
+      return frame.discrete;
+  }
+  return false;
+}
+
+// Measured samples with their own positions, whatever was made between them by smoothed ones.
+SeriesMatrix raw_path(const Recording& recording, const SeriesMatrix& smooth) {
+  SeriesMatrix out = recording.x;
+  for (std::int64_t i = 0; i < out.rows(); ++i)
+    if (!recording.seen[at(i)]) out.row(i) = smooth.row(i);
+  return out;
+}
+
+}  // namespace
+
+std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajectories& markers,
+                                                              std::int64_t marker,
+                                                              const PathMeasureOptions& options) {
+  MeasuredPath out;
+  out.name_ = markers.names[at(marker)];
+  out.marker_ = marker;
+  out.options_ = options;
+  std::int64_t first = markers.frames(), last = -1, count = 0;
+  for (std::int64_t f = 0; f < markers.frames(); ++f) {
+    if (markers.state[markers.index(f, marker)] != data::SampleState::measured) continue;
+    first = std::min(first, f);
+    last = f;
+    ++count;
+  }
+  if (count < kLeastSamples)
+    return std::unexpected(
+        fmt::format("{} was measured in {} frames; need {} at least", out.name_, count, kLeastSamples));
+  auto& recording = out.recording_;
+  recording.rate_hz = markers.time.rate_hz;
+  recording.x = SeriesMatrix::Zero(last - first + 1, 3);
+  recording.seen.assign(at(last - first + 1), false);
+  for (std::int64_t f = first; f <= last; ++f)
+    if (markers.state[markers.index(f, marker)] == data::SampleState::measured) {
+      recording.x.row(f - first) = markers.x(f, marker).transpose();
+      recording.seen[at(f - first)] = true;
+    }
+  out.first_s_ = markers.time.time_s(first);
+  out.first_number_ = markers.time.number(first);
+
+  const double found = math::noise_from_differences(recording.x, recording.seen), stated = options.noise_sd_m;
+  if (stated > 0.0 && std::abs(found / stated - 1.0) > kNoiseDisagrees)
+    out.warning_ =
+        fmt::format("the noise of {} is {:.3g} mm by its differences, not the {:.3g} mm that were stated",
+                    out.name_, 1e3 * found, 1e3 * stated);
+  recording.noise_sd_m = std::isnan(found) ? stated : std::max(found, stated);
+  if (!(recording.noise_sd_m > 0.0))
+    return std::unexpected(
+        fmt::format("the noise of {} is not known: no seven frames in a row differ; state it", out.name_));
+  const double lowest = kLowestCutOff_hz / recording.rate_hz;
+  constexpr double kHighest = 0.45;
+  if (!(lowest < kHighest))
+    return std::unexpected(
+        fmt::format("{:g} frames a second are too few to measure movement", recording.rate_hz));
+  const SeriesMatrix in_noise = (recording.x.rowwise() - recording.x.row(0)) / recording.noise_sd_m;
+  const auto choice =
+      math::choose_smoothing(in_noise, recording.seen, {.lowest = lowest, .highest = kHighest});
+  if (!choice) return std::unexpected(fmt::format("no smoother fits the samples of {}", out.name_));
+  recording.choice = *choice;
+  out.less_ = smoothed(recording, kLessSmooth);
+  out.least_ = smoothed(recording, kLeastSmooth);
+  return out;
+}
+
+MeasuredPath::Stretch MeasuredPath::stretch_of(const data::Region& region) const {
+  const double rate = recording_.rate_hz;
+  const std::int64_t n = recording_.x.rows(), edge = edge_samples(rate);
+  const std::int64_t first = std::max(edge, region.first_frame - first_number_);
+  const std::int64_t last = std::min(n - 1 - edge, region.last_frame - first_number_);
+  Stretch out{.first = first, .count = std::max<std::int64_t>(0, last - first + 1)};
+  std::int64_t missing = 0, run = 0, longest = 0;
+  for (std::int64_t i = first; i <= last; ++i) {
+    run = recording_.seen[at(i)] ? 0 : run + 1;
+    missing += !recording_.seen[at(i)];
+    longest = std::max(longest, run);
+  }
+  if (out.count > 0) out.share_not_measured = static_cast<double>(missing) / static_cast<double>(out.count);
+  out.longest_gap_s = static_cast<double>(longest) / rate;
+  return out;
+}
+
+bool MeasuredPath::below_noise(const Stretch& stretch) const {
+  // About the mean of a second around each sample.
+  const std::int64_t half = std::llround(0.5 * recording_.rate_hz), n = recording_.x.rows();
+  double squares = 0.0;
+  std::int64_t count = 0;
+  for (std::int64_t i = stretch.first; i < stretch.first + stretch.count; ++i) {
+    if (!recording_.seen[at(i)]) continue;
+    const std::int64_t begin = std::max<std::int64_t>(0, i - half), end = std::min(n, i + half + 1);
+    Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
+    for (std::int64_t k = begin; k < end; ++k) mean += less_.row(k);
+    squares += (recording_.x.row(i) - mean / static_cast<double>(end - begin)).squaredNorm();
+    count += 3;
+  }
+  const double noise = recording_.noise_sd_m * recording_.noise_sd_m;
+  return count > 0 && squares / static_cast<double>(count) - noise <= 0.25 * noise;
+}
+
+// Values of every measure that is asked for: of what was recorded, of the pilot, and of the refits.
+struct MeasuredPath::Refits {
+  std::vector<const PathDefinition*> definitions;
+  std::vector<double> less, least, raw, pilot;                 // one for each definition
+  std::vector<std::vector<double>> by_less, by_least, by_raw;  // deviations of the refits
+
+  std::vector<double> values(const PathFacts& facts) const {
+    std::vector<double> out;
+    for (const auto* definition : definitions) out.push_back(definition->value(facts));
+    return out;
+  }
+  bool any(Pivot pivot) const {
+    return std::ranges::any_of(definitions, [pivot](const auto* d) { return d->pivot == pivot; });
+  }
+};
+
+std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(
+    const data::Region& region) const {
+  const Stretch stretch = stretch_of(region);
+  if (stretch.count < kLeastStretch)
+    return std::unexpected(fmt::format("{} frames without the edges of {:g} ms; need {} at least",
+                                       stretch.count, 1e3 * kEdge_s, kLeastStretch));
+  const double rate = recording_.rate_hz;
+  const auto part = [&](const SeriesMatrix& x) {
+    return differentiate(x, stretch.first, stretch.count, rate);
+  };
+  // The same noise for the same marker, whichever regions and measures are asked for.
+  const auto stream = mix64(static_cast<std::uint64_t>(marker_) + 1);
+  const SeriesMatrix pilot = pilot_path(recording_, stretch.first, stretch.count, options_.seed, stream);
+  const PathSamples pilot_part = part(pilot);
+  PathFrame frame = recognise(pilot_part);
+  frame.start_s = first_s_ + static_cast<double>(stretch.first) / rate;
+
+  Refits refits;
+  for (const auto& definition : path_definitions())
+    if (is_asked(definition, options_, frame)) refits.definitions.push_back(&definition);
+  const auto values_of = [&](const SeriesMatrix& x) {
+    const PathSamples samples = part(x);
+    return refits.values(PathFacts(samples, frame));
+  };
+  refits.less = values_of(less_);
+  refits.least = values_of(least_);
+  refits.pilot = values_of(pilot);
+  const bool raw_too = refits.any(Pivot::raw_squared);
+  const SeriesMatrix raw = raw_path(recording_, less_);
+  if (raw_too) refits.raw = values_of(raw);
+  const std::size_t count = refits.definitions.size();
+  refits.by_less.resize(count), refits.by_least.resize(count), refits.by_raw.resize(count);
+  for_each_refit(recording_, pilot, options_.refits, options_.seed, stream,
+                 [&](std::int64_t number, const SeriesMatrix& less, const SeriesMatrix& least) {
+                   const auto a = values_of(less), b = values_of(least);
+                   const auto c = raw_too ? values_of(with_noise(raw, recording_.seen, recording_.noise_sd_m,
+                                                                 options_.seed, stream, number))
+                                          : std::vector<double>{};
+                   for (std::size_t i = 0; i < count; ++i) {
+                     const bool square = refits.definitions[i]->pivot == Pivot::squared;
+                     const double base = refits.pilot[i];
+                     refits.by_less[i].push_back(square ? a[i] * a[i] - base * base : a[i] - base);
+                     refits.by_least[i].push_back(b[i] - base);
+                     if (raw_too) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
+                   }
+                 });
+
+  const StretchSummary summary{.subject = name_,
+                               .region = region.name,
+                               .start_s = frame.start_s,
+                               .end_s = frame.start_s + static_cast<double>(stretch.count - 1) / rate,
+                               .share_not_measured = stretch.share_not_measured,
+                               .longest_gap_s = stretch.longest_gap_s,
+                               .below_noise = below_noise(stretch),
+                               .noise_sd_m = recording_.noise_sd_m,
+                               .cut_off_hz = recording_.choice.half_power * rate,
+                               .order = recording_.choice.order,
+                               .level = options_.level,
+                               .refits = options_.refits};
+  std::vector<data::Measure> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& definition = *refits.definitions[i];
+    const bool raw_one = definition.pivot == Pivot::raw_squared;
+    out.push_back(state_measure(
+        definition, summary, frame,
+        {.estimate = raw_one ? refits.raw[i] : refits.less[i],
+         .estimate_of_interval = definition.pivot == Pivot::of_derivative ? refits.least[i] : kNaN,
+         .deviations = raw_one ? refits.by_raw[i] : refits.by_less[i],
+         .deviations_of_interval = refits.by_least[i]}));
+  }
+  return out;
+}
+
+}  // namespace kinemark::analysis

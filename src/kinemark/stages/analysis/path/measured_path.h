@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// One marker's recording, smoothed, and the measures of its stretches.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "kinemark/data/measure.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/analysis/path/path_facts.h"
+#include "kinemark/stages/analysis/path/path_measures.h"
+#include "kinemark/stages/analysis/path/refits.h"
+
+namespace kinemark::analysis {
+
+/// A marker from its first to its last measured sample. Failures are sentences for people, which the caller
+/// puts beside the measures of others.
+class MeasuredPath {
+ public:
+  /// Fails where too few samples were measured or no smoother fits them.
+  [[nodiscard]] static std::expected<MeasuredPath, std::string> create(const data::Trajectories& markers,
+                                                                       std::int64_t marker,
+                                                                       const PathMeasureOptions& options);
+
+  /// The measures of a stretch, in the order of path_definitions(). Fails where the stretch is too short.
+  [[nodiscard]] std::expected<std::vector<data::Measure>, std::string> measure(
+      const data::Region& region) const;
+
+  [[nodiscard]] const std::string& name() const { return name_; }        ///< of the marker
+  [[nodiscard]] const std::string& warning() const { return warning_; }  ///< on the noise; may be empty
+
+ private:
+  struct Stretch {
+    std::int64_t first = 0, count = 0;  // in the recording
+    double share_not_measured = 0.0;    // of the samples
+    double longest_gap_s = 0.0;         // in it
+  };
+  struct Refits;
+
+  [[nodiscard]] Stretch stretch_of(const data::Region& region) const;
+  [[nodiscard]] bool below_noise(const Stretch& stretch) const;
+
+  std::string name_, warning_;
+  std::int64_t marker_ = 0;
+  double first_s_ = 0.0;           // time of the first measured sample
+  std::int64_t first_number_ = 0;  // of its frame, in the file
+  PathMeasureOptions options_;
+  Recording recording_;
+  SeriesMatrix less_, least_;  // smoothed by kLessSmooth, kLeastSmooth
+};
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/path_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "kinemark/math/statistics.h"
+
+namespace kinemark::analysis {
+namespace {
+
+constexpr double kAround_s = 0.05;       // kept before onset and behind the end
+constexpr double kRegularCycles = 0.25;  // largest SD of cycles over their mean
+constexpr std::int64_t kLeastCycles = 2;
+constexpr double kComesBack = 0.25;  // largest way of a cycle's trend over the extent without it
+
+// The samples from onset to end and those around them; all where there is no onset or end.
+PathSamples moving_part(const PathSamples& path, const MovementWindow& window) {
+  if (std::isnan(window.onset_s) || std::isnan(window.end_s)) return path;
+  const auto sample = [&](double s) { return static_cast<std::int64_t>(std::floor(s * path.rate_hz)); };
+  const std::int64_t first = std::max<std::int64_t>(0, sample(window.onset_s - kAround_s));
+  const std::int64_t count = std::min(path.count(), sample(window.end_s + kAround_s) + 1) - first;
+  return {.rate_hz = path.rate_hz,
+          .x = path.x.middleRows(first, count),
+          .v = path.v.middleRows(first, count),
+          .a = path.a.middleRows(first, count),
+          .j = path.j.middleRows(first, count)};
+}
+
+// Way of the straight trend in a time, over the extent of the path without the trend.
+double drift_of(const PathSamples& path, double time_s) {
+  const SeriesMatrix level = without_trend(path.x);
+  const SeriesMatrix trend = path.x - level;
+  const double speed = (trend.row(path.count() - 1) - trend.row(0)).norm() * path.rate_hz /
+                       static_cast<double>(std::max<std::int64_t>(1, path.count() - 1));
+  return speed * time_s / (level.colwise().maxCoeff() - level.colwise().minCoeff()).norm();
+}
+
+}  // namespace
+
+bool hardly_changes(const Eigen::VectorXd& values) {
+  const std::span<const double> all(values.data(), static_cast<std::size_t>(values.size()));
+  return math::quantile(all, 0.95) - math::quantile(all, 0.05) < 0.1 * math::median(all);
+}
+
+PathFrame recognise(const PathSamples& path) {
+  PathFrame out;
+  const Eigen::VectorXd speed = speed_of(path);
+  const double peak = speed.maxCoeff();
+  out.share_at_rest =
+      static_cast<double>((speed.array() <= kMovingShare * peak).count()) / static_cast<double>(path.count());
+  out.steady = hardly_changes(speed);
+  out.cycle_axis = detrended_axis(path.x);
+  const auto window = movement_window(speed, path.rate_hz);
+  const double last_s = static_cast<double>(path.count() - 1) / path.rate_hz;
+  // A sample's tolerance, so that a rest of just that length counts.
+  const double hold_s = kMovingHold_s - 1.0 / path.rate_hz;
+  out.discrete = window.onset_s >= hold_s && last_s - window.end_s >= hold_s;
+  if (out.discrete) return out;
+  const auto cycles = cycles_along(path.x, out.cycle_axis, path.rate_hz);
+  out.periodic = cycles.count >= kLeastCycles && cycles.sd_s < kRegularCycles * cycles.mean_s;
+  out.closed = out.periodic && drift_of(path, cycles.mean_s) < kComesBack;
+  return out;
+}
+
+PathFacts::PathFacts(const PathSamples& samples, const PathFrame& settled)
+    : path(samples),
+      frame(settled),
+      speed(speed_of(samples)),
+      window(movement_window(speed, samples.rate_hz)),
+      movement(settled.discrete ? moving_part(samples, window) : samples),
+      moving_speed(speed_of(movement)),
+      principal(principal_axes(samples.x)),
+      along(along_axes(samples.x, principal)),
+      cycles(cycles_along(samples.x, settled.cycle_axis, samples.rate_hz)),
+      ellipse(settled.closed ? ellipse_axes(along) : EllipseAxes{.major = kNaN, .minor = kNaN}),
+      distances(diameters(samples.x)),
+      box(smallest_box(samples.x)) {}
+
+}  // namespace kinemark::analysis

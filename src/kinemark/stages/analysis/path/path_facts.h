@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What several measures of one path need, computed once.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "kinemark/stages/analysis/path/path_samples.h"
+#include "kinemark/stages/analysis/path/shape.h"
+#include "kinemark/stages/analysis/path/smoothness.h"
+#include "kinemark/stages/analysis/path/timing.h"
+
+namespace kinemark::analysis {
+
+/// What is settled once for a stretch and holds for all smoothed and simulated versions of it.
+struct PathFrame {
+  double start_s = 0.0;   ///< of the stretch, on the recording's clock
+  bool periodic = false;  ///< it repeats: see recognise()
+  bool discrete = false;  ///< it begins and ends at rest
+  bool closed = false;    ///< periodic, and comes back to where it was: not a walk
+  bool steady = false;    ///< hardly_changes() of its speed
+  Eigen::Vector3d cycle_axis = Eigen::Vector3d::UnitX();  ///< along which cycles are counted
+  double share_at_rest = 0.0;  ///< of the samples slower than kMovingShare of the peak speed
+};
+
+/// The middle nine tenths of the values lie within a tenth of their median.
+[[nodiscard]] bool hardly_changes(const Eigen::VectorXd& values);
+
+/// Find out what kind of movement a smooth path is. Discrete: it rests for kMovingHold_s at least at both
+/// ends. Periodic: not discrete, at least two cycles along its main axis, whose standard deviation is below a
+/// quarter of their mean. Closed: its straight trend moves it in a cycle by less than a quarter of its
+/// extent.
+[[nodiscard]] PathFrame recognise(const PathSamples& path);
+
+/// Values that measures share.
+struct PathFacts {
+  PathFacts(const PathSamples& samples, const PathFrame& settled);
+
+  const PathSamples& path;  ///< the stretch
+  const PathFrame& frame;   ///< what was settled
+  Eigen::VectorXd speed;    ///< of the stretch, m/s
+  MovementWindow window;    ///< onset and end, s from the first sample of the stretch
+  PathSamples movement;  ///< of a discrete movement the part from 50 ms before onset to 50 ms behind the end
+  Eigen::VectorXd moving_speed;  ///< of the movement, m/s
+  PrincipalAxes principal;       ///< of the stretch
+  SeriesMatrix along;            ///< the stretch along its principal axes, m
+  Cycles cycles;                 ///< along the settled axis
+  EllipseAxes ellipse;           ///< in the best-fit plane
+  Diameters distances;           ///< between samples
+  Eigen::Vector3d box;           ///< the smallest, descending
+};
+
+}  // namespace kinemark::analysis

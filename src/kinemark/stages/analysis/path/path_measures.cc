@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/path_measures.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "kinemark/core/enum_names.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/nearest_name.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/core/text.h"
+#include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/measured_path.h"
+
+namespace kinemark::analysis {
+namespace {
+
+const PathDefinition* find_definition(std::string_view id) {
+  for (const auto& definition : path_definitions())
+    if (definition.what.id == id) return &definition;
+  return nullptr;
+}
+
+Status check_regions(const TimeBase& time, const std::vector<data::Region>& regions) {
+  const std::int64_t first = time.number(0), last = time.number(time.frames - 1);
+  for (const auto& region : regions) {
+    if (region.first_frame > region.last_frame)
+      return fail(Code::bad_input, fmt::format("region '{}' ends in frame {}, before it begins in frame {}",
+                                               region.name, region.last_frame, region.first_frame));
+    if (region.first_frame > last || region.last_frame < first)
+      return fail(
+          Code::bad_input,
+          fmt::format("region '{}', frames {} to {}, lies outside the recording, whose frames are {} to {}",
+                      region.name, region.first_frame, region.last_frame, first, last));
+  }
+  return {};
+}
+
+// What one marker gives: its measures, and sentences about what it does not give.
+PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t marker,
+                            const PathMeasureOptions& options) {
+  PathMeasures out;
+  auto path = MeasuredPath::create(markers, marker, options);
+  if (!path) {
+    out.warnings.push_back(path.error());
+    return out;
+  }
+  if (!path->warning().empty()) out.warnings.push_back(path->warning());
+  const std::vector<data::Region> whole{
+      {.first_frame = markers.time.number(0), .last_frame = markers.time.number(markers.frames() - 1)}};
+  for (const auto& region : options.regions.empty() ? whole : options.regions) {
+    auto measures = path->measure(region);
+    if (!measures) {
+      out.warnings.push_back(fmt::format(
+          "{}{}: {}", path->name(), region.name.empty() ? "" : fmt::format(" in region '{}'", region.name),
+          measures.error()));
+      continue;
+    }
+    std::ranges::move(*measures, std::back_inserter(out.measures));
+  }
+  return out;
+}
+
+}  // namespace
+
+Status PathMeasureOptions::check() const {
+  if (refits != 0 && refits < 39)
+    return fail(Code::usage, fmt::format("{} refits; need 0 (no intervals) or at least 39", refits));
+  if (!(level > 0.5 && level < 1.0))
+    return fail(Code::usage, fmt::format("intervals of level {}; need one above 0.5 and below 1", level));
+  if (!(noise_sd_m >= 0.0) || !std::isfinite(noise_sd_m))
+    return fail(Code::usage,
+                fmt::format("a noise of {} m; need 0 (found from the data) or more", noise_sd_m));
+  for (const auto& id : measures)
+    if (!find_definition(id)) {
+      std::vector<std::string> known;
+      for (const auto& definition : path_definitions()) known.emplace_back(definition.what.id);
+      const auto nearest = nearest_names(id, known);
+      return fail(Code::usage,
+                  fmt::format("there is no measure '{}'{}; --list shows them all", id,
+                              nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+    }
+  return {};
+}
+
+Result<PathMeasures> measure_paths(const data::Trajectories& markers, const PathMeasureOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (markers.markers() == 0 || markers.frames() == 0)
+    return fail(Code::bad_input, "there are no markers to measure; need at least one with samples");
+  if (!(markers.time.rate_hz > 0.0))
+    return fail(Code::bad_input, "the recording has no frame rate; measures of movement need one");
+  if (auto s = check_regions(markers.time, options.regions); !s) return std::unexpected(s.error());
+  std::vector<PathMeasures> each(at(markers.markers()));
+  parallel_for(markers.markers(), 1, options.threads, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t m = begin; m < end; ++m) each[at(m)] = measure_marker(markers, m, options);
+  });
+  PathMeasures out;
+  for (auto& one : each) {
+    std::ranges::move(one.measures, std::back_inserter(out.measures));
+    std::ranges::move(one.warnings, std::back_inserter(out.warnings));
+  }
+  return out;
+}
+
+}  // namespace kinemark::analysis

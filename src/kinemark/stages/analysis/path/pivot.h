@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// From what noise does to a measure, to its value without bias and its interval.
+#pragma once
+
+#include <span>
+
+#include "kinemark/core/missing.h"
+
+namespace kinemark::analysis {
+
+/// A value without its bias, and where the truth lies.
+struct Pivoted {
+  double value = kNaN;  ///< the estimate less the mean deviation
+  double sd = kNaN;     ///< of the deviations
+  double low = kNaN;    ///< the estimate less the upper quantile of the deviations
+  double high = kNaN;   ///< the estimate less the lower quantile
+};
+
+/// The pivot of an estimate: deviations of refits from what they were made of stand for its own deviation
+/// from the truth. Quantiles at (S + 1) p of S deviations, exact for exchangeable ones (Weibull).
+/// @param deviations  values of refits less the value of their path; NaN (a measure that a refit does not
+/// determine)
+///                    is left out, and nothing is said where more than a tenth are
+[[nodiscard]] Pivoted pivot(double estimate, std::span<const double> deviations, double level);
+
+/// The same for a measure that is a root of a mean of squares, on the squares, where noise adds a constant.
+/// @param deviations  differences of squares
+/// @return            value and ends as roots, those of negative squares as 0; sd to first order, NaN at 0
+[[nodiscard]] Pivoted pivot_of_square(double estimate, std::span<const double> deviations, double level);
+
+}  // namespace kinemark::analysis

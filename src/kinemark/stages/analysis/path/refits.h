@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What noise does to a measure: the path that was found, with new noise, smoothed as the recording was.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/math/smoothing_choice.h"
+#include "kinemark/stages/analysis/path/path_samples.h"
+
+namespace kinemark::analysis {
+
+/// Factors on the cut-off of least error: smoothed less, a measure keeps more noise and loses less movement,
+/// and what is left of the noise is known from refits.
+inline constexpr double kLessSmooth = 1.5;
+/// For intervals of third derivatives.
+inline constexpr double kLeastSmooth = 2.5;
+
+/// One recording of a point and how it is smoothed.
+struct Recording {
+  SeriesMatrix x;                ///< n x 3, m; missing samples hold any finite number
+  std::vector<bool> seen;        ///< n
+  double rate_hz = 0.0;          ///< above 0
+  double noise_sd_m = 0.0;       ///< per axis, above 0
+  math::SmoothingChoice choice;  ///< of least expected error
+};
+
+/// The recording smoothed with the cut-off of least error times `factor`, at most 0.45 cycles per sample.
+[[nodiscard]] SeriesMatrix smoothed(const Recording& recording, double factor);
+
+/// The smoothed path without the energy that noise is expected to have left in it: increments shrunk locally,
+/// then principal components, so that it rests where the point rests and lies in a plane where the path does.
+/// In movement it is the smoothed path.
+/// @param first, count  the stretch that is measured; its mean and components are kept and shrunk
+[[nodiscard]] SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int64_t count,
+                                      std::uint64_t seed, std::uint64_t stream);
+
+/// For every simulated recording of `path`: call `visit` with its number and with the smoothed path of it at
+/// kLessSmooth and kLeastSmooth. Noise is white, of the recording's SD, on seen samples; that of refit k
+/// comes from stream (stream, k) of the seed, whatever else is computed.
+void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::int64_t refits,
+                    std::uint64_t seed, std::uint64_t stream,
+                    const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit);
+
+/// White noise of `sd` added to seen samples, from stream (stream, number) of the seed.
+[[nodiscard]] SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen, double sd,
+                                      std::uint64_t seed, std::uint64_t stream, std::int64_t number);
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/shape.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "kinemark/stages/analysis/path/testing/known_path.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using testing::kTurn;
+
+const Eigen::Matrix3d kTilt = (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
+                               Eigen::AngleAxisd(-1.1, Eigen::Vector3d::UnitY()))
+                                  .toRotationMatrix();
+const Eigen::Vector3d kPlace(1.0, -2.0, 0.5);
+
+// x(t), y(t), z(t) in a tilted frame, somewhere.
+template <class Own>
+PathSamples tilted(std::int64_t n, double rate_hz, const Own& own) {
+  return testing::path_of(n, rate_hz, [&](double t) -> Eigen::Vector3d { return kPlace + kTilt * own(t); });
+}
+
+PathSamples helix() {
+  return tilted(1208, 400.0, [](double t) {
+    return Eigen::Vector3d(0.3 * std::cos(4 * t), 0.3 * std::sin(4 * t), 0.2 * t);
+  });
+}
+
+TEST(Derivatives, AreExactForPolynomials) {
+  const auto cubic = [](double t) { return Eigen::Vector3d(t * t * t, 2.0 * t * t, -t); };
+  const auto path = testing::path_of(40, 20.0, cubic);
+  for (std::int64_t i = 0; i < path.count(); ++i) {
+    const double t = static_cast<double>(i + kDerivativeMargin) / 20.0;
+    EXPECT_NEAR((path.v.row(i) - Eigen::RowVector3d(3 * t * t, 4 * t, -1)).norm(), 0.0, 1e-11);
+    EXPECT_NEAR((path.a.row(i) - Eigen::RowVector3d(6 * t, 4, 0)).norm(), 0.0, 1e-10);
+    EXPECT_NEAR((path.j.row(i) - Eigen::RowVector3d(6, 0, 0)).norm(), 0.0, 1e-8);
+  }
+}
+
+TEST(PathLength, OfAHelixIsItsArc) {
+  // Chords of a finely sampled helix: shorter by (0.01 rad)^2 / 24.
+  const auto path = helix();
+  const double duration = static_cast<double>(path.count() - 1) / 400.0;
+  EXPECT_NEAR(path_length(path.x), duration * std::hypot(1.2, 0.2), 1e-5 * duration);
+  EXPECT_NEAR(straightness(testing::sampled(9, 1.0, [](double t) { return Eigen::Vector3d(t, 2 * t, 0); })),
+              1.0, 1e-15);
+  EXPECT_EQ(path_length(SeriesMatrix::Zero(1, 3)), 0.0);
+  EXPECT_TRUE(std::isnan(straightness(SeriesMatrix::Zero(5, 3))));
+}
+
+TEST(Plane, DistanceAndAxesOfATiltedRectangleOfPoints) {
+  // Coordinates of +-a, +-b, +-c, each sign with each: variances a^2, b^2, c^2.
+  SeriesMatrix x(8, 3);
+  for (int k = 0; k < 8; ++k)
+    x.row(k) =
+        (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : -0.3, k & 2 ? 0.1 : -0.1, k & 4 ? 0.002 : -0.002))
+            .transpose();
+  const auto axes = principal_axes(x);
+  EXPECT_NEAR(std::sqrt(axes.variance[2]), 0.002, 1e-12);
+  EXPECT_NEAR(std::sqrt(axes.variance[0] / axes.variance[1]), 3.0, 1e-9);
+  EXPECT_NEAR(std::abs(axes.axes.col(2).dot(kTilt.col(2))), 1.0, 1e-12);
+  EXPECT_NEAR(axes.axes.determinant(), 1.0, 1e-12);
+}
+
+TEST(Circle, DiameterOfAnArcAndOfTheWholeInATiltedPlane) {
+  for (const double share : {0.2, 1.0}) {
+    const auto path = tilted(200, 192.0, [share](double t) {
+      return Eigen::Vector3d(0.17 * std::cos(kTurn * share * t), 0.17 * std::sin(kTurn * share * t), 0.0);
+    });
+    EXPECT_NEAR(circle_diameter(along_axes(path.x, principal_axes(path.x))), 0.34, 1e-9) << share;
+  }
+  EXPECT_TRUE(std::isnan(circle_diameter(SeriesMatrix::Zero(10, 3))));
+}
+
+TEST(Ellipse, AxesOfATiltedOneAndNoneOfALine) {
+  const auto path = tilted(150, 100.0, [](double t) {
+    return Eigen::Vector3d(0.2 * std::cos(kTurn * t), 0.05 * std::sin(kTurn * t), 0);
+  });
+  const auto axes = ellipse_axes(along_axes(path.x, principal_axes(path.x)));
+  EXPECT_NEAR(axes.major, 0.4, 1e-9);
+  EXPECT_NEAR(axes.minor, 0.1, 1e-9);
+  EXPECT_TRUE(std::isnan(ellipse_axes(SeriesMatrix::Zero(9, 3)).major));
+}
+
+TEST(Diameters, OfAWheelAreItsDiameter) {
+  // 40 samples a turn: each has one right across.
+  const auto path = tilted(168, 40.0, [](double t) {
+    return Eigen::Vector3d(0.15 * std::cos(kTurn * t), 0.15 * std::sin(kTurn * t), 0);
+  });
+  const auto found = diameters(path.x);
+  EXPECT_NEAR(found.median_farthest, 0.3, 1e-9);
+  EXPECT_NEAR(found.largest, 0.3, 1e-9);
+}
+
+TEST(SmallestBox, OfTheCornersOfATiltedBox) {
+  SeriesMatrix x(9, 3);
+  for (int k = 0; k < 8; ++k)
+    x.row(k) = (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : 0.0, k & 2 ? 0.2 : 0.0, k & 4 ? 0.05 : 0.0))
+                   .transpose();
+  x.row(8) = (kPlace + kTilt * Eigen::Vector3d(0.29, 0.01, 0.01)).transpose();  // turns the principal axes
+  const auto sides = smallest_box(x);
+  EXPECT_NEAR(sides[0], 0.3, 1e-9);
+  EXPECT_NEAR(sides[1], 0.2, 1e-9);
+  EXPECT_NEAR(sides[2], 0.05, 1e-9);
+}
+
+TEST(SmallestBox, OfAFlatPathIsItsSmallestRectangle) {
+  // A right triangle: the rectangle of its legs, which no principal axis follows.
+  SeriesMatrix x(3, 3);
+  x.row(0) = kPlace.transpose();
+  x.row(1) = (kPlace + kTilt * Eigen::Vector3d(0.4, 0, 0)).transpose();
+  x.row(2) = (kPlace + kTilt * Eigen::Vector3d(0, 0.3, 0)).transpose();
+  const auto sides = smallest_box(x);
+  EXPECT_NEAR(sides[0] * sides[1], 0.12, 1e-9);
+  EXPECT_NEAR(sides[2], 0.0, 1e-9);
+}
+
+TEST(SmallestBox, IsNeverLargerThanThatOfThePrincipalAxes) {
+  Random random(4, 0);
+  for (int set = 0; set < 50; ++set) {
+    SeriesMatrix x(60, 3);
+    for (double& value : x.reshaped()) value = random.gaussian();
+    const SeriesMatrix along = along_axes(x, principal_axes(x));
+    const double volume = (along.colwise().maxCoeff() - along.colwise().minCoeff()).prod();
+    const auto sides = smallest_box(x);
+    EXPECT_LE(sides.prod(), volume * (1.0 + 1e-9));
+    EXPECT_GE(sides[0], sides[1]);
+    EXPECT_GE(sides[1], sides[2]);
+  }
+}
+
+TEST(Curvature, AndTorsionOfAHelixAreThoseOfItsFormula) {
+  // r / (r^2 + c^2), c / (r^2 + c^2) with pitch c = speed along the axis over turning speed.
+  const double r = 0.3, c = 0.2 / 4.0;
+  EXPECT_NEAR(median_curvature(helix()), r / (r * r + c * c), 1e-9);
+  EXPECT_NEAR(median_torsion(helix()), c / (r * r + c * c), 1e-7);
+}
+
+TEST(PowerLaw, ExponentOfAHarmonicEllipseIsAThird) {
+  const auto path = tilted(
+      808, 400.0, [](double t) { return Eigen::Vector3d(0.2 * std::cos(5 * t), 0.07 * std::sin(5 * t), 0); });
+  EXPECT_NEAR(power_law_exponent(path), 1.0 / 3.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace kinemark::analysis

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/stated_measure.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kinemark/stages/analysis/path/pivot.h"
+#include "kinemark/stages/analysis/path/refits.h"
+
+namespace kinemark::analysis {
+namespace {
+
+constexpr double kRestCounts =
+    0.05;                         // share of a stretch at rest from which a path's length is an upper bound
+constexpr double kTooWide = 0.5;  // half-width over value
+
+void remark(data::Measure& measure, std::string_view sentence) {
+  if (!measure.remark.empty()) measure.remark += "; ";
+  measure.remark += sentence;
+}
+
+void only_at_most(data::Measure& measure, std::string_view why) {
+  measure.interval.kind = data::IntervalKind::at_most;
+  measure.interval.low = kNaN;
+  remark(measure, why);
+}
+
+std::string method_of(const PathDefinition& definition, const StretchSummary& stretch) {
+  if (definition.pivot == Pivot::raw_squared)
+    return stretch.refits > 0 ? fmt::format("unsmoothed, {} refits of noise", stretch.refits) : "unsmoothed";
+  std::string out = fmt::format("order {}, {:.3g} Hz", stretch.order, kLessSmooth * stretch.cut_off_hz);
+  if (stretch.refits == 0) return out;
+  if (definition.pivot == Pivot::of_derivative)
+    out += fmt::format(", interval {:.3g} Hz", kLeastSmooth * stretch.cut_off_hz);
+  return out + fmt::format(", {} refits", stretch.refits);
+}
+
+// Values whose half-width over them says something: sizes, not instants and logarithms.
+bool is_size(const PathDefinition& definition) {
+  return definition.what.quantity != data::Quantity::time &&
+         definition.what.quantity != data::Quantity::ratio &&
+         definition.what.quantity != data::Quantity::count;
+}
+
+// Sizes cannot be below 0, whatever the bias that is taken off.
+double at_least_none(const PathDefinition& definition, double value) {
+  return is_size(definition) ? std::max(0.0, value) : value;
+}
+
+// Why there is no interval, or an empty text.
+std::string no_interval(const PathDefinition& definition, const StretchSummary& stretch) {
+  if (stretch.refits == 0) return "no interval was asked for";
+  if (stretch.longest_gap_s > kLongestGap_s)
+    return fmt::format("no interval: what happened in a gap of {:.2g} s is not known", stretch.longest_gap_s);
+  if (stretch.below_noise && definition.pivot != Pivot::raw_squared)
+    return fmt::format("no interval: the movement about its slow trend is below half the noise of {:.2g} mm",
+                       1e3 * stretch.noise_sd_m);
+  return {};
+}
+
+void put_interval(data::Measure& measure, const PathDefinition& definition, const Pivoted& pivoted,
+                  const PathFrame& frame) {
+  auto& interval = measure.interval;
+  interval.kind = data::IntervalKind::two_sided;
+  interval.low = at_least_none(definition, pivoted.low);
+  interval.high = at_least_none(definition, pivoted.high);
+  interval.approximate = definition.weakness == Weakness::approximate ||
+                         (definition.weakness == Weakness::approximate_if_discrete && frame.discrete);
+  const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
+  if (square && pivoted.low <= 0.0)
+    only_at_most(measure, "not distinguishable from 0");
+  else if (definition.weakness == Weakness::lengthened_at_rest && frame.share_at_rest > kRestCounts)
+    only_at_most(measure, fmt::format("{:.0f} % of the stretch are at rest, where noise can only lengthen",
+                                      100.0 * frame.share_at_rest));
+  else if (definition.weakness == Weakness::extreme_of_constant && frame.steady)
+    only_at_most(measure, "the speed hardly changes, so that its largest value is the noise's");
+  else if (definition.weakness == Weakness::upper_alone)
+    only_at_most(measure, "noise can only lengthen it");
+  else if (definition.weakness == Weakness::upper_alone_if_discrete && frame.discrete)
+    only_at_most(measure, "a start has jerk that no filter passes");
+  if (interval.kind == data::IntervalKind::two_sided && is_size(definition) &&
+      0.5 * (interval.high - interval.low) > kTooWide * std::abs(measure.value))
+    remark(measure, "the interval is too wide to support a claim");
+}
+
+}  // namespace
+
+data::Measure state_measure(const PathDefinition& definition, const StretchSummary& stretch,
+                            const PathFrame& frame, const MeasureNumbers& numbers) {
+  data::Measure out{.id = std::string(definition.what.id),
+                    .subject = stretch.subject,
+                    .region = stretch.region,
+                    .start_s = stretch.start_s,
+                    .end_s = stretch.end_s,
+                    .quantity = definition.what.quantity};
+  out.share_not_measured = stretch.share_not_measured;
+  out.method = method_of(definition, stretch);
+  out.interval.level = stretch.level;
+  const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
+  const auto pivoted = square ? pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
+                              : pivot(numbers.estimate, numbers.deviations, stretch.level);
+  const std::string why_none = no_interval(definition, stretch);
+  if (definition.weakness == Weakness::needs_change && frame.steady) {
+    remark(out, "the speed hardly changes");
+    return out;
+  }
+  if (!std::isfinite(numbers.estimate)) {
+    remark(out, definition.applies == Applies::discrete   ? "the stretch does not begin and end at rest"
+                : definition.applies == Applies::periodic ? "the movement does not repeat"
+                : definition.applies == Applies::closed   ? "the movement does not come back to where it was"
+                                                          : "too little movement");
+    return out;
+  }
+  out.uncorrected = numbers.estimate;
+  out.value = at_least_none(definition, std::isfinite(pivoted.value) ? pivoted.value : numbers.estimate);
+  if (definition.pivot == Pivot::whole_number) out.value = std::round(out.value);
+  if (!why_none.empty()) {
+    remark(out, why_none);
+    return out;
+  }
+  if (!std::isfinite(pivoted.value)) {
+    remark(out, "no interval: too many of the refits do not determine it");
+    return out;
+  }
+  out.sd = pivoted.sd;
+  Pivoted ends = pivoted;
+  if (definition.pivot == Pivot::of_derivative)
+    ends = pivot(numbers.estimate_of_interval, numbers.deviations_of_interval, stretch.level);
+  if (definition.pivot == Pivot::of_derivative && !(ends.low <= out.value && out.value <= ends.high)) {
+    out.value = at_least_none(definition, ends.value);  // as the interval has it
+    out.uncorrected = numbers.estimate_of_interval;
+    out.sd = ends.sd;
+    remark(out, "depends on how strongly the path is smoothed: value and interval of the weaker smoothing");
+  }
+  if (std::isfinite(ends.low)) put_interval(out, definition, ends, frame);
+  return out;
+}
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What may be said of a measure: its value, which kind of interval is honest, and the remark that belongs to
+// it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/data/measure.h"
+#include "kinemark/stages/analysis/path/definitions.h"
+
+namespace kinemark::analysis {
+
+/// What all measures of a stretch share.
+struct StretchSummary {
+  std::string subject;              ///< marker
+  std::string region;               ///< its name
+  double start_s = kNaN;            ///< first sample, on the recording's clock
+  double end_s = kNaN;              ///< last sample
+  double share_not_measured = 0.0;  ///< of its samples
+  double longest_gap_s = 0.0;       ///< in it
+  bool below_noise = false;         ///< it moves about its slow trend by half the noise at most
+  double noise_sd_m = 0.0;          ///< per axis
+  double cut_off_hz = kNaN;         ///< of least expected error
+  int order = 0;                    ///< of the smoother
+  double level = 0.95;              ///< of the intervals
+  std::int64_t refits = 0;          ///< behind them; 0: no intervals
+};
+
+/// Numbers of one measure. Deviations as Pivot says, of squares where it says so.
+struct MeasureNumbers {
+  double estimate = kNaN;              ///< of the path smoothed with kLessSmooth, or unsmoothed
+  double estimate_of_interval = kNaN;  ///< of that with kLeastSmooth, where the interval comes from it
+  std::span<const double> deviations;  ///< of the refits
+  std::span<const double> deviations_of_interval;  ///< of those with kLeastSmooth
+};
+
+/// Longest gap across which intervals were tried; there is none beyond it, s.
+inline constexpr double kLongestGap_s = 0.2;
+
+/// A measure with all that belongs to it; valid by Measure::validate().
+[[nodiscard]] data::Measure state_measure(const PathDefinition& definition, const StretchSummary& stretch,
+                                          const PathFrame& frame, const MeasureNumbers& numbers);
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/stated_measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace kinemark::analysis {
+namespace {
+
+const PathDefinition& definition(std::string_view id) {
+  for (const auto& d : path_definitions())
+    if (d.what.id == id) return d;
+  throw std::invalid_argument("no such measure");
+}
+
+std::vector<double> around(double middle, double spread) {
+  std::vector<double> out;
+  for (int k = -49; k <= 49; ++k) out.push_back(middle + spread * k / 49.0);
+  return out;
+}
+
+class StatedMeasure : public ::testing::Test {
+ protected:
+  StretchSummary stretch_{.subject = "RFIN",
+                          .start_s = 0.0,
+                          .end_s = 2.0,
+                          .noise_sd_m = 1e-3,
+                          .cut_off_hz = 5.0,
+                          .order = 4,
+                          .refits = 99};
+  PathFrame frame_;
+
+  data::Measure tell(std::string_view id, double estimate, double middle, double spread) {
+    const auto deviations = around(middle, spread);
+    const auto out = state_measure(definition(id), stretch_, frame_,
+                                   {.estimate = estimate,
+                                    .estimate_of_interval = estimate,
+                                    .deviations = deviations,
+                                    .deviations_of_interval = deviations});
+    EXPECT_TRUE(out.validate()) << id;
+    return out;
+  }
+  static bool says(const data::Measure& measure, std::string_view words) {
+    return measure.remark.find(words) != std::string::npos;
+  }
+};
+
+TEST_F(StatedMeasure, HasTheBiasTakenOffAndATwoSidedInterval) {
+  const auto m = tell("path_length", 1.0, 0.02, 0.05);
+  EXPECT_NEAR(m.value, 0.98, 1e-12);
+  EXPECT_EQ(m.uncorrected, 1.0);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(m.interval.approximate);
+  EXPECT_TRUE(m.remark.empty()) << m.remark;
+  EXPECT_EQ(m.method, "order 4, 7.5 Hz, 99 refits");
+  EXPECT_EQ(m.subject, "RFIN");
+}
+
+TEST_F(StatedMeasure, LengthsAcrossARestAreAtMost) {
+  frame_.share_at_rest = 0.4;
+  const auto m = tell("path_length", 1.0, 0.02, 0.05);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
+  EXPECT_TRUE(says(m, "40 % of the stretch are at rest"));
+  EXPECT_EQ(tell("movement_path", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+  frame_.share_at_rest = 0.01;
+  EXPECT_FALSE(says(tell("path_length", 1.0, 0.02, 0.05), "at rest"));
+}
+
+TEST_F(StatedMeasure, PeaksOfAConstantSpeedAreAtMost) {
+  EXPECT_EQ(tell("peak_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+  frame_.steady = true;
+  const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
+  EXPECT_TRUE(says(m, "hardly changes"));
+  EXPECT_EQ(tell("mean_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+}
+
+TEST_F(StatedMeasure, ThicknessThatMayBeNoneSaysSo) {
+  const auto none = tell("plane_sd", 1e-3, 0.9e-6, 0.4e-6);
+  EXPECT_EQ(none.interval.kind, data::IntervalKind::at_most);
+  EXPECT_TRUE(says(none, "not distinguishable from 0"));
+  const auto some = tell("plane_sd", 5e-3, 0.9e-6, 0.4e-6);
+  EXPECT_EQ(some.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(some, "not distinguishable"));
+  EXPECT_NEAR(some.value, std::sqrt(25e-6 - 0.9e-6), 1e-9);
+}
+
+TEST_F(StatedMeasure, NoIntervalBelowTheNoiseButForTremor) {
+  stretch_.below_noise = true;
+  const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
+  EXPECT_TRUE(says(m, "below half the noise of 1 mm"));
+  EXPECT_NE(tell("tremor", 2e-3, 1e-6, 0.2e-6).interval.kind, data::IntervalKind::none);
+  stretch_.below_noise = false;
+  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.02, 0.05), "below half the noise"));
+}
+
+TEST_F(StatedMeasure, NoIntervalAcrossALongGap) {
+  stretch_.longest_gap_s = 0.5;
+  const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
+  EXPECT_TRUE(says(m, "gap of 0.5 s"));
+  EXPECT_NEAR(m.value, 0.98, 1e-12);
+  stretch_.longest_gap_s = 0.1;
+  EXPECT_EQ(tell("peak_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+}
+
+TEST_F(StatedMeasure, NoIntervalThatNobodyAskedFor) {
+  stretch_.refits = 0;
+  const auto m = state_measure(definition("mean_speed"), stretch_, frame_, {.estimate = 0.4});
+  EXPECT_EQ(m.value, 0.4);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
+  EXPECT_TRUE(says(m, "no interval was asked for"));
+  EXPECT_EQ(m.method, "order 4, 7.5 Hz");
+}
+
+TEST_F(StatedMeasure, TooWideIntervalsSupportNoClaim) {
+  EXPECT_TRUE(says(tell("peak_speed", 1.0, 0.0, 0.6), "too wide to support a claim"));
+  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.0, 0.4), "too wide"));
+  EXPECT_FALSE(says(tell("onset", 0.1, 0.0, 0.6), "too wide"));  // an instant has no size
+}
+
+TEST_F(StatedMeasure, ApproximateIntervalsAreMarked) {
+  EXPECT_TRUE(tell("extent_long", 1.0, 0.0, 0.1).interval.approximate);
+  EXPECT_FALSE(tell("sparc", -1.5, 0.0, 0.1).interval.approximate);
+  frame_.discrete = true;
+  EXPECT_TRUE(tell("sparc", -1.5, 0.0, 0.1).interval.approximate);
+}
+
+TEST_F(StatedMeasure, IntervalsOfJerkComeFromTheLeastSmoothed) {
+  const auto near = around(0.0, 0.1), far = around(0.0, 0.4);
+  const auto m = state_measure(
+      definition("rms_jerk"), stretch_, frame_,
+      {.estimate = 5.0, .estimate_of_interval = 5.2, .deviations = near, .deviations_of_interval = far});
+  EXPECT_NEAR(m.value, 5.0, 1e-12);
+  EXPECT_NEAR(0.5 * (m.interval.low + m.interval.high), 5.2, 1e-9);
+  EXPECT_EQ(m.method, "order 4, 7.5 Hz, interval 12.5 Hz, 99 refits");
+}
+
+TEST_F(StatedMeasure, ValuesThatDependOnTheSmoothingSaySo) {
+  const auto near = around(0.0, 0.1), far = around(3.0, 0.4);
+  const auto m = state_measure(
+      definition("curvature"), stretch_, frame_,
+      {.estimate = 5.0, .estimate_of_interval = 6.0, .deviations = near, .deviations_of_interval = far});
+  EXPECT_NEAR(m.value, 3.0, 1e-12);
+  EXPECT_LT(m.interval.low, 3.0);
+  EXPECT_GT(m.interval.high, 3.0);
+  EXPECT_TRUE(says(m, "depends on how strongly the path is smoothed"));
+  EXPECT_FALSE(says(tell("curvature", 5.0, 0.0, 0.1), "depends on how strongly"));
+}
+
+TEST_F(StatedMeasure, OnlyTheUpperEndWhereTheLowerFails) {
+  EXPECT_EQ(tell("box_height", 1.0, 0.1, 0.1).interval.kind, data::IntervalKind::at_most);
+  EXPECT_EQ(tell("ldlj", -5.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  frame_.discrete = true;
+  const auto m = tell("ldlj", -5.0, 0.0, 0.1);
+  EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
+  EXPECT_TRUE(says(m, "jerk that no filter passes"));
+}
+
+TEST_F(StatedMeasure, SizesAreNotBelowZero) {
+  const auto m = tell("extent_thick", 0.1, 0.3, 0.05);
+  EXPECT_EQ(m.value, 0.0);
+  EXPECT_EQ(m.interval.low, 0.0);
+  EXPECT_LT(tell("ldlj", -5.0, 0.1, 0.4).value, -5.0);
+}
+
+TEST_F(StatedMeasure, WhatNeedsAChangingSpeedSaysSo) {
+  EXPECT_TRUE(std::isfinite(tell("power_law_exponent", 0.33, 0.0, 0.1).value));
+  frame_.steady = true;
+  EXPECT_TRUE(says(tell("power_law_exponent", 0.33, 0.0, 0.1), "hardly changes"));
+  EXPECT_TRUE(std::isnan(tell("ldlj_speed", -5.0, 0.0, 0.1).value));
+}
+
+TEST_F(StatedMeasure, CountsAreWholeNumbers) { EXPECT_EQ(tell("submovements", 3.0, 0.2, 0.4).value, 3.0); }
+
+TEST_F(StatedMeasure, WhatIsNotDeterminedSaysWhy) {
+  EXPECT_TRUE(says(tell("onset", kNaN, 0.0, 0.1), "does not begin and end at rest"));
+  EXPECT_TRUE(says(tell("cycle_time", kNaN, 0.0, 0.1), "does not repeat"));
+  EXPECT_TRUE(says(tell("peak_speed", kNaN, 0.0, 0.1), "too little movement"));
+}
+
+TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {
+  std::vector<std::string_view> ids;
+  for (const auto& d : path_definitions()) {
+    EXPECT_FALSE(d.what.title.empty() || d.what.formula.empty() || d.what.source.empty()) << d.what.id;
+    EXPECT_EQ(std::ranges::count(ids, d.what.id), 0) << d.what.id;
+    ids.push_back(d.what.id);
+  }
+}
+
+}  // namespace
+}  // namespace kinemark::analysis

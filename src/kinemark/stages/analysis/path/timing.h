@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// When a movement begins, peaks, repeats and ends. Speeds are those of one point, m/s, at even samples; times
+// are counted from the first sample, s.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/stages/analysis/path/path_samples.h"
+
+namespace kinemark::analysis {
+
+/// Speed, n, m/s.
+[[nodiscard]] Eigen::VectorXd speed_of(const PathSamples& path);
+
+/// Share of the peak speed beyond which a point moves.
+inline constexpr double kMovingShare = 0.05;
+/// How long it must stay beyond it, s.
+inline constexpr double kMovingHold_s = 0.1;
+
+/// Begin and end of a movement, s from the first sample, by straight lines between samples.
+struct MovementWindow {
+  double onset_s = kNaN;  ///< NaN: it moves from the first sample on
+  double end_s = kNaN;    ///< NaN: it moves to the last sample
+};
+/// Where the speed first crosses kMovingShare of its peak and stays above for kMovingHold_s, and where it
+/// last falls below likewise. About 40 ms after the true start of a minimum-jerk reach of 0.7 s.
+[[nodiscard]] MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz);
+
+/// Number of submovements: peaks of the speed above a tenth of the largest that rise a twentieth of it above
+/// the higher of the valleys on both sides (prominence).
+[[nodiscard]] std::int64_t count_submovements(const Eigen::VectorXd& speed);
+
+/// Time from the first sample to the largest speed, s.
+[[nodiscard]] double time_to_peak(const Eigen::VectorXd& speed, double rate_hz);
+
+/// Duration of the cycles of a periodic movement, s.
+struct Cycles {
+  double mean_s = kNaN;    ///< NaN: fewer than two crossings
+  double sd_s = kNaN;      ///< between cycles; NaN: fewer than three crossings
+  std::int64_t count = 0;  ///< whole cycles
+};
+/// Upward crossings of zero of the positions along an axis, freed of their straight trend; crossings nearer
+/// to the one before than 0.4 of the median cycle are noise and do not count.
+[[nodiscard]] Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz);
+
+/// The direction in which positions freed of their straight trend spread most.
+[[nodiscard]] Eigen::Vector3d detrended_axis(const SeriesMatrix& x);
+
+/// Root of the mean square over the samples, axes added, of what lies between two frequencies, m: straight
+/// trend taken off, Hann window, periodogram.
+[[nodiscard]] double band_rms(const SeriesMatrix& x, double rate_hz, double low_hz, double high_hz);
+
+/// Frequency of the largest value of the periodogram above `low_hz`, Hz, by a parabola through its logarithm
+/// and those beside it; trend and window as band_rms().
+[[nodiscard]] double peak_frequency(const SeriesMatrix& x, double rate_hz, double low_hz);
+
+/// Positions without the straight line of least squares through them, axis by axis.
+[[nodiscard]] SeriesMatrix without_trend(const SeriesMatrix& x);
+
+}  // namespace kinemark::analysis

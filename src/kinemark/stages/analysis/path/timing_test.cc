@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/path/timing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/stages/analysis/path/path_facts.h"
+#include "kinemark/stages/analysis/path/testing/known_path.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using testing::kTurn;
+
+Eigen::VectorXd reach_speed(double rate_hz) {
+  const auto n = static_cast<std::int64_t>(1.7 * rate_hz);
+  Eigen::VectorXd out(n);
+  for (std::int64_t i = 0; i < n; ++i)
+    out[i] = testing::minimum_jerk_speed((static_cast<double>(i) / rate_hz - 0.5) / 0.7);
+  return out;
+}
+
+TEST(MovementWindow, CrossesATwentiethOfThePeak) {
+  // 30 u^2 (1-u)^2 = 0.05 x 1.875: u (1-u) = sqrt(0.003125).
+  const double u = 0.5 - std::sqrt(0.25 - std::sqrt(0.003125));
+  const auto window = movement_window(reach_speed(1000.0), 1000.0);
+  EXPECT_NEAR(window.onset_s, 0.5 + 0.7 * u, 1e-5);
+  EXPECT_NEAR(window.end_s, 1.2 - 0.7 * u, 1e-5);
+}
+
+TEST(MovementWindow, PassesOverWhatIsShorterThanTheHold) {
+  Eigen::VectorXd speed = reach_speed(100.0);
+  speed.segment(10, 5).setConstant(1.0);  // a twitch of 50 ms
+  EXPECT_NEAR(movement_window(speed, 100.0).onset_s, movement_window(reach_speed(100.0), 100.0).onset_s,
+              1e-12);
+}
+
+TEST(MovementWindow, HasNoOnsetOfWhatMovesFromTheBeginning) {
+  const auto window = movement_window(Eigen::VectorXd::Ones(50), 100.0);
+  EXPECT_TRUE(std::isnan(window.onset_s));
+  EXPECT_TRUE(std::isnan(window.end_s));
+}
+
+TEST(Submovements, AreCountedByTheirPeaks) {
+  Eigen::VectorXd speed = Eigen::VectorXd::Zero(300);
+  for (int i = 0; i < 300; ++i)
+    for (const double begin : {0.5, 1.0, 1.5})
+      speed[i] += testing::minimum_jerk_speed((0.01 * i - begin) / 0.6);
+  EXPECT_EQ(count_submovements(speed), 3);
+  EXPECT_EQ(count_submovements(reach_speed(100.0)), 1);
+  Eigen::VectorXd ripple = reach_speed(100.0);
+  for (Eigen::Index i = 0; i < ripple.size(); ++i) ripple[i] += 0.02 * (i % 2);  // a hundredth of the peak
+  EXPECT_EQ(count_submovements(ripple), 1);
+  Eigen::VectorXd flat(6);
+  flat << 0, 1, 1, 1, 0, 0;  // a flat top is one peak
+  EXPECT_EQ(count_submovements(flat), 1);
+  EXPECT_EQ(count_submovements(Eigen::VectorXd()), 0);
+}
+
+TEST(Cycles, OfASineOnATrendAreItsPeriods) {
+  const auto x = testing::sampled(1000, 100.0, [](double t) {
+    return Eigen::Vector3d(0.1 * std::cos(kTurn * 0.8 * t) + 0.002 * t, 0.0, 0.3 * t);
+  });
+  const auto cycles = cycles_along(x, Eigen::Vector3d::UnitX(), 100.0);
+  EXPECT_NEAR(cycles.mean_s, 1.25, 1e-3);
+  EXPECT_LT(cycles.sd_s, 1e-3);
+  EXPECT_GE(cycles.count, 6);
+  EXPECT_EQ(cycles_along(testing::sampled(50, 100.0, testing::reach), Eigen::Vector3d::UnitX(), 100.0).count,
+            0);
+}
+
+TEST(DetrendedAxis, IsThatOfTheOscillationNotOfTheTrend) {
+  const auto x = testing::sampled(
+      600, 100.0, [](double t) { return Eigen::Vector3d(3.0 * t, 0.1 * std::sin(kTurn * t), 0.0); });
+  EXPECT_GT(std::abs(detrended_axis(x).y()), 0.999);
+}
+
+TEST(BandRms, OfASineInTheBandIsItsRms) {
+  const auto x = testing::sampled(1000, 100.0, [](double t) {
+    return Eigen::Vector3d(0.002 * std::sin(kTurn * 8.0 * t), 0.001 * std::cos(kTurn * 8.0 * t), 0.05 * t);
+  });
+  EXPECT_NEAR(band_rms(x, 100.0, 4.0, 12.0), std::sqrt(0.5 * (4e-6 + 1e-6)), 1e-6);
+  EXPECT_LT(band_rms(x, 100.0, 15.0, 30.0), 2e-5);
+  EXPECT_TRUE(std::isnan(band_rms(x.topRows(7), 100.0, 4.0, 12.0)));
+}
+
+TEST(PeakFrequency, IsFoundBetweenTheLinesOfThePeriodogram) {
+  const auto x = testing::sampled(
+      500, 100.0, [](double t) { return Eigen::Vector3d(std::sin(kTurn * 5.137 * t), 0.0, 2.0 * t); });
+  EXPECT_NEAR(peak_frequency(x, 100.0, 0.3), 5.137, 0.02);
+  EXPECT_TRUE(std::isnan(peak_frequency(x.topRows(5), 100.0, 0.3)));
+}
+
+TEST(Recognise, TellsReachesFromCycles) {
+  const auto reach = recognise(testing::path_of(170, 100.0, testing::reach));
+  EXPECT_TRUE(reach.discrete);
+  EXPECT_FALSE(reach.periodic);
+  EXPECT_GT(reach.share_at_rest, 0.5);
+  const auto cycle = recognise(testing::path_of(400, 100.0, testing::ellipse));
+  EXPECT_FALSE(cycle.discrete);
+  EXPECT_TRUE(cycle.periodic);
+  EXPECT_EQ(cycle.share_at_rest, 0.0);
+  // A part of a turn is neither.
+  const auto part = recognise(testing::path_of(60, 100.0, testing::ellipse));
+  EXPECT_FALSE(part.discrete || part.periodic);
+}
+
+TEST(Recognise, AWalkRepeatsAndDoesNotComeBack) {
+  const auto walk = recognise(testing::path_of(500, 100.0, [](double t) -> Eigen::Vector3d {
+    return testing::ellipse(t) + Eigen::Vector3d(0.0, 1.2 * t, 0.0);
+  }));
+  EXPECT_TRUE(walk.periodic);
+  EXPECT_FALSE(walk.closed);
+  EXPECT_TRUE(recognise(testing::path_of(400, 100.0, testing::ellipse)).closed);
+}
+
+TEST(Recognise, ASteadyWheelHardlyChangesItsSpeed) {
+  EXPECT_TRUE(recognise(testing::path_of(400, 100.0, [](double t) {
+                return Eigen::Vector3d(std::cos(testing::kTurn * t), std::sin(testing::kTurn * t), 0.0);
+              })).steady);
+  EXPECT_FALSE(recognise(testing::path_of(400, 100.0, testing::ellipse)).steady);
+}
+
+TEST(HardlyChanges, IsSaidOfSteadyValuesAlone) {
+  EXPECT_TRUE(hardly_changes(Eigen::VectorXd::LinSpaced(100, 0.96, 1.04)));
+  EXPECT_FALSE(hardly_changes(Eigen::VectorXd::LinSpaced(100, 0.8, 1.2)));
+}
+
+TEST(PathFacts, MovementOfAReachIsBetweenItsRests) {
+  const auto path = testing::path_of(170, 100.0, testing::reach);
+  const auto frame = recognise(path);
+  const PathFacts facts(path, frame);
+  EXPECT_NEAR(static_cast<double>(facts.movement.count()) / 100.0, 0.7 + 0.1 - 0.08, 0.03);
+  const auto cyclic = testing::path_of(400, 100.0, testing::ellipse);
+  const auto cyclic_frame = recognise(cyclic);
+  EXPECT_EQ(PathFacts(cyclic, cyclic_frame).movement.count(), cyclic.count());
+}
+
+}  // namespace
+}  // namespace kinemark::analysis
