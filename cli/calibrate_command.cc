@@ -28,6 +28,7 @@ int run_command(const CommonOptions& common, pipeline::CalibrateJob& job) {
   const auto outcome = pipeline::run_calibrate(job);
   if (!outcome) return report_error(outcome.error());
   if (const int status = outcome->exit_status(); status != 0) {
+    say_written(common, *outcome);
     // Nothing was found that could be told: the gate says why.
     (void)report_error({Code::bad_input, outcome->gates.back().sentence});
     return status;
@@ -59,6 +60,7 @@ void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run) {
       ->required();
   command->add_option("--nominal", job->nominal, "Rig as it was set up by hand, rig.toml")->required();
   auto* output = command->add_option("-o,--output", job->output, "Rig to write, rig.toml");
+  command->add_option("--report", job->report, "Also write the page that shows the result, R.html");
   auto* align = command->add_flag(
       "--align", job->align_only,
       "Only report how far the cameras are from their nominal poses, and the next adjustment");

@@ -69,6 +69,8 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
           "-o,--output", job.output,
           "Folder (centres.csv, centres.c3d, skeleton.json, segments.toml), or a file .c3d, .trc, .csv, .nwb")
       ->group("Output");
+  command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
+      ->group("Output");
   command
       ->add_option("--method", job.method,
                    "articulated, score, sara, gamage, gamage-plain, cylinder or constant-distance")

@@ -35,6 +35,7 @@ void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("INPUT", job->recording, "Recording of counts (.mcap)")->required();
   command->add_option("--rig", job->rig, "Calibrated rig, rig.toml")->required();
   command->add_option("-o,--output", job->output, "Markers to write: .c3d, .trc or .csv")->required();
+  command->add_option("--report", job->report, "Also write the page that shows the result, R.html");
   add_choice<Method>(
       *command, "--method", job->method,
       {{"smoother", Method::smoother}, {"frames", Method::frames}, {"classic", Method::classic}},

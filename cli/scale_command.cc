@@ -97,6 +97,8 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--end", job.adapt.ik.last_time_s, "Last time of the motion to use, s")->group("Input");
   add_axes_options(*command, job.axes);
   command->add_option("-o,--output", job.output, "Model to write, M.osim")->group("Output");
+  command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
+      ->group("Output");
   command->add_option("--mass", job.mass_kg, "Mass of the subject, kg")->group("Model");
   command
       ->add_flag("--dempster", job.dempster, "Distribute the mass over the segments by Dempster's fractions")

@@ -109,6 +109,8 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
   auto& a = *arguments;
   auto& options = a.job.options;
   add_motion_options(*command, a.job, a.motion);
+  command->add_option("--report", a.job.report, "Also write the page that shows the result, R.html")
+      ->group("Output");
   command
       ->add_option(
           "--level", a.levels,

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "studies/common/study_table.h"
@@ -25,10 +24,7 @@ struct StudyPage {
   StudyTable table;
 };
 
-/// The table alone, an HTML element: rows that fail have the class "fails".
-[[nodiscard]] std::string study_table_html(const StudyTable& table, std::string_view classic);
-
-/// One self-contained page: heading, figures, table. Nothing is fetched.
+/// One self-contained page in the design of all pages: bounds that are missed, figures, table.
 [[nodiscard]] std::string study_html(const StudyPage& page);
 
 }  // namespace kinemark::studies

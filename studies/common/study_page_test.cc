@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "kinemark/core/html_text.h"
@@ -35,45 +36,54 @@ TEST(HtmlText, EscapesWhatMarksUpAndNothingElse) {
   EXPECT_EQ(html_text(""), "");
 }
 
-TEST(StudyPage, HoldsFiguresAndTheTable) {
-  const auto html = study_html(example());
-  EXPECT_THAT(html, HasSubstr("<title>Study: arms &amp; legs</title>"));
-  EXPECT_THAT(html, HasSubstr("<p class=\"words\">a &lt; b</p>"));
-  EXPECT_THAT(html, HasSubstr("<figcaption>Errors</figcaption><svg id=\"one\"></svg>"));
-  EXPECT_THAT(html, HasSubstr("<th>1986 method</th>"));
-  EXPECT_THAT(html, HasSubstr("<tr><th>error</th><td>mm</td><td>30</td><td></td><td>2</td>"));
-  EXPECT_THAT(html, HasSubstr("<tr class=\"fails\"><th>share</th>"));
-  EXPECT_THAT(html, Not(HasSubstr("http")));  // nothing is fetched
+/// What the page holds, without the page around it.
+nlohmann::json data_of(const std::string& html) {
+  const std::string begin = "id=\"kinemark-data\">";
+  const auto from = html.find(begin) + begin.size();
+  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
 }
 
-TEST(StudyPage, FiguresComeBeforeTheTableInTheOrderGiven) {
+TEST(StudyPage, HoldsFiguresInOrderAndTheTable) {
   auto page = example();
   page.figures.push_back({"Later & last", "<p>second</p>"});
-  const auto html = study_html(page);
-  const auto first = html.find(">Errors<"), second = html.find(">Later &amp; last<"),
-             table = html.find("<table>");
-  ASSERT_NE(second, std::string::npos);
-  EXPECT_LT(first, second);
-  EXPECT_LT(second, table);
+  const auto data = data_of(study_html(page));
+  EXPECT_EQ(data["summary"]["kind"], "study");
+  EXPECT_EQ(data["summary"]["trial"], "Arms");
+  const auto& result = data["result"];
+  EXPECT_EQ(result["description"], "a < b");
+  EXPECT_EQ(result["classic"], "1986 method");
+  ASSERT_EQ(result["figures"].size(), 2U);
+  EXPECT_EQ(result["figures"][0]["body"], "<svg id=\"one\"></svg>");
+  EXPECT_EQ(result["figures"][1]["caption"], "Later & last");
+  ASSERT_EQ(result["rows"].size(), 2U);
+  EXPECT_EQ(result["rows"][0]["paper"], 30.0);
 }
 
-TEST(StudyPage, NumbersOfNoUnitHaveNone) {
+TEST(StudyPage, TellsWhichBoundsAreMissed) {
   auto page = example();
-  page.table.rows = {{.quantity = "ratio", .unit = "1", .ours = 1.05}};
-  EXPECT_THAT(study_html(page), HasSubstr("<th>ratio</th><td></td><td></td><td></td><td>1.05</td>"));
+  const auto missed = data_of(study_html(page))["summary"];
+  EXPECT_EQ(missed["verdict"], "attention");
+  ASSERT_EQ(missed["groups"].size(), 1U);
+  EXPECT_EQ(missed["groups"][0]["title"], "1 bound missed");
+  EXPECT_EQ(missed["groups"][0]["items"][0]["text"], "share: 1 %, asked is at least 2.");
+  page.table.rows.pop_back();
+  const auto met = data_of(study_html(page))["summary"];
+  EXPECT_EQ(met["verdict"], "good");
+  EXPECT_TRUE(met["groups"].empty());
 }
 
-TEST(StudyPage, RowsWithoutABoundSaySo) {
+TEST(StudyPage, ARowWithoutABoundMissesNone) {
   auto page = example();
   page.table.rows = {{.quantity = "count",
                       .unit = "1",
                       .ours = 4.0,
                       .expected = 3.0,
                       .expected_is = Expectation::predicted_sd}};
-  const auto html = study_html(page);
-  EXPECT_THAT(html, HasSubstr("<td>4</td><td>3 SD</td><td colspan=\"2\">no bound</td></tr>"));
-  EXPECT_THAT(html, HasSubstr("SD: the standard deviation that ours states"));
-  EXPECT_THAT(html, Not(HasSubstr("Cramer-Rao")));
+  const auto data = data_of(study_html(page));
+  EXPECT_EQ(data["summary"]["verdict"], "good");
+  EXPECT_THAT(data["result"]["columns"].get<std::string>(),
+              HasSubstr("SD: the standard deviation that ours states"));
+  EXPECT_THAT(data["result"]["columns"].get<std::string>(), Not(HasSubstr("Cramer-Rao")));
 }
 
 TEST(HtmlText, ShowsWhatHtmlWouldTakeForItsOwn) {

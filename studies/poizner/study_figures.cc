@@ -94,7 +94,8 @@ StudyPage study_page(const PoiznerStudy& study) {
   const Matrix3Xd classic_velocity = rates(arm.classic_paths[hand]);
   StudyPage out{.title = "Study: Poizner, Wooten and Salot 1986",
                 .heading = "The rig of 1986",
-                .description = fmt::format("Figures: rig {}. Table: {} rigs.", seed.seed, study.seeds.size()),
+                .description = fmt::format("Figures: rig {}. Table: {} {}.", seed.seed, study.seeds.size(),
+                                           study.seeds.size() == 1 ? "rig" : "rigs"),
                 .classic = "1986 method",
                 .figures = {},
                 .table = study.table};

@@ -63,11 +63,13 @@ TEST(StudyPoizner, OneRigMakesTheWholeTable) {
   EXPECT_EQ(json["pass"].get<bool>(), study->table.pass());
   EXPECT_TRUE(json["rows"][3]["paper"].is_null());
   EXPECT_THAT(study_text(study->table), HasSubstr("arm: hand, error of position"));
-  const auto page = study_html(study_page(*study));
-  EXPECT_THAT(page, HasSubstr("</html>"));
-  EXPECT_THAT(page, HasSubstr("Acceleration of the hand"));
-  EXPECT_EQ(page.find("nan"), std::string::npos);
-  EXPECT_EQ(page.find("http"), std::string::npos);  // nothing is fetched
+  const auto page = study_page(*study);
+  EXPECT_EQ(page.figures.back().caption, "Acceleration of the hand");
+  for (const auto& figure : page.figures) {
+    EXPECT_EQ(figure.body.find("nan"), std::string::npos) << figure.caption;
+    EXPECT_EQ(figure.body.find("http"), std::string::npos) << figure.caption << ": nothing is fetched";
+  }
+  EXPECT_THAT(study_html(page), HasSubstr("Acceleration of the hand"));
 }
 
 TEST(StudyPoizner, WhatIsExpectedIsOfTheRigWhoseResultIsShown) {

@@ -7,7 +7,7 @@ import math
 import random
 import unittest
 
-from support import CommandTest, read_csv, real_file
+from support import CommandTest, read_csv, real_file, report_data
 
 SEGMENTS = """
 [[segment]]
@@ -101,6 +101,16 @@ class Joints(CommandTest):
         self.refused(2, "out/segments.toml: is the file that is read", "joints", "arm.csv", "--segments", "out/segments.toml", "-o", "out", "--force")
         self.good("joints", "arm.csv", "--segments", "out/segments.toml", "-o", "again")
         self.good("joints", "arm.csv", "--segments", "segments.toml", "-o", "out", "--force")
+
+    def test_the_page_holds_the_document_and_the_skeleton_in_space(self):
+        self.good("joints", "arm.csv", "--segments", "segments.toml", "--report", "page.html", "-o", "out")
+        data = json.loads(report_data((self.folder / "page.html").read_text()))
+        self.assertEqual(data["summary"]["kind"], "joints")
+        self.assertEqual(data["result"]["joints"], json.loads((self.folder / "out" / "skeleton.json").read_text())["joints"])
+        self.assertEqual(data["scene"]["skeleton"]["names"], ["elbow"])
+        self.refused(4, ["page.html", "--force"], "joints", "arm.csv", "--segments", "segments.toml", "--report", "page.html", "-o", "other")
+        self.assertFalse((self.folder / "other").exists())
+        self.refused(2, "ends in .html", "joints", "arm.csv", "--segments", "segments.toml", "--report", "page.pdf")
 
     def test_segments_from_the_data(self):
         printed = json.loads(self.good("joints", "arm.csv", "--method", "score", "--json", "-o", "centres.csv").out)

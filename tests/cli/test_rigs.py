@@ -8,7 +8,7 @@ import math
 import re
 import unittest
 
-from support import CommandTest, run
+from support import CommandTest, report_data, run
 
 LED_KEYS = ["name", "frames", "located", "occluded", "saturated", "inconsistent", "near_edge"]
 FIT_KEYS = ["order", "cutoff_hz", "chi2_per_dof", "rejected", "held_down", "flicker_counts"]
@@ -45,6 +45,20 @@ class Rigs(CommandTest):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["rig.toml"])
         points = json.loads(self.good(*self.reconstruct("p.csv", "--method", "frames", "--json", rig="rig.toml")).out)
         self.assertGreater(sum(led["located"] for led in points["leds"]), 180)
+
+    def test_pages_show_cameras_points_and_what_to_turn(self):
+        self.calibrate("-o", "rig.toml", "--report", "rig.html", *QUICK)
+        data = json.loads(report_data((self.folder / "rig.html").read_text()))
+        self.assertEqual([camera["name"] for camera in data["scene"]["cameras"]], ["A", "B"] * 2)
+        self.assertEqual([camera["nominal"] for camera in data["scene"]["cameras"]], [False, False, True, True])
+        self.assertEqual(data["result"]["poses"], 300)
+        self.good(*self.reconstruct("p.c3d", "--method", "frames", "--report", "points.html"))
+        data = json.loads(report_data((self.folder / "points.html").read_text()))
+        self.assertEqual(data["summary"]["kind"], "reconstruct")
+        self.assertEqual(data["scene"]["names"], [led["name"] for led in data["result"]["leds"]])
+        self.assertEqual(sum(data["result"]["precision"][0]["samples"]), sum(led["located"] for led in data["result"]["leds"]))
+        self.refused(4, "points.html", *self.reconstruct("q.c3d", "--report", "points.html"))
+        self.assertFalse((self.folder / "q.c3d").exists())
 
     def test_alignment_alone_writes_nothing(self):
         ran = self.calibrate("--align", "--json")

@@ -4,7 +4,7 @@
 
 import json
 
-from support import POSITION, CommandTest, converted, real_file, run, write_csv
+from support import POSITION, CommandTest, converted, real_file, report_data, run, write_csv
 
 
 class Scale(CommandTest):
@@ -29,6 +29,13 @@ class Scale(CommandTest):
     def test_the_model_is_of_use_at_once(self):
         self.scale("--model", self.model, "--static", self.markers, "-o", "M.osim")
         self.good("ik", "-m", "M.osim", "-t", self.markers, "-o", "Q.mot")
+
+    def test_the_page_holds_the_report(self):
+        self.good("scale", "--model", self.model, "--markers", self.markers, "-o", "M.osim", "--report", "page.html")
+        data = json.loads(report_data((self.folder / "page.html").read_text()))
+        self.assertEqual(data["summary"]["kind"], "scale")
+        written = json.loads((self.folder / "M_report.json").read_text())
+        self.assertEqual(data["result"]["motion"], written["motion"])
 
     def test_json_is_the_report(self):
         ran = self.scale("-m", self.model, "-t", self.markers, "-o", "M.osim", "--json")

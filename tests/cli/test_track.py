@@ -5,7 +5,7 @@
 import json
 import unittest
 
-from support import CommandTest, run, table
+from support import CommandTest, report_data, run, table
 
 
 class Track(CommandTest):
@@ -40,6 +40,18 @@ class Track(CommandTest):
         self.assertEqual(len(rows), 100)
         self.assertTrue(all(row[1] == 6 for row in rows), "four markers of one body fix its six directions")
         self.assertEqual(table(self.folder / "q_tau_sd.sto")[0], table(self.folder / "q_tau.sto")[0])
+
+    def test_the_page_shows_torques_and_bodies_and_is_that_of_report(self):
+        self.good(*self.track(report="page.html"))
+        data = json.loads(report_data((self.folder / "page.html").read_text()))
+        self.assertEqual(data["summary"]["method"], "direct marker control")
+        self.assertGreater(data["summary"]["mass_kg"], 10)
+        self.assertEqual(len(data["series"]["torques"]), len(data["summary"]["coordinates"]))
+        self.assertIn("pelvis", data["scene"]["bodies"]["names"])
+        self.good("report", "q.mot", "-o", "again.html")
+        again = json.loads(report_data((self.folder / "again.html").read_text()))
+        self.assertEqual(again["scene"]["bodies"]["names"], data["scene"]["bodies"]["names"])
+        self.assertEqual([t is None for t in again["series"]["torques"]], [t is None for t in data["series"]["torques"]])
 
     def test_levels_of_priority(self):
         ran = self.good(*self.track(), "--level", "LASI,RASI,LPSI,RPSI", "--level", "*")

@@ -17,6 +17,8 @@ export interface Trial {
   frameStep: number;
   time: Float64Array;
   coordinates: CoordinateSeries[];
+  /** N m or N, one per coordinate; empty where none were computed. */
+  torques: (CoordinateSeries | null)[];
   rmsErrorMm: Float32Array;
   /** One per used marker, in the order of summary.markers. */
   markerErrorMm: Float32Array[];
@@ -58,6 +60,7 @@ export function decode({ summary, series }: PageData): Trial {
       sd: c.sd === null ? null : floats(c.sd),
       undetermined: c.undetermined === null ? null : bytes(c.undetermined),
     })),
+    torques: (series.torques ?? []).map((t) => (t === null ? null : { value: floats(t.value), sd: t.sd === null ? null : floats(t.sd), undetermined: null })),
     rmsErrorMm: floats(series.rms_error_mm),
     markerErrorMm: series.marker_error_mm.map(floats),
     gaps: series.gaps.map((g) => (g === null ? null : bytes(g))),

@@ -9,16 +9,19 @@ import type { MarkersPageData } from "./markers_types.ts";
 import type { Content } from "./pages/content.ts";
 import { ikPage } from "./pages/ik.ts";
 import { markersPage } from "./pages/markers.ts";
+import { resultPage } from "./pages/result.ts";
+import type { ResultPageData } from "./result_types.ts";
 import type { PageData } from "./types.ts";
 
-type AnyPage = PageData | CleanPageData | MarkersPageData;
+type AnyPage = PageData | CleanPageData | MarkersPageData | ResultPageData;
 
 const isClean = (data: AnyPage): data is CleanPageData => data.summary.schema === "kinemark.clean_report";
+const isResult = (data: AnyPage): data is ResultPageData => data.summary.schema === "kinemark.result_report";
 const isMarkers = (data: AnyPage): data is MarkersPageData => data.summary.schema === "kinemark.markers_report";
 
 async function show(page: HTMLElement, data: AnyPage): Promise<void> {
   document.title = `${data.summary.trial} · kinemark report`;
-  const content: Content = isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
+  const content: Content = isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
   const [section, words] = content.skip;
   page.append(
     el("a", { class: "skip", href: `#${section}` }, words),

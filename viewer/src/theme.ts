@@ -12,6 +12,8 @@ export interface Palette {
   dense: string;
   band: string;
   second: string;
+  /** The band around the second line. */
+  secondBand: string;
   focus: string;
   hatch: string;
   hatchBackground: string;
@@ -22,6 +24,11 @@ export interface Palette {
   /** The same in space: strong enough to stand alone on the background. */
   marks: [string, string, string, string, string, string];
   stick: string;
+  /** Joint centres, and what joins them. */
+  joint: string;
+  bone: string;
+  /** The bodies of a model. */
+  body: string;
   shadow: string;
   floor: string;
   floorStrong: string;
@@ -45,6 +52,7 @@ const light: Palette = {
   dense: "rgba(11, 101, 131, 0.45)",
   band: "rgba(11, 101, 131, 0.18)",
   second: "#b4530a",
+  secondBand: "rgba(180, 83, 10, 0.16)",
   focus: "#b4530a",
   hatch: "#b3bec6",
   hatchBackground: "#f3f5f7",
@@ -52,6 +60,9 @@ const light: Palette = {
   states: ["#a9d3df", "#7d6bc4", "#e3a62f", "#1f8a5f", "#33414c", "#d2401c"],
   marks: ["#0b6583", "#6a55c0", "#d98a00", "#12804f", "#33414c", "#d2401c"],
   stick: "#9fb0bb",
+  joint: "#7a2a8a",
+  bone: "#c9a0d2",
+  body: "#c8ccd0",
   shadow: "#dbe1e5",
   floor: "#e9edf0",
   floorStrong: "#d3dade",
@@ -71,6 +82,7 @@ const dark: Palette = {
   dense: "rgba(92, 195, 226, 0.45)",
   band: "rgba(92, 195, 226, 0.24)",
   second: "#f2a65a",
+  secondBand: "rgba(242, 166, 90, 0.2)",
   focus: "#f2a65a",
   hatch: "#465662",
   hatchBackground: "#1b242b",
@@ -78,6 +90,9 @@ const dark: Palette = {
   states: ["#2a6377", "#a99be6", "#d9a036", "#3fbf8a", "#dbe3e8", "#f0653f"],
   marks: ["#5cc3e2", "#b3a6f0", "#f0b43c", "#4fd09a", "#dbe3e8", "#f0653f"],
   stick: "#647683",
+  joint: "#e6a8f2",
+  bone: "#8a5c96",
+  body: "#56646f",
   shadow: "#0a0e12",
   floor: "#202b33",
   floorStrong: "#2f3d47",

@@ -34,6 +34,8 @@ export interface Summary {
   coordinates: CoordinateSummary[];
   markers: MarkerSummary[];
   worst_frames: WorstFrame[];
+  /** Of the model; not there in older pages. */
+  mass_kg?: number | null;
   options: Record<string, string>;
   inputs: InputFile[];
   warnings: string[];
@@ -77,6 +79,9 @@ export interface CoordinateSummary {
   min: number | null;
   max: number | null;
   median_sd: number | null;
+  /** Of the model, in the unit of the coordinate; null, or not there in older pages: none. */
+  limits?: [number, number] | null;
+  at_limit_frames?: number;
 }
 
 export interface MarkerSummary {
@@ -115,6 +120,8 @@ export interface EncodedSeries {
   frame_step: number;
   points: number;
   coordinates: { value: string; sd: string | null; undetermined: string | null }[];
+  /** One per coordinate; empty, or not there in older pages, where torques were not computed. */
+  torques?: ({ value: string; sd: string | null } | null)[];
   rms_error_mm: string;
   marker_error_mm: string[];
   gaps: (string | null)[];

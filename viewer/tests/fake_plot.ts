@@ -9,7 +9,7 @@ type Series = { stroke: (u: unknown) => string; width: number; points: { show?: 
 export default class FakePlot {
   static made: FakePlot[] = [];
   readonly over = new FakeElement("div");
-  readonly root = { hovered: false, matches: (): boolean => this.root.hovered };
+  readonly root = Object.assign(new FakeElement("div"), { hovered: false, matches: (): boolean => this.root.hovered });
   readonly axes: { label?: string }[];
   readonly scales: Record<string, { min?: number; max?: number }> = { x: {} };
   readonly ctx = Object.assign(new Pen(), { save: (): void => undefined, restore: (): void => undefined, setLineDash: (): void => undefined });

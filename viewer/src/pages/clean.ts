@@ -7,7 +7,7 @@ import { cleanGaps } from "../sections/clean_gaps.ts";
 import { cleanHeader } from "../sections/clean_header.ts";
 import { cleanMarker } from "../sections/clean_marker.ts";
 import { cleanTable } from "../sections/clean_table.ts";
-import { findings } from "../sections/findings.ts";
+import { findingGroups, groupFindings } from "../sections/finding_groups.ts";
 import { recording } from "../sections/recording.ts";
 import { space } from "../sections/space.ts";
 import { settings } from "../sections/settings.ts";
@@ -46,11 +46,14 @@ export function cleanPage(data: CleanPageData): Content {
       ["settings", "Settings"],
     ]),
     sections: [
-      findings(
-        summary.findings,
-        summary.gates,
-        `Nothing. No gap was left open, no fill is uncertain, and no defect was found.${summary.markers.every((m) => m.white === true) ? " Every residual is white." : ""}`,
+      findingGroups(
+        groupFindings(summary.findings),
+        {
+          title: "What needs your attention",
+          nothing: `Nothing. No gap was left open, no fill is uncertain, and no defect was found.${summary.markers.every((m) => m.white === true) ? " Every residual is white." : ""}`,
+        },
         jump,
+        summary.gates,
       ),
       ...inSpace.map((s) => s.node),
       plots[0].node,

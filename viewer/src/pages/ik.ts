@@ -3,7 +3,9 @@
 import { decode } from "../decode.ts";
 import { unpackScene } from "../scene/scene.ts";
 import { angles } from "../sections/angles.ts";
-import { findings } from "../sections/findings.ts";
+import { compare } from "../sections/compare.ts";
+import { ground } from "../sections/ground.ts";
+import { findingGroups, groupFindings } from "../sections/finding_groups.ts";
 import { gaps } from "../sections/gaps.ts";
 import { header } from "../sections/header.ts";
 import { markers } from "../sections/markers.ts";
@@ -23,7 +25,8 @@ export async function ikPage(data: PageData): Promise<Content> {
   const scene = data.scene ? await unpackScene(data.scene, summary) : null;
   const others = { legend: "on the model; the tie is the error", switch: "Model" };
   const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
-  const plots = [angles(trial, view), ...inSpace, markers(trial, view), gaps(trial, view)];
+  const forces = scene !== null && scene.forces.length > 0 ? [ground(scene, view)] : [];
+  const plots = [angles(trial, view), ...inSpace, compare(trial, view), ...forces, markers(trial, view), gaps(trial, view)];
   const jump = (finding: Finding, time: number): void => {
     const coordinate = summary.coordinates.findIndex((c) => c.name === finding.subject);
     if (finding.about === "coordinate" && coordinate >= 0) view.set({ coordinate });
@@ -36,17 +39,18 @@ export async function ikPage(data: PageData): Promise<Content> {
       ["attention", "Attention"],
       ["angles", "Joint angles"],
       ...(scene === null ? [] : [["space", "Space"] as const]),
+      ["compare", "Side by side"],
       ["markers", "Markers"],
       ["gaps", "Gaps"],
       ["worst", "Worst frames"],
       ["settings", "Settings"],
     ]),
     sections: [
-      findings(
-        summary.findings,
-        summary.gates,
-        "Nothing. Every frame converged, every coordinate is determined in every frame, and there are no warnings.",
+      findingGroups(
+        groupFindings(summary.findings),
+        { title: "What needs your attention", nothing: "Nothing. Every frame converged, every coordinate is determined in every frame, and there are no warnings." },
         jump,
+        summary.gates,
       ),
       ...plots.map((p) => p.node),
       worstFrames(summary, view),

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { MarkersPageData } from "../markers_types.ts";
 import { unpackScene } from "../scene/scene.ts";
-import { groupedFindings, markersHeader } from "../sections/markers_header.ts";
+import { findingGroups } from "../sections/finding_groups.ts";
+import { markersHeader } from "../sections/markers_header.ts";
 import { recordedCurves, recordedGaps, recordedRest, recordedTable } from "../sections/recorded.ts";
 import { plain } from "../sections/settings.ts";
+import { ground } from "../sections/ground.ts";
 import { space } from "../sections/space.ts";
 import { timeBar } from "../sections/time_bar.ts";
 import { el, section } from "../dom.ts";
@@ -22,9 +24,10 @@ export async function markersPage({ summary, scene: packed }: MarkersPageData): 
   view.focus = summary.first_time_s;
   const parts = [
     space(scene, view, { trial: summary.trial, others: null, ...(summary.rate_known ? {} : { playHz: 60 }) }),
+    ...(scene.forces.length > 0 ? [ground(scene, view)] : []),
     recordedCurves(scene, view),
     recordedGaps(scene, view),
-  ] as const;
+  ];
   return {
     skip: ["space", "Skip to the space view"],
     header: markersHeader(summary),
@@ -38,7 +41,7 @@ export async function markersPage({ summary, scene: packed }: MarkersPageData): 
       ["settings", "File"],
     ]),
     sections: [
-      groupedFindings(summary, (finding, time) => {
+      findingGroups(summary.groups, { title: "What stands out", nothing: "Nothing. Every marker was measured in every frame." }, (finding, time) => {
         const marker = summary.markers.findIndex((m) => m.name === finding.subject);
         if (marker >= 0) view.set({ marker });
         view.jumpTo(time, "space");

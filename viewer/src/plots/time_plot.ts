@@ -12,12 +12,14 @@ export interface TimePlotOptions {
   label: string;
   height: number;
   /** Lines above the first, which is the time. The colours are asked for at every redraw. */
-  series: { stroke: (dense: boolean) => string; width: number; hidden?: boolean }[];
+  series: { stroke: (dense: boolean) => string; width: number; hidden?: boolean; dash?: number[] }[];
   bands?: { series: [upper: number, lower: number]; fill: () => string }[];
   unit: () => string;
   fromZero?: boolean;
   /** Stretches to hatch, in s. */
   hatched: () => [from: number, to: number][];
+  /** Heights of dashed lines, where they are in sight. */
+  levels?: () => readonly number[];
 }
 
 /** uPlot tied to the shared view: same time axis, same pointer, a line at the time that was asked for. */
@@ -31,8 +33,6 @@ export class TimePlot {
     this.#view = view;
     this.#box = box;
     this.#height = options.height;
-    box.setAttribute("role", "img");
-    box.setAttribute("aria-label", options.label);
     const axis = (extra: uPlot.Axis): uPlot.Axis => ({
       stroke: () => palette().muted,
       grid: { stroke: () => palette().grid, width: 1 },
@@ -59,6 +59,7 @@ export class TimePlot {
         ...options.series.map((s) => ({
           stroke: (u: uPlot) => s.stroke(isDense(u)),
           width: s.width,
+          ...(s.dash === undefined ? {} : { dash: s.dash }),
           points: { show: s.hidden ? false : undefined, size: 4 },
           spanGaps: false,
         })),
@@ -67,7 +68,7 @@ export class TimePlot {
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
       hooks: {
         drawClear: [(u) => this.#drawHatched(u, options.hatched())],
-        draw: [(u) => this.#drawFocus(u)],
+        draw: [(u) => this.#drawFocus(u), (u) => this.#drawLevels(u, options.levels?.() ?? [])],
         setSelect: [
           (u) => {
             if (u.select.width < 3) return;
@@ -88,6 +89,8 @@ export class TimePlot {
       },
     };
     this.plot = new uPlot(config, undefined, box);
+    this.plot.root.setAttribute("role", "img");
+    this.plot.root.setAttribute("aria-label", options.label);
     this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
     let pressed = 0;
     this.plot.over.addEventListener("mousedown", (e) => (pressed = e.offsetX));
@@ -186,6 +189,23 @@ export class TimePlot {
       if (right > left) ctx.fillRect(left, bbox.top, Math.max(1, right - left), bbox.height);
     }
     ctx.restore();
+  }
+
+  #drawLevels(u: uPlot, levels: readonly number[]): void {
+    const { ctx, bbox } = u;
+    for (const level of levels) {
+      const y = Math.round(u.valToPos(level, "y", true));
+      if (!(y >= bbox.top && y <= bbox.top + bbox.height)) continue;
+      ctx.save();
+      ctx.strokeStyle = palette().muted;
+      ctx.lineWidth = window.devicePixelRatio;
+      ctx.setLineDash([2 * window.devicePixelRatio, 3 * window.devicePixelRatio]);
+      ctx.beginPath();
+      ctx.moveTo(bbox.left, y);
+      ctx.lineTo(bbox.left + bbox.width, y);
+      ctx.stroke();
+      ctx.restore();
+    }
   }
 
   #drawFocus(u: uPlot): void {

@@ -40,6 +40,9 @@ export function sceneOfClean(trial: CleanTrial): Scene | null {
     worst: markers.states,
     plates: [],
     forces: [],
+    bodies: null,
+    skeleton: null,
+    cameras: [],
   };
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { firstAbsent } from "../states.ts";
-import type { PackedMarkers, PackedScene } from "./types.ts";
+import type { PackedJoints, PackedMarkers, PackedScene } from "./types.ts";
 import { inflated, unpack } from "./unpack.ts";
 import { upright } from "./upright.ts";
 import type { Vec } from "./vec.ts";
@@ -20,6 +20,40 @@ export interface Force {
   force: Float32Array;
   /** 3 x P, m */
   point: Float32Array;
+}
+
+/** Joint centres on the points of the scene. */
+export interface Joints {
+  names: readonly string[];
+  /** Pairs of joints of one segment. */
+  links: readonly (readonly [number, number])[];
+  /** J x 3 x P, m */
+  centres: Float32Array;
+  /** J x 6 x P, mm: lower triangular roots of the covariances, row by row. */
+  roots: Float32Array;
+  /** J x P: 0 not placed, 1 ambiguous, 2 bridged, 3 determined. */
+  states: Uint8Array;
+}
+
+/** Bodies of a model, each about the line from its origin to its end. */
+export interface Bodies {
+  names: readonly string[];
+  massKg: readonly number[];
+  /** B x 3 x P, m */
+  origin: Float32Array;
+  end: Float32Array;
+}
+
+export interface CameraPlace {
+  name: string;
+  centre: Vec;
+  right: Vec;
+  down: Vec;
+  forward: Vec;
+  /** Slopes of the edges of the view. */
+  halfView: [number, number];
+  /** Where it was meant to stand. */
+  nominal: boolean;
 }
 
 /** What there is to draw in space, on the points of its own clock. */
@@ -44,6 +78,9 @@ export interface Scene {
   worst: Uint8Array;
   plates: Vec[][];
   forces: Force[];
+  bodies: Bodies | null;
+  skeleton: Joints | null;
+  cameras: CameraPlace[];
 }
 
 /** What a scene has to know of its recording. */
@@ -60,6 +97,15 @@ async function unpackTrack(packed: PackedMarkers, markers: number, points: numbe
     throw new Error(`the space view needs ${markers} markers on ${points} points`);
   }
   return { x, states };
+}
+
+async function unpackJoints(packed: PackedJoints, points: number): Promise<Joints> {
+  const [centres, roots, states] = await Promise.all([unpack(packed.centres_m), unpack(packed.roots_mm), inflated(packed.states)]);
+  const J = packed.names.length;
+  if (centres.length !== 3 * J * points || roots.length !== 6 * J * points || states.length !== J * points) {
+    throw new Error(`the space view needs ${J} joints on ${points} points`);
+  }
+  return { names: packed.names, links: packed.links, centres, roots, states };
 }
 
 /** Segments whose axes Plug-in Gait writes among the markers, four points each. */
@@ -80,7 +126,7 @@ export function areComputed(names: readonly string[]): boolean[] {
 export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (marker: number) => boolean = () => true): Promise<Scene> {
   const { points, frame_step } = packed;
   const M = packed.names.length;
-  const [markers, before, model, worst, forces] = await Promise.all([
+  const [markers, before, model, worst, forces, skeleton, bodies] = await Promise.all([
     unpackTrack(packed.markers, M, points),
     packed.before === null ? null : unpackTrack(packed.before, M, points),
     packed.model_m === null ? null : unpack(packed.model_m),
@@ -88,6 +134,10 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
     Promise.all(
       packed.forces.map(async (f) => ({ name: f.name, force: await unpack(f.force_n), point: await unpack(f.point_m) })),
     ),
+    packed.skeleton ? unpackJoints(packed.skeleton, points) : null,
+    packed.bodies
+      ? Promise.all([unpack(packed.bodies.origin_m), unpack(packed.bodies.end_m)]).then(([origin, end]): Bodies => ({ names: packed.bodies!.names, massKg: packed.bodies!.mass_kg.map((m) => m ?? 0), origin, end }))
+      : null,
   ]);
   const computed = areComputed(packed.names);
   const found = packed.up === null ? upright(markers, M, points) : null;
@@ -109,6 +159,9 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
       .map((p) => p.corners_m.filter((c): c is [number, number, number] => c.length === 3 && c.every((v) => v !== null)))
       .filter((corners) => corners.length === 4),
     forces,
+    bodies,
+    skeleton,
+    cameras: (packed.cameras ?? []).map((c) => ({ name: c.name, centre: c.centre_m, right: c.right, down: c.down, forward: c.forward, halfView: c.half_view, nominal: c.nominal })),
   };
 }
 
@@ -151,8 +204,10 @@ export function bounds(scene: Scene, share = 0.005): [low: Vec, high: Vec] {
     }
     values.sort((a, b) => a - b);
     const cut = Math.floor(share * values.length);
-    low[axis] = values[cut] ?? -0.5;
-    high[axis] = values[values.length - 1 - cut] ?? 0.5;
+    const lenses = scene.cameras.map((c) => c.centre[axis]);
+    const ends = [...(values.length > 0 ? [values[cut]!, values[values.length - 1 - cut]!] : []), ...lenses];
+    low[axis] = ends.length > 0 ? Math.min(...ends) : -0.5;
+    high[axis] = ends.length > 0 ? Math.max(...ends) : 0.5;
   }
   return [low, high];
 }

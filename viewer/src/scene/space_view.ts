@@ -7,28 +7,28 @@ import {
   CylinderGeometry,
   DirectionalLight,
   DoubleSide,
-  DynamicDrawUsage,
   Float32BufferAttribute,
   HemisphereLight,
-  InstancedMesh,
   LineBasicMaterial,
   LineSegments,
-  Matrix4,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
   OrthographicCamera,
   PerspectiveCamera,
+  Plane as ClipPlane,
   RingGeometry,
   Scene as Stage,
   Vector3,
   WebGLRenderer,
-  type Material,
 } from "three";
 import { palette } from "../theme.ts";
 import { metresPerPixel, poseOf, project, fieldOfView, type Camera, type Pose } from "./camera.ts";
 import { floorLines, floorOf, type Floor } from "./floor.ts";
-import { at, type Scene } from "./scene.ts";
+import type { Plane } from "./plane.ts";
+import { at, bounds, type Scene } from "./scene.ts";
+import { Extras } from "./extras.ts";
+import { Kind } from "./kind.ts";
 import { arrowHead, stateShapes } from "./shapes.ts";
 import type { Stick } from "./sticks.ts";
 import { firstAbsent } from "../states.ts";
@@ -51,46 +51,16 @@ export interface Look {
   /** The recording before it was cleaned, or the markers of the model. */
   others: boolean;
   hidden: (marker: number) => boolean;
-}
-
-/** Solids of one kind: one draw call, as many as there are on this instant. */
-class Kind {
-  readonly mesh: InstancedMesh;
-  #count = 0;
-  readonly #matrix = new Matrix4();
-
-  constructor(stage: Stage, geometry: BufferGeometry, material: Material, capacity: number, order = 0) {
-    this.mesh = new InstancedMesh(geometry, material, Math.max(1, capacity));
-    this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-    this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = order;
-    stage.add(this.mesh);
-  }
-  begin(): void {
-    this.#count = 0;
-  }
-  /** A solid with its own axes a, b, c (their lengths are its sizes) at x. */
-  put(a: Vec, b: Vec, c: Vec, x: Vec, colour?: Color): void {
-    if (this.#count >= this.mesh.instanceMatrix.count) return;
-    this.#matrix.set(a[0], b[0], c[0], x[0], a[1], b[1], c[1], x[1], a[2], b[2], c[2], x[2], 0, 0, 0, 1);
-    this.mesh.setMatrixAt(this.#count, this.#matrix);
-    if (colour !== undefined) this.mesh.setColorAt(this.#count, colour);
-    ++this.#count;
-  }
-  /** A rod of this radius between two places; its own y lies along it. */
-  rod(from: Vec, to: Vec, radius: number, colour?: Color): void {
-    const way = sub(to, from);
-    if (length(way) < 1e-9) return;
-    const along = unit(way);
-    const aside = unit(cross(along, Math.abs(along[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]));
-    this.put(scaled(aside, radius), way, scaled(cross(aside, along), radius), scaled(add(from, to), 0.5), colour);
-  }
-  end(): void {
-    this.mesh.count = this.#count;
-    this.mesh.visible = this.#count > 0;
-    this.mesh.instanceMatrix.needsUpdate = true;
-    if (this.mesh.instanceColor !== null) this.mesh.instanceColor.needsUpdate = true;
-  }
+  /** How many times as large as it is the region of a joint centre is drawn; 0: not at all. */
+  regions: number;
+  /** The bodies of a model. */
+  bodies: boolean;
+  /** Lines of sight. */
+  rays: boolean;
+  /** Share of the depth of the scene that is cut away in front, 0 to 1. */
+  cut: number;
+  /** The plane that fits a path best; null: none. */
+  plane: Plane | null;
 }
 
 /** Draws a scene. Knows the canvas and nothing around it; throws where there is no WebGL2. */
@@ -114,6 +84,8 @@ export class SpaceView {
   readonly #plates: LineSegments;
   readonly #plateFill: Mesh;
   readonly floor: Floor;
+  readonly #extras: Extras;
+  readonly #reach: number;
   #width = 1;
   #height = 1;
 
@@ -152,6 +124,9 @@ export class SpaceView {
     this.#axes = new Kind(stage, rod(8), plain(), 3);
     this.#axes.mesh.setColorAt(0, new Color());
     this.#layPlates();
+    this.#extras = new Extras(stage, scene);
+    const [low, high] = bounds(scene, 0);
+    this.#reach = Math.max(0.2, length(sub(high, low)));
   }
 
   resize(width: number, height: number, ratio = Math.min(2, Math.max(1, window.devicePixelRatio))): void {
@@ -178,9 +153,23 @@ export class SpaceView {
     this.#putSticks(look, tint);
     this.#putTrails(look, pose);
     this.#putForces(look, pose);
+    this.#extras.put(look, (x) => this.#radius(look.camera, pose, x), tint);
+    this.#cut(look, pose);
     this.#sun.position.set(...add(pose.eye, add(scaled(pose.up, 0.6), pose.right, -0.5), look.camera.distance));
     this.#sun.target.position.set(...look.camera.target);
     this.#renderer.render(this.#stage, this.#cameraOf(look.camera, pose));
+  }
+
+  /** Cut away what is nearer than a plane across the view. */
+  #cut(look: Look, pose: Pose): void {
+    if (look.cut <= 0) {
+      this.#renderer.clippingPlanes = [];
+      return;
+    }
+    const forward = pose.forward;
+    const middle = dot(look.camera.target, forward);
+    const depth = middle + (look.cut - 0.5) * this.#reach;
+    this.#renderer.clippingPlanes = [new ClipPlane(new Vector3(...forward), -depth)];
   }
 
   dispose(): void {
@@ -218,6 +207,7 @@ export class SpaceView {
     colour(this.#shafts, p.force);
     colour(this.#heads, p.force);
     colour(this.#ring, p.second);
+    this.#extras.paint(p);
     (this.#plates.material as LineBasicMaterial).color.set(p.muted);
     (this.#plateFill.material as MeshBasicMaterial).color.set(p.muted);
     const { positions, strong } = floorLines(this.floor);

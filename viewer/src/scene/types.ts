@@ -16,6 +16,24 @@ export interface PackedMarkers {
   states: string;
 }
 
+export interface PackedJoints {
+  names: string[];
+  links: [number, number][];
+  centres_m: PackedSeries;
+  roots_mm: PackedSeries;
+  states: string;
+}
+
+export interface PackedCamera {
+  name: string;
+  centre_m: [number, number, number];
+  right: [number, number, number];
+  down: [number, number, number];
+  forward: [number, number, number];
+  half_view: [number, number];
+  nominal: boolean;
+}
+
 /** What the space view of a page draws, as it stands in the page. */
 export interface PackedScene {
   frame_step: number;
@@ -30,4 +48,7 @@ export interface PackedScene {
   worst: string | null;
   plates: { type: number; corners_m: (number | null)[][] }[];
   forces: { name: string; force_n: PackedSeries; point_m: PackedSeries }[];
+  bodies?: { names: string[]; mass_kg: (number | null)[]; origin_m: PackedSeries; end_m: PackedSeries };
+  skeleton?: PackedJoints;
+  cameras?: PackedCamera[];
 }

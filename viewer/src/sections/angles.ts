@@ -43,6 +43,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
         { class: "below" },
         el("span", { class: "sd" }, c.median_sd === null ? "" : `SD ${number(c.median_sd, decimalsOf(c.unit))} ${c.unit}`),
         el("span", { class: share !== null && share < 1 ? "remark low" : "remark" }, remark),
+        c.at_limit_frames ? el("span", { class: "remark low" }, "at a limit") : null,
       ),
     );
     return { node, canvas, name: c.name.toLowerCase() };
@@ -100,6 +101,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
       bands: [{ series: [1, 2], fill: () => palette().band }],
       unit: () => (coordinates[view.coordinate]?.unit === "m" ? "position (m)" : "angle (deg)"),
       hatched: () => hatched,
+      levels: () => coordinates[view.coordinate]?.limits ?? [],
     });
     const choose = (): void => {
       const j = view.coordinate;
@@ -119,7 +121,8 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
         c.locked
           ? " is held fixed."
           : `: determined in ${percent(frames === 0 ? null : c.determined_frames / frames)} of the frames, median SD ${number(c.median_sd, decimalsOf(c.unit))} ${c.unit}, ` +
-            `from ${number(c.min, decimalsOf(c.unit))} to ${number(c.max, decimalsOf(c.unit))} ${c.unit}.`,
+            `from ${number(c.min, decimalsOf(c.unit))} to ${number(c.max, decimalsOf(c.unit))} ${c.unit}.` +
+            (c.at_limit_frames ? ` At a limit of its range (dashed) in ${number(c.at_limit_frames)} of ${number(frames)} frames.` : ""),
       );
     };
     let range = view.range;

@@ -3,19 +3,12 @@
 import type { CleanSummary, StateCounts } from "../clean_types.ts";
 import { el } from "../dom.ts";
 import { number, percent, plural } from "../format.ts";
-import { framesTile, tile, titleRow } from "./header.ts";
+import { framesTile, medianOf, tile, titleRow } from "./header.ts";
 
 export const total = (c: StateCounts): number => Object.values(c).reduce((sum, n) => sum + n, 0);
 /** Samples that somebody made: by interpolation or from other markers. */
 export const filledIn = (c: StateCounts): number => c.interpolated + c.model_filled;
 export const absent = (c: StateCounts): number => c.missing + c.rejected;
-
-export function median(values: readonly (number | null)[]): number | null {
-  const known = values.filter((v) => v !== null).sort((a, b) => a - b);
-  if (known.length === 0) return null;
-  const half = known.length / 2;
-  return (known[Math.floor(half - 0.5)]! + known[Math.floor(half)]!) / 2;
-}
 
 /** Trial, methods, verdict, and the numbers that people look for first. */
 export function cleanHeader(summary: CleanSummary): HTMLElement {
@@ -44,7 +37,7 @@ export function cleanHeader(summary: CleanSummary): HTMLElement {
       tile(share(filledIn(after)), "filled in", `${plural(filled, "gap")}, ${plural(filledIn(after), "sample")}`),
       tile(share(absent(after)), "left missing", `${plural(open, "gap")} left open`),
       tile(
-        `${number(median(noises), 2)} mm`,
+        `${number(medianOf(noises), 2)} mm`,
         "median noise SD",
         speed === null ? "per axis" : `cleaned at ${number(speed, speed < 10 ? 1 : 0)} × real time`,
       ),

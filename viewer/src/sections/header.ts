@@ -43,12 +43,20 @@ export const framesTile = (frames: number, rateHz: number): HTMLElement =>
     `${duration(frames / rateHz)} at ${number(rateHz, Number.isInteger(rateHz) ? 0 : 2)} Hz`,
   );
 
+/** The middle of the numbers that are known; null without any. */
+export function medianOf(values: readonly (number | null | undefined)[]): number | null {
+  const known = values.filter((v): v is number => typeof v === "number" && Number.isFinite(v)).sort((a, b) => a - b);
+  const half = known.length / 2;
+  return known.length === 0 ? null : (known[Math.floor(half - 0.5)]! + known[Math.floor(half)]!) / 2;
+}
+
 /** Trial, model, verdict, and the numbers that people look for first. */
 export function header(summary: Summary): HTMLElement {
   const used = summary.markers.filter((m) => m.used).length;
   const asked = summary.coordinates.filter((c) => !c.locked).length;
   const locked = summary.coordinates.length - asked;
   const realTime = summary.frames_per_s === null ? null : summary.frames_per_s / summary.rate_hz;
+  const sd = medianOf(summary.coordinates.filter((c) => !c.locked && c.unit === "deg").map((c) => c.median_sd));
   const solved = summary.status_frames.converged + summary.status_frames.underdetermined;
   return el(
     "header",
@@ -76,9 +84,9 @@ export function header(summary: Summary): HTMLElement {
       ),
       tile(`${number(summary.rms_error_mm, 1)} mm`, "RMS marker error", `largest ${number(summary.max_error_mm, 1)} mm`),
       tile(
-        summary.frames_per_s === null ? "–" : number(summary.frames_per_s),
-        "frames per second",
-        realTime === null ? "not timed" : `${number(realTime, realTime < 10 ? 1 : 0)} × real time`,
+        sd === null ? "–" : `${number(sd, 2)} deg`,
+        "median SD of an angle",
+        realTime === null ? "not timed" : `solved at ${number(realTime, realTime < 10 ? 1 : 0)} × real time`,
       ),
     ),
   );

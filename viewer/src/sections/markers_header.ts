@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { el, section } from "../dom.ts";
-import { number, percent, plural, seconds } from "../format.ts";
+import { el } from "../dom.ts";
+import { number, percent, plural } from "../format.ts";
 import type { MarkersSummary } from "../markers_types.ts";
 import type { Finding } from "../types.ts";
 import { absent, filledIn, total } from "./clean_header.ts";
@@ -33,31 +33,6 @@ export function markersHeader(summary: MarkersSummary): HTMLElement {
       tile(share(made), "filled", `${plural(made, "sample")}`),
       tile(share(missing), "missing", never === 0 ? `${plural(sum((m) => m.gaps), "gap")}` : `${plural(never, "marker")} never seen`),
       tile(number(summary.channel_count), summary.channel_count === 1 ? "channel" : "channels", `${plural(summary.event_count, "event")}`),
-    ),
-  );
-}
-
-/** Findings, one folded line a kind. */
-export function groupedFindings(summary: MarkersSummary, jump: (finding: Finding, time: number) => void): HTMLElement {
-  const line = (f: Finding): HTMLElement =>
-    el(
-      "li",
-      {},
-      el("span", { class: "text" }, f.text),
-      f.time_s === null ? null : el("button", { type: "button", class: "jump", click: () => jump(f, f.time_s!) }, `Show ${seconds(f.time_s)}`),
-    );
-  return section(
-    "attention",
-    "What stands out",
-    "",
-    summary.groups.length === 0 ? el("p", {}, "Nothing. Every marker was measured in every frame.") : null,
-    ...summary.groups.map((g) =>
-      el(
-        "details",
-        { class: `group ${g.level}` },
-        el("summary", {}, el("span", { class: "level" }, g.level === "attention" ? "Problem" : "Note"), el("span", { class: "text" }, g.title)),
-        el("ul", { class: "findings" }, ...g.items.map(line)),
-      ),
     ),
   );
 }

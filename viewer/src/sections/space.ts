@@ -5,12 +5,16 @@ import { number, seconds } from "../format.ts";
 import { save, fileName } from "../save.ts";
 import { fitted, orbited, panned, standardView, zoomed, type Camera, type StandardView } from "../scene/camera.ts";
 import { facing } from "../scene/facing.ts";
+import { canFilm, film } from "../scene/film.ts";
 import { floorHeight } from "../scene/floor.ts";
+import { glbOf } from "../scene/glb.ts";
+import { planeOf, type Plane } from "../scene/plane.ts";
 import { at, bounds, isEverThere, isThere, pointAt, type Scene } from "../scene/scene.ts";
 import { statePaths } from "../scene/shapes.ts";
 import { SpaceView, type Look } from "../scene/space_view.ts";
 import { areConventional, sticks } from "../scene/sticks.ts";
-import { add, dot, scaled, type Vec } from "../scene/vec.ts";
+import { boundsAt, goesFar, middleAt } from "../scene/journey.ts";
+import { add, dot, scaled, sub, type Vec } from "../scene/vec.ts";
 import { firstAbsent, stateWords } from "../states.ts";
 import { svg } from "../svg.ts";
 import { onThemeChange, palette } from "../theme.ts";
@@ -23,6 +27,8 @@ export interface SpaceOptions {
   playHz?: number;
   /** What else is drawn: words for the legend and the switch; null: nothing. */
   others: { legend: string; switch: string } | null;
+  /** A sentence above the picture. */
+  lead?: string;
 }
 
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4] as const;
@@ -65,11 +71,19 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let speed = 1;
   let loop = true;
   let trails: "none" | "picked" | "all" = "picked";
-  let labelled: "none" | "picked" | "all" = M <= 16 ? "all" : "picked";
-  let follow = false;
+  let labelled: "none" | "picked" | "all" = M <= 16 && scene.skeleton === null ? "all" : "picked";
+  const travels = goesFar(scene);
+  let follow = travels;
+  let followed: Vec | null = null;
   let showLines = true;
   let showOthers = true;
   let showFurther = !scene.isMain.includes(true);
+  let regions = 1;
+  let rays = true;
+  let bodies = true;
+  let cut = 0;
+  let plane: Plane | null = null;
+  let filming: { finish: () => Promise<Blob> } | null = null;
   let hover = -1;
   let picture: SpaceView | null = null;
   let pending = false;
@@ -82,7 +96,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   /** The same direction, with all that moves in the picture. */
   function framed(towards: Camera): Camera {
-    const [low, high] = bounds(scene);
+    const [low, high] = travels ? boundsAt(scene, point) : bounds(scene);
     const middle = scaled(add(low, high), 0.5);
     const height = floorHeight(scene);
     const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i): Vec => [(i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]]);
@@ -106,6 +120,11 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       lines: showLines,
       others: showOthers && options.others !== null,
       hidden,
+      regions,
+      rays,
+      bodies,
+      cut,
+      plane,
     };
   }
 
@@ -120,9 +139,16 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   function draw(): void {
     if (picture === null) return;
-    if (follow && view.marker >= 0 && view.marker < M && isThere(scene.markers, scene.points, view.marker, point)) {
-      camera = { ...camera, target: at(scene.markers.x, scene.points, view.marker, point) };
-    }
+    if (follow) {
+      const one = view.marker >= 0 && view.marker < M && isThere(scene.markers, scene.points, view.marker, point) && !travels;
+      const place = one ? at(scene.markers.x, scene.points, view.marker, point) : middleAt(scene, point);
+      if (place !== null) {
+        // What people chose to look at stays where it is in the picture.
+        if (followed !== null) camera = { ...camera, target: add(camera.target, sub(place, followed)) };
+        else if (one) camera = { ...camera, target: place };
+        followed = place;
+      }
+    } else followed = null;
     picture.draw(look());
     frame.dataset["camera"] = JSON.stringify(camera);
     frame.dataset["point"] = String(point);
@@ -139,6 +165,10 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       const asked = labelled === "all" || (labelled === "picked" && m === view.marker) || m === hover;
       if (asked) wanted.push([scene.names[m]!, at(scene.markers.x, scene.points, m, point), m === view.marker ? "tag picked" : "tag"]);
     }
+    scene.skeleton?.names.forEach((name, j) => {
+      if (labelled !== "none" && scene.skeleton!.states[j * scene.points + point]! > 0) wanted.push([name, at(scene.skeleton!.centres, scene.points, j, point), "tag joint"]);
+    });
+    for (const lens of scene.cameras) if (!lens.nominal) wanted.push([lens.name, lens.centre, "tag picked"]);
     const { origin } = drawn.floor;
     (["x", "y", "z"] as const).forEach((name, k) => {
       wanted.push([name, add(origin, [k === 0 ? 0.31 : 0, k === 1 ? 0.31 : 0, k === 2 ? 0.31 : 0]), `axis axis-${name}`]);
@@ -196,6 +226,10 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   function tick(now: number): void {
     if (!playing) return;
     const gone = Math.floor(from + (((now - began) / 1000) * speed * (options.playHz ?? scene.rateHz)) / scene.frameStep);
+    if (gone >= scene.points && filming !== null) {
+      void endFilm();
+      return;
+    }
     if (gone >= scene.points && !loop) {
       goTo(scene.points - 1);
       setPlaying(false);
@@ -308,7 +342,10 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     new ResizeObserver(fit).observe(frame);
     onThemeChange(() => draw());
     listen();
+    let [planeOfMarker, planeRange] = [view.marker, view.range];
     view.onChange(() => {
+      if (planeButton.getAttribute("aria-pressed") === "true" && (planeOfMarker !== view.marker || planeRange !== view.range)) fitPlane(true);
+      [planeOfMarker, planeRange] = [view.marker, view.range];
       const time = (playing ? null : view.pointer) ?? view.focus;
       if (time !== null) point = pointAt(scene, time);
       tell();
@@ -342,6 +379,47 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     if (blob !== null) save(fileName(`${options.trial}_${(scene.time[point] ?? 0).toFixed(3)}s`, "png"), blob);
   }
 
+  function saveGlb(): void {
+    const bytes = glbOf(scene, lines, options.trial);
+    save(fileName(options.trial, "glb"), new Blob([bytes as BlobPart], { type: "model/gltf-binary" }));
+  }
+
+  /** The whole recording once, from its beginning, at the chosen speed. */
+  function beginFilm(): void {
+    if (filming !== null) return void endFilm();
+    setPlaying(false);
+    filming = film(canvas, 30);
+    filmButton.textContent = "End film";
+    point = 0;
+    goTo(0);
+    setPlaying(true);
+    from = 0;
+  }
+  async function endFilm(): Promise<void> {
+    const done = filming;
+    filming = null;
+    setPlaying(false);
+    filmButton.textContent = "Save film";
+    if (done !== null) save(fileName(options.trial, "webm"), await done.finish());
+  }
+
+  /** The plane of the chosen marker's path over the time that the plots show. */
+  function fitPlane(on: boolean): void {
+    plane = null;
+    if (on && view.marker >= 0 && view.marker < M) plane = planeOf(scene, view.marker, pointAt(scene, view.range[0]), pointAt(scene, view.range[1]));
+    planeFacts.hidden = !on;
+    if (plane === null) planeFacts.textContent = on ? "Click a marker first: the plane is that of its path over the time shown." : "";
+    else {
+      const size = plane.axes.map((_, k) => number(1e3 * (plane!.high[k as 0] - plane!.low[k as 0]), 1)).join(" × ");
+      planeFacts.replaceChildren(el("b", {}, scene.names[view.marker]!), `: plane of ${number(plane.samples)} samples from ${seconds(view.range[0])} to ${seconds(view.range[1])}; ${number(1e3 * plane.rms, 2)} mm RMS off it, box ${size} mm along its axes, normal (${plane.axes[2].map((v) => number(v, 3)).join(", ")}).`);
+    }
+    redraw();
+  }
+  const planeFacts = el("p", { class: "facts", id: "plane-facts", hidden: true });
+  const planeButton = toggle("Plane", false, (on) => fitPlane(on));
+  const filmButton = el("button", { type: "button", title: "Play the recording once and save it as WebM", click: () => beginFilm() }, "Save film");
+  const cutSlider = el("input", { type: "range", min: 0, max: 100, step: 1, value: 0, "aria-label": "Cut away what is nearest, per cent", input: () => { cut = Number(cutSlider.value) / 100; redraw(); } });
+
   const viewButton = (words: string, wanted: StandardView, key: string): HTMLElement =>
     el("button", { type: "button", title: `${words} (${key})`, click: () => seeFrom(wanted) }, words);
   const further = scene.names.filter((_, m) => everThere[m] && !scene.isMain[m]).length;
@@ -349,13 +427,14 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   const facts = [
     `${axisWords(scene.up)} is up${scene.upFrom === "" ? " (assumed)" : ` (from ${scene.upFrom})`}`,
     further > 0 && scene.isMain.includes(true) ? "further points: not named, or computed by the recorder's model" : "",
+    scene.bodies !== null ? "bodies are ellipsoids of the model's masses at 1,000 kg/m³, not its shape" : "",
     scene.forces.length > 0 ? "force arrows: 1 m for 1,000 N" : "",
     lines.length > 0 ? (areConventional(scene.names) ? "lines follow the conventional gait marker set" : "lines join markers whose distance stays the same") : "",
   ].filter((f) => f !== "");
   const node = section(
     "space",
     "Space",
-    "",
+    options.lead ?? "",
     scene.frameStep === 1
       ? null
       : el("p", { class: "thinned" }, `Long recording: space and curves show every ${number(scene.frameStep)}${scene.frameStep === 2 ? "nd" : scene.frameStep === 3 ? "rd" : "th"} frame as it is (${number(scene.rateHz / scene.frameStep, 2)} Hz). The map of gaps and all numbers come from all frames.`),
@@ -367,13 +446,20 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       viewButton("Top", "top", "3"),
       viewButton("Corner", "corner", "4"),
       toggle("Perspective", true, (on) => { camera = { ...camera, perspective: on }; redraw(); }),
-      toggle("Follow", false, (on) => { follow = on; redraw(); }),
+      toggle("Follow", follow, (on) => { follow = on; followed = null; redraw(); }),
       lines.length === 0 ? null : toggle("Lines", true, (on) => { showLines = on; redraw(); }),
       options.others === null ? null : toggle(options.others.switch, true, (on) => { showOthers = on; redraw(); }),
       further === 0 || showFurther ? null : toggle(`${number(further)} further`, false, (on) => { showFurther = on; redraw(); }),
       choice("Names", [["none", "none"], ["picked", "picked"], ["all", "all"]], labelled, (v) => { labelled = v; redraw(); }),
       choice("Paths", [["none", "none"], ["picked", "picked"], ["all", "all"]], trails, (v) => { trails = v; redraw(); }),
+      scene.skeleton === null ? null : choice("95 % regions", [["0", "none"], ["1", "true size"], ["3", "3 ×"], ["10", "10 ×"]], "1", (v) => { regions = Number(v); redraw(); }),
+      scene.bodies === null ? null : toggle("Bodies", true, (on) => { bodies = on; redraw(); }),
+      scene.cameras.length === 0 ? null : toggle("Rays", true, (on) => { rays = on; redraw(); }),
+      planeButton,
+      el("label", { class: "pick" }, el("span", {}, "Cut"), cutSlider),
       el("button", { type: "button", click: () => void savePicture() }, "Save picture"),
+      el("button", { type: "button", title: "Save the animation for Blender and others", click: () => saveGlb() }, "Save GLB"),
+      canFilm() ? filmButton : null,
     ),
     frame,
     el(
@@ -388,6 +474,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       toggle("Loop", true, (on) => { loop = on; }),
     ),
     readout,
+    planeFacts,
     el(
       "ul",
       { class: "legend shapes" },

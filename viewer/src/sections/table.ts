@@ -15,7 +15,7 @@ export interface Column<T> {
   sortable?: boolean;
 }
 
-/** A table whose headings sort it. Returns the element and a function that marks one row. */
+/** A table whose headings sort it; with column -1 it begins in the order of the rows. Returns the element and a function that marks one row. */
 export function sortableTable<T>(
   caption: string,
   columns: Column<T>[],
@@ -46,7 +46,9 @@ export function sortableTable<T>(
       if (i === current.column) h.setAttribute("aria-sort", current.direction);
       else h.removeAttribute("aria-sort");
     });
-    body.append(...sorted(rows, columns[current.column]!.key, current.direction).map((row) => made.get(row)!));
+    const { column, direction } = current;
+    const ordered = column < 0 ? rows : sorted(rows, columns[column]!.key, direction);
+    body.append(...ordered.map((row) => made.get(row)!));
   }
 
   show();

@@ -109,7 +109,7 @@ export const ofSimulatedClean: Record<string, Check> = {
   "hostile texts are shown as they are": async ({ page }) => {
     assert.equal(await page.locator("h1").textContent(), `reach ${hostile}`);
     assert.equal(await page.locator("#page img").count(), 0);
-    assert.equal(await page.locator(".findings li").nth(2).locator(".text").textContent(), hostile);
+    assert.equal(await page.locator(".group").nth(2).locator(".text").textContent(), hostile);
     assert.equal(await page.locator("#marker-name option").nth(3).textContent(), hostile);
     await page.selectOption("#marker-name", { index: 3 });
     await settle(page);
@@ -123,7 +123,7 @@ export const ofSimulatedClean: Record<string, Check> = {
     assert.match((await page.locator("#marker-gaps").textContent()) ?? "", /70 % rigid; 30 % cubic/);
   },
   "a finding jumps to its marker and its time": async ({ page }) => {
-    await page.locator(".findings li").nth(1).getByRole("button").click();
+    await page.locator(".group").nth(1).getByRole("button").click();
     await settle(page);
     assert.equal(await page.locator("#marker-name").evaluate((s) => (s as HTMLSelectElement).value), "C");
     assert.equal(await page.locator(".bar .range").textContent(), "1.00 to 3.00 s");

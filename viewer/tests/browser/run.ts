@@ -11,6 +11,9 @@ import { simulatedClean } from "../simulated_clean.ts";
 import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
 import { simulatedMarkers, simulatedScene } from "../simulated_markers.ts";
 import { alwaysOfClean, ofSimulatedClean } from "./clean.ts";
+import { simulatedResults } from "../simulated_results.ts";
+import { alwaysOfResults, ofJoints, ofSimulatedResults, savesFigures } from "./results.ts";
+import { standsWhereItProjects } from "./projection.ts";
 import { alwaysOfMarkers, comparesInSpace, ofSimulatedMarkers, withoutWebGl } from "./space.ts";
 
 /** True of every report that has angles with SDs and markers. */
@@ -18,7 +21,7 @@ const always: Record<string, Check> = {
   "all sections are there, and nothing is broken": async ({ page }) => {
     assert.deepEqual(
       await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id).filter((id) => id !== "space")),
-      ["attention", "angles", "markers", "gaps", "worst", "settings"],
+      ["attention", "angles", "compare", "markers", "gaps", "worst", "settings"],
     );
     assert.equal(await page.locator(".broken").count(), 0);
   },
@@ -109,7 +112,7 @@ const ofSimulated: Record<string, Check> = {
   "hostile texts are shown as they are": async ({ page }) => {
     assert.equal(await page.locator("h1").textContent(), `walk ${hostile}`);
     assert.equal(await page.locator("#page img").count(), 0);
-    assert.equal(await page.locator(".findings li").nth(2).locator(".text").textContent(), hostile);
+    assert.equal(await page.locator(".group").nth(2).locator(".text").textContent(), hostile);
     assert.equal(await page.title(), `walk ${hostile} · kinemark report`);
   },
   "the header tells the verdict and the numbers": async ({ page }) => {
@@ -121,12 +124,12 @@ const ofSimulated: Record<string, Check> = {
       "3 of 4markers used1 left out",
       "95 %determinedof 3 coordinates",
       "4.2 mmRMS marker errorlargest 40.0 mm",
-      "20,000frames per second200 × real time",
+      "1.50 degmedian SD of an anglesolved at 200 × real time",
     ]);
   },
   "undetermined stretches are striped, not drawn": async ({ page }) => {
     await page.selectOption("#coordinate", { label: "wrist" });
-    await page.locator(".findings li").nth(1).getByRole("button").click();
+    await page.locator(".group").nth(1).getByRole("button").click();
     await settle(page);
     assert.match((await page.locator("#angle-readout").textContent()) ?? "", /not determined/);
     // The focus is at 2 s with one second to each side, so the stripes fill 2.0 to 2.6 s.
@@ -188,13 +191,17 @@ if (given.length === 0) {
   failed += await run(page("ik.html", { ...simulated(), scene: simulatedScene() }), { ...comparesInSpace("Model", "on the model; the tie is the error"), ...ofSimulated, ...always });
   failed += await run(page("clean.html", simulatedClean()), { ...comparesInSpace("Before", "as it came in"), ...ofSimulatedClean, ...alwaysOfClean });
   const recording = page("markers.html", simulatedMarkers());
-  failed += await run(recording, { ...ofSimulatedMarkers, ...alwaysOfMarkers });
+  failed += await run(recording, { "names stand where positions project to, to a pixel": standsWhereItProjects, ...ofSimulatedMarkers, ...alwaysOfMarkers });
   failed += await run(recording, withoutWebGl, false);
+  for (const [kind, data] of Object.entries(simulatedResults())) {
+    const checks = { ...ofSimulatedResults, ...savesFigures, ...(kind === "joints" ? ofJoints : {}), ...alwaysOfResults };
+    failed += await run(page(`${kind}.html`, data), checks);
+  }
   failed += await run(page("unknown.html", { summary: { schema: "kinemark.other", schema_version: 9 }, series: {} }), ofUnknown);
 } else {
   for (const file of given) {
     const holds = (schema: string): boolean => readFileSync(file, "utf8").includes(`"schema":"kinemark.${schema}"`);
-    failed += await run(resolve(file), holds("markers_report") ? alwaysOfMarkers : holds("clean_report") ? alwaysOfClean : always);
+    failed += await run(resolve(file), holds("result_report") ? alwaysOfResults : holds("markers_report") ? { "names stand where positions project to, to a pixel": standsWhereItProjects, ...alwaysOfMarkers } : holds("clean_report") ? alwaysOfClean : always);
   }
 }
 rmSync(folder, { recursive: true });

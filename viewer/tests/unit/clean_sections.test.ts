@@ -10,7 +10,8 @@ import { simulatedClean } from "../simulated_clean.ts";
 install();
 vi.mock("uplot", () => ({ default: FakePlot }));
 const { cleanGaps } = await import("../../src/sections/clean_gaps.ts");
-const { absent, cleanHeader, filledIn, median, total } = await import("../../src/sections/clean_header.ts");
+const { absent, cleanHeader, filledIn, total } = await import("../../src/sections/clean_header.ts");
+const { medianOf } = await import("../../src/sections/header.ts");
 const { cleanMarker } = await import("../../src/sections/clean_marker.ts");
 const { cleanTable, filterText } = await import("../../src/sections/clean_table.ts");
 const { charts, gapTable, probability, why } = await import("../../src/sections/marker_facts.ts");
@@ -45,7 +46,7 @@ describe("cleanHeader", () => {
   it("adds states up", () => {
     const counts = { missing: 1, measured: 2, interpolated: 4, model_filled: 8, upsampled: 16, rejected: 32 };
     expect([total(counts), filledIn(counts), absent(counts)]).toEqual([63, 12, 33]);
-    expect([median([3, null, 1, 2]), median([4, 1]), median([null])]).toEqual([2, 2.5, null]);
+    expect([medianOf([3, null, 1, 2]), medianOf([4, 1]), medianOf([null])]).toEqual([2, 2.5, null]);
   });
 });
 

@@ -21,7 +21,7 @@ function sceneOf(names: string[], points: number, place: (m: number, p: number) 
   const states = new Uint8Array(names.length * points);
   return {
     points, frameStep: 1, firstFrame: 0, rateHz: 100, time: Float64Array.from({ length: points }, (_, i) => i / 100), names, isMain: names.map(() => true),
-    up, upFrom: "", markers: { x, states }, before: null, model: null, worst: states, plates: [], forces: [],
+    up, upFrom: "", markers: { x, states }, before: null, model: null, worst: states, plates: [], forces: [], bodies: null, skeleton: null, cameras: [],
   };
 }
 

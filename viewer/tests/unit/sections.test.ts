@@ -5,9 +5,10 @@ import { describe, expect, it, vi } from "vitest";
 import { decode } from "../../src/decode.ts";
 import { fake, install, nextFrame, type FakeElement } from "../fake_dom.ts";
 import { hostile, simulated } from "../simulated.ts";
+import type { Finding } from "../../src/types.ts";
 
 install();
-const { findings } = await import("../../src/sections/findings.ts");
+const { findingGroups, groupFindings } = await import("../../src/sections/finding_groups.ts");
 const { gaps, legend } = await import("../../src/sections/gaps.ts");
 const { header } = await import("../../src/sections/header.ts");
 const { plain, settings } = await import("../../src/sections/settings.ts");
@@ -39,9 +40,11 @@ describe("el", () => {
 
 describe("findings", () => {
   const { summary } = simulated();
+  const plainWords = { title: "What needs your attention", nothing: "Nothing at all." };
+  const finding = (level: "attention" | "note", about: string, text: string): Finding => ({ level, about, subject: "", text, time_s: null });
   it("show level and text, and a way there where there is a place", () => {
     const jump = vi.fn();
-    const node = fake(findings(summary.findings, summary.gates, "Nothing.", jump));
+    const node = fake(findingGroups(groupFindings(summary.findings), plainWords, jump, summary.gates));
     expect(words(node.classed("level"))).toEqual(["Problem", "Note", "Note"]);
     expect(node.classed("text")[2]!.textContent).toBe(hostile);
     expect(words(node.classed("jump"))).toEqual(["Show 1.000 s", "Show 2.000 s"]);
@@ -49,11 +52,26 @@ describe("findings", () => {
     expect(jump).toHaveBeenCalledExactlyOnceWith(summary.findings[1], 2);
     expect(node.tagged("summary")[0]!.textContent).toBe("1 of 2 quality checks passed");
   });
+  it("fold those of a kind into a line that counts them, the serious first", () => {
+    const partly = ["a", "b", "c"].map((n) => finding("note", "coordinate", `${n} is not determined in 3 of 9 frames (33 %): ...`));
+    const groups = groupFindings([finding("note", "warning", "odd"), ...partly, finding("attention", "coordinate", "d is never determined: ...")]);
+    expect(groups.map((g) => [g.level, g.title])).toEqual([
+      ["attention", "1 coordinate never determined"],
+      ["note", "1 remark"],
+      ["note", "3 coordinates partly not determined"],
+    ]);
+    const node = fake(findingGroups(groups, plainWords, null));
+    expect(node.tagged("li").length).toBe(3);
+    expect(node.classed("single").length).toBe(2);
+  });
+  it("do not say of other remarks that a coordinate is not determined", () => {
+    expect(groupFindings([finding("note", "coordinate", "knee is odd")])[0]!.title).toBe("1 remark about coordinates");
+  });
   it("say so when there are none, and stay readable when there are thousands", () => {
-    expect(fake(findings([], [], "Nothing at all.", vi.fn())).textContent).toContain("Nothing at all.");
-    const many = fake(findings(Array.from({ length: 250 }, () => summary.findings[0]!), [], "", vi.fn()));
-    expect(many.tagged("li").length).toBe(100);
-    expect(many.textContent).toContain("150 more are in the JSON file");
+    expect(fake(findingGroups([], plainWords, null)).textContent).toContain("Nothing at all.");
+    const many = fake(findingGroups(groupFindings(Array.from({ length: 250 }, () => summary.findings[0]!)), plainWords, vi.fn()));
+    expect(many.tagged("li").length).toBe(200);
+    expect(many.textContent).toContain("50 more are in the JSON file");
   });
 });
 
@@ -152,7 +170,7 @@ describe("header", () => {
     const calm = { ...summary, verdict: "good" as const, findings: [], frames_per_s: null, determined_fraction: null, rms_error_mm: null, method: "" };
     const node = fake(header(calm));
     expect(node.classed("verdict")[0]!.textContent).toBe("Goodno problems");
-    expect(words(node.classed("tile")).slice(3)).toEqual(["–determinedof 3 coordinates", "– mmRMS marker errorlargest 40.0 mm", "–frames per secondnot timed"]);
+    expect(words(node.classed("tile")).slice(3)).toEqual(["–determinedof 3 coordinates", "– mmRMS marker errorlargest 40.0 mm", "1.50 degmedian SD of an anglenot timed"]);
     expect(node.classed("brand")[0]!.textContent).toContain("inverse kinematics");
   });
 });

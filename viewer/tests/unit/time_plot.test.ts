@@ -34,10 +34,10 @@ describe("TimePlot", () => {
   beforeEach(() => (FakePlot.made = []));
 
   it("shows the range of the view and says what it is", () => {
-    const { plot, element } = make();
+    const { plot } = make();
     expect(plot.scales["x"]).toEqual({ min: 0, max: 10 });
     expect(plot.axes[1]!.label).toBe("position (mm)");
-    expect(element.getAttribute("aria-label")).toBe("A plot");
+    expect(plot.root.getAttribute("aria-label")).toBe("A plot");
     expect(plot.data.length).toBe(3);
   });
   it("follows the view once per frame", () => {

@@ -14,9 +14,11 @@
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 #include "kinemark/pipeline/joints/joints_layout.h"
+#include "kinemark/pipeline/joints/joints_page.h"
 #include "kinemark/pipeline/joints/joints_parts.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
@@ -251,6 +253,10 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   if (auto s = lay_out(job, trial.markers, outcome); !s) return std::unexpected(s.error());
   auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());
+  auto others = staging->targets();
+  others.insert(others.end(), {job.input, job.segments});
+  auto page = PageFile::begin(job.report, others, job.force);
+  if (!page) return std::unexpected(page.error());
   // Solve and judge.
   if (auto s = solve(job, trial.markers, outcome); !s) return fail_at(name, s.error());
   judge(job, outcome);
@@ -263,6 +269,9 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
                                "the search for joints", name_set(job, outcome, centres));
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
+  if (page->wanted())
+    if (auto s = page->write(joints_page(job, outcome, trial), outcome); !s)
+      return std::unexpected(s.error());
   return outcome;
 }
 

@@ -29,6 +29,7 @@ struct JointsJob : JobSettings {
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
   /// file: the centres in its format, and NAME_skeleton.json beside it.
   std::filesystem::path output;
+  std::filesystem::path report;        ///< page to write as well, .html
   std::string method = "articulated";  ///< that, or a name of parse_functional_method()
   /// for functional methods: in which segments the centre is held still
   skeleton::Sides sides = skeleton::Sides::both;

@@ -13,9 +13,9 @@
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/motion/marker_locations.h"
-#include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -111,24 +111,6 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
   return run;
 }
 
-/// The used markers on the frames that were solved, under the model's names, without what was left out.
-data::Trajectories solved_markers(const data::Trajectories& recorded, const motion::IkResult& result) {
-  std::vector<std::string> names;
-  std::vector<std::int64_t> from;
-  for (const auto& marker : result.fit.markers) {
-    names.push_back(marker.name);
-    from.push_back(recorded.find(marker.name_in_data));
-  }
-  auto markers = select_markers(recorded, from, std::move(names), result.fit.first_frame, result.motion.time);
-  for (std::size_t i = 0; i < result.motion.marker_state.size(); ++i)
-    if (result.motion.marker_state[i] == data::SampleState::rejected) {
-      const auto M = static_cast<std::size_t>(markers.markers());
-      markers.set_missing(static_cast<std::int64_t>(i / M), static_cast<std::int64_t>(i % M),
-                          data::SampleState::rejected);
-    }
-  return markers;
-}
-
 /// Fill in what a setup names and what options follow from others, and check that it is enough.
 Status complete(IkJob& job) {
   if (auto s = apply_setup(job); !s) return s;
@@ -170,7 +152,7 @@ Result<IkOutcome> run_ik(IkJob job) {
   IkOutcome outcome;
   outcome.result = std::move(estimate->ik);
   const auto& motion = outcome.result.motion;
-  const data::Trajectories solved = solved_markers(trial.markers, outcome.result);
+  const data::Trajectories solved = internal::solved_markers(trial.markers, outcome.result.fit, motion);
   auto run = describe_run(job, *inputs, outcome.result, estimate->torques);
   if (!run) return std::unexpected(run.error());
   run->warnings.insert(run->warnings.begin(), job.setup_notes.begin(), job.setup_notes.end());
@@ -182,10 +164,8 @@ Result<IkOutcome> run_ik(IkJob job) {
     files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
-    files.push_back(text_file(job.report, [&] {
-      return report::report_html(
-          {.summary = outcome.summary, .motion = &motion, .markers = &solved, .up = up_of(model)});
-    }));
+    files.push_back(text_file(
+        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved); }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
   return outcome;

@@ -88,7 +88,13 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   run.warnings = inputs.trial.warnings;
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());
   for (const auto& coordinate : model.coordinates)
-    if (coordinate.locked) run.locked_coordinates.push_back(coordinate.name);
+    if (coordinate.locked)
+      run.locked_coordinates.push_back(coordinate.name);
+    else if (coordinate.clamped)
+      run.limits.push_back({coordinate.name, coordinate.range_min, coordinate.range_max});
+  double mass_kg = 0.0;
+  for (const auto& body : model.bodies) mass_kg += body.mass;
+  if (mass_kg > 0.0) run.mass_kg = mass_kg;
   if (!inputs.images) return run;
   std::string unknown;
   for (const auto& name : inputs.images->names)

@@ -18,6 +18,8 @@
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -80,13 +82,25 @@ bool is_solved(const fs::path& path) {
   return ending == ".mot" || (ending == ".json" && path.stem().string().ends_with("_report"));
 }
 
-/// Against the gravity of the model, when its file is still there.
-std::optional<Eigen::Vector3d> up_of_run(const report::IkRun& run) {
+/// The model of a run, when its file is still there.
+std::optional<model::Model> model_of(const report::IkRun& run) {
   const auto file = std::ranges::find(run.inputs, "model", &data::InputFile::role);
   if (file == run.inputs.end() || !fs::is_regular_file(file->path)) return std::nullopt;
-  const auto model = io::read_osim(file->path);
-  if (!model || !(model->gravity.norm() > 0.0)) return std::nullopt;
-  return Eigen::Vector3d(-model->gravity.normalized());
+  auto description = io::read_osim(file->path);
+  if (!description) return std::nullopt;
+  auto model = model::Model::compile(std::move(*description));
+  if (!model) return std::nullopt;
+  return std::move(*model);
+}
+
+/// Its bodies, where the motion is of this model.
+std::optional<report::SceneBodies> bodies_of(const std::optional<model::Model>& model,
+                                             const data::JointMotion& motion) {
+  if (!model) return std::nullopt;
+  const auto& coordinates = model->description().coordinates;
+  if (!std::ranges::equal(coordinates, motion.coordinates, {}, &data::CoordinateDescription::name))
+    return std::nullopt;
+  return internal::body_positions(*model, motion);
 }
 
 std::string set_of(const Json& json) {
@@ -104,6 +118,22 @@ struct Page {
   std::string html;
   std::vector<fs::path> read;
 };
+
+/// Numbers of a torque table of the same set and frames; empty where there is no such file.
+Array<double> torques_from(const fs::path& path, const data::JointMotion& motion, std::string_view set) {
+  if (!fs::is_regular_file(path)) return {};
+  const auto read = io::read_table(path);
+  if (!read || set_of(*read) != set || read->columns.size() != motion.coordinates.size() ||
+      std::ssize(read->values) != motion.frames() * motion.size())
+    return {};
+  for (std::size_t j = 0; j < motion.coordinates.size(); ++j)
+    if (read->columns[j] != motion.coordinates[j] + "_moment" &&
+        read->columns[j] != motion.coordinates[j] + "_force")
+      return {};
+  Array<double> out(read->values.size());
+  std::ranges::copy(read->values, out.begin());
+  return out;
+}
 
 Result<Page> solved_page(const fs::path& solved) {
   std::string stem = solved.stem().string();
@@ -132,17 +162,22 @@ Result<Page> solved_page(const fs::path& solved) {
   if (!motion) return fail_at(base.string(), motion.error());
   if (const auto first = json->find("first_frame"); first != json->end() && first->is_number_integer())
     motion->time.first_number = first->get<std::int64_t>();
+  motion->tau = torques_from(beside(base, "_tau.sto"), *motion, set_of(*json));
+  if (!motion->tau.empty())
+    motion->tau_sd = torques_from(beside(base, "_tau_sd.sto"), *motion, set_of(*json));
   const auto states = recorded_states(*run, *motion);
   const bool turned = std::ranges::any_of(
       run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });
-  const auto up = up_of_run(*run);
+  const auto model = model_of(*run);
+  const auto bodies = bodies_of(model, *motion);
   auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
   if (!summary) return fail_at(base.string(), summary.error());
   page.html = report::report_html({.summary = *summary,
                                    .motion = &*motion,
                                    .markers = states ? &*states : nullptr,
                                    .in_model_axes = !turned,
-                                   .up = up});
+                                   .up = model ? up_of(*model) : std::nullopt,
+                                   .bodies = bodies ? &*bodies : nullptr});
   return page;
 }
 

@@ -5,9 +5,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "kinemark/core/text.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
@@ -112,11 +114,22 @@ Result<TorqueAccount> add_torques(const TrackJob& job, const internal::MotionInp
   return TorqueAccount{};
 }
 
+/// The markers of the page, where each frame of the motion is one of the recording.
+std::optional<data::Trajectories> markers_of(const data::Trajectories& recorded,
+                                             const motion::TrackResult& result) {
+  const auto& motion = result.motion;
+  const auto last = result.fit.first_frame + motion.frames();
+  if (motion.time.rate_hz != recorded.time.rate_hz || last > recorded.frames()) return std::nullopt;
+  return internal::solved_markers(recorded, result.fit, motion);
+}
+
 Result<Staging> stage_files(const TrackJob& job) {
   std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
   if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
   files.push_back("_report.json");
-  return internal::stage(job, files);
+  std::vector<std::filesystem::path> further;
+  if (!job.report.empty()) further.push_back(job.report);
+  return internal::stage(job, files, further);
 }
 
 }  // namespace
@@ -147,11 +160,16 @@ Result<TrackOutcome> run_track(TrackJob job) {
   auto run = describe_run(job, *inputs, outcome.result, *torques);
   if (!run) return std::unexpected(run.error());
   const auto& motion = outcome.result.motion;
+  const auto solved = markers_of(inputs->trial.markers, outcome.result);
   if (auto s = internal::judge(std::move(*run), motion, nullptr, outcome); !s)
     return std::unexpected(s.error());
   // Write.
   auto files = internal::motion_files(job, motion, outcome.summary);
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
+  if (!job.report.empty())
+    files.push_back(text_file(job.report, [&] {
+      return internal::motion_page(inputs->model, outcome.summary, motion, solved ? &*solved : nullptr);
+    }));
   if (auto s = internal::write(job, *staging, files, "direct marker control", motion, outcome); !s)
     return std::unexpected(s.error());
   return outcome;

@@ -11,6 +11,7 @@ namespace kinemark::pipeline {
 /// Q_rank.sto, Q_marker_errors.sto and Q_report.json.
 struct TrackJob : MotionJob {
   motion::TrackOptions options;  ///< of the tracking
+  std::filesystem::path report;  ///< page to write as well, .html
 };
 
 /// What `kinemark track` did.

@@ -15,6 +15,8 @@
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/page_file.h"
+#include "kinemark/pipeline/rig/rig_page.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/scan.h"
 #include "kinemark/stages/calibration/still_poses.h"
@@ -234,6 +236,14 @@ void add_gate(const CalibrateJob& job, std::string sentence, CalibrateOutcome& o
                        .sentence = std::move(sentence)});
 }
 
+Result<CalibrateOutcome> with_page(const CalibrateJob& job, PageFile& page, const data::Rig& nominal,
+                                   const data::Rig& found, CalibrateOutcome out) {
+  if (page.wanted())
+    if (auto s = page.write(calibrate_page(job, out, nominal, found), out); !s)
+      return std::unexpected(s.error());
+  return out;
+}
+
 }  // namespace
 
 std::string_view method_name(CalibrateJob::Method method) {
@@ -245,6 +255,9 @@ Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
   auto read = job.inputs;
   read.push_back(job.nominal);
   if (auto s = check_apart({job.output}, read); !s) return std::unexpected(s.error());
+  read.push_back(job.output);
+  auto page = PageFile::begin(job.report, read, job.force);
+  if (!page) return std::unexpected(page.error());
   const auto nominal = io::read_rig(job.nominal);
   if (!nominal) return std::unexpected(nominal.error());
   CalibrateOutcome out;
@@ -257,12 +270,12 @@ Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
     const auto adjusted = adjust(job, *nominal, *evidence, *rig, out);
     if (!adjusted && !refused(adjusted.error())) return std::unexpected(adjusted.error());
     if (!adjusted) add_gate(job, adjusted.error().message, out);
-    if (!adjusted || job.align_only) return out;
+    if (!adjusted || job.align_only) return with_page(job, *page, *nominal, *nominal, std::move(out));
     add_gate(job, fmt::format("chi2 per degree of freedom is {:.2f}.", out.bundle->chi2_per_dof), out);
   }
   if (auto s = io::write_rig(job.output, *rig, job.force); !s) return std::unexpected(s.error());
   out.written = {job.output};
-  return out;
+  return with_page(job, *page, *nominal, *rig, std::move(out));
 }
 
 }  // namespace kinemark::pipeline

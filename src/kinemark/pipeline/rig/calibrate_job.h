@@ -26,6 +26,7 @@ struct CalibrateJob : JobSettings {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path nominal;      ///< rig as set up by hand, rig.toml
   std::filesystem::path output;       ///< rig.toml to write
+  std::filesystem::path report;       ///< page to write as well, .html
   Method method = Method::bundle;     ///< how the rig is calibrated
   calibration::BundleOptions bundle;  ///< for Method::bundle
   std::vector<double> sides_m;        ///< of the tree; empty: as the recording says

@@ -9,6 +9,8 @@
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/page_file.h"
+#include "kinemark/pipeline/rig/rig_page.h"
 
 namespace kinemark::pipeline {
 
@@ -19,6 +21,8 @@ std::string_view method_name(ReconstructJob::Method method) {
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   if (auto s = check_apart({job.output}, {job.recording, job.rig}); !s) return std::unexpected(s.error());
+  auto page = PageFile::begin(job.report, {job.output, job.recording, job.rig}, job.force);
+  if (!page) return std::unexpected(page.error());
   const auto rig = io::read_rig(job.rig);
   if (!rig) return std::unexpected(rig.error());
   auto recording = io::read_counts(job.recording);
@@ -48,6 +52,9 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   }
   if (auto s = io::write_markers(job.output, trial, job.force); !s) return std::unexpected(s.error());
   out.written = {job.output};
+  if (page->wanted())
+    if (auto s = page->write(reconstruct_page(job, out, *rig, trial.markers), out); !s)
+      return std::unexpected(s.error());
   return out;
 }
 

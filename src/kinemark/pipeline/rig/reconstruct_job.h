@@ -22,6 +22,7 @@ struct ReconstructJob : JobSettings {
   std::filesystem::path recording;            ///< of counts
   std::filesystem::path rig;                  ///< rig.toml
   std::filesystem::path output;               ///< markers: .c3d, .trc or .csv
+  std::filesystem::path report;               ///< page to write as well, .html
   Method method = Method::smoother;           ///< how points come from counts
   reconstruction::ReconstructOptions frames;  ///< for Method::frames
   trajectory::SmoothCountsOptions smoother;   ///< for Method::smoother

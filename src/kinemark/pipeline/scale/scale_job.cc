@@ -19,6 +19,7 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/scale/scale_json.h"
+#include "kinemark/pipeline/scale/scale_page.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/masses.h"
@@ -198,12 +199,13 @@ class ScaleRun {
     const auto text = document_->format({.model = out_.model, .factors = factors(), .paths = out_.muscles});
     if (!text) return fail_at(job_.output.string(), text.error());
     out_.lost = text->lost;
-    auto staging = Staging::create({job_.output, report}, job_.force, inputs());
+    auto staging = Staging::create(targets(), job_.force, inputs());
     if (!staging) return std::unexpected(staging.error());
-    auto written = write_results(
-        *staging,
-        {model_file(job_.output, text->text), json_file(report, [this] { return scale_json(job_, out_); })},
-        {}, "scaling", name_set(text->text));
+    std::vector<ResultFile> files{model_file(job_.output, text->text),
+                                  json_file(report, [this] { return scale_json(job_, out_); })};
+    if (!job_.report.empty())
+      files.push_back(text_file(job_.report, [this] { return scale_page(job_, out_); }));
+    auto written = write_results(*staging, files, {}, "scaling", name_set(text->text));
     if (!written) return std::unexpected(written.error());
     out_.written = std::move(*written);
     return std::move(out_);
@@ -211,13 +213,19 @@ class ScaleRun {
 
   /// Checks that the targets can be written before any long computation.
   Status check_targets() const {
-    const auto staging =
-        Staging::create({job_.output, beside(job_.output, "_report.json")}, job_.force, inputs());
+    const auto staging = Staging::create(targets(), job_.force, inputs());
     if (!staging) return std::unexpected(staging.error());
     return {};
   }
 
  private:
+  /// Every file that is written.
+  std::vector<fs::path> targets() const {
+    std::vector<fs::path> files{job_.output, beside(job_.output, "_report.json")};
+    if (!job_.report.empty()) files.push_back(job_.report);
+    return files;
+  }
+
   /// Name of the set of files. @param text  of the model
   std::string name_set(const std::string& text) const {
     SetDigest digest;

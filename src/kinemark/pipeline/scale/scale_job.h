@@ -24,6 +24,7 @@ struct ScaleJob : JobSettings {
   std::filesystem::path static_trial;  ///< marker file of a static trial
   std::filesystem::path markers;       ///< marker file of a motion: sizes and positions are adapted to it
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
+  std::filesystem::path report;        ///< page to write as well, .html
   double rate_hz = 0.0;                ///< for marker files that store none (.v3d); 0: not given
   AxesChoice axes;                     ///< how marker files are turned into the model's axes
   double mass_kg = 0.0;                ///< 0: the setup's, or as the factors make it

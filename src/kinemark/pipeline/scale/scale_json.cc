@@ -98,6 +98,7 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
                         {"body", marker.body},
                         {"before_in_body_m", numbers(marker.before_in_body)},
                         {"after_in_body_m", numbers(marker.after_in_body)},
+                        {"error_m", marker.error_m},
                         {"fixed", marker.fixed}});
     report["placed"] = {{"rms_m", outcome.placed->rms_m},
                         {"not_in_static_trial", outcome.placed->unseen},

@@ -93,6 +93,12 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
                        describe_frames(motion.frames() - c.determined_frames, motion.frames())),
            from_s});
   }
+  for (const CoordinateSummary& c : s.coordinates)
+    if (c.at_limit_frames > 0)
+      out.push_back({Verdict::good, "coordinate", c.name,
+                     fmt::format("{} lies at a limit of its range in {}.", c.name,
+                                 describe_frames(c.at_limit_frames, motion.frames())),
+                     motion.time.time_s(c.first_at_limit)});
   add_left_out(s, out);
   for (const MarkerRow& m : s.markers) {
     if (m.why_excluded.empty() && m.used && m.seen_frames == 0 && !motion.marker_error.empty())

@@ -37,6 +37,24 @@ std::vector<Notice> findings_of(const data::JointMotion& motion, IkRun run = {})
 
 TEST(Findings, AGoodTrialHasNone) { EXPECT_THAT(findings_of(good_motion()), IsEmpty()); }
 
+TEST(Findings, ACoordinateAtALimitIsNamedAndOneNearItIsNot) {
+  auto m = good_motion();
+  for (const std::size_t f : {4U, 7U}) m.q[2 * f] = 1.0;
+  m.q[2 * 8 + 1] = 0.99;
+  const std::vector<CoordinateLimits> limits{{"hip", -2.0, 1.0}, {"knee", -1.0, 1.0}};
+  const auto found = findings_of(m, {.limits = limits});
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].level, Verdict::good);
+  EXPECT_EQ(found[0].text, "hip lies at a limit of its range in 2 of 10 frames (20 %).");
+  EXPECT_DOUBLE_EQ(found[0].time_s, 1.4);
+  m.determined[2 * 4] = m.determined[2 * 7] = 0;
+  for (const auto& finding : findings_of(m, {.limits = limits}))
+    EXPECT_THAT(finding.text, testing::Not(HasSubstr("limit"))) << "undetermined values are at no limit";
+  EXPECT_THAT(findings_of(good_motion(), {.locked_coordinates = {"hip"}, .limits = {{"hip", 0.0, 1.0}}}),
+              IsEmpty())
+      << "a locked coordinate is meant to stay where it is";
+}
+
 TEST(Findings, AFailedGateIsSeriousAndAPassedOneSilent) {
   const auto found = findings_of(good_motion(), {.exit_status = 1,
                                                  .gates = {{"a", true, 1, 2, "mm", "fine"},

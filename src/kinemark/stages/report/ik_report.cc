@@ -86,6 +86,21 @@ Json coordinate_series(const JointMotion& motion, std::int64_t coordinate, const
   return out;
 }
 
+/// N m or N of one coordinate and its standard deviation; null where the motion has none.
+Json torque_series(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
+                   Column& column) {
+  if (motion.tau.empty()) return nullptr;
+  for (std::int64_t f = 0; f < motion.frames(); ++f)
+    column.values[f] = motion.tau[motion.index(f, coordinate)];
+  if (std::ranges::none_of(column.values, [](double v) { return std::isfinite(v); })) return nullptr;
+  Json out = {{"value", base64(points.extremes(column.values))}, {"sd", nullptr}};
+  if (motion.tau_sd.empty()) return out;
+  for (std::int64_t f = 0; f < motion.frames(); ++f)
+    column.values[f] = motion.tau_sd[motion.index(f, coordinate)];
+  out["sd"] = base64(points.largest(column.values));
+  return out;
+}
+
 Json error_series(const JointMotion& motion, const PlotPoints& points, Column& column) {
   Json out = Json::array();
   const std::size_t M = motion.markers.size();
@@ -153,7 +168,8 @@ PlotPoints plot_grid(const IkReport& report, const ReportOptions& options) {
   // adds a third.
   const auto coordinates = report.motion->size();
   const auto markers = std::ssize(report.summary.markers);
-  const std::int64_t bytes = (9 * coordinates + 5 * markers + 5) * 4 / 3 + 1;
+  const std::int64_t bytes =
+      ((report.motion->tau.empty() ? 9 : 17) * coordinates + 5 * markers + 5) * 4 / 3 + 1;
   return {report.motion->frames(),
           std::max<std::int64_t>(2, std::min(options.max_points, options.max_series_bytes / bytes))};
 }
@@ -175,11 +191,15 @@ nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& 
   Json coordinates = Json::array();
   for (std::int64_t j = 0; j < motion.size(); ++j)
     coordinates.push_back(coordinate_series(motion, j, points, column));
+  Json torques = Json::array();
+  for (std::int64_t j = 0; j < motion.size() && !motion.tau.empty(); ++j)
+    torques.push_back(torque_series(motion, j, points, column));
   return {{"summary", summary_json(report.summary)},
           {"series",
            {{"frame_step", points.step()},
             {"points", points.size()},
             {"coordinates", std::move(coordinates)},
+            {"torques", std::move(torques)},
             {"rms_error_mm", rms_series(motion, points, column)},
             {"marker_error_mm", error_series(motion, points, column)},
             {"gaps", gap_series(report, points, column)},

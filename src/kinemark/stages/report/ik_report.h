@@ -12,6 +12,7 @@
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/report/ik_summary.h"
+#include "kinemark/stages/report/scene.h"
 
 namespace kinemark::report {
 
@@ -23,7 +24,8 @@ struct IkReport {
       nullptr;  ///< states for the gap map; nullptr: seen or not, from the errors
   /// Positions of `markers` are in the model's axes, so that the space view can show both.
   bool in_model_axes = true;
-  std::optional<Eigen::Vector3d> up;  ///< against the model's gravity, length 1; none: the page finds it
+  std::optional<Eigen::Vector3d> up;    ///< against the model's gravity, length 1; none: the page finds it
+  const SceneBodies* bodies = nullptr;  ///< of the model in this motion; nullptr: not known
 };
 
 /// The data that the page draws: `{"summary": summary_json(), "series": {...}}`.

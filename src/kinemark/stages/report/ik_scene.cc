@@ -34,6 +34,7 @@ nlohmann::ordered_json ik_scene_json(const IkReport& report) {
     }
   return scene_json({.markers = &used,
                      .model = &model,
+                     .bodies = report.bodies,
                      .up = report.up,
                      .up_from = report.up ? "the model's gravity" : ""});
 }

@@ -59,11 +59,19 @@ struct Errors {
   }
 };
 
+/// rad or m: a coordinate so near to a limit is held by it.
+constexpr double kAtLimit = 1e-4;
+
 CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& motion, std::int64_t coordinate) {
   const auto j = static_cast<std::size_t>(coordinate);
   CoordinateSummary s{.name = motion.coordinates[j], .is_rotation = motion.is_rotation[j]};
   s.keeps_radians = !motion.keeps_radians.empty() && motion.keeps_radians[j];
   s.locked = std::ranges::find(run.locked_coordinates, s.name) != run.locked_coordinates.end();
+  if (const auto at = std::ranges::find(run.limits, s.name, &CoordinateLimits::coordinate);
+      at != run.limits.end() && !s.locked) {
+    s.limit_min = at->min;
+    s.limit_max = at->max;
+  }
   std::vector<double> sds;
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
     const std::size_t i = motion.index(f, coordinate);
@@ -71,6 +79,11 @@ CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& moti
     ++s.determined_frames;
     s.min = std::fmin(s.min, motion.q[i]);
     s.max = std::fmax(s.max, motion.q[i]);
+    // Without limits both comparisons are false.
+    if (motion.q[i] <= s.limit_min + kAtLimit || motion.q[i] >= s.limit_max - kAtLimit) {
+      if (s.at_limit_frames == 0) s.first_at_limit = f;
+      ++s.at_limit_frames;
+    }
     if (!motion.q_sd.empty() && std::isfinite(motion.q_sd[i])) sds.push_back(motion.q_sd[i]);
   }
   s.median_sd = math::upper_median(sds);

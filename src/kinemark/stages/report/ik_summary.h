@@ -19,6 +19,12 @@
 
 namespace kinemark::report {
 
+/// How far a coordinate may go.
+struct CoordinateLimits {
+  std::string coordinate;       ///< in the model
+  double min = 0.0, max = 0.0;  ///< rad or m
+};
+
 /// Everything about a run that is not in its arrays. The caller fills this in.
 struct IkRun {
   std::string trial;         ///< name for the heading, usually the marker file's
@@ -37,19 +43,24 @@ struct IkRun {
   /// warnings stand in `warnings`. Markers that are not listed have the weight 1.
   data::MarkerFit fit;
   std::vector<std::string> locked_coordinates;  ///< held fixed by the model or the user
+  std::vector<CoordinateLimits> limits;         ///< of the coordinates that have any
+  double mass_kg = kNaN;                        ///< of the model's bodies together; NaN: not known
   std::vector<std::string> warnings;            ///< one sentence each
 };
 
 /// One coordinate over the recording.
 struct CoordinateSummary {
-  std::string name;                    ///< in the model
-  bool is_rotation = true;             ///< true: rad, false: m
-  bool keeps_radians = false;          ///< MOT and STO files hold it in rad
-  bool locked = false;                 ///< the model holds it
-  std::int64_t determined_frames = 0;  ///< frames in which the markers fix it
-  double min = kNaN;                   ///< rad or m, over determined frames
-  double max = kNaN;                   ///< rad or m, over determined frames
-  double median_sd = kNaN;             ///< rad or m, over determined frames
+  std::string name;                           ///< in the model
+  bool is_rotation = true;                    ///< true: rad, false: m
+  bool keeps_radians = false;                 ///< MOT and STO files hold it in rad
+  bool locked = false;                        ///< the model holds it
+  std::int64_t determined_frames = 0;         ///< frames in which the markers fix it
+  double min = kNaN;                          ///< rad or m, over determined frames
+  double max = kNaN;                          ///< rad or m, over determined frames
+  double median_sd = kNaN;                    ///< rad or m, over determined frames
+  double limit_min = kNaN, limit_max = kNaN;  ///< rad or m; NaN: none
+  std::int64_t at_limit_frames = 0;           ///< determined frames that lie at a limit, or beyond
+  std::int64_t first_at_limit = -1;           ///< the first of them; -1: none
 };
 
 /// A row of the page's table of markers, used or not.

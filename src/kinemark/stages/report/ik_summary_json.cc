@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "kinemark/core/units.h"
 #include "kinemark/stages/report/ik_summary.h"
 #include "kinemark/stages/report/internal/json_parts.h"
@@ -26,6 +28,11 @@ Json coordinate_value(const CoordinateSummary& c, double value) {
   return c.is_rotation ? number(kDegPerRad * value, 4) : number(value, 6);
 }
 
+Json limits_json(const CoordinateSummary& c) {
+  if (!std::isfinite(c.limit_min) || !std::isfinite(c.limit_max)) return nullptr;
+  return Json::array({coordinate_value(c, c.limit_min), coordinate_value(c, c.limit_max)});
+}
+
 Json coordinates_json(const IkSummary& s) {
   Json out = Json::array();
   for (const CoordinateSummary& c : s.coordinates)
@@ -36,7 +43,9 @@ Json coordinates_json(const IkSummary& s) {
                    {"determined_frames", c.determined_frames},
                    {"min", coordinate_value(c, c.min)},
                    {"max", coordinate_value(c, c.max)},
-                   {"median_sd", coordinate_value(c, c.median_sd)}});
+                   {"median_sd", coordinate_value(c, c.median_sd)},
+                   {"limits", limits_json(c)},
+                   {"at_limit_frames", c.at_limit_frames}});
   return out;
 }
 
@@ -110,6 +119,15 @@ std::vector<data::Finding> read_rejected(const Json& json) {
   return findings;
 }
 
+/// Whether it is locked, and its limits; reports of earlier versions have none.
+void add_coordinate(const Json& c, IkRun& run) {
+  if (c.at("locked").get<bool>()) run.locked_coordinates.push_back(c.at("name"));
+  const Json limits = c.value("limits", Json());
+  if (!limits.is_array()) return;
+  const double unit = c.at("unit") == "deg" ? kRadPerDeg : 1.0;
+  run.limits.push_back({c.at("name"), unit * limits.at(0).get<double>(), unit * limits.at(1).get<double>()});
+}
+
 IkRun read_run(const Json& json) {
   IkRun run;
   json.at("trial").get_to(run.trial);
@@ -144,8 +162,8 @@ IkRun read_run(const Json& json) {
     }
   }
   run.fit.findings = read_rejected(json);
-  for (const Json& c : json.at("coordinates"))
-    if (c.at("locked").get<bool>()) run.locked_coordinates.push_back(c.at("name"));
+  for (const Json& c : json.at("coordinates")) add_coordinate(c, run);
+  if (const Json mass = json.value("mass_kg", Json()); mass.is_number()) mass.get_to(run.mass_kg);
   json.at("warnings").get_to(run.warnings);
   return run;
 }
@@ -181,6 +199,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"rejected", rejected_json(s)},
           {"findings", findings_json(s.notices)},
           {"gates", gates_json(run.gates)},
+          {"mass_kg", number(run.mass_kg, 3)},
           {"coordinates", coordinates_json(s)},
           {"markers", markers_json(s)},
           {"worst_frames", worst_frames_json(s)},

@@ -58,7 +58,28 @@ TEST(SummaryJson, UnknownNumbersAreNull) {
 TEST(SummaryJson, EveryKeyIsDescribedInOrderOfImportance) {
   const Json json = summary_json(example_summary());
   EXPECT_EQ(json.begin().key(), "schema");
-  EXPECT_EQ(json.size(), 32U) << "a new key belongs into README.md and viewer/src/types.ts too";
+  EXPECT_EQ(json.size(), 33U) << "a new key belongs into README.md and viewer/src/types.ts too";
+}
+
+TEST(RunFromJson, LimitsAndMassComeBackAndMayBeMissing) {
+  IkSummary s = example_summary();
+  s.run.mass_kg = 71.5;
+  s.coordinates[0].limit_min = -1.0;
+  s.coordinates[0].limit_max = 2.0;
+  auto json = Json::parse(summary_json(s).dump());
+  const auto back = run_from_json(json);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_DOUBLE_EQ(back->mass_kg, 71.5);
+  ASSERT_EQ(back->limits.size(), 1U);
+  EXPECT_EQ(back->limits[0].coordinate, s.coordinates[0].name);
+  EXPECT_NEAR(back->limits[0].min, -1.0, 1e-6);
+  EXPECT_NEAR(back->limits[0].max, 2.0, 1e-6);
+  json.erase("mass_kg");
+  for (auto& c : json["coordinates"]) c.erase("limits");
+  const auto old = run_from_json(json);
+  ASSERT_TRUE(old) << "reports of earlier versions have neither";
+  EXPECT_TRUE(old->limits.empty());
+  EXPECT_TRUE(std::isnan(old->mass_kg));
 }
 
 TEST(RunFromJson, ReadsBackWhatWasWritten) {

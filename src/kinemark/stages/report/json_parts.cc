@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/report/internal/json_parts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemark/core/check.h"
@@ -49,6 +50,18 @@ Json findings_json(std::span<const Notice> findings) {
                    {"subject", f.subject},
                    {"text", f.text},
                    {"time_s", number(f.time_s, 6)}});
+  return out;
+}
+
+Json groups_json(std::span<const NoticeGroup> groups) {
+  constexpr std::size_t kMostItems = 2000;
+  Json out = Json::array();
+  for (const auto& group : groups) {
+    const std::span<const Notice> shown(group.items.data(), std::min(group.items.size(), kMostItems));
+    out.push_back({{"level", group.level == Verdict::attention ? "attention" : "note"},
+                   {"title", group.title},
+                   {"items", findings_json(shown)}});
+  }
   return out;
 }
 

@@ -60,14 +60,6 @@ std::string count_of(std::size_t n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-/// Adds the group when it holds anything.
-void add_group(std::vector<NoticeGroup>& groups, Verdict level, const char* about, const char* one,
-               const char* many, std::vector<Notice> items) {
-  if (items.empty()) return;
-  for (auto& item : items) item.level = level, item.about = about;
-  groups.push_back({level, count_of(items.size(), one, many), std::move(items)});
-}
-
 Json counts_json(const Tally& tally) {
   Json out = Json::object();
   for (std::size_t s = 0; s < tally.states.size(); ++s)
@@ -118,30 +110,17 @@ Json events_json(const data::Trial& trial) {
   return out;
 }
 
-Json groups_json(const std::vector<NoticeGroup>& groups) {
-  Json out = Json::array();
-  for (const auto& group : groups) {
-    const std::span<const Notice> shown(group.items.data(), std::min(group.items.size(), kMostOfAKind));
-    out.push_back({{"level", group.level == Verdict::attention ? "attention" : "note"},
-                   {"title", group.title},
-                   {"items", internal::findings_json(shown)}});
-  }
-  return out;
-}
-
 Json summary_of(const MarkersReport& report) {
   const data::Trial& trial = *report.recording;
   const Trajectories& t = trial.markers;
   const auto groups = markers_notices(report);
-  const bool attention =
-      std::ranges::any_of(groups, [](const auto& g) { return g.level == Verdict::attention; });
   return {{"schema", "kinemark.markers_report"},
           {"schema_version", 1},
           {"trial", report.trial},
           {"format", trial.format},
           {"units", trial.units_in_file},
           {"software", trial.software},
-          {"verdict", to_string(attention ? Verdict::attention : Verdict::good)},
+          {"verdict", to_string(verdict_of(groups))},
           {"frames", t.frames()},
           {"rate_hz", internal::number(t.time.rate_hz, 9)},
           {"rate_known", report.rate_known},
@@ -149,7 +128,7 @@ Json summary_of(const MarkersReport& report) {
           {"first_frame", trial.first_frame},
           {"version", report.version},
           {"command_line", report.command_line},
-          {"groups", groups_json(groups)},
+          {"groups", internal::groups_json(groups)},
           {"markers", markers_json(t, tally_markers(t))},
           {"channel_count", trial.channels.names.size() + trial.analog.names.size()},
           {"channels", channels_json(trial)},

@@ -28,13 +28,6 @@ struct MarkersReport {
   std::vector<std::string> warnings;              ///< one sentence each, besides those of the recording
 };
 
-/// Remarks of one kind, folded into one line.
-struct NoticeGroup {
-  Verdict level = Verdict::good;  ///< of the line
-  std::string title;              ///< "7 markers partly missing"
-  std::vector<Notice> items;      ///< one each, in the order of the file
-};
-
 /// What stands out in a recording, the serious first: markers never seen, markers partly missing, samples
 /// that were made or rejected, points that nobody named, remarks of the reader.
 [[nodiscard]] std::vector<NoticeGroup> markers_notices(const MarkersReport& report);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
@@ -29,6 +30,22 @@ struct Notice {
   std::string text;               ///< one sentence
   double time_s = kNaN;           ///< where to look first
 };
+
+/// Remarks of one kind, folded into one line.
+struct NoticeGroup {
+  Verdict level = Verdict::good;  ///< of the line
+  std::string title;              ///< "7 markers partly missing"
+  std::vector<Notice> items;      ///< one each, in the order of the file
+};
+
+/// Fold remarks of one kind into a line, "3 markers never seen"; nothing where there are none.
+/// @param about  of each item, see Notice
+/// @param one    the words for one of them, @param many  for several
+void add_group(std::vector<NoticeGroup>& groups, Verdict level, std::string_view about, std::string_view one,
+               std::string_view many, std::vector<Notice> items);
+
+/// attention when a group has that level.
+[[nodiscard]] Verdict verdict_of(const std::vector<NoticeGroup>& groups);
 
 /// How much of the arrays goes into a page.
 struct ReportOptions {

@@ -10,6 +10,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/report/internal/clean_text.h"
+#include "kinemark/stages/report/internal/scene_parts.h"
 #include "kinemark/stages/report/internal/track_block.h"
 
 namespace kinemark::report {
@@ -107,6 +108,10 @@ Json pack_scene(const Scene& scene, const Kept& kept) {
   if (scene.model != nullptr)
     out["model_m"] = pack_triples(*scene.model, markers.markers(), kept, kFinest_m, kCoarsest_m);
   if (scene.before != nullptr) out["before"] = pack_markers(*scene.before, kept);
+  if (scene.bodies != nullptr && !scene.bodies->names.empty())
+    out["bodies"] = internal::bodies_json(*scene.bodies, kept.step);
+  if (scene.skeleton != nullptr) out["skeleton"] = internal::skeleton_json(*scene.skeleton, kept.step);
+  if (!scene.cameras.empty()) out["cameras"] = internal::cameras_json(scene.cameras);
   if (kept.step > 1) out["worst"] = pack_worst(markers, kept);
   return out;
 }
@@ -141,6 +146,11 @@ Json scene_json(const Scene& scene, const SceneOptions& options) {
         "a scene needs the same markers and frames before as after");
   check(scene.forces == nullptr || scene.forces->frames() == markers.frames(),
         "a scene needs forces on the markers' clock");
+  check(scene.bodies == nullptr || std::ssize(scene.bodies->origin_in_world) ==
+                                       3 * markers.frames() * std::ssize(scene.bodies->names),
+        "a scene needs a place of each body in each frame");
+  check(scene.skeleton == nullptr || scene.skeleton->frames() == markers.frames(),
+        "a scene needs joint centres on the markers' clock");
   const std::int64_t frames = markers.frames();
   const std::int64_t most = frames <= options.short_frames ? options.max_bytes : options.max_bytes_long;
   const std::int64_t coarsest = std::max<std::int64_t>(1, frames / 2);

@@ -12,11 +12,31 @@
 
 #include "kinemark/core/array.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/data/wrenches.h"
 
 namespace kinemark::report {
+
+/// A camera to draw: its lens and what it sees.
+struct SceneCamera {
+  std::string name;                                           ///< unique
+  Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();  ///< of the lens, m
+  /// Right, down and forward, as columns.
+  Eigen::Matrix3d axes_in_world = Eigen::Matrix3d::Identity();
+  Eigen::Vector2d half_view = Eigen::Vector2d::Constant(0.3);  ///< slopes of the edges of the view
+  bool nominal = false;  ///< where it was meant to stand, not where it stands
+};
+
+/// Rigid bodies, each drawn as a plain shape of its own mass about the line from its origin to its end: F
+/// frames, B bodies.
+struct SceneBodies {
+  std::vector<std::string> names;  ///< B
+  std::vector<double> mass_kg;     ///< B, >= 0
+  Array<double> origin_in_world;   ///< F x B x 3, m
+  Array<double> end_in_world;      ///< F x B x 3, m: where the next body begins
+};
 
 /// Points through time to draw, all in one laboratory frame.
 struct Scene {
@@ -25,6 +45,9 @@ struct Scene {
   const data::Trajectories* before = nullptr;  ///< F x M, the same markers as they came in; may be absent
   const data::Wrenches* forces = nullptr;      ///< on the markers' clock; may be absent
   std::vector<data::ForcePlate> plates;        ///< corners, m
+  const data::Skeleton* skeleton = nullptr;    ///< joint centres on the markers' clock; may be absent
+  const SceneBodies* bodies = nullptr;         ///< on the markers' clock; may be absent
+  std::vector<SceneCamera> cameras;            ///< may be none
   std::optional<Eigen::Vector3d>
       up;               ///< axis of the laboratory that points up, length 1; none: the page finds it
   std::string up_from;  ///< who says so: "the force plates"; empty: nobody

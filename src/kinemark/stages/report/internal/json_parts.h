@@ -24,6 +24,8 @@ namespace kinemark::report::internal {
 /// The parts that all reports share, as README.md describes them.
 [[nodiscard]] nlohmann::ordered_json gates_json(std::span<const Gate> gates);
 [[nodiscard]] nlohmann::ordered_json findings_json(std::span<const Notice> findings);
+/// Each with 2,000 items at most, so that a page stays usable.
+[[nodiscard]] nlohmann::ordered_json groups_json(std::span<const NoticeGroup> groups);
 [[nodiscard]] nlohmann::ordered_json inputs_json(std::span<const InputFile> inputs);
 [[nodiscard]] nlohmann::ordered_json options_json(
     std::span<const std::pair<std::string, std::string>> options);

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of a motion, however it was solved.
+#pragma once
+
+#include <string>
+
+#include "kinemark/data/joint_motion.h"
+#include "kinemark/data/marker_fit.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/report/ik_summary.h"
+
+namespace kinemark::pipeline::internal {
+
+/// The used markers on the frames that were solved, under the model's names, without what was left out.
+[[nodiscard]] data::Trajectories solved_markers(const data::Trajectories& recorded,
+                                                const data::MarkerFit& fit, const data::JointMotion& motion);
+
+/// HTML with the model's bodies in space. @param markers  on the motion's clock; nullptr: not known
+[[nodiscard]] std::string motion_page(const model::Model& model, const report::IkSummary& summary,
+                                      const data::JointMotion& motion, const data::Trajectories* markers);
+
+}  // namespace kinemark::pipeline::internal
