@@ -218,6 +218,10 @@ void Walker::judge() {
     weight += goal_.weight[m];
   }
   if (weight > 0.0 && !(std::sqrt(squares / weight) <= plan_.max_error_m)) flagged_ = true;
+  // A body that is still led to the goals it had lost is not where they are.
+  if (weight > 0.0 && plan_.settle && usual_cost_ >= 0.0 && led_.x != goal_.x &&
+      squares / weight > kCostly * usual_cost_ + kCostly_m2)
+    flagged_ = true;
 }
 
 }  // namespace kinemark::motion::internal
