@@ -116,7 +116,9 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
                           const motion::IkResult& least_squares, std::string set,
                           const data::JointMotion* truth) {
   constexpr double kBeyondFirstOrder = 0.01 * kRadPerDeg;
-  constexpr double kRounding = 1e-5;  // rad: to which both converge
+  // rad: both stop where a step gains less than 1e-10 of the cost, which leaves a nearly undetermined angle
+  // (an arm almost stretched) open by more than 1e-5.
+  constexpr double kRounding = 1e-4;
   const auto& ours = control.motion;
   const auto& theirs = least_squares.motion;
   check(ours.coordinates == theirs.coordinates, "compare() needs motions of one model");
