@@ -109,22 +109,21 @@ class ManyTest(CommandTest):
         folder = self.folder / "in"
         folder.mkdir()
         for seed in (1, 2):
-            self.good("simulate", "limb", "-o", f"made{seed}", "--duration", 3, "--seed", seed)
-            found = sorted((self.folder / f"made{seed}").glob("markers.c*"))
-            shutil.copy(found[0], folder / f"arm{seed}{found[0].suffix}")
-        ran = self.run_in("joints", folder, "-o", "out/", "--to", "c3d", "--jobs", "2", "--json")
+            self.good("simulate", "macaque", "-o", f"made{seed}", "--duration", 5, "--all-seen", "--seed", seed)
+            shutil.copy(self.folder / f"made{seed}" / "markers.c3d", folder / f"arm{seed}.c3d")
+        words = ["--segments", "made1/segments.toml", "--to", "c3d"]
+        ran = self.run_in("joints", folder, *words, "-o", "out/", "--jobs", "2", "--json")
         self.assertIn(ran.status, (0, 1), ran.err)
         self.assertEqual(len(self.statuses(ran.out)), 2)
-        one = sorted(folder.iterdir())[0]
-        self.run_in("joints", one, "-o", "alone.c3d")
+        self.run_in("joints", folder / "arm1.c3d", "--segments", "made1/segments.toml", "-o", "alone.c3d")
         alone, many = (
             json.loads((self.folder / name).read_text())["joints"] for name in ("alone_skeleton.json", "out/arm1_skeleton.json")
         )
         self.assertEqual(alone, many)
-        again = self.run_in("joints", folder, "-o", "out/", "--to", "c3d", "--json")
+        again = self.run_in("joints", folder, *words, "-o", "out/", "--json")
         self.assertEqual(self.statuses(again.out), ["there already"] * 2)
         (self.folder / "out" / "arm1_skeleton.json").unlink()
-        again = self.run_in("joints", folder, "-o", "out/", "--to", "c3d", "--json")
+        again = self.run_in("joints", folder, *words, "-o", "out/", "--json")
         self.assertTrue((self.folder / "out" / "arm1_skeleton.json").exists(), again.err)
 
     def test_what_cannot_be_meant_is_refused(self):
