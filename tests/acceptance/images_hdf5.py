@@ -4,8 +4,8 @@
 """Points in images as HDF5: DeepLabCut's tables, written by pandas, and analysis files of SLEAP, written by h5py in the layout
 of its export. The same points give the same motion as from CSV.
 
-Needs Python with pandas and h5py, and with PyTables for the tables of pandas (SKIP without it). Finds the program in
-KINEMARK_PROGRAM; prints rows "PASS|FAIL|SKIP | check | asked | measured"; exit status 1 when one fails.
+Needs Python with pandas and h5py, and with PyTables for the tables of pandas (NOTE without it). Finds the program in
+KINEMARK_PROGRAM; prints rows "PASS|FAIL|NOTE | check | asked | measured"; exit status 1 when one fails.
 """
 
 import importlib.util
@@ -63,7 +63,7 @@ def main():
         good &= row(refused.returncode == 3 and "1 ('track_0'), 2 ('track_1')" in said and said.count("\n") == 0,
                     "two tracks, none chosen", "exit 3, one sentence with their names", f"exit {refused.returncode}: {said[-60:]}")
         if importlib.util.find_spec("tables") is None:
-            print("SKIP | DeepLabCut, tables of pandas | as from CSV | PyTables is not installed (pip install tables)", flush=True)
+            print("NOTE | DeepLabCut, tables of pandas | as from CSV | not judged: PyTables is absent (pip install tables)", flush=True)
             tables = []
         else:
             for how in ("table", "fixed"):
