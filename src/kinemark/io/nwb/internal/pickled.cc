@@ -67,13 +67,14 @@ class Unpickler {
 
   /// The labels, or nothing where something else is pickled.
   std::optional<std::vector<std::vector<std::string>>> run() {
-    while (!left_.empty()) {
+    bool ended = false;
+    while (!ended && !left_.empty()) {
       const char code = left_.front();
       left_.remove_prefix(1);
-      if (code == '.') break;
-      if (!step(code)) return std::nullopt;
+      ended = code == '.';
+      if (!ended && !step(code)) return std::nullopt;
     }
-    if (stack_.size() != 1 || stack_.front().kind != Item::Kind::list) return std::nullopt;
+    if (!ended || stack_.size() != 1 || stack_.front().kind != Item::Kind::list) return std::nullopt;
     return std::move(labels_);
   }
 
