@@ -87,7 +87,7 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
     one.report = page;
     return pipeline::run_clean(one);
   };
-  return run_each(common, many, many.to, true, clean_one);
+  return run_each(common, many, many.to, "_report.json", clean_one);
 }
 
 }  // namespace

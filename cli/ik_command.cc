@@ -73,7 +73,7 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
     one.report = page;
     return pipeline::run_ik(one);
   };
-  return run_each(common, many, ".mot", true, solve_one);
+  return run_each(common, many, ".mot", "_report.json", solve_one);
 }
 
 }  // namespace

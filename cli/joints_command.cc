@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 struct JointsArguments {
   pipeline::JointsJob job;
+  ManyArguments many;
   std::string sides = "both", kind = "auto";
   double noise_mm = 0.0;
   bool no_continuity = false;
@@ -28,11 +30,41 @@ Status read_names(JointsArguments& arguments) {
   return {};
 }
 
+/// The centres of each recording as a file in the folder --output.
+int run_many_joints(const CommonOptions& common, JointsArguments& arguments) {
+  auto& many = arguments.many;
+  many.output = arguments.job.output;
+  many.pages = arguments.job.report;
+  if (many.output.empty())
+    return report_error(
+        {.code = Code::usage,
+         .message = "several recordings need a folder for what is made of them; give --output"});
+  if (many.to.empty()) many.to = "csv";
+  if (auto s = many.check_format(); !s) return report_error(s.error());
+  const auto find_one = [&arguments](const std::filesystem::path& input, const std::filesystem::path& output,
+                                     const std::filesystem::path& page,
+                                     const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
+    pipeline::JointsJob one = arguments.job;
+    static_cast<pipeline::JobSettings&>(one) = settings;
+    one.input = input;
+    one.output = output;
+    one.report = page;
+    return pipeline::run_joints(one);
+  };
+  return run_each(common, many, many.to, "_skeleton.json", find_one);
+}
+
 int run_command(const CommonOptions& common, JointsArguments& arguments) {
   if (auto s = read_names(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.continuity = !arguments.no_continuity;
+  auto& many = arguments.many;
+  if (many.are_many()) return run_many_joints(common, arguments);
+  if (!many.to.empty())
+    return report_error({.code = Code::usage,
+                         .message = "--to is for several recordings; the ending of a file names its format"});
+  job.input = many.inputs.front();
   settle(common, "frames", job);
   const auto outcome = pipeline::run_joints(job);
   if (!outcome) return report_error(outcome.error());
@@ -56,10 +88,21 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Without --segments the markers are sorted into segments and joints by how they move. Exit status 1: "
       "a\n"
-      "segment or joint was left out as no body's, or a joint could be placed in no frame.");
+      "segment or joint was left out as no body's, or a joint could be placed in no frame.\n"
+      "Several recordings, or a folder of them: --output is a folder for a file of centres each, in the "
+      "format of --to; what "
+      "is there already is not done again.");
   const auto arguments = std::make_shared<JointsArguments>();
   auto& job = arguments->job;
-  command->add_option("IN", job.input, "Recording, .c3d, .trc, .csv or .nwb")->required();
+  command
+      ->add_option("IN", arguments->many.inputs, "Recordings, .c3d, .trc, .csv or .nwb, or folders of them")
+      ->required();
+  command
+      ->add_option("--to", arguments->many.to,
+                   "Format of the files of several recordings: " + written_formats() + " (csv)")
+      ->type_name("FORMAT")
+      ->group("Several recordings");
+  add_many_options(*command, arguments->many);
   command
       ->add_option("--segments", job.segments,
                    "TOML: [[segment]] name, markers; [[joint]] name, parent, child")
@@ -69,7 +112,9 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
           "-o,--output", job.output,
           "Folder (centres.csv, centres.c3d, skeleton.json, segments.toml), or a file .c3d, .trc, .csv, .nwb")
       ->group("Output");
-  command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
+  command
+      ->add_option("--report", job.report,
+                   "Also write the page that shows the result, R.html; a folder for several")
       ->group("Output");
   command
       ->add_option("--method", job.method,

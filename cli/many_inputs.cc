@@ -41,6 +41,10 @@ Status ManyArguments::split_output() {
   if (!are_many())
     return fail(Code::usage, fmt::format("{}: --to is for a folder; the ending of a file names its format",
                                          output.string()));
+  return check_format();
+}
+
+Status ManyArguments::check_format() {
   if (!to.starts_with('.')) to.insert(0, ".");
   if (!io::check_marker_format("x" + to))
     return fail(Code::usage, fmt::format("--to: '{}' is none of {}", to.substr(1), written_formats()));
@@ -76,7 +80,7 @@ Status check_edits(const std::filesystem::path& edits) {
 }
 
 int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,
-             bool makes_report, decltype(pipeline::ManyJob::run_one) run_one) {
+             std::string belongs, decltype(pipeline::ManyJob::run_one) run_one) {
   auto list = pipeline::list_inputs(arguments.inputs, pipeline::marker_endings());
   if (!list) return report_error(list.error());
   std::error_code ignored;
@@ -94,7 +98,7 @@ int run_each(const CommonOptions& common, const ManyArguments& arguments, std::s
   job.ending = std::move(ending);
   job.jobs = arguments.jobs;
   job.keep_going = arguments.keep_going;
-  job.makes_report = makes_report;
+  job.belongs = std::move(belongs);
   job.run_one = std::move(run_one);
   settle(common, "recordings", job);
   const auto outcome = pipeline::run_many(job);

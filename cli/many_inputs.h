@@ -30,6 +30,8 @@ struct ManyArguments {
   /// The last of the names is the output, and `to` gets its dot. Code::usage without an output, for a `to`
   /// without a folder, or one that is no format of markers. For positional arguments alone.
   [[nodiscard]] Status split_output();
+  /// `to` gets its dot. Code::usage for one that is no format of markers.
+  [[nodiscard]] Status check_format();
   /// Whether there are several inputs, or the output is a folder that is there or ends in a slash.
   [[nodiscard]] bool are_many() const;
 };
@@ -47,8 +49,8 @@ void add_many_options(CLI::App& command, ManyArguments& arguments);
 [[nodiscard]] Status check_edits(const std::filesystem::path& edits);
 
 /// Run the job for every recording, `ending` being the outputs' (empty: each its input's), and print the
-/// table; the exit status.
+/// table; the exit status. @param belongs  as ManyJob
 [[nodiscard]] int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,
-                           bool makes_report, decltype(pipeline::ManyJob::run_one) run_one);
+                           std::string belongs, decltype(pipeline::ManyJob::run_one) run_one);
 
 }  // namespace kinemark::cli

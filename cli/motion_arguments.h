@@ -22,7 +22,7 @@ struct MotionArguments {
   double noise_mm = 0.0, max_rms_mm = 50.0, max_offset_mm = 50.0;
   bool no_limits = false, no_error_bars = false;
   std::vector<std::string> images;
-  std::vector<std::filesystem::path> recordings;  ///< track takes one of them, ik any number
+  std::vector<std::filesystem::path> recordings;  ///< any number
 };
 
 /// "NAME=NUMBER"; `what` names the number in the failure.
@@ -46,7 +46,8 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command
       .add_option("--images", a.images,
-                  "Points that a camera of the rig saw, CAMERA=FILE: .csv as DeepLabCut writes it, .json of "
+                  "Points that a camera of the rig saw, CAMERA=FILE: .csv and .h5 of DeepLabCut, .h5 of "
+                  "SLEAP, .json of "
                   "OpenPose (or its "
                   "folder), MMPose or COCO. Repeatable.")
       ->group("Images");
@@ -57,9 +58,9 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->capture_default_str()
       ->group("Images");
   command
-      .add_option(
-          "--person", job.images.person,
-          "Which person of images that show several: the file's number, else the place in the frame from 1")
+      .add_option("--person", job.images.person,
+                  "Which person of images that show several: the file's number, else the place in the frame "
+                  "or file from 1")
       ->group("Images");
   command.add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
   command.add_option("--weight", a.weights, "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")

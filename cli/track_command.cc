@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
 #include "cli/motion_arguments.h"
 #include "kinemark/core/text.h"
 #include "kinemark/io/number.h"
@@ -18,6 +19,7 @@ namespace {
 struct TrackArguments {
   pipeline::TrackJob job;
   MotionArguments motion;
+  ManyArguments many;
   std::vector<std::string> levels, rest, posture;
   double step_ms = 0.0;
   bool no_feed_forward = false, no_lock = false;
@@ -88,11 +90,25 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
 
 int run_command(const CommonOptions& common, const TrackArguments& arguments) {
   pipeline::TrackJob job = arguments.job;
-  if (arguments.motion.recordings.size() > 1)
-    return report_error({.code = Code::usage, .message = "--markers: several recordings; track takes one"});
   if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
   if (auto status = apply(arguments, job); !status) return report_error(status.error());
-  return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);
+  ManyArguments many = arguments.many;
+  many.inputs = arguments.motion.recordings;
+  many.output = job.output;
+  many.pages = job.report;
+  if (many.inputs.empty() || !many.are_many())
+    return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);
+  const auto track_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
+                                const std::filesystem::path& page,
+                                const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
+    pipeline::TrackJob one = job;
+    static_cast<pipeline::JobSettings&>(one) = settings;
+    one.markers = input;
+    one.output = output;
+    one.report = page;
+    return pipeline::run_track(one);
+  };
+  return run_each(common, many, ".mot", "_report.json", track_one);
 }
 
 }  // namespace
@@ -104,13 +120,18 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
       "Writes Q.mot (degrees, metres) and beside it Q_sd.sto (standard deviations), Q_bound.sto (bounds on "
       "the error,\nNaN where the markers do not determine the coordinate), Q_tau.sto and "
       "Q_tau_sd.sto (N m, N), Q_rank.sto (directions that the\nlevels fix), Q_marker_errors.sto and "
-      "Q_report.json. Exit status 1: the files are there, but a quality gate was missed.");
+      "Q_report.json. Exit status 1: the files are there, but a quality gate was missed.\n"
+      "Several marker files, or a folder of them: --output is a folder; what is there already is not done "
+      "again.");
   const auto arguments = std::make_shared<TrackArguments>();
   auto& a = *arguments;
   auto& options = a.job.options;
   add_motion_options(*command, a.job, a.motion);
-  command->add_option("--report", a.job.report, "Also write the page that shows the result, R.html")
+  command
+      ->add_option("--report", a.job.report,
+                   "Also write the page that shows the result, R.html; a folder for several")
       ->group("Output");
+  add_many_options(*command, a.many);
   command
       ->add_option(
           "--level", a.levels,

@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-NOT_CARRIED = {"EVENTS", "MANUFACTURER", "ROTATION", "KINEMARK"}
+NOT_CARRIED = {"EVENTS", "ROTATION", "KINEMARK"}
 WRITTEN_ANEW = {  # and what of them is read into the trial or tells how this file stores its numbers
     "POINT": "USED FRAMES LONG_FRAMES FRAME SCALE RATE DATA_START UNITS LABELS DESCRIPTIONS TYPE_GROUPS ANGLES FORCES MOMENTS "
     "POWERS SCALARS MODELED_MARKERS RESIDUALS_GIVEN",

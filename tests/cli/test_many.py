@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""Several recordings in one run: info, validate, convert, clean, ik."""
+"""Several recordings in one run: info, validate, convert, clean, ik, track, joints."""
 
 import json
 import os
@@ -93,12 +93,48 @@ class ManyTest(CommandTest):
         self.assertNotIn("failed", self.statuses(again.out))
         self.assertTrue((self.folder / "out" / "walk0.mot").exists())
 
+    def test_track_of_many_recordings_is_the_track_of_each(self):
+        folder = self.recordings(2)
+        words = ["track", "-m", self.model, "--no-error-bars", "-t"]
+        ran = self.run_in(*words, folder, "-o", "out/", "--jobs", "2", "--json")
+        self.assertIn(ran.status, (0, 1), ran.err)
+        self.assertEqual(len(self.statuses(ran.out)), 2)
+        self.run_in(*words, folder / "walk1.trc", "-o", "alone.mot")
+        rows = [path.read_text().split("endheader")[1] for path in (self.folder / "out" / "walk1.mot", self.folder / "alone.mot")]
+        self.assertEqual(rows[0], rows[1])
+        again = self.run_in(*words, folder, "-o", "out/", "--json")
+        self.assertEqual(self.statuses(again.out), ["there already"] * 2)
+
+    def test_joints_of_many_recordings_are_the_joints_of_each(self):
+        folder = self.folder / "in"
+        folder.mkdir()
+        for seed in (1, 2):
+            self.good("simulate", "macaque", "-o", f"made{seed}", "--duration", 5, "--all-seen", "--seed", seed)
+            shutil.copy(self.folder / f"made{seed}" / "markers.c3d", folder / f"arm{seed}.c3d")
+        words = ["--segments", "made1/segments.toml", "--to", "c3d"]
+        ran = self.run_in("joints", folder, *words, "-o", "out/", "--jobs", "2", "--json")
+        self.assertIn(ran.status, (0, 1), ran.err)
+        self.assertEqual(len(self.statuses(ran.out)), 2)
+        self.run_in("joints", folder / "arm1.c3d", "--segments", "made1/segments.toml", "-o", "alone.c3d")
+        alone, many = (
+            json.loads((self.folder / name).read_text())["joints"] for name in ("alone_skeleton.json", "out/arm1_skeleton.json")
+        )
+        self.assertEqual(alone, many)
+        again = self.run_in("joints", folder, *words, "-o", "out/", "--json")
+        self.assertEqual(self.statuses(again.out), ["there already"] * 2)
+        (self.folder / "out" / "arm1_skeleton.json").unlink()
+        again = self.run_in("joints", folder, *words, "-o", "out/", "--json")
+        self.assertTrue((self.folder / "out" / "arm1_skeleton.json").exists(), again.err)
+
     def test_what_cannot_be_meant_is_refused(self):
         folder = self.recordings(2)
         self.refused(2, "need --to", "convert", folder, "out/")
         self.refused(2, "need a folder", "clean", folder, "a.trc")
         self.refused(2, "need a folder", "ik", "-m", self.model, "-t", folder, "-o", "q.mot")
-        self.refused(2, "track takes one", "track", "-m", self.model, "-t", self.trc, self.c3d, "-o", "q.mot")
+        self.refused(2, "need a folder", "track", "-m", self.model, "-t", folder, "-o", "q.mot")
+        self.refused(2, "give --output", "joints", folder)
+        self.refused(2, "--to: 'xyz' is none of", "joints", folder, "-o", "out/", "--to", "xyz")
+        self.refused(2, "--to is for several", "joints", folder / "walk0.trc", "--to", "csv")
         self.refused(2, "--to is for a folder", "clean", folder / "walk0.trc", "a.csv", "--to", "csv")
         self.refused(2, "--to: 'xyz' is none of c3d, trc, nwb, ", "clean", folder, "out/", "--to", "xyz")
         self.refused(2, "--to is for a folder", "convert", folder / "walk0.trc", "a.csv", "--to", "csv")

@@ -13,6 +13,7 @@
 
 #include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
+#include "kinemark/io/c3d/writer.h"
 
 namespace kinemark::io {
 namespace {
@@ -46,10 +47,8 @@ constexpr std::array<WrittenAnew, 5> kWrittenAnew = {{{"POINT", kPoint},
                                                       {"FORCE_PLATFORM", kForcePlatform},
                                                       {"EVENT", kEvent},
                                                       {"TRIAL", kTrial}}};
-// EVENTS is read as EVENT. MANUFACTURER names the program that writes. ROTATION tells where samples are that
-// are not carried.
-constexpr std::array<std::string_view, 4> kNotCarried = {"EVENTS", "MANUFACTURER", "ROTATION",
-                                                         kProvenanceGroup};
+// EVENTS is read as EVENT. ROTATION tells where samples are that are not carried.
+constexpr std::array<std::string_view, 3> kNotCarried = {"EVENTS", "ROTATION", kProvenanceGroup};
 
 bool among(Names names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
@@ -75,6 +74,13 @@ bool lists_channels(const C3dParameters& parameters, std::string_view name) {
   return std::ranges::find(kC3dPointTypes, name, &C3dPointType::list) != kC3dPointTypes.end();
 }
 
+/// The group that a writer of ours makes where nobody else recorded the trial.
+bool names_us_alone(const C3dGroup& group) {
+  return group.name == kC3dRecorderGroup && group.parameters.size() == 1 &&
+         group.parameters.front().name == "SOFTWARE" &&
+         group.parameters.front().texts == std::vector<std::string>{C3dWriteOptions{}.software};
+}
+
 bool is_carried(const C3dParameters& parameters, const C3dGroup& group, const C3dParameter& p) {
   if (p.stored.name.empty()) return false;  // it is cut short, which has been said
   const auto anew = std::ranges::find(kWrittenAnew, group.name, &WrittenAnew::group);
@@ -98,7 +104,7 @@ std::vector<data::ForeignGroup> find_foreign_groups(const C3dParameters& paramet
   std::size_t total = 0;
   std::size_t left_out = 0;
   for (const C3dGroup& group : parameters.groups) {
-    if (group.stored.name.empty() || among(kNotCarried, group.name)) continue;
+    if (group.stored.name.empty() || among(kNotCarried, group.name) || names_us_alone(group)) continue;
     data::ForeignGroup foreign = group.stored;
     std::size_t bytes = 8 + foreign.name.size() + foreign.description.size();
     for (const C3dParameter& p : group.parameters) {

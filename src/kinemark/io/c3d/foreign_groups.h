@@ -3,12 +3,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/data/foreign_group.h"
 #include "kinemark/io/c3d/parameters.h"
 
 namespace kinemark::io {
+
+/// The group that tells who recorded.
+inline constexpr std::string_view kC3dRecorderGroup = "MANUFACTURER";
 
 /// Groups that a copy keeps as they are: all but those whose content the trial holds or that would not be
 /// true of the copy's samples. Of POINT, ANALOG, FORCE_PLATFORM, EVENT and TRIAL, which are written anew, the

@@ -123,6 +123,29 @@ C3dParameter stored(const char* name) {
   return {.name = name, .stored = {.name = name, .type = 1, .dims = {}, .values = std::vector<std::byte>(1)}};
 }
 
+TEST(ForeignGroups, WhoRecordedATrialStaysAndACopyOfOursNamesUsOnce) {
+  const ScratchFolder folder;
+  data::Trial trial = internal::simulate_trial({});
+  ASSERT_TRUE(write_c3d(folder / "ours.c3d", trial, {}));
+  const auto ours = read_c3d(folder / "ours.c3d").value();
+  EXPECT_EQ(ours.software, "kinemark");
+  EXPECT_THAT(ours.foreign, IsEmpty());
+
+  trial.foreign = {
+      {.name = "Manufacturer",
+       .parameters = {
+           {.name = "Company", .type = -1, .dims = {5}, .values = bytes_of_words({'V', 'i', 'c', 'o', 'n'})},
+           {.name = "SOFTWARE",
+            .type = -1,
+            .dims = {5},
+            .values = bytes_of_words({'N', 'e', 'x', 'u', 's'})}}}};
+  ASSERT_TRUE(write_c3d(folder / "a.c3d", trial, {}));
+  const auto copy = read_c3d(folder / "a.c3d").value();
+  EXPECT_EQ(copy.software, "Vicon Nexus");
+  ASSERT_EQ(copy.foreign.size(), 1U);
+  expect_same(copy.foreign[0], trial.foreign[0]);
+}
+
 TEST(ForeignGroups, OfGroupsThatAreWrittenAnewTheRestIsCarried) {
   std::vector<std::string> warnings;
   C3dParameters p = groups({"POINT", "ANALOG", "TRIAL", "MANUFACTURER"});
@@ -137,7 +160,7 @@ TEST(ForeignGroups, OfGroupsThatAreWrittenAnewTheRestIsCarried) {
   p.group("TRIAL").parameters.push_back(stored("ACTUAL_START_FIELD"));
   p.group("MANUFACTURER").parameters.push_back(stored("COMPANY"));
   const auto found = find_foreign_groups(p, warnings);
-  ASSERT_THAT(names_of(found), ElementsAre("POINT", "ANALOG"));
+  ASSERT_THAT(names_of(found), ElementsAre("POINT", "ANALOG", "MANUFACTURER"));
   ASSERT_EQ(found[0].parameters.size(), 2U);
   EXPECT_EQ(found[0].parameters[0].name, "X_SCREEN");
   EXPECT_EQ(found[0].parameters[1].name, "MOVIE_ID");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/io/c3d/foreign_groups.h"
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
@@ -310,7 +311,10 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   add_force_plates(plan, trial);
   add_events(plan, trial);
   if (first >= 1) add_trial_group(plan, first, last);
-  add_text(plan.parameters.group("MANUFACTURER"), "SOFTWARE", options.software);
+  // Who recorded a trial is told by the group that is carried; a trial of no C3D file names who writes.
+  const auto tells_recorder = [](const auto& group) { return c3d_name(group.name) == kC3dRecorderGroup; };
+  if (std::ranges::none_of(trial.foreign, tells_recorder))
+    add_text(plan.parameters.group(kC3dRecorderGroup), "SOFTWARE", options.software);
   add_provenance(trial.markers, plan.parameters);
   if (const std::string mark = set_mark(options.set); !mark.empty())
     plan.parameters.group(kProvenanceGroup)

@@ -16,7 +16,7 @@ namespace kinemark::io {
 struct C3dWriteOptions {
   bool force = false;                        ///< replace a file that exists
   std::string set;                           ///< of files that it belongs to (set_mark()); empty: none
-  std::string software = "kinemark";         ///< MANUFACTURER:SOFTWARE
+  std::string software = "kinemark";         ///< MANUFACTURER:SOFTWARE, where the trial carries no such group
   std::string units = "mm";                  ///< length unit in the file: "mm", "cm", "m", ...
   Processor processor = Processor::intel;    ///< how numbers are stored
   std::vector<std::string>* lost = nullptr;  ///< gets what did not fit, a sentence each; null: not wanted

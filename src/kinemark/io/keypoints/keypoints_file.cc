@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/keypoints/keypoints_hdf5.h"
 #include "kinemark/io/keypoints/keypoints_json.h"
 #include "kinemark/io/keypoints/openpose.h"
 
@@ -23,7 +24,7 @@ bool begins_json(std::string_view begin) {
   return first != std::string_view::npos && (begin[first] == '{' || begin[first] == '[');
 }
 
-enum class Writer : std::uint8_t { openpose, document, csv };
+enum class Writer : std::uint8_t { openpose, document, hdf5, csv };
 
 Result<Writer> writer_of(const std::filesystem::path& path) {
   std::error_code error;
@@ -34,6 +35,7 @@ Result<Writer> writer_of(const std::filesystem::path& path) {
   const auto size = file->read_at(0, std::as_writable_bytes(std::span(first)));
   if (!size) return std::unexpected(size.error());
   const std::string_view begin(first.data(), *size);
+  if (begin.starts_with("\x89HDF\r\n\x1a\n")) return Writer::hdf5;
   return is_openpose(begin) ? Writer::openpose : begins_json(begin) ? Writer::document : Writer::csv;
 }
 
@@ -53,6 +55,7 @@ Result<Keypoints> read_keypoints(const std::filesystem::path& path, const Keypoi
   if (!writer) return std::unexpected(writer.error());
   if (*writer == Writer::openpose) return read_openpose(path, options);
   if (*writer == Writer::csv) return read_keypoints_csv(path, options);
+  if (*writer == Writer::hdf5) return read_keypoints_hdf5(path, options);
   const auto text = read_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_keypoints_json(*text, path.string(), options);

@@ -12,7 +12,8 @@
 namespace kinemark::io {
 
 /// Points in the images of one camera, of whatever made them: a folder of OpenPose or a file of it
-/// (read_openpose()), JSON of MMPose and COCO (parse_keypoints_json()), otherwise CSV (read_keypoints_csv()).
+/// (read_openpose()), JSON of MMPose and COCO (parse_keypoints_json()), HDF5 of SLEAP and DeepLabCut
+/// (read_keypoints_hdf5()), otherwise CSV (read_keypoints_csv()).
 [[nodiscard]] Result<Keypoints> read_keypoints(const std::filesystem::path& path,
                                                const KeypointsOptions& options = {});
 

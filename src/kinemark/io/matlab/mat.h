@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/table.h"
 #include "kinemark/data/trial.h"
 
 // MAT files of MATLAB, versions 5 to 7. docs/formats/mat.md lists the fields.
@@ -39,6 +40,11 @@ struct MatWriteOptions {
 /// not valid; Code::not_supported: it needs the 2 GB that a variable of these versions cannot have; Code::io
 /// as OutputFile. Memory: three times the trial.
 [[nodiscard]] Status write_mat(const std::filesystem::path& path, const data::Trial& trial,
+                               const MatWriteOptions& options = {});
+
+/// Write a table (of joint angles, torques, forces) as one struct `table`, likewise; it is not read back by
+/// read_mat(). @param degrees  whether its rotational columns are in degrees
+[[nodiscard]] Status write_mat(const std::filesystem::path& path, const data::Table& table, bool degrees,
                                const MatWriteOptions& options = {});
 
 }  // namespace kinemark::io

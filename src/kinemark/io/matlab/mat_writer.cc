@@ -8,14 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "kinemark/core/version.h"
-#include "kinemark/io/file.h"
-#include "kinemark/io/matlab/internal/inflate.h"
 #include "kinemark/io/matlab/internal/mat_build.h"
-#include "kinemark/io/matlab/internal/mat_parse.h"
+#include "kinemark/io/matlab/internal/mat_file.h"
 #include "kinemark/io/matlab/internal/own_struct.h"
 #include "kinemark/io/matlab/mat.h"
-#include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {
 namespace {
@@ -29,8 +25,6 @@ using internal::mat_texts;
 using internal::MatDims;
 using internal::MatFields;
 using internal::to_columns;
-
-constexpr std::size_t kMostBytes = 0x7FFFFFFF;  // of a variable
 
 std::string times(const TimeBase& time) {
   std::vector<double> out(static_cast<std::size_t>(time.frames));
@@ -150,14 +144,6 @@ std::string variable(const data::Trial& trial) {
   return mat_struct(out, "trial");
 }
 
-/// Text, two bytes of the version and two of the byte order. No date: the same trial gives the same bytes.
-std::string header(const std::string& set) {
-  std::string out = fmt::format("MATLAB 5.0 MAT-file, written by kinemark {} {}", kVersion, set_mark(set));
-  out.resize(internal::kMatHeaderBytes - 12, ' ');
-  out.append(8, '\0');
-  return out + std::string("\0\1IM", 4);
-}
-
 /// Bytes of numbers that a trial becomes.
 std::size_t bytes_needed(const data::Trial& trial) {
   const auto& m = trial.markers;
@@ -180,18 +166,10 @@ Status write_mat(const std::filesystem::path& path, const data::Trial& trial,
                             "write a part of it, or NWB (.nwb)",
                             path.string()));
   };
-  if (bytes_needed(trial) > kMostBytes) return too_large();
-  auto file = OutputFile::create(path, options.force);
-  if (!file) return std::unexpected(file.error());
+  if (bytes_needed(trial) > internal::kMostVariableBytes) return too_large();
   const std::string bytes = variable(trial);
-  if (bytes.size() > kMostBytes) return too_large();
-  const auto packed = internal::deflate_all(std::as_bytes(std::span(bytes)));
-  const std::uint32_t tag[] = {std::to_underlying(internal::MatType::compressed),
-                               static_cast<std::uint32_t>(packed.size())};
-  if (auto s = file->write(header(options.set)); !s) return s;
-  if (auto s = file->write(std::as_bytes(std::span(tag))); !s) return s;
-  if (auto s = file->write(packed); !s) return s;
-  return file->commit();
+  if (bytes.size() > internal::kMostVariableBytes) return too_large();
+  return internal::write_mat_file(path, bytes, options);
 }
 
 }  // namespace kinemark::io

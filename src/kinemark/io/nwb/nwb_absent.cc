@@ -4,16 +4,17 @@
 #include <fmt/core.h>
 
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/nwb/pose_table.h"
 
 namespace kinemark::io {
 namespace {
 
 std::unexpected<Error> absent(const std::filesystem::path& path) {
-  return fail(
-      Code::not_supported,
-      fmt::format("{}: this program was built without NWB; install libhdf5-dev and build it again with "
-                  "KINEMARK_NWB=ON",
-                  path.string()));
+  return fail(Code::not_supported,
+              fmt::format("{}: this program was built without HDF5, which NWB and points in .h5 need; "
+                          "install libhdf5-dev and build it again with "
+                          "KINEMARK_NWB=ON",
+                          path.string()));
 }
 
 }  // namespace
@@ -25,6 +26,8 @@ NwbOutline NwbOutline::of(const data::Trajectories& trajectories, const data::De
 }
 
 Result<NwbFile> read_nwb(const std::filesystem::path& path) { return absent(path); }
+
+Result<PoseTable> read_pose_table(const std::filesystem::path& path) { return absent(path); }
 
 Status write_nwb(const std::filesystem::path& path, const data::Trajectories& /*trajectories*/,
                  const data::Derivatives* /*derivatives*/, const NwbMetadata& /*metadata*/,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// read_nwb(): starts the program that reads, waits for what it sends, and says how it ended where it sends
-// nothing.
+// read_nwb() and read_pose_table(): start the program that reads, waits for what it sends, and says how it
+// ended where it sends nothing.
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <spawn.h>
@@ -19,6 +19,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/nwb/internal/transfer.h"
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/nwb/pose_table.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): not every unistd.h has it
 
@@ -68,11 +69,13 @@ struct Limits {
 };
 
 /// Start the program with the end of a pipe as its output and nothing else of ours; its process, or -1.
-pid_t start(const fs::path& program, const fs::path& file, const Limits& limits, int output) {
+/// `what` is one more argument for it, or null.
+pid_t start(const fs::path& program, const fs::path& file, const Limits& limits, const char* what,
+            int output) {
   const std::string seconds = std::to_string(limits.seconds), bytes = std::to_string(limits.bytes);
-  std::array<char*, 5> arguments{const_cast<char*>(kProgram), const_cast<char*>(file.c_str()),
-                                 const_cast<char*>(seconds.c_str()), const_cast<char*>(bytes.c_str()),
-                                 nullptr};
+  std::array<char*, 6> arguments{
+      const_cast<char*>(kProgram),      const_cast<char*>(file.c_str()), const_cast<char*>(seconds.c_str()),
+      const_cast<char*>(bytes.c_str()), const_cast<char*>(what),         nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
@@ -119,20 +122,21 @@ std::unexpected<Error> describe_end(const std::string& name, int status, const L
   return damaged("HDF5 could not read it");
 }
 
-}  // namespace
+template <class T>
+using Receive = std::optional<Result<T>> (*)(int, std::size_t);
 
-Result<NwbFile> read_nwb(const fs::path& path) {
+/// What the program reads of a file, told by `what`, as `receive` takes it.
+template <class T>
+Result<T> read_apart(const fs::path& path, const char* what, Receive<T> receive) {
   // HDF5 does not distinguish a missing file from a damaged one.
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
   const fs::path program = find_program();
   if (program.empty())
-    return fail(
-        Code::not_supported,
-        fmt::format(
-            "{}: the program that reads NWB files, {}, is not beside this one; install it, or say where "
-            "it is in KINEMARK_NWB_READER",
-            path.string(), kProgram));
+    return fail(Code::not_supported, fmt::format("{}: the program that reads HDF5 (NWB, points in images), "
+                                                 "{}, is not beside this one; install it, or say where "
+                                                 "it is in KINEMARK_NWB_READER",
+                                                 path.string(), kProgram));
   const Limits limits(file->size());
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -140,17 +144,27 @@ Result<NwbFile> read_nwb(const fs::path& path) {
                                       std::generic_category().message(errno)));
   const Descriptor input(ends[0]);
   Descriptor output(ends[1]);
-  const pid_t child = start(program, path, limits, output.get());
+  const pid_t child = start(program, path, limits, what, output.get());
   if (child < 0)
     return fail(Code::io, fmt::format("{}: cannot be read: {} cannot be started ({})", path.string(),
                                       program.string(), std::generic_category().message(errno)));
   output.close();
-  auto received = internal::receive(input.get(), limits.bytes);
+  auto received = receive(input.get(), limits.bytes);
   // A process that sent nonsense would wait for a reader.
   if (!received) ::kill(child, SIGTERM);
   const int status = wait_for(child);
   if (!received) return describe_end(path.string(), status, limits);
   return std::move(*received);
+}
+
+}  // namespace
+
+Result<NwbFile> read_nwb(const fs::path& path) {
+  return read_apart<NwbFile>(path, nullptr, internal::receive);
+}
+
+Result<PoseTable> read_pose_table(const fs::path& path) {
+  return read_apart<PoseTable>(path, "poses", internal::receive_poses);
 }
 
 }  // namespace kinemark::io

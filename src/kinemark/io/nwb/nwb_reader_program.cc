@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES: reads an NWB file for read_nwb(), which is at the other end of standard
-// output. A process of its own, because HDF5 crashes on some damaged files and never returns from others.
+// kinemark-nwb FILE SECONDS BYTES [poses]: reads an NWB file for read_nwb(), or points in images for
+// read_pose_table(), which is at the other end of standard output. A process of its own, because HDF5 crashes
+// on some damaged files and never returns from others.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -10,10 +11,13 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/nwb/internal/transfer.h"
 
@@ -46,22 +50,29 @@ void set_limits(rlim_t seconds, rlim_t bytes) {
 #endif
 }
 
-Result<io::NwbFile> read(const char* path) {
-  try {
-    return io::internal::read_nwb_here(path);
-  } catch (const std::bad_alloc&) {
-    return fail(Code::bad_input,
-                std::string(path) + ": needs far more memory than its size explains. Nothing was read.");
-  }
+/// Send what `read` gives of a file.
+template <class T>
+bool send_read(Result<T> (*read)(const std::filesystem::path&), const char* path) {
+  const auto content = [&]() -> Result<T> {
+    try {
+      return read(path);
+    } catch (const std::bad_alloc&) {
+      return fail(Code::bad_input,
+                  std::string(path) + ": needs far more memory than its size explains. Nothing was read.");
+    }
+  };
+  return io::internal::send(STDOUT_FILENO, content());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto seconds = argc == 4 ? number(argv[2]) : std::nullopt;
-  const auto bytes = argc == 4 ? number(argv[3]) : std::nullopt;
+  const bool poses = argc == 5 && std::string_view(argv[4]) == "poses";
+  const auto seconds = argc == 4 || poses ? number(argv[2]) : std::nullopt;
+  const auto bytes = argc == 4 || poses ? number(argv[3]) : std::nullopt;
   if (!seconds || !bytes) return 2;
   set_limits(*seconds, *bytes);
-  const bool sent = io::internal::send(STDOUT_FILENO, read(argv[1]));
+  const bool sent = poses ? send_read(io::internal::read_pose_table_here, argv[1])
+                          : send_read(io::internal::read_nwb_here, argv[1]);
   _exit(sent ? 0 : 4);  // HDF5 has nothing left to do
 }

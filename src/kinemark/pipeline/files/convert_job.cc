@@ -14,6 +14,7 @@
 #include "kinemark/io/animation/glb.h"
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/matlab/mat.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/robot/robot_file.h"
@@ -66,6 +67,12 @@ Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
 Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
   auto table = io::read_table(job.in);
   if (!table) return std::unexpected(table.error());
+  if (ending_of(job.out) == ".mat") {
+    const bool degrees = io::angles_are_degrees(*table);
+    if (auto s = io::write_mat(job.out, *table, degrees, {.force = job.force}); !s)
+      return std::unexpected(s.error());
+    return std::move(table->warnings);
+  }
   if (auto s = io::write_table(job.out, *table, {.force = job.force}); !s) return std::unexpected(s.error());
   return std::move(table->warnings);
 }
@@ -165,6 +172,7 @@ Status check_kinds(const ConvertJob& job) {
     return fail(Code::usage,
                 fmt::format("--skeleton: {} has none beside it; it is for .amc files", job.in.string()));
   if (kind_of(from) == Kind::model && is_robot(to)) return {};
+  if (kind_of(from) == Kind::table && to == ".mat") return {};
   if (makes_skeleton || (kind_of(from) == kind_of(to) && !is_robot(to))) return {};
   return fail(Code::usage,
               fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",

@@ -33,7 +33,8 @@ struct ConvertJob : JobSettings {
 struct ConvertOutcome : JobOutcome {};
 
 /// Read one file and write it in the format that `out` ends in; both must be of one kind (markers, tables or
-/// models), else Code::usage; but a table becomes a .bvh or .glb with the model that it is the motion of.
+/// models), else Code::usage; but a table becomes a .mat, and a
+/// .bvh or .glb with the model that it is the motion of.
 /// Fails as reader and writer of the formats.
 [[nodiscard]] Result<ConvertOutcome> run_convert(const ConvertJob& job);
 

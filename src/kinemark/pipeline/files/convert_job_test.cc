@@ -98,6 +98,15 @@ TEST_F(ConvertFile, TablesAndModelsComeThroughUnchanged) {
             io::read_osim(at("in/model.osim")).value().coordinates.size());
 }
 
+TEST_F(ConvertFile, ATableBecomesMatAndNoneIsReadFromIt) {
+  const auto made = convert(at("in/truth.mot"), at("truth.mat"), false);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_THAT(made->written, ElementsAre(at("truth.mat")));
+  EXPECT_EQ(convert(at("in/truth.mot"), at("truth.mat"), false).error().code, Code::io);
+  EXPECT_EQ(convert(at("truth.mat"), at("back.mot"), false).error().code, Code::usage);
+  EXPECT_FALSE(convert(at("truth.mat"), at("back.trc"), false)) << "angles are no markers";
+}
+
 TEST_F(ConvertFile, AModelBecomesARobotAndSaysWhatThatLoses) {
   const auto as_mjcf = convert(at("in/model.osim"), at("robot.xml"), false);
   ASSERT_TRUE(as_mjcf) << as_mjcf.error().message;

@@ -36,7 +36,7 @@ struct Made {
 
 Made made_for(const ManyJob& job, const TrialOutcome& trial) {
   Made made{.output = trial.output, .report = {}, .page = {}};
-  if (job.makes_report) made.report = beside(trial.output, "_report.json");
+  if (!job.belongs.empty()) made.report = beside(trial.output, job.belongs);
   if (!job.pages.empty()) made.page = job.pages / (trial.output.stem().string() + ".html");
   return made;
 }

@@ -34,7 +34,7 @@ struct ManyJob : JobSettings {
   std::string ending;           ///< of the outputs, ".trc"; empty: each its input's
   int jobs = 1;                 ///< recordings at a time; 0: one for each core
   bool keep_going = false;      ///< the others are done when one has failed
-  bool makes_report = false;    ///< OUT_report.json belongs to each output
+  std::string belongs;          ///< what belongs to each OUT as well, "_report.json"; empty: nothing
   /// The job of one recording: input, output, page (empty: none), and settings to take over.
   std::function<Result<JobOutcome>(const std::filesystem::path& input, const std::filesystem::path& output,
                                    const std::filesystem::path& page, const JobSettings& settings)>

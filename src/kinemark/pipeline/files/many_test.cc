@@ -160,7 +160,7 @@ TEST_F(RunMany, AKilledRunsPartOfASetIsReplacedAndNothingElse) {
   write("a.c3d", set);
   auto many = job({"a.c3d"});
   many.ending = ".json";
-  many.makes_report = true;
+  many.belongs = "_report.json";
   write("out/a_report.json", set);  // the output itself is missing
   EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::good));
   EXPECT_THAT(statuses(run_many(many)), ElementsAre(TrialStatus::there));
@@ -200,7 +200,7 @@ TEST_F(RunMany, ATableOfSomebodyIsNotReplacedForAMissingPage) {
   write("a.c3d", set);
   auto many = job({"a.c3d"});
   many.ending = ".csv";
-  many.makes_report = true;
+  many.belongs = "_report.json";
   many.pages = path("pages");
   write("out/a.csv", "edited by hand");
   write("out/a_report.json", set);

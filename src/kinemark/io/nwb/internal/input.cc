@@ -45,6 +45,8 @@ bool is_text(hid_t type) {
          (H5Tis_variable_str(type) > 0 || H5Tget_size(type) <= kMaxTextBytes);
 }
 
+bool is_record(hid_t type) { return H5Tget_class(type) == H5T_COMPOUND; }
+
 /// The memory type for texts like the file's.
 Handle memory_text(hid_t file_type) {
   Handle out(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -156,10 +158,10 @@ bool Input::broken(hid_t from, const std::string& name) const {
          !object(from, name);
 }
 
-std::optional<std::vector<std::int64_t>> Input::shape(hid_t dataset, bool text) const {
+std::optional<std::vector<std::int64_t>> Input::shape(hid_t dataset, bool (*fits)(hid_t type)) const {
   if (H5Iget_type(dataset) != H5I_DATASET) return std::nullopt;
   const Handle type(H5Dget_type(dataset), H5Tclose);
-  if (!type || !(text ? is_text(type.id()) : is_number(type.id()))) return std::nullopt;
+  if (!type || !fits(type.id())) return std::nullopt;
   // Samples in other files are not read, nor chunks larger than the file size allows.
   const Handle create(H5Dget_create_plist(dataset), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(create.id());
@@ -187,10 +189,10 @@ std::optional<std::vector<std::int64_t>> Input::shape(hid_t dataset, bool text) 
 }
 
 std::optional<std::vector<std::int64_t>> Input::number_shape(hid_t dataset) const {
-  return shape(dataset, false);
+  return shape(dataset, is_number);
 }
 std::optional<std::vector<std::int64_t>> Input::text_shape(hid_t dataset) const {
-  return shape(dataset, true);
+  return shape(dataset, is_text);
 }
 
 bool Input::afford(std::size_t count, std::size_t bytes_each) {
@@ -231,6 +233,35 @@ std::optional<Array<T>> Input::numbers(hid_t dataset) {
 }
 template std::optional<Array<double>> Input::numbers(hid_t);
 template std::optional<Array<std::uint8_t>> Input::numbers(hid_t);
+
+std::optional<Array<double>> Input::member(hid_t table, const char* name) {
+  const auto dims = shape(table, is_record);
+  if (!dims || dims->size() != 1) return std::nullopt;
+  const Handle type(H5Dget_type(table), H5Tclose);
+  const int at = H5Tget_member_index(type.id(), name);
+  if (at < 0) return std::nullopt;
+  const Handle stored(H5Tget_member_type(type.id(), static_cast<unsigned>(at)), H5Tclose);
+  Handle wanted(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
+  std::size_t width = 1;
+  if (H5Tget_class(stored.id()) == H5T_ARRAY) {
+    const Handle element(H5Tget_super(stored.id()), H5Tclose);
+    hsize_t across = 0;
+    if (!is_number(element.id()) || H5Tget_array_ndims(stored.id()) != 1 ||
+        H5Tget_array_dims2(stored.id(), &across) != 1)
+      return std::nullopt;
+    width = across;
+    wanted = Handle(H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &across), H5Tclose);
+  } else if (!is_number(stored.id())) {
+    return std::nullopt;
+  }
+  const Handle record(H5Tcreate(H5T_COMPOUND, H5Tget_size(wanted.id())), H5Tclose);
+  const auto rows = static_cast<std::size_t>(dims->front());
+  if (H5Tinsert(record.id(), name, 0, wanted.id()) < 0 || !afford(rows, width * sizeof(double)))
+    return std::nullopt;
+  Array<double> out(rows * width, 0.0);
+  if (rows > 0 && !read(table, record.id(), out.data())) return std::nullopt;
+  return out;
+}
 
 std::optional<std::uint64_t> Input::digest_of(hid_t dataset) const {
   const auto known = digests_.find(path_of(dataset));

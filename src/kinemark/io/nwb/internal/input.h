@@ -48,6 +48,9 @@ class Input {
   [[nodiscard]] std::optional<std::vector<std::string>> texts(hid_t dataset);
   template <class T>
   [[nodiscard]] std::optional<Array<T>> numbers(hid_t dataset);
+  /// The numbers of one member of a table of records, row by row: one for each record, or as many as its
+  /// array has. Nothing where there is no such table or member.
+  [[nodiscard]] std::optional<Array<double>> member(hid_t table, const char* name);
 
   /// All texts of an attribute; nothing where it holds none.
   [[nodiscard]] std::optional<std::vector<std::string>> text_attributes(hid_t object, const char* name) const;
@@ -71,7 +74,7 @@ class Input {
 
  private:
   Input(Handle file, Handle link_access, std::string name, std::size_t size);
-  [[nodiscard]] std::optional<std::vector<std::int64_t>> shape(hid_t dataset, bool text) const;
+  [[nodiscard]] std::optional<std::vector<std::int64_t>> shape(hid_t dataset, bool (*fits)(hid_t type)) const;
   [[nodiscard]] bool read(hid_t dataset, hid_t memory_type, void* out) const;
 
   Handle file_, link_access_;

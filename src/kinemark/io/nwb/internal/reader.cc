@@ -10,6 +10,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/names.h"
+#include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/series.h"
 
 namespace kinemark::io::internal {
@@ -162,7 +163,13 @@ Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
 }
 
 Result<NwbFile> read(Input& in) {
-  if (in.text_attribute(in.file(), "neurodata_type") != "NWBFile")
+  const bool is_nwb = in.text_attribute(in.file(), "neurodata_type") == "NWBFile";
+  if (!is_nwb && holds_poses(in))
+    return fail(
+        Code::not_supported,
+        "holds points in the images of a camera, in pixels, and no positions of markers; give it to ik or "
+        "track with --rig and --images CAMERA=FILE");
+  if (!is_nwb)
     return fail(Code::bad_input,
                 "is HDF5 but not an NWB file: it has no neurodata_type NWBFile. Nothing was read.");
   auto group = find_positions(in);

@@ -200,11 +200,40 @@ void pass_metadata(Pipe& pipe, Metadata& m) {
   });
 }
 
-template <class Pipe, class File>
-void pass_file(Pipe& pipe, File& file) {
-  pass_trajectories(pipe, file.trajectories);
-  pass_metadata(pipe, file.metadata);
-  pass_texts(pipe, file.warnings);
+/// The whole of an NWB file. What may be absent is told before the rest.
+void pass_all(Sink& out, const NwbFile& file) {
+  pass(out, file.derivatives.has_value());
+  pass(out, file.metadata.seed.has_value());
+  pass_trajectories(out, file.trajectories);
+  pass_metadata(out, file.metadata);
+  pass_texts(out, file.warnings);
+  if (file.derivatives) pass_derivatives(out, *file.derivatives);
+  if (file.metadata.seed) pass(out, *file.metadata.seed);
+}
+/// False where it is none.
+bool pass_all(Source& in, NwbFile& file) {
+  std::uint8_t derivatives = 0, seed = 0;
+  pass(in, derivatives);
+  pass(in, seed);
+  pass_trajectories(in, file.trajectories);
+  pass_metadata(in, file.metadata);
+  pass_texts(in, file.warnings);
+  if (derivatives == 1) pass_derivatives(in, file.derivatives.emplace());
+  if (seed == 1) pass(in, file.metadata.seed.emplace());
+  return derivatives <= 1 && seed <= 1;
+}
+
+template <class Pipe, class Table>
+void pass_table(Pipe& pipe, Table& table) {
+  pass(pipe, table.frames);
+  pass_texts(pipe, table.people);
+  pass_texts(pipe, table.points);
+  pass(pipe, table.values);
+}
+void pass_all(Sink& out, const PoseTable& table) { pass_table(out, table); }
+bool pass_all(Source& in, PoseTable& table) {
+  pass_table(in, table);
+  return true;
 }
 
 /// Arrays of the sizes that names and clock promise, as every file of read_nwb() has them.
@@ -213,28 +242,25 @@ bool is_sound(const NwbFile& file) {
   if (t.time.frames < 0 || static_cast<std::size_t>(t.time.frames) > t.x_in_world.size()) return false;
   return t.validate() && (!file.derivatives || file.derivatives->validate(file.trajectories));
 }
+bool is_sound(const PoseTable& table) { return table.validate().has_value(); }
 
-}  // namespace
-
-bool send(int fd, const Result<NwbFile>& file) {
+template <class T>
+bool send_any(int fd, const Result<T>& content) {
   Sink out(fd);
   pass(out, kBegin);
-  pass(out, file.has_value());
-  if (file) {
-    pass(out, file->derivatives.has_value());
-    pass(out, file->metadata.seed.has_value());
-    pass_file(out, *file);
-    if (file->derivatives) pass_derivatives(out, *file->derivatives);
-    if (file->metadata.seed) pass(out, *file->metadata.seed);
+  pass(out, content.has_value());
+  if (content) {
+    pass_all(out, *content);
   } else {
-    pass(out, file.error().code);
-    pass(out, file.error().message);
+    pass(out, content.error().code);
+    pass(out, content.error().message);
   }
   pass(out, kEnd);
   return out.flush();
 }
 
-std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
+template <class T>
+std::optional<Result<T>> receive_any(int fd, std::size_t most_bytes) {
   Source in(fd, most_bytes);
   std::uint64_t begin = 0, end = 0;
   std::uint8_t there = 0;
@@ -249,16 +275,23 @@ std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
     if (!in.good() || end != kEnd || error.code > Code::cancelled) return std::nullopt;
     return std::unexpected(std::move(error));
   }
-  NwbFile file;
-  std::uint8_t derivatives = 0, seed = 0;
-  pass(in, derivatives);
-  pass(in, seed);
-  pass_file(in, file);
-  if (derivatives == 1) pass_derivatives(in, file.derivatives.emplace());
-  if (seed == 1) pass(in, file.metadata.seed.emplace());
+  T content;
+  const bool fits = pass_all(in, content);
   pass(in, end);
-  if (!in.good() || end != kEnd || derivatives > 1 || seed > 1 || !is_sound(file)) return std::nullopt;
-  return file;
+  if (!in.good() || end != kEnd || !fits || !is_sound(content)) return std::nullopt;
+  return content;
+}
+
+}  // namespace
+
+bool send(int fd, const Result<NwbFile>& file) { return send_any(fd, file); }
+bool send(int fd, const Result<PoseTable>& table) { return send_any(fd, table); }
+
+std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
+  return receive_any<NwbFile>(fd, most_bytes);
+}
+std::optional<Result<PoseTable>> receive_poses(int fd, std::size_t most_bytes) {
+  return receive_any<PoseTable>(fd, most_bytes);
 }
 
 }  // namespace kinemark::io::internal

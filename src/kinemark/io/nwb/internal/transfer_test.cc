@@ -45,6 +45,29 @@ NwbFile sample() {
   return file;
 }
 
+TEST(Transfer, ATableOfPointsArrivesAndADamagedOneDoesNot) {
+  const PoseTable table{
+      .frames = 1, .people = {"a", ""}, .points = {"p"}, .values = {1.0, 2.0, 0.9, 3.0, 4.0, 1.0}};
+  const int fd = ::memfd_create("sent", 0);
+  ASSERT_TRUE(send(fd, Result<PoseTable>(table)));
+  const auto length = ::lseek(fd, 0, SEEK_CUR);
+  const auto again = [fd] {
+    ::lseek(fd, 0, SEEK_SET);
+    return receive_poses(fd, kMost);
+  };
+  const auto back = again();
+  ASSERT_TRUE(back && *back);
+  EXPECT_EQ((*back)->people, table.people);
+  EXPECT_EQ((*back)->points, table.points);
+  EXPECT_EQ((*back)->values, table.values);
+  const char three = 3;  // frames
+  ASSERT_EQ(::pwrite(fd, &three, 1, 9), 1);
+  EXPECT_FALSE(again());
+  ASSERT_EQ(::ftruncate(fd, length - 1), 0);
+  EXPECT_FALSE(again());
+  ::close(fd);
+}
+
 TEST(Transfer, EverythingArrives) {
   for (const std::int64_t frames : {2, 50, 3000}) {  // short of the buffer, and beyond
     NwbFile file = sample();
