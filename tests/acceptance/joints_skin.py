@@ -12,6 +12,7 @@ disagree. Real trials: the functional hip, cut into parts that contain motion.
 """
 
 import csv
+import dataclasses
 import json
 import os
 import subprocess
@@ -27,6 +28,19 @@ SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", "/tmp")) / "joints-skin"
 CHI2_3 = 7.815  # 95 % of a chi-square with three degrees of freedom
 FRAMES = 600
 LEAST_SECOND_SD = np.radians(4.0)  # of the rotation: a part with less does not show a centre
+
+
+@dataclasses.dataclass
+class Place:
+    """A joint in one of its segments: markers and centre, m; covariance and repeatability, m^2; a hinge's axis."""
+
+    markers: np.ndarray
+    centre: np.ndarray
+    covariance: np.ndarray
+    repeatability: np.ndarray
+    axis: np.ndarray | None = None
+    axis_covariance: np.ndarray | None = None
+    axis_repeatability: np.ndarray | None = None
 
 
 def rotations(vectors):
@@ -98,6 +112,56 @@ def subject(seed):
     return [f"P{k}" for k in range(4)] + [f"T{k}" for k in range(5)], markers, in_bone
 
 
+def knee_subject(seed):
+    """As subject(): a thigh with four and a shank with five markers about a hinge along x at the origin."""
+    rng = np.random.default_rng([seed, 2])
+    wave = 0.5 - 0.5 * np.cos(np.linspace(0, 2 * np.pi * rng.integers(4, 8), FRAMES))
+    angle = np.radians(rng.uniform(50, 90)) * wave
+    posture = np.stack([angle, np.zeros(FRAMES), np.zeros(FRAMES)], 1)
+    time = np.linspace(0, 6, FRAMES)
+    sway = np.radians(5) * np.stack([np.sin(0.5 * time + p) for p in rng.uniform(0, 6, 3)], 1)
+    knee = 0.05 * np.stack([np.sin(0.4 * time + p) for p in rng.uniform(0, 6, 3)], 1)
+    thigh = np.array([[0.07, 0.02, 0.28], [0.03, 0.07, 0.20], [-0.06, 0.05, 0.16], [0.06, -0.03, 0.10]])
+    shank = np.array([[0.05, 0.03, -0.08], [-0.05, 0.03, -0.10], [0.02, 0.05, -0.18], [0.05, -0.02, -0.25], [-0.04, 0.02, -0.32]])
+    thigh, shank = thigh + 0.01 * rng.normal(size=(4, 3)), shank + 0.01 * rng.normal(size=(5, 3))
+    in_bone = [thigh + slide(rng, posture, thigh), shank + 0.6 * slide(rng, posture, shank)]
+    poses = [rotations(sway), rotations(sway) @ rotations(posture)]
+    markers = np.concatenate([np.einsum("fij,fmj->fmi", r, x) + knee[:, None] for r, x in zip(poses, in_bone)], 1)
+    markers += 0.001 * rng.normal(size=markers.shape)
+    return [f"T{k}" for k in range(4)] + [f"S{k}" for k in range(5)], markers, in_bone
+
+
+def knees(first, subjects):
+    """Coverage of a hinge's direction and place, and errors beside SARA's."""
+    good, angles, places = True, {}, {}
+    for method in ("articulated", "sara"):
+        tilts, offs, angle, place = [], [], [], []
+        for seed in range(first, first + subjects):
+            names, markers, in_bone = knee_subject(seed)
+            found = solve("knee", names, markers, (4, 5), method, "hinge")
+            centre, covariance, _ = into(in_bone[0].mean(0), found[0])
+            rotation, _ = align(found[0].markers, in_bone[0].mean(0))
+            axis = rotation @ found[0].axis
+            axis *= np.sign(axis[0])
+            tilt = rotation @ found[0].axis_covariance @ rotation.T
+            tilts += list(axis[1:] / np.sqrt(np.diag(tilt)[1:]))
+            angle.append(axis[1:] @ axis[1:])
+            # The place is a point of the line: where it meets the plane of the middle of the bone's axis.
+            centre, step = centre - axis * (centre[0] / axis[0]), centre[0]
+            offs += list(centre[1:] / np.sqrt(np.diag(covariance + step**2 * tilt)[1:]))
+            place.append(centre[1:] @ centre[1:])
+        angles[method], places[method] = np.degrees(np.sqrt(np.mean(angle))), 1e3 * np.sqrt(np.mean(place))
+        for what, z in (("direction", tilts), ("place", offs)):
+            z = np.abs(np.array(z))
+            one, two = 100 * (z < 1).mean(), 100 * (z < 2).mean()
+            good &= row(62 <= one <= 78 and 90 <= two <= 98.5, f"simulated knees, skin with the posture, {method}: coverage of the axis' {what}",
+                        "62 to 78 and 90 to 98.5 %", f"{one:.1f} and {two:.1f} % of {len(z)} numbers")
+    for what, unit, both in (("direction", "deg", angles), ("place", "mm", places)):
+        good &= row(both["articulated"] <= 1.0001 * both["sara"], f"simulated knees, skin with the posture: error of the axis' {what}", "<= SARA's",
+                    f"RMS {both['articulated']:.2f} {unit}, SARA {both['sara']:.2f} {unit}")
+    return good
+
+
 def write(path, names, markers):
     with open(path, "w", encoding="utf-8") as file:
         file.write("frame,time_s,marker,x_m,y_m,z_m,state\n")
@@ -106,13 +170,13 @@ def write(path, names, markers):
                 file.write(f"{f},{f / 100:.2f},{name},{x[0]:.7f},{x[1]:.7f},{x[2]:.7f},measured\n")
 
 
-def solve(name, names, markers, counts, method):
-    """The joint that the program finds, with the positions of each segment's markers."""
+def solve(name, names, markers, counts, method, kind="ball"):
+    """The joint that the program finds, in each of its segments."""
     recording, segments = SCRATCH / f"{name}.csv", SCRATCH / f"{name}.toml"
     write(recording, names, markers)
     parts = names[: counts[0]], names[counts[0] :]
     segments.write_text("".join(f"[[segment]]\nname = {n!r}\nmarkers = {json.dumps(m)}\n" for n, m in zip(("a", "b"), parts)))
-    done = subprocess.run([PROGRAM, "joints", recording, "--segments", segments, "--method", method, "--kind", "ball",
+    done = subprocess.run([PROGRAM, "joints", recording, "--segments", segments, "--method", method, "--kind", kind,
                            "--keep-defects", "--keep-upsampled", "--json", "--quiet"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SystemExit(f"{name}: {done.stderr}")
@@ -121,15 +185,19 @@ def solve(name, names, markers, counts, method):
     out = []
     for segment, side in zip(found["segments"], ("parent", "child")):
         x = np.array([m["x_in_segment_m"] for m in segment["markers"]], float)
-        out.append((x, np.array(joint[f"centre_in_{side}_m"]), np.array(joint[f"covariance_in_{side}_m2"])))
+        out.append(Place(x, np.array(joint[f"centre_in_{side}_m"]), np.array(joint[f"covariance_in_{side}_m2"]),
+                         np.array(joint[f"repeatability_in_{side}_m2"])))
+    if kind == "hinge":
+        out[0].axis, out[1].axis = (np.array(joint[f"axis_in_{side}"]) for side in ("parent", "child"))
+        out[0].axis_covariance = np.array(joint["axis_covariance_in_parent"])
+        out[0].axis_repeatability = np.array(joint["axis_repeatability_in_parent"])
     return out
 
 
 def into(reference, place):
-    """A joint's place and covariance in the axes in which the segment's markers are at `reference`."""
-    x, centre, covariance = place
-    rotation, shift = align(x, reference)
-    return rotation @ centre + shift, rotation @ covariance @ rotation.T
+    """A joint's place, its covariance and its repeatability in the axes in which the segment's markers are at `reference`."""
+    rotation, shift = align(place.markers, reference)
+    return rotation @ place.centre + shift, rotation @ place.covariance @ rotation.T, rotation @ place.repeatability @ rotation.T
 
 
 def moves(markers, counts):
@@ -156,9 +224,9 @@ def disagreements(name, names, markers, counts, method, cuts):
         for i, one in enumerate(found):
             for other in found[:i]:
                 for side in (0, 1):
-                    a, C = into(one[side][0], other[side])
-                    d = a - one[side][1]
-                    out.append(float(d @ np.linalg.solve(C + one[side][2], d)))
+                    a, _, C = into(one[side].markers, other[side])
+                    d = a - one[side].centre
+                    out.append(float(d @ np.linalg.solve(C + one[side].repeatability, d)))
     return np.array(out)
 
 
@@ -170,9 +238,9 @@ def row(good, check, asked, measured):
 def judge_pairs(what, chi2):
     per, inside = chi2.mean() / 3, (chi2 < CHI2_3).mean()
     return all([
-        row(0.5 <= per <= 1.6, f"parts of one trial, {what}: disagreement over stated covariance", "chi2 per degree of freedom 0.5 to 1.6",
+        row(0.5 <= per <= 1.6, f"parts of one trial, {what}: disagreement over stated repeatability", "chi2 per degree of freedom 0.5 to 1.6",
             f"{per:.2f} over {len(chi2)} pairs"),
-        row(inside >= 0.85, f"parts of one trial, {what}: pairs inside 95 %", ">= 85 %", f"{100 * inside:.1f} %"),
+        row(inside >= 0.85, f"parts of one trial, {what}: pairs inside 95 % of the repeatability", ">= 85 %", f"{100 * inside:.1f} %"),
     ])
 
 
@@ -200,7 +268,7 @@ def main():
             names, markers, in_bone = subject(seed)
             found = solve("subject", names, markers, (4, 5), method)
             for side in (0, 1):
-                centre, covariance = into(in_bone[side].mean(0), found[side])
+                centre, covariance, _ = into(in_bone[side].mean(0), found[side])
                 deviates.append(centre / np.sqrt(np.diag(covariance)))
                 errors.append(centre @ centre)
             if method == "score" and seed < first + 10:
@@ -214,6 +282,7 @@ def main():
                 "<= SCoRE's", f"RMS {1e3 * pairs['articulated']:.2f} mm, SCoRE {1e3 * pairs['score']:.2f} mm")
     chi2 = np.concatenate(simulated)
     good &= judge_pairs("simulated hips", chi2)
+    good &= knees(first, subjects)
     if DATA.is_dir():
         names, markers = real_hip()
         for method in ("articulated", "score"):

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/array.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
 #include "kinemark/core/time_base.h"
 
@@ -70,12 +71,19 @@ struct SkeletonJoint {
   Eigen::Vector3d centre_in_parent = Eigen::Vector3d::Zero(),
                   centre_in_child = Eigen::Vector3d::Zero();  ///< m
   Eigen::Matrix3d covariance_in_parent = Eigen::Matrix3d::Zero(),
-                  covariance_in_child = Eigen::Matrix3d::Zero();  ///< m^2; NaN when unknown
+                  covariance_in_child =
+                      Eigen::Matrix3d::Zero();  ///< about the bone's joint (accuracy), m^2; NaN when unknown
+  /// By how much another part of the same trial would differ (repeatability), m^2: the covariance without what all
+  /// parts share, as skin that always slides alike. NaN when unknown.
+  Eigen::Matrix3d repeatability_in_parent = Eigen::Matrix3d::Constant(kNaN),
+                  repeatability_in_child = Eigen::Matrix3d::Constant(kNaN);
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(),
                   axis_in_child = Eigen::Vector3d::Zero();  ///< unit length; zero for a ball joint
   double axis_sd_rad = 0.0;  ///< of the tilt of the axis that is known less; NaN when unknown
   /// Of the axis in the parent, rad^2: zero along it, and for a ball joint; NaN when unknown.
   Eigen::Matrix3d axis_covariance_in_parent = Eigen::Matrix3d::Zero();
+  /// The same by which another part of the trial would differ.
+  Eigen::Matrix3d axis_repeatability_in_parent = Eigen::Matrix3d::Constant(kNaN);
   double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen
   std::string method;                ///< "SCoRE", "articulated", ...
   std::string description;           ///< what the motion shows of this joint and what it does not

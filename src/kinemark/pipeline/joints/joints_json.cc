@@ -77,7 +77,11 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
   out["centre_in_child_m"] = in_child ? numbers(joint.centre_in_child) : Json(nullptr);
   out["covariance_in_parent_m2"] = in_parent ? matrix(joint.covariance_in_parent) : Json(nullptr);
   out["covariance_in_child_m2"] = in_child ? matrix(joint.covariance_in_child) : Json(nullptr);
+  const auto known = [](const Eigen::Matrix3d& m) { return m.allFinite() ? matrix(m) : Json(nullptr); };
+  out["repeatability_in_parent_m2"] = known(joint.repeatability_in_parent);
+  out["repeatability_in_child_m2"] = known(joint.repeatability_in_child);
   if (hinge) {
+    out["axis_repeatability_in_parent"] = known(joint.axis_repeatability_in_parent);
     out["axis_in_parent"] = numbers(joint.axis_in_parent);
     out["axis_in_child"] = numbers(joint.axis_in_child);
     out["axis_sd_deg"] = number(joint.axis_sd_rad * kDegPerRad);

@@ -169,6 +169,8 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const articulated::Obse
   out.centre_in_child = below;
   out.covariance_in_parent = above_C;
   out.covariance_in_child = below_C;
+  out.repeatability_in_parent = above_C;
+  out.repeatability_in_child = below_C;
   if (hinge) {
     out.axis_in_parent = above_axis;
     out.axis_in_child = below_axis;
@@ -176,6 +178,7 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const articulated::Obse
     out.axis_covariance_in_parent =
         seen.axis_sd_rad * seen.axis_sd_rad *
         (Matrix3d::Identity() - out.axis_in_parent * out.axis_in_parent.transpose());
+    out.axis_repeatability_in_parent = out.axis_covariance_in_parent;
   }
   return out;
 }

@@ -17,6 +17,7 @@ constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is report
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kSmall_rad = 0.1;    ///< SD of a motion that is too small to tell a centre
 constexpr double kOneArc = 0.5;  ///< second SD of the rotation over the first: below, the motion is one arc
+constexpr double kRepeats = 0.7;  ///< SD between parts of the trial over that about the bone
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
 std::string millimetres(double m) { return fmt::format("{:.1f} mm", 1e3 * m); }
@@ -54,6 +55,20 @@ std::string describe_ball(const Eigen::Matrix3d& covariance, const Eigen::Vector
   return fmt::format("centre not known ({}){}", millimetres(sd(2)), why);
 }
 
+/// What the same skin shows again and what it hides: said where most of the doubt is shared by all parts of the trial.
+std::string describe_repeatability(const Eigen::Matrix3d& covariance, const Eigen::Matrix3d& repeatability,
+                                   const Eigen::Vector3d& axis) {
+  if (!repeatability.allFinite()) return "";
+  const Eigen::Matrix3d off = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+  const auto largest = [&](const Eigen::Matrix3d& c) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(off * c * off, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
+  };
+  const double repeats = largest(repeatability);
+  if (!(repeats < kRepeats * largest(covariance)) || repeats >= kKnown_m) return "";
+  return fmt::format("; another part of the trial repeats it to {}", millimetres(repeats));
+}
+
 }  // namespace
 
 std::string describe_joint(const data::SkeletonJoint& joint, const Eigen::Vector3d& sd_rad) {
@@ -66,9 +81,11 @@ std::string describe_joint(const data::SkeletonJoint& joint, const Eigen::Vector
   if (!covariance.allFinite()) return motion + ": centre not known";
   if (joint.range_of_motion_rad < kStill_rad)
     return motion + ": the joint hardly moves, neither centre nor axis can be known";
-  return motion + ": " +
-         (joint.kind == data::JointKind::hinge ? describe_hinge(joint, covariance)
-                                               : describe_ball(covariance, sd_rad));
+  const bool hinge = joint.kind == data::JointKind::hinge;
+  const Eigen::Vector3d& axis = in_parent ? joint.axis_in_parent : joint.axis_in_child;
+  return motion + ": " + (hinge ? describe_hinge(joint, covariance) : describe_ball(covariance, sd_rad)) +
+         describe_repeatability(covariance, in_parent ? joint.repeatability_in_parent : joint.repeatability_in_child,
+                                axis);
 }
 
 }  // namespace kinemark::skeleton

@@ -54,6 +54,18 @@ TEST(DescribeJoint, AHingeTellsAxisAndPosition) {
   EXPECT_NE(describe_joint(joint, kAround).find("axis direction not known"), std::string::npos);
 }
 
+TEST(DescribeJoint, RepeatingIsSaidWhereItIsNotBeingRight) {
+  data::SkeletonJoint joint = ball(1.0, {0.001, 0.0005, 0.009});
+  joint.repeatability_in_parent = 0.0008 * 0.0008 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(describe_joint(joint, kAround),
+            "57 deg of motion: centre known to 9.0 mm; another part of the trial repeats it to 0.8 mm");
+  joint.repeatability_in_parent = joint.covariance_in_parent;
+  EXPECT_EQ(describe_joint(joint, kAround), "57 deg of motion: centre known to 9.0 mm")
+      << "parts differ by all there is";
+  joint.repeatability_in_parent.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(describe_joint(joint, kAround), "57 deg of motion: centre known to 9.0 mm");
+}
+
 TEST(DescribeJoint, AStillJointAndAnUnknownOneSaySo) {
   EXPECT_EQ(describe_joint(ball(0.01, {0.3, 0.3, 0.3}), kAround),
             "1 deg of motion: the joint hardly moves, neither centre nor axis can be known");

@@ -70,6 +70,7 @@ void carry_into_segments(const ConstantDistanceFit& fit, const internal::JointTa
   };
   out.in_parent = carry(task.parent, 0);
   out.in_child = carry(task.child, 1);
+  out.repeatability = out.covariance;
   out.method = "constant distance";
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/data/skeleton.h"
 
 namespace kinemark::skeleton {
@@ -23,12 +24,16 @@ struct JointFit {
   bool in_parent = false, in_child = false;      ///< the position is known in that segment
   Vector6 centre = Vector6::Zero();              ///< in parent's axes, in child's axes, m
   Matrix6 covariance = Matrix6::Zero();          ///< m^2
+  /// By how much another part of the trial would differ, m^2: `covariance` less what all parts share.
+  Matrix6 repeatability = Matrix6::Zero();
   Matrix6 scatter =
       Matrix6::Zero();             ///< the part of it that blocks of frames show: what does not repeat itself
   Matrix6 open = Matrix6::Zero();  ///< the part of it due to lack of motion and noise of the poses
   /// unit length; zero for a ball joint
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(), axis_in_child = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axis_covariance = Eigen::Matrix3d::Zero();  ///< of the unit vector in the parent, rad^2
+  /// The same of what another part of the trial would differ by; NaN when unknown.
+  Eigen::Matrix3d axis_repeatability = Eigen::Matrix3d::Constant(kNaN);
   double axis_sd_rad = 0.0;                                   ///< of the tilt that is known less
   double slide_share = 0.0;     ///< probability that skin slides with the posture, SkinSlide::share
   double residual_rms_m = 0.0;  ///< distance between the two positions, or distance from the spheres, RMS

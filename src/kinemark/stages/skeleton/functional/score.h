@@ -8,6 +8,7 @@
 #include "kinemark/stages/skeleton/functional/joint_fit.h"
 #include "kinemark/stages/skeleton/functional/relative_motion.h"
 #include "kinemark/stages/skeleton/functional/segment_poses.h"
+#include "kinemark/stages/skeleton/functional/skin_prior.h"
 
 namespace kinemark::skeleton {
 
@@ -39,6 +40,6 @@ struct ScoreSums {
 /// known.
 [[nodiscard]] JointFit fit_score(const Samples& samples, const SegmentPoses& parent,
                                  const SegmentPoses& child, const RelativeMotion& motion,
-                                 data::JointKind kind);
+                                 data::JointKind kind, const SkinPrior& prior = {});
 
 }  // namespace kinemark::skeleton

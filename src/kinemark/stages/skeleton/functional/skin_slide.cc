@@ -3,7 +3,7 @@
 #include "kinemark/stages/skeleton/functional/skin_slide.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,13 +11,12 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/joint_choice.h"
-#include "kinemark/math/euler.h"
-#include "kinemark/stages/skeleton/functional/internal/rigid_shape.h"
+#include "kinemark/stages/skeleton/functional/internal/posture.h"
 
 namespace kinemark::skeleton {
 namespace {
 
-constexpr std::int64_t kMostFrames = 1500, kLeastSlideFrames = 40;
+constexpr std::int64_t kLeastSlideFrames = 40;
 constexpr int kTerms = 9;                   ///< three linear, six quadratic functions of the posture
 constexpr int kSlide = 2 * 3 * kTerms;      ///< coefficients: both sides, three axes
 constexpr double kLeastPosture_rad = 0.01;  ///< components of the posture that move less are not blown up
@@ -25,38 +24,14 @@ constexpr double kLeastPosture_rad = 0.01;  ///< components of the posture that 
 /// SD: it counts as having this SD in quadrature.
 constexpr double kCrosstalk_rad = 0.14;
 constexpr double kQuadratic = 0.15;   ///< variance of quadratic coefficients over that of linear ones
-constexpr double kPriorMedian = 0.5;  ///< of the amplitude, over the RMS gap per axis
+constexpr double kPriorMedian = 0.5;  ///< of a ball joint's amplitude, over the RMS gap per axis
+constexpr double kLeveragePower = 0.5, kLeastLeft = 0.05;
 constexpr double kPriorLog = 1.0;     ///< SD of its logarithm
 constexpr int kGrid = 24;
-constexpr double kGridFrom = 0.02, kGridTo = 3.0;  ///< of the amplitude, over the RMS gap per axis
-constexpr double kRigidShare = 4.0;  ///< energy of skin motion as one body over that of deformation
+constexpr double kGridFrom = 0.04, kGridTo = 6.0;  ///< of the amplitude, over its median
 
+using internal::Posture;
 using Row = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
-/// Posture of the frames drawn: F x 3 principal components, rad, largest first, about their mean.
-struct Posture {
-  std::vector<std::int64_t> frames;
-  Eigen::MatrixX3d component;
-  Eigen::Vector3d sd_rad = Eigen::Vector3d::Zero();
-};
-
-Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const RelativeMotion& motion) {
-  Posture out;
-  const auto n = static_cast<std::int64_t>(motion.frames.size());
-  const std::int64_t drawn = std::min(n, kMostFrames);
-  out.component.resize(drawn, 3);
-  for (std::int64_t i = 0; i < drawn; ++i) {
-    const std::int64_t f = motion.frames[at(i * n / drawn)];
-    out.frames.push_back(f);
-    const Eigen::Matrix3d rotation =
-        parent.world_from_segment[at(f)].transpose() * child.world_from_segment[at(f)];
-    out.component.row(i) =
-        (motion.axes.transpose() * math::log_so3(motion.mean.transpose() * rotation)).transpose();
-  }
-  out.component.rowwise() -= out.component.colwise().mean().eval();
-  out.sd_rad = (out.component.colwise().squaredNorm() / static_cast<double>(drawn)).cwiseSqrt().transpose();
-  return out;
-}
 
 /// Functions of the posture, F x 9, each of the size that its coefficients are expected to have alike.
 Eigen::MatrixXd terms_of(const Posture& posture) {
@@ -159,15 +134,15 @@ struct Amplitudes {
   std::array<double, kGrid + 1> value{}, weight{};
 };
 
-Amplitudes infer_amplitude(const SlideProblem& problem, double gap_m) {
+Amplitudes infer_amplitude(const SlideProblem& problem, double median_m) {
   Amplitudes out;
   std::array<double, kGrid + 1> log_weight{};
   const double step = std::log(kGridTo / kGridFrom) / (kGrid - 1);
   log_weight[0] = problem.log_likelihood(0.0);
   for (int i = 1; i <= kGrid; ++i) {
     const double ratio = kGridFrom * std::exp(step * (i - 1));
-    out.value[at(i)] = ratio * gap_m;
-    const double deviate = std::log(ratio / kPriorMedian) / kPriorLog;
+    out.value[at(i)] = ratio * median_m;
+    const double deviate = std::log(ratio) / kPriorLog;
     // The grid's weights sum to one, as that of "none" is one.
     log_weight[at(i)] = problem.log_likelihood(out.value[at(i)]) - 0.5 * deviate * deviate +
                         std::log(step / (kPriorLog * std::sqrt(2.0 * M_PI)));
@@ -179,51 +154,56 @@ Amplitudes infer_amplitude(const SlideProblem& problem, double gap_m) {
   return out;
 }
 
-/// A turn of the markers by one SD of the hinge's angle, rad^2, in the segment's axes.
-Eigen::Matrix3d turn_covariance(const Samples& samples, const SegmentPoses& poses, const Posture& posture) {
-  const auto K = static_cast<Eigen::Index>(poses.markers.size());
-  double energy = 0.0;
-  Eigen::Index placed = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (Eigen::Index k = 0; k < K; ++k) {
-    const Eigen::Vector3d x = poses.x_in_segment.col(k);
-    if (!x.allFinite()) continue;
-    Eigen::Vector3d with = Eigen::Vector3d::Zero();
-    double weight = 0.0, squares = 0.0, n = 0.0;
-    for (std::size_t i = 0; i < posture.frames.size(); ++i) {
-      const std::int64_t f = posture.frames[i];
-      if (!samples.seen(f, poses.markers[at(k)])) continue;
-      const double angle = posture.component(static_cast<Eigen::Index>(i), 0) / posture.sd_rad(0);
-      const Eigen::Vector3d off = poses.to_segment(f, samples.x(f, poses.markers[at(k)])) - x;
-      with += angle * off;
-      weight += angle * angle;
-      squares += off.squaredNorm();
-      n += 1.0;
-    }
-    if (!(weight > 0.0)) continue;
-    // Without what noise alone would show.
-    energy += (with / weight).squaredNorm() - squares / (n * weight);
-    mean += x;
-    ++placed;
+/// One movement's share of the sums.
+struct Cycle {
+  Matrix6 xx = Matrix6::Zero();
+  Eigen::MatrixXd xz = Eigen::MatrixXd::Zero(6, kSlide);
+};
+
+std::vector<Cycle> cycles_of(const SegmentPoses& parent, const SegmentPoses& child, const Posture& posture,
+                             const Eigen::MatrixXd& terms, double alike) {
+  const std::int64_t count = internal::count_cycles(posture);
+  std::vector<Cycle> out(at(count));
+  const Eigen::Index n = terms.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
+    Cycle& cycle = out[at(i * count / n)];
+    cycle.xx.noalias() += row.leftCols<6>().transpose() * row.leftCols<6>() / alike;
+    cycle.xz.noalias() += row.leftCols<6>().transpose() * row.middleCols(6, kSlide) / alike;
   }
-  if (placed < 3 || !(energy > 0.0)) return Eigen::Matrix3d::Zero();
-  mean /= static_cast<double>(placed);
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (Eigen::Index k = 0; k < K; ++k) {
-    const Eigen::Vector3d d = poses.x_in_segment.col(k) - mean;
-    if (d.allFinite()) scatter += d * d.transpose();
+  return out;
+}
+
+/// Covariance of the joint by slides of one metre that the movements, drawn anew, would not share: the sandwich over
+/// clusters, its residuals those of the slide about the joint that absorbs it, each as large as one of a movement that
+/// the joint was not fitted to (CR2: Bell & McCaffrey 2002, Survey Methodology 28:169). Averaged over all slides.
+Matrix6 between_cycles(const std::vector<Cycle>& cycles, const Matrix6& solve) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(solve);
+  // What the motion leaves open, as the place along a hinge, has no eigenvalue but rounding.
+  const Matrix6 root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                       eigen.eigenvectors().transpose();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(6, kSlide);
+  for (const Cycle& cycle : cycles) all += cycle.xz;
+  const Eigen::MatrixXd absorbed = solve * all;
+  Matrix6 out = Matrix6::Zero();
+  for (const Cycle& cycle : cycles) {
+    const Eigen::SelfAdjointEigenSolver<Matrix6> leverage(root * cycle.xx * root);
+    const Vector6 left = (1.0 - leverage.eigenvalues().array()).cwiseMax(kLeastLeft).pow(-kLeveragePower).matrix();
+    const Matrix6 wider = leverage.eigenvectors() * left.asDiagonal() * leverage.eigenvectors().transpose();
+    const Eigen::MatrixXd by = root * wider * root * (cycle.xz - cycle.xx * absorbed);
+    out += by * by.transpose();
   }
-  // Six ways to move as one body have kRigidShare times the energy of all others together.
-  return kRigidShare * energy / 6.0 * internal::inertia(scatter).inverse();
+  return out;
 }
 
 }  // namespace
 
 SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& child,
-                             const RelativeMotion& motion, const Matrix6& solve, const Vector6& centre) {
+                             const RelativeMotion& motion, const Matrix6& solve, const Vector6& centre,
+                             data::JointKind kind, const SkinPrior& prior) {
   SkinSlide out;
   if (static_cast<std::int64_t>(motion.frames.size()) < kLeastSlideFrames) return out;
-  const Posture posture = posture_of(parent, child, motion);
+  const Posture posture = internal::posture_of(parent, child, motion);
   const Eigen::MatrixXd terms = terms_of(posture);
   const auto n = terms.rows();
   constexpr int kAll = 6 + kSlide + 1;
@@ -255,28 +235,19 @@ SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& chi
   problem.normal /= out.frames_alike;
   const Matrix6 per_frame =
       solve * (out.frames_alike * static_cast<double>(motion.frames.size()) / static_cast<double>(n));
-  const Amplitudes amplitude = infer_amplitude(problem, gap);
+  const double median = kind == data::JointKind::hinge ? prior.slide_m : kPriorMedian * gap;
+  const Amplitudes amplitude = infer_amplitude(problem, median);
+  const Matrix6 between = between_cycles(cycles_of(parent, child, posture, terms, out.frames_alike), per_frame);
   double squares = 0.0;
   for (std::size_t i = 0; i < amplitude.value.size(); ++i) {
     squares += amplitude.weight[i] * amplitude.value[i] * amplitude.value[i];
     out.covariance += amplitude.weight[i] * problem.covariance(per_frame, amplitude.value[i]);
+    out.repeatability += amplitude.weight[i] * (problem.covariance(per_frame, 0.0) +
+                                                amplitude.value[i] * amplitude.value[i] * between);
   }
   out.share = 1.0 - amplitude.weight[0];
   out.amplitude_m = std::sqrt(squares);
   return out;
-}
-
-Eigen::Matrix3d axis_slide_covariance(const Samples& samples, const SegmentPoses& parent,
-                                      const SegmentPoses& child, const RelativeMotion& motion,
-                                      const Eigen::Vector3d& axis_in_parent) {
-  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastSlideFrames) return Eigen::Matrix3d::Zero();
-  const Posture posture = posture_of(parent, child, motion);
-  if (!(posture.sd_rad(0) > 0.0)) return Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d to_parent = motion.mean;
-  const Eigen::Matrix3d turn = turn_covariance(samples, parent, posture) +
-                               to_parent * turn_covariance(samples, child, posture) * to_parent.transpose();
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis_in_parent * axis_in_parent.transpose();
-  return across * turn * across / (posture.sd_rad(0) * posture.sd_rad(0));
 }
 
 }  // namespace kinemark::skeleton

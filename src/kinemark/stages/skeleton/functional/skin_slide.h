@@ -10,6 +10,7 @@
 #include "kinemark/stages/skeleton/functional/joint_fit.h"
 #include "kinemark/stages/skeleton/functional/relative_motion.h"
 #include "kinemark/stages/skeleton/functional/segment_poses.h"
+#include "kinemark/stages/skeleton/functional/skin_prior.h"
 
 namespace kinemark::skeleton {
 
@@ -27,23 +28,22 @@ struct SkinSlide {
   double noise_sd_m = 0.0;    ///< of the gap about the slide, per axis
   double frames_alike = 1.0;  ///< frames that count as one, as errors of neighbours are alike
   Matrix6 covariance = Matrix6::Zero();  ///< of the joint in both segments: noise and slide, m^2
+  /// By how much of that another part of the trial, with movements of its own, would differ (m^2): the same skin
+  /// slides in it in the same way, so what the movements share is left out.
+  Matrix6 repeatability = Matrix6::Zero();
 };
 
 /// @param solve   change of the joint (parent's axes, child's axes) with the right-hand side of the normal
 /// equations
 ///                (ScoreSums): symmetric, without the directions that the motion leaves open
 /// @param centre  the joint that least squares found, m
+/// @param kind    of the joint: a hinge's gap shows the slide along its axis only, so the prior's figure stands for
+///                the gap as the median of the size
 /// At most 1,500 frames, evenly drawn, are used. O(frames).
 [[nodiscard]] SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& child,
                                            const RelativeMotion& motion, const Matrix6& solve,
-                                           const Vector6& centre);
-
-/// Covariance (rad^2, in the parent's axes) of the direction of a hinge's axis by skin that turns the
-/// segments' markers with the posture: a turn in proportion to the hinge's angle tilts the axis and leaves no
-/// trace. How the markers' shape changes with the angle is seen; the markers as one body move with four times
-/// that energy (rigid 80 %, deforming 20 % of skin motion; Barre et al. 2013, IEEE Trans Biomed Eng 60:3131).
-[[nodiscard]] Eigen::Matrix3d axis_slide_covariance(const Samples& samples, const SegmentPoses& parent,
-                                                    const SegmentPoses& child, const RelativeMotion& motion,
-                                                    const Eigen::Vector3d& axis_in_parent);
+                                           const Vector6& centre,
+                                           data::JointKind kind = data::JointKind::ball,
+                                           const SkinPrior& prior = {});
 
 }  // namespace kinemark::skeleton

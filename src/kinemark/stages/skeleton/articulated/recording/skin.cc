@@ -71,8 +71,12 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   const Matrix6 covariance = fit.covariance + shift * shift.transpose();
   joint.covariance_in_parent += covariance.topLeftCorner<3, 3>();
   joint.covariance_in_child += covariance.bottomRightCorner<3, 3>();
+  const Matrix6 repeatability = fit.repeatability + shift * shift.transpose();
+  joint.repeatability_in_parent += repeatability.topLeftCorner<3, 3>();
+  joint.repeatability_in_child += repeatability.bottomRightCorner<3, 3>();
   if (joint.kind == data::JointKind::hinge) {
     joint.axis_covariance_in_parent += fit.axis_covariance;
+    joint.axis_repeatability_in_parent += fit.axis_repeatability;
     joint.axis_sd_rad =
         std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(joint.axis_covariance_in_parent).eigenvalues()(2));
   }

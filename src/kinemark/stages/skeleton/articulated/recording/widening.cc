@@ -28,6 +28,8 @@ void widen_along_axis(const std::vector<SampledPose>& sampled, int chain_segment
   auto& changed = skeleton.joints[static_cast<std::size_t>(joint)];
   changed.covariance_in_parent = widened(changed.covariance_in_parent, changed.axis_in_parent, size_m);
   changed.covariance_in_child = widened(changed.covariance_in_child, changed.axis_in_child, size_m);
+  changed.repeatability_in_parent = widened(changed.repeatability_in_parent, changed.axis_in_parent, size_m);
+  changed.repeatability_in_child = widened(changed.repeatability_in_child, changed.axis_in_child, size_m);
 }
 
 void widen_all_around(int joint, double size_m, data::Skeleton& skeleton) {
@@ -40,6 +42,8 @@ void widen_all_around(int joint, double size_m, data::Skeleton& skeleton) {
   auto& changed = skeleton.joints[static_cast<std::size_t>(joint)];
   changed.covariance_in_parent += more;
   changed.covariance_in_child += more;
+  changed.repeatability_in_parent += more;
+  changed.repeatability_in_child += more;
 }
 
 }  // namespace kinemark::skeleton::articulated

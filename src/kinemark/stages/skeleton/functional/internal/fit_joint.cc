@@ -46,6 +46,7 @@ std::optional<JointFit> fit_sides(const Samples& samples, const JointTask& task,
     if (!s.found) return false;
     fit.centre.segment<3>(3 * side) = s.centre;
     fit.covariance.block<3, 3>(3 * side, 3 * side) = s.covariance;
+    fit.repeatability.block<3, 3>(3 * side, 3 * side) = s.covariance;  // spheres see no slide
     (side == 0 ? fit.axis_in_parent : fit.axis_in_child) = s.axis;
     fit.axis_sd_rad = std::max(fit.axis_sd_rad, s.axis_sd_rad);
     fit.frames = std::max(fit.frames, s.frames);

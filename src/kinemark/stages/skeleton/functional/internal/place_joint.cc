@@ -87,7 +87,10 @@ void describe(const JointFit& fit, const RelativeMotion& motion, data::SkeletonJ
   out.covariance_in_parent = fit.in_parent ? Eigen::Matrix3d(fit.covariance.topLeftCorner<3, 3>()) : unknown;
   out.covariance_in_child =
       fit.in_child ? Eigen::Matrix3d(fit.covariance.bottomRightCorner<3, 3>()) : unknown;
+  if (fit.in_parent) out.repeatability_in_parent = fit.repeatability.topLeftCorner<3, 3>();
+  if (fit.in_child) out.repeatability_in_child = fit.repeatability.bottomRightCorner<3, 3>();
   if (fit.kind == data::JointKind::hinge) {
+    out.axis_repeatability_in_parent = fit.axis_repeatability;
     out.axis_in_parent = fit.axis_in_parent;
     out.axis_in_child = fit.axis_in_child;
     out.axis_sd_rad = fit.axis_sd_rad;
