@@ -133,7 +133,7 @@ def knee_subject(seed):
 
 def knees(first, subjects):
     """Coverage of a hinge's direction and place, and errors beside SARA's."""
-    good, angles, places = True, {}, {}
+    good, angles, positions = True, {}, {}
     for method in ("articulated", "sara"):
         tilts, offs, angle, place = [], [], [], []
         for seed in range(first, first + subjects):
@@ -150,13 +150,13 @@ def knees(first, subjects):
             centre, step = centre - axis * (centre[0] / axis[0]), centre[0]
             offs += list(centre[1:] / np.sqrt(np.diag(covariance + step**2 * tilt)[1:]))
             place.append(centre[1:] @ centre[1:])
-        angles[method], places[method] = np.degrees(np.sqrt(np.mean(angle))), 1e3 * np.sqrt(np.mean(place))
+        angles[method], positions[method] = np.degrees(np.sqrt(np.mean(angle))), 1e3 * np.sqrt(np.mean(place))
         for what, z in (("direction", tilts), ("place", offs)):
             z = np.abs(np.array(z))
             one, two = 100 * (z < 1).mean(), 100 * (z < 2).mean()
             good &= row(62 <= one <= 78 and 90 <= two <= 98.5, f"simulated knees, skin with the posture, {method}: coverage of the axis' {what}",
                         "62 to 78 and 90 to 98.5 %", f"{one:.1f} and {two:.1f} % of {len(z)} numbers")
-    for what, unit, both in (("direction", "deg", angles), ("place", "mm", places)):
+    for what, unit, both in (("direction", "deg", angles), ("place", "mm", positions)):
         good &= row(both["articulated"] <= 1.0001 * both["sara"], f"simulated knees, skin with the posture: error of the axis' {what}", "<= SARA's",
                     f"RMS {both['articulated']:.2f} {unit}, SARA {both['sara']:.2f} {unit}")
     return good

@@ -52,7 +52,7 @@ def sizes(folder):
             row(mb <= most_mb, f"page of {kind}, {frames} frames", f"<= {most_mb} MB", f"{mb:.2f} MB")
 
 
-def looks():
+def appearance():
     said, _ = node("looks_run.ts")
     lines = said.splitlines()
     for line in lines:
@@ -98,7 +98,7 @@ def main():
             real(Path(name))
         else:
             sizes(Path(name))
-            looks()
+            appearance()
             speed()
     return 1 if failed else 0
 

@@ -73,8 +73,8 @@ struct SkeletonJoint {
   Eigen::Matrix3d covariance_in_parent = Eigen::Matrix3d::Zero(),
                   covariance_in_child =
                       Eigen::Matrix3d::Zero();  ///< about the bone's joint (accuracy), m^2; NaN when unknown
-  /// By how much another part of the same trial would differ (repeatability), m^2: the covariance without what all
-  /// parts share, as skin that always slides alike. NaN when unknown.
+  /// By how much another part of the same trial would differ (repeatability), m^2: the covariance without
+  /// what all parts share, as skin that always slides alike. NaN when unknown.
   Eigen::Matrix3d repeatability_in_parent = Eigen::Matrix3d::Constant(kNaN),
                   repeatability_in_child = Eigen::Matrix3d::Constant(kNaN);
   Eigen::Vector3d axis_in_parent = Eigen::Vector3d::Zero(),

@@ -34,9 +34,8 @@ TEST(AxisSlide, TiltsAnAxisByTheTurnThatDeformationTells) {
                                     .noise_sd_m = 0.0002});
   const auto tilt = [&] {
     const testing::JointSetup setup(chain);
-    const JointFit fit =
-        fit_score(setup.samples, setup.parent, setup.child, setup.task.motion, data::JointKind::hinge,
-                  {.turn = 1e-6});
+    const JointFit fit = fit_score(setup.samples, setup.parent, setup.child, setup.task.motion,
+                                   data::JointKind::hinge, {.turn = 1e-6});
     EXPECT_NEAR((fit.axis_covariance * fit.axis_in_parent).norm(), 0.0, 0.05 * fit.axis_covariance.norm());
     return fit.axis_sd_rad;
   };

@@ -16,7 +16,7 @@ namespace {
 constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kSmall_rad = 0.1;    ///< SD of a motion that is too small to tell a centre
-constexpr double kOneArc = 0.5;  ///< second SD of the rotation over the first: below, the motion is one arc
+constexpr double kOneArc = 0.5;   ///< second SD of the rotation over the first: below, the motion is one arc
 constexpr double kRepeats = 0.7;  ///< SD between parts of the trial over that about the bone
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
@@ -55,7 +55,8 @@ std::string describe_ball(const Eigen::Matrix3d& covariance, const Eigen::Vector
   return fmt::format("centre not known ({}){}", millimetres(sd(2)), why);
 }
 
-/// What the same skin shows again and what it hides: said where most of the doubt is shared by all parts of the trial.
+/// What the same skin shows again and what it hides: said where most of the doubt is shared by all parts of
+/// the trial.
 std::string describe_repeatability(const Eigen::Matrix3d& covariance, const Eigen::Matrix3d& repeatability,
                                    const Eigen::Vector3d& axis) {
   if (!repeatability.allFinite()) return "";
@@ -84,8 +85,8 @@ std::string describe_joint(const data::SkeletonJoint& joint, const Eigen::Vector
   const bool hinge = joint.kind == data::JointKind::hinge;
   const Eigen::Vector3d& axis = in_parent ? joint.axis_in_parent : joint.axis_in_child;
   return motion + ": " + (hinge ? describe_hinge(joint, covariance) : describe_ball(covariance, sd_rad)) +
-         describe_repeatability(covariance, in_parent ? joint.repeatability_in_parent : joint.repeatability_in_child,
-                                axis);
+         describe_repeatability(
+             covariance, in_parent ? joint.repeatability_in_parent : joint.repeatability_in_child, axis);
 }
 
 }  // namespace kinemark::skeleton

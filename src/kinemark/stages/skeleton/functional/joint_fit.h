@@ -34,7 +34,7 @@ struct JointFit {
   Eigen::Matrix3d axis_covariance = Eigen::Matrix3d::Zero();  ///< of the unit vector in the parent, rad^2
   /// The same of what another part of the trial would differ by; NaN when unknown.
   Eigen::Matrix3d axis_repeatability = Eigen::Matrix3d::Constant(kNaN);
-  double axis_sd_rad = 0.0;                                   ///< of the tilt that is known less
+  double axis_sd_rad = 0.0;     ///< of the tilt that is known less
   double slide_share = 0.0;     ///< probability that skin slides with the posture, SkinSlide::share
   double residual_rms_m = 0.0;  ///< distance between the two positions, or distance from the spheres, RMS
   std::int64_t frames = 0;      ///< used

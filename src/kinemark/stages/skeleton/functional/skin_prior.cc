@@ -11,9 +11,10 @@ namespace kinemark::skeleton {
 Status SkinPrior::check() const {
   for (const double value : {turn, turn_weight, slide_m})
     if (!(value > 0.0) || !std::isfinite(value))
-      return fail(Code::usage, fmt::format("skin that slides by {} m and turns by {} rad per rad with a weight of {}; "
-                                           "need more than 0",
-                                           slide_m, turn, turn_weight));
+      return fail(Code::usage,
+                  fmt::format("skin that slides by {} m and turns by {} rad per rad with a weight of {}; "
+                              "need more than 0",
+                              slide_m, turn, turn_weight));
   return {};
 }
 

@@ -26,7 +26,7 @@ constexpr double kCrosstalk_rad = 0.14;
 constexpr double kQuadratic = 0.15;   ///< variance of quadratic coefficients over that of linear ones
 constexpr double kPriorMedian = 0.5;  ///< of a ball joint's amplitude, over the RMS gap per axis
 constexpr double kLeveragePower = 0.5, kLeastLeft = 0.05;
-constexpr double kPriorLog = 1.0;     ///< SD of its logarithm
+constexpr double kPriorLog = 1.0;  ///< SD of its logarithm
 constexpr int kGrid = 24;
 constexpr double kGridFrom = 0.04, kGridTo = 6.0;  ///< of the amplitude, over its median
 
@@ -174,9 +174,10 @@ std::vector<Cycle> cycles_of(const SegmentPoses& parent, const SegmentPoses& chi
   return out;
 }
 
-/// Covariance of the joint by slides of one metre that the movements, drawn anew, would not share: the sandwich over
-/// clusters, its residuals those of the slide about the joint that absorbs it, each as large as one of a movement that
-/// the joint was not fitted to (CR2: Bell & McCaffrey 2002, Survey Methodology 28:169). Averaged over all slides.
+/// Covariance of the joint by slides of one metre that the movements, drawn anew, would not share: the
+/// sandwich over clusters, its residuals those of the slide about the joint that absorbs it, each as large as
+/// one of a movement that the joint was not fitted to (CR2: Bell & McCaffrey 2002, Survey Methodology
+/// 28:169). Averaged over all slides.
 Matrix6 between_cycles(const std::vector<Cycle>& cycles, const Matrix6& solve) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(solve);
   // What the motion leaves open, as the place along a hinge, has no eigenvalue but rounding.
@@ -188,7 +189,8 @@ Matrix6 between_cycles(const std::vector<Cycle>& cycles, const Matrix6& solve) {
   Matrix6 out = Matrix6::Zero();
   for (const Cycle& cycle : cycles) {
     const Eigen::SelfAdjointEigenSolver<Matrix6> leverage(root * cycle.xx * root);
-    const Vector6 left = (1.0 - leverage.eigenvalues().array()).cwiseMax(kLeastLeft).pow(-kLeveragePower).matrix();
+    const Vector6 left =
+        (1.0 - leverage.eigenvalues().array()).cwiseMax(kLeastLeft).pow(-kLeveragePower).matrix();
     const Matrix6 wider = leverage.eigenvectors() * left.asDiagonal() * leverage.eigenvectors().transpose();
     const Eigen::MatrixXd by = root * wider * root * (cycle.xz - cycle.xx * absorbed);
     out += by * by.transpose();
@@ -237,7 +239,8 @@ SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& chi
       solve * (out.frames_alike * static_cast<double>(motion.frames.size()) / static_cast<double>(n));
   const double median = kind == data::JointKind::hinge ? prior.slide_m : kPriorMedian * gap;
   const Amplitudes amplitude = infer_amplitude(problem, median);
-  const Matrix6 between = between_cycles(cycles_of(parent, child, posture, terms, out.frames_alike), per_frame);
+  const Matrix6 between =
+      between_cycles(cycles_of(parent, child, posture, terms, out.frames_alike), per_frame);
   double squares = 0.0;
   for (std::size_t i = 0; i < amplitude.value.size(); ++i) {
     squares += amplitude.weight[i] * amplitude.value[i] * amplitude.value[i];

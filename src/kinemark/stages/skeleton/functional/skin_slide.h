@@ -28,8 +28,8 @@ struct SkinSlide {
   double noise_sd_m = 0.0;    ///< of the gap about the slide, per axis
   double frames_alike = 1.0;  ///< frames that count as one, as errors of neighbours are alike
   Matrix6 covariance = Matrix6::Zero();  ///< of the joint in both segments: noise and slide, m^2
-  /// By how much of that another part of the trial, with movements of its own, would differ (m^2): the same skin
-  /// slides in it in the same way, so what the movements share is left out.
+  /// By how much of that another part of the trial, with movements of its own, would differ (m^2): the same
+  /// skin slides in it in the same way, so what the movements share is left out.
   Matrix6 repeatability = Matrix6::Zero();
 };
 
@@ -37,7 +37,8 @@ struct SkinSlide {
 /// equations
 ///                (ScoreSums): symmetric, without the directions that the motion leaves open
 /// @param centre  the joint that least squares found, m
-/// @param kind    of the joint: a hinge's gap shows the slide along its axis only, so the prior's figure stands for
+/// @param kind    of the joint: a hinge's gap shows the slide along its axis only, so the prior's figure
+/// stands for
 ///                the gap as the median of the size
 /// At most 1,500 frames, evenly drawn, are used. O(frames).
 [[nodiscard]] SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& child,

@@ -41,7 +41,7 @@ Bounds::Bounds(const Plan& plan)
   still_.setZero(n);
   sd_.setZero(plan.problem.model.coordinate_count());
   bound_ = goal_error_ = goal_bound_ = sd_;
-  pull_.setZero(n);
+  force_.setZero(n);
   held_ = plan.problem.fixed_speed;
 }
 
@@ -71,7 +71,7 @@ void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, co
       out.variance[row] = rows_.sd[i] * rows_.sd[i];
     }
   }
-  pull_.noalias() += out.A * out.dx;
+  force_.noalias() += out.A * out.dx;
   for (Eigen::Index k = 0; k < J_.cols(); ++k)
     if (held_[at(k)] != 0) out.A.row(k).setZero();
   llt_.matrixL().solveInPlace(out.A);
@@ -120,8 +120,8 @@ bool Bounds::hold_pressed(const Eigen::VectorXd& x) {
     const int k = c.speed_idx;
     if (k < 0 || held_[at(k)] != 0) continue;
     const double q = x[c.state_idx];
-    const bool pressed = (q <= plan_.problem.lower[k] + kAtLimit && pull_[k] < 0.0) ||
-                         (q >= plan_.problem.upper[k] - kAtLimit && pull_[k] > 0.0);
+    const bool pressed = (q <= plan_.problem.lower[k] + kAtLimit && force_[k] < 0.0) ||
+                         (q >= plan_.problem.upper[k] - kAtLimit && force_[k] > 0.0);
     if (!pressed) continue;
     held_[at(k)] = 1;
     any = true;
@@ -204,7 +204,7 @@ void Bounds::solve_levels(const Eigen::VectorXd& q, const GoalValues& goal, doub
   rank_ = 0;
   smallest_ = std::numeric_limits<double>::infinity();
   z_.setZero();
-  pull_.setZero();
+  force_.setZero();
   explained_.setZero();
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     gather(i, goal, time_s, noise);

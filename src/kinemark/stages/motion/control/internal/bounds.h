@@ -76,7 +76,7 @@ class Bounds {
   TaskRows rows_;
   Eigen::MatrixXd M_, mass_, J_, V_, E_, C_, explained_, G_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, pull_;
+  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, force_;
   std::vector<std::uint8_t> determined_, held_;
   int rank_ = 0;
   double smallest_ = 0.0;

@@ -24,7 +24,7 @@ constexpr double kMemory = 0.95;    // of the usual cost, per frame
 constexpr double kLostPose = 0.3;   // rad or m: a body so far from the best fit may have come to a wrong one
 constexpr double kSameCost = 1e-6;  // of the cost
 constexpr double kAtLimit = 1e-9;   // rad or m
-constexpr double kBend = 0.1;       // rad or m: near a limit
+constexpr double kOffLimit = 0.1;   // rad or m: near a limit
 constexpr double kRemembered_s = 0.5;  // that a coordinate was at its limit
 
 Problem without_tasks(Problem problem) {
@@ -159,17 +159,17 @@ double Walker::try_limits(double cost) {
   for (const auto& c : p.model.coordinates()) {
     const int k = c.speed_idx;
     if (k < 0 || p.fixed_speed[at(k)] != 0) continue;
-    const double low = p.lower[k], high = p.upper[k], bend = std::min(kBend, 0.25 * (high - low));
+    const double low = p.lower[k], high = p.upper[k], off_limit = std::min(kOffLimit, 0.25 * (high - low));
     const double q = settled_[c.state_idx];
     const bool at_limit = q <= low + kAtLimit || q >= high - kAtLimit;
     if (at_limit) at_limit_[at(k)] = frame_;
     if (at_limit_[at(k)] < 0 ||
         static_cast<double>(frame_ - at_limit_[at(k)]) > kRemembered_s * plan_.rate_hz)
       continue;
-    const bool is_low = q < low + bend;
-    if (!is_low && q <= high - bend) continue;
+    const bool is_low = q < low + off_limit;
+    if (!is_low && q <= high - off_limit) continue;
     other_ = settled_;
-    other_[c.state_idx] = is_low ? (at_limit ? low + bend : low) : (at_limit ? high - bend : high);
+    other_[c.state_idx] = is_low ? (at_limit ? low + off_limit : low) : (at_limit ? high - off_limit : high);
     unbiased_.fixed_speed[at(k)] = 1;
     settler_.solve(led_.x, led_.weight, 0, other_);
     unbiased_.fixed_speed[at(k)] = 0;

@@ -11,8 +11,8 @@
 
 namespace kinemark::skeleton::internal {
 
-/// Posture of a joint, the rotation of child against parent: F x 3 principal components, rad, largest first, about
-/// their mean, in the frames that were drawn.
+/// Posture of a joint, the rotation of child against parent: F x 3 principal components, rad, largest first,
+/// about their mean, in the frames that were drawn.
 struct Posture {
   std::vector<std::int64_t> frames;                  ///< F, in order of time
   Eigen::MatrixX3d component;                        ///< F x 3, rad
@@ -23,8 +23,8 @@ struct Posture {
 [[nodiscard]] Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child,
                                  const RelativeMotion& motion);
 
-/// How many movements the frames hold: how often the first component goes from half an SD below its mean to half an
-/// SD above. From 3 to 12: less is too little to tell how they differ.
+/// How many movements the frames hold: how often the first component goes from half an SD below its mean to
+/// half an SD above. From 3 to 12: less is too little to tell how they differ.
 [[nodiscard]] std::int64_t count_cycles(const Posture& posture);
 
 }  // namespace kinemark::skeleton::internal
