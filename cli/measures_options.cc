@@ -57,9 +57,13 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->capture_default_str()
       ->group(what);
   command.add_option("--refits", job.refits, "Simulated recordings behind each interval; 0: no intervals")
+      ->type_name("N")
       ->capture_default_str()
       ->group(what);
-  command.add_option("--level", job.level, "Coverage of the intervals")->capture_default_str()->group(what);
+  command.add_option("--level", job.level, "Coverage of the intervals, 0.5 to 1")
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->group(what);
   command
       .add_option("--edits", job.edits,
                   "Journal of edits to apply first; 'beside': the one beside the recording")

@@ -26,8 +26,9 @@ struct ResultReport {
   std::int64_t first_frame = 0;     ///< number of the scene's first frame, as its file counts
 };
 
-/// A group for each kind of thing that runs report: gates that were missed, and remarks.
+/// A group for each kind of gate that was missed.
 void add_gates(std::vector<NoticeGroup>& groups, std::span<const Gate> gates);
+/// A group for each kind of remark, one sentence each.
 void add_remarks(std::vector<NoticeGroup>& groups, std::span<const std::string> remarks);
 
 /// `kinemark.result_report`, as README.md describes it.
