@@ -123,6 +123,8 @@ def carried(path):
         name = plain(group[0])
         if name in NOT_CARRIED:
             continue
+        if name == "MANUFACTURER" and [plain(p[0]) for p in group[3]] == ["SOFTWARE"] and b"kinemark" in group[3][0][4]:
+            continue  # who wrote the copy of a file that does not say who recorded it
         if name not in WRITTEN_ANEW:
             found.append(group)
         elif rest := parameters_carried(name, group[3]):
