@@ -62,6 +62,10 @@ Result<PoseTable> read_blocks(Input& in, hid_t group) {
     return fail(Code::bad_input,
                 "its table is not one block of numbers with numbered rows, as of a video; files of single "
                 "images are not read");
+  // Without rows, a width is what anybody wrote there.
+  if (static_cast<std::uint64_t>((*shape)[1]) > rows->size())
+    return fail(Code::bad_input, fmt::format("its table of {} x {} numbers holds {}; need one row at least",
+                                             (*shape)[0], (*shape)[1], rows->size()));
   Columns columns(static_cast<std::size_t>((*shape)[1]));
   for (int level = 0; level < 4; ++level) {
     const Handle names = in.object(group, fmt::format("block0_items_level{}", level));
