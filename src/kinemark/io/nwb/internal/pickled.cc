@@ -109,11 +109,11 @@ class Unpickler {
   }
   std::optional<int> number() {
     const auto digits = line();
+    if (!digits) return std::nullopt;
     int out = 0;
-    if (!digits || std::from_chars(digits->data(), digits->data() + digits->size(), out).ptr !=
-                       digits->data() + digits->size())
-      return std::nullopt;
-    return out;
+    const auto* end = digits->data() + digits->size();
+    const auto read = std::from_chars(digits->data(), end, out);
+    return read.ec == std::errc() && read.ptr == end ? std::optional(out) : std::nullopt;
   }
   bool push(Item item) {
     texts_ += item.kind == Item::Kind::tuple ? item.tuple.size() : 1;

@@ -143,8 +143,7 @@ TEST(Bounds, NoiseOfEachMarkerAddsInSquares) {
     }
   for (int c = 0; c < t.count(); ++c) {
     EXPECT_NEAR(sd[c] / std::sqrt(variance[c]), 1.0, 1e-6) << c;
-    const double open = t.plan.settle ? Bounds::kSettled : 0.0;
-    EXPECT_NEAR((bound[c] - open) / sd[c], Bounds::kNoiseSds, 1e-6) << c;
+    EXPECT_NEAR(bound[c] / sd[c], Bounds::kNoiseSds, 1e-6) << c;
   }
 }
 

@@ -15,6 +15,7 @@
 #include "kinemark/stages/motion/control/internal/bounds.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/readout.h"
+#include "kinemark/stages/motion/control/internal/track_bars.h"
 #include "kinemark/stages/motion/control/internal/walker.h"
 #include "kinemark/stages/motion/internal/stream_judge.h"
 
@@ -141,7 +142,7 @@ struct OnlineTracker::Impl {
     if (bounds) {
       bounds->find(body.x(), pose.q, known_goal, walker->time_s(), noise());
       pose.q_sd = bounds->sd();
-      pose.q_bound = bounds->bound();
+      pose.q_bound = bounds->bound().array() + (plan.settle ? internal::kSettled : 0.0);
       pose.determined = bounds->determined();
       pose.rank = bounds->rank();
       pose.smallest_singular = bounds->smallest_singular();

@@ -91,7 +91,7 @@ TEST(Score, WhatTheMotionLeavesOpenIsWide) {
   const auto hinge = both.fit(data::JointKind::hinge);
   const Eigen::Matrix3d c = fit.covariance.topLeftCorner<3, 3>();
   EXPECT_GT(std::sqrt(hinge.axis_in_parent.dot(c * hinge.axis_in_parent)), 0.05);
-  EXPECT_LT(hinge.axis_sd_rad, 0.02);
+  EXPECT_LT(hinge.axis_sd_rad, 0.05);  // skin may turn with the hinge and leave no trace: the prior's figure
   const Both still({.per_segment = 5,
                     .stagger_m = 0.04,
                     .rotations = Rotations::cone,

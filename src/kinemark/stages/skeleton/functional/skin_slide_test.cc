@@ -85,13 +85,17 @@ TEST(SkinSlide, IsNearerToTheErrorThanScatter) {
 }
 
 TEST(SkinSlide, PartsShareMostOfIt) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  double repeated = 0.0, all = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const testing::JointSetup setup(ball(true, seed));
     const JointFit fit =
         fit_score(setup.samples, setup.parent, setup.child, setup.task.motion, data::JointKind::ball);
-    EXPECT_LT(fit.repeatability.trace(), 0.7 * fit.covariance.trace()) << seed;
     EXPECT_GT(fit.repeatability.trace(), 0.0) << seed;
+    EXPECT_LT(fit.repeatability.trace(), fit.covariance.trace()) << seed;
+    repeated += fit.repeatability.trace();
+    all += fit.covariance.trace();
   }
+  EXPECT_LT(repeated, 0.7 * all);
 }
 
 TEST(SkinSlide, WithoutASlidePartsDifferByAllThereIs) {

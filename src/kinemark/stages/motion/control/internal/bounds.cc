@@ -179,8 +179,7 @@ void Bounds::judge(const MarkerVariances& noise) {
     const double lag = goal_error_[c];
     sd_[c] = std::sqrt(variance + lag * lag);
     sure = sure && sd_[c] <= kLargestSd;
-    const double open = plan_.settle ? kSettled : 0.0;
-    bound_[c] = sure ? std::abs(lag) + kNoiseSds * std::sqrt(variance) + open : nan;
+    bound_[c] = sure ? std::abs(lag) + kNoiseSds * std::sqrt(variance) : nan;
     if (!sure) goal_error_[c] = goal_bound_[c] = nan;
     // Fixed only by goals without a standard deviation.
     if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;

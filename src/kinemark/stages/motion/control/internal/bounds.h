@@ -34,9 +34,6 @@ class Bounds {
 
   /// Equations 15 and 16 assume exact goals; bound() counts this many standard deviations of their noise.
   static constexpr double kNoiseSds = 5.0;
-  /// rad or m: settling stops where a step gains less than 1e-10 of the cost, and a nearly undetermined
-  /// coordinate is then not yet at its best.
-  static constexpr double kSettled = 1e-4;
 
   /// Evaluate pose x with coordinates q and the goals of this frame.
   void find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,

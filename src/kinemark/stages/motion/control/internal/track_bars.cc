@@ -72,7 +72,7 @@ void add_error_bars(const Plan& plan, const Track& track, const MarkerVariances&
       result.smallest_singular[at(f)] = bounds.smallest_singular();
       for (std::int64_t c = 0; c < n; ++c) {
         motion.q_sd[motion.index(f, c)] = bounds.sd()[c];
-        motion.q_bound[motion.index(f, c)] = bounds.bound()[c];
+        motion.q_bound[motion.index(f, c)] = bounds.bound()[c] + (plan.settle ? kSettled : 0.0);
         result.goal_error[motion.index(f, c)] = bounds.goal_error()[c];
         result.goal_bound[motion.index(f, c)] = bounds.goal_bound()[c];
         motion.determined[motion.index(f, c)] = bounds.determined()[at(c)];

@@ -7,6 +7,10 @@
 
 namespace kinemark::motion::internal {
 
+/// rad or m: settling stops where a step gains less than 1e-10 of the cost, and a nearly undetermined
+/// coordinate is then not yet at its best. Part of every bound on a settled body's error.
+inline constexpr double kSettled = 1e-4;
+
 /// Noise of the goals: from the part removed by the filter, and from the residuals of the markers of each
 /// segment; the larger of both. A given noise is used as it is.
 [[nodiscard]] MarkerVariances goal_noise(const Plan& plan, const data::Trajectories& markers,
