@@ -4,7 +4,7 @@
 """Pages in Debian's Chromium: how large, how fast, how readable, and whether every real recording opens.
 
     pages.py            sizes, looks and speed, with simulated data and pages that the program writes
-    pages.py --real     a page of every real C3D and TRC file of KINEMARK_DATA, opened and judged
+    pages.py --real     a page of every real C3D and TRC file of KINEMARK_TEST_DATA, opened and judged
 
 Needs `npm ci` in viewer/ once. Prints rows "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
@@ -19,7 +19,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 VIEWER = PROJECT / "viewer"
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")).resolve()
-DATA = Path(os.environ.get("KINEMARK_DATA", "/work/shared/data"))
+DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or PROJECT.parent / "shared" / "data")
 BATCH = 8
 failed = False
 
@@ -59,6 +59,8 @@ def appearance():
         if line.startswith(("ok ", "FAILED ")):
             row(line.startswith("ok "), f"{line.split()[-1]}: axe in light and dark, nothing clipped on paper and at 390 px", "nothing", line.split()[0])
     row(len([line for line in lines if line.startswith("ok ")]) >= 8, "pages of every kind were judged", ">= 8", str(len(lines)))
+
+
 
 
 def speed():
