@@ -61,8 +61,6 @@ def appearance():
     row(len([line for line in lines if line.startswith("ok ")]) >= 8, "pages of every kind were judged", ">= 8", str(len(lines)))
 
 
-
-
 def speed():
     said, _ = node("speed_run.ts")
     rows = [line for line in said.splitlines() if " | " in line]
