@@ -90,7 +90,7 @@ Result<PoseTable> read_blocks(Input& in, hid_t group) {
 Result<PoseTable> arrange_columns(const Columns& columns, const Array<double>& frame_numbers,
                                   const Array<double>& rows) {
   PoseTable out{.frames = static_cast<std::int64_t>(frame_numbers.size())};
-  if (columns.empty() || frame_numbers.size() == 0 || rows.size() / columns.size() != frame_numbers.size() ||
+  if (columns.empty() || frame_numbers.empty() || rows.size() / columns.size() != frame_numbers.size() ||
       rows.size() % columns.size() != 0)
     return fail(Code::bad_input,
                 fmt::format("{} labels of columns and {} numbers of frames do not fit {} values",

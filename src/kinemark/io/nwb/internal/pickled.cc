@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -111,8 +112,9 @@ class Unpickler {
     const auto digits = line();
     if (!digits) return std::nullopt;
     int out = 0;
-    const auto* end = digits->data() + digits->size();
-    const auto read = std::from_chars(digits->data(), end, out);
+    const char* const begin = std::to_address(digits->begin());
+    const char* const end = std::to_address(digits->end());
+    const auto read = std::from_chars(begin, end, out);
     return read.ec == std::errc() && read.ptr == end ? std::optional(out) : std::nullopt;
   }
   bool push(Item item) {
