@@ -217,7 +217,7 @@ void LedPath::try_without_outliers() {
   if (narrow.time_constant_s * kClearlyNarrower < wide.time_constant_s) return;
   const auto now = now_;
   bandwidth_ = narrow;
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < 4; ++pass) {
     smooth(false);
     gather(true);
   }
