@@ -129,6 +129,14 @@ Status describe_recording(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
+Status describe_skeleton(const InfoJob& job, InfoOutcome& out) {
+  auto vsk = io::read_vsk(job.file);
+  if (!vsk) return std::unexpected(vsk.error());
+  out.warnings = std::exchange(vsk->warnings, {});
+  out.facts = std::move(*vsk);
+  return {};
+}
+
 }  // namespace
 
 Result<InfoOutcome> run_info(const InfoJob& job) {
@@ -136,6 +144,7 @@ Result<InfoOutcome> run_info(const InfoJob& job) {
   const auto describe = ending == ".osim"                      ? describe_model
                         : ending == ".mot" || ending == ".sto" ? describe_table
                         : ending == ".mcap"                    ? describe_recording
+                        : io::is_vsk_ending(ending)            ? describe_skeleton
                                                                : describe_markers;
   InfoOutcome out;
   out.file = job.file;

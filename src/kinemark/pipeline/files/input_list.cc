@@ -51,7 +51,7 @@ std::vector<std::string> marker_endings() { return io::read_extensions(); }
 
 std::vector<std::string> known_endings() {
   auto known = io::read_extensions();
-  for (const char* other : {".mot", ".sto", ".osim", ".mcap"}) known.emplace_back(other);
+  for (const char* other : {".mot", ".sto", ".osim", ".mcap", ".vsk", ".vst"}) known.emplace_back(other);
   return known;
 }
 
