@@ -96,7 +96,8 @@ Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOpti
   NwbMetadata metadata;
   metadata.set = options.set;
   if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
-  return write_nwb(path, trial.markers, nullptr, metadata, {.force = options.force});
+  return write_nwb(path, trial.markers, nullptr, metadata,
+                   {.force = options.force, .ndx_pose = options.ndx_pose});
 }
 
 using enum Kept;
