@@ -14,6 +14,7 @@
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/matlab/mat.h"
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
@@ -148,6 +149,10 @@ constexpr std::array kFormats = {
                  .extension = ".xdf",
                  .begins = is_xdf,
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_xdf(path); }},
+    MarkerFormat{.name = "MCAP",
+                 .extension = ".mcap",
+                 .begins = is_mcap,
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_mcap_markers(path); }},
     MarkerFormat{.name = "Qualisys TSV",
                  .extension = ".tsv",
                  .begins = begins_export<VendorExport::qtm>,
