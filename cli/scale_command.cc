@@ -35,6 +35,8 @@ void print_adapted(const CommonOptions& common, const motion::AdaptResult& resul
 void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& job,
                          const pipeline::ScaleOutcome& outcome) {
   if (!outcome.clavicles.empty()) say(common, fmt::format("Set free: {}.", join(outcome.clavicles)));
+  if (!outcome.joints.empty())
+    say(common, fmt::format("Joints that the motion places, not the sizes alone: {}.", join(outcome.joints)));
   if (outcome.scaled)
     for (const auto& m : outcome.scaled->measurements)
       say(common, fmt::format("measured {:16} x {:.4f}", m.name, m.factor));
@@ -51,7 +53,8 @@ void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& 
 
 struct ScaleArguments {
   pipeline::ScaleJob job;
-  double noise_mm = 0.0, position_prior_mm = 10.0, size_prior_percent = 10.0, max_rms_mm = 50.0;
+  double noise_mm = 0.0, position_prior_mm = 10.0, joint_prior_mm = 20.0, size_prior_percent = 10.0,
+         max_rms_mm = 50.0;
   bool no_soft_tissue = false;
 };
 
@@ -60,6 +63,7 @@ int run_command(const CommonOptions& common, ScaleArguments& arguments) {
   job.adapt.marker_noise_sd_m = 1e-3 * arguments.noise_mm;
   job.adapt.soft_tissue = !arguments.no_soft_tissue;
   job.position_prior_sd_m = 1e-3 * arguments.position_prior_mm;
+  job.joint_prior_sd_m = 1e-3 * arguments.joint_prior_mm;
   job.size_prior_sd = 1e-2 * arguments.size_prior_percent;
   job.max_rms_m = 1e-3 * arguments.max_rms_mm;
   return run_job(common, "steps", job, pipeline::run_scale,
@@ -90,6 +94,10 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("-t,--markers", job.markers,
                    "Marker file of a motion to which sizes and positions are adapted")
       ->group("Input");
+  command
+      ->add_option("--joints", job.joints,
+                   "Functional joint centres: folder or skeleton.json that 'joints' wrote")
+      ->group("Input");
   command->add_option("--rate", job.rate_hz, "Frame rate of marker files that store none (.v3d, .amc), Hz")
       ->group("Input");
   command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
@@ -113,6 +121,12 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
   command
       ->add_option("--place-prior", arguments->position_prior_mm,
                    "How far a marker may be from its position in the model so far, mm per axis (1 SD)")
+      ->capture_default_str()
+      ->group("Estimate");
+  command
+      ->add_option(
+          "--joint-prior", arguments->joint_prior_mm,
+          "How far a joint of --joints may be from its position in the model so far, mm per axis (1 SD)")
       ->capture_default_str()
       ->group("Estimate");
   command->add_option("--noise", arguments->noise_mm, "Marker noise per axis, mm; 0 estimates it")

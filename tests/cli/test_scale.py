@@ -30,6 +30,25 @@ class Scale(CommandTest):
         self.scale("--model", self.model, "--static", self.markers, "-o", "M.osim")
         self.good("ik", "-m", "M.osim", "-t", self.markers, "-o", "Q.mot")
 
+    def test_functional_joints_go_into_the_model(self):
+        thigh = '[[segment]]\nname = "thigh {0}"\nmarkers = ["{0}THI", "{0}THAP", "{0}KNE"]\n'
+        hip = '[[joint]]\nname = "hip {0}"\nparent = "pelvis"\nchild = "thigh {0}"\n'
+        pelvis = '[[segment]]\nname = "pelvis"\nmarkers = ["LASI", "RASI", "LPSI", "RPSI"]\n'
+        (self.folder / "legs.toml").write_text(pelvis + thigh.format("L") + thigh.format("R") + hip.format("L") + hip.format("R"))
+        self.good("joints", self.markers, "--segments", "legs.toml", "-o", "found")
+        ran = self.scale("--model", self.model, "--markers", self.markers, "--joints", "found", "-o", "M.osim")
+        self.assertEqual(ran.status, 0, ran.err)
+        report = json.loads((self.folder / "M_report.json").read_text())
+        self.assertEqual(sorted(report["joints"]), ["hip_l", "hip_r"])
+        free = {p["name"] for p in report["motion"]["parameters"] if p["kind"] == "joint place"}
+        self.assertEqual(free, {f"hip_{side}.{axis}" for side in "lr" for axis in "xyz"})
+        ran = self.scale("--model", self.model, "--markers", self.markers, "--joints", "legs.toml", "-o", "N.osim")
+        self.assertEqual(ran.status, 3)
+        self.assertIn("legs.toml: not JSON; need a skeleton.json", ran.err)
+        ran = self.scale("--model", self.model, "--setup", "none.xml", "--joints", "found", "-o", "N.osim")
+        self.assertNotEqual(ran.status, 0)
+        self.assertFalse((self.folder / "N.osim").exists())
+
     def test_the_page_holds_the_report(self):
         self.good("scale", "--model", self.model, "--markers", self.markers, "-o", "M.osim", "--report", "page.html")
         data = json.loads(report_data((self.folder / "page.html").read_text()))

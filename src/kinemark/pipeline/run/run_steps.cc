@@ -75,6 +75,7 @@ class Planner {
   Status plan_subject(const RunSubject& subject) {
     const fs::path folder = fs::path(file_.output) / subject.name;
     const Lists lists = {&file_.options, &subject.options};
+    std::size_t functional = kNone;
     if (file_.does("joints")) {
       RunStep step = begin(subject, "", "joints", folder);
       const fs::path out = folder / "joints";
@@ -83,10 +84,10 @@ class Planner {
       step.inputs.emplace_back(subject.functional);
       for (const char* made : {"centres.csv", "centres.c3d", "skeleton.json", "segments.toml"})
         step.outputs.push_back(out / made);
-      (void)add(std::move(step), options_of("joints", lists), subject.name, subject.functional);
+      functional = add(std::move(step), options_of("joints", lists), subject.name, subject.functional);
     }
     std::size_t scaled = kNone;
-    if (file_.does("scale")) scaled = plan_scale(subject, folder, options_of("scale", lists));
+    if (file_.does("scale")) scaled = plan_scale(subject, folder, functional, options_of("scale", lists));
     auto found = find_trials(subject);
     if (!found) return std::unexpected(found.error());
     for (const auto& each : *found)
@@ -94,7 +95,8 @@ class Planner {
     return {};
   }
 
-  std::size_t plan_scale(const RunSubject& subject, const fs::path& folder,
+  /// @param functional  step that finds the subject's joints; kNone: none
+  std::size_t plan_scale(const RunSubject& subject, const fs::path& folder, std::size_t functional,
                          const std::vector<Setting>& options) {
     RunStep step = begin(subject, "", "scale", folder);
     if (!subject.static_trial.empty()) {
@@ -104,6 +106,11 @@ class Planner {
     if (!subject.functional.empty()) {
       step.words.push_back("--markers=" + subject.functional);
       step.inputs.emplace_back(subject.functional);
+    }
+    if (functional != kNone) {
+      step.words.push_back("--joints=" + (folder / "joints").string());
+      step.inputs.push_back(folder / "joints" / "skeleton.json");
+      step.after.push_back(functional);
     }
     if (subject.mass_kg > 0.0) step.words.push_back("--mass=" + io::format_number(subject.mass_kg));
     const fs::path out = folder / "model.osim";

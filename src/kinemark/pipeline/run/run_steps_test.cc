@@ -77,6 +77,19 @@ TEST_F(PlanSteps, WhatIsAnalysedIsTheMotionOfTheSolverWithItsModel) {
               HasSubstr("has no 'ik' and no 'track' whose motion 'analyze' could take"));
 }
 
+TEST_F(PlanSteps, FunctionalJointsGoIntoTheModel) {
+  const auto steps = plan(
+                         "steps = [\"joints\", \"scale\", \"ik\"]\n[scale]\nmodel = \"human.osim\"\n"
+                         "[[subject]]\nname = \"A\"\nstatic = \"S/run.c3d\"\nfunctional = "
+                         "\"S/move.c3d\"\ntrials = [\"S/walk1.c3d\"]\n")
+                         .value();
+  ASSERT_THAT(names(steps), ElementsAre("/joints", "/scale", "walk1/ik"));
+  EXPECT_THAT(steps[1].words, Contains("--joints=results/A/joints"));
+  EXPECT_THAT(steps[1].words, Contains("--markers=S/move.c3d"));
+  EXPECT_THAT(steps[1].inputs, Contains("results/A/joints/skeleton.json"));
+  EXPECT_THAT(steps[1].after, ElementsAre(0U));
+}
+
 TEST_F(PlanSteps, EachStepComesBehindThoseThatItNeeds) {
   const auto steps = plan(R"(
 steps = ["joints", "scale", "clean", "ik", "track", "report"]
@@ -92,9 +105,10 @@ trials = ["S/walk1.c3d"]
   ASSERT_THAT(names(steps),
               ElementsAre("/joints", "/scale", "walk1/clean", "walk1/ik", "walk1/report", "walk1/track"));
   EXPECT_THAT(steps[0].words, ElementsAre("joints", "S/move.c3d", "--output=results/A/joints"));
-  EXPECT_THAT(steps[1].words, ElementsAre("scale", "--markers=S/move.c3d", "--mass=71.5",
-                                          "--output=results/A/model.osim", "--model=human.osim"));
-  EXPECT_THAT(steps[1].inputs, ElementsAre("S/move.c3d", "human.osim"));
+  EXPECT_THAT(steps[1].words,
+              ElementsAre("scale", "--markers=S/move.c3d", "--joints=results/A/joints", "--mass=71.5",
+                          "--output=results/A/model.osim", "--model=human.osim"));
+  EXPECT_THAT(steps[1].inputs, ElementsAre("S/move.c3d", "results/A/joints/skeleton.json", "human.osim"));
   EXPECT_THAT(steps[2].words, ElementsAre("clean", "S/walk1.c3d", "results/A/walk1/clean.c3d"));
   EXPECT_THAT(steps[3].words,
               ElementsAre("ik", "--model=results/A/model.osim", "--markers=results/A/walk1/clean.c3d",

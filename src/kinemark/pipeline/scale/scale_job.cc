@@ -14,15 +14,18 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/files/skeleton_file.h"
 #include "kinemark/pipeline/scale/scale_json.h"
 #include "kinemark/pipeline/scale/scale_page.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/masses.h"
+#include "kinemark/stages/motion/scaling/measured_joints.h"
 #include "kinemark/stages/motion/scaling/muscles.h"
 
 namespace kinemark::pipeline {
@@ -64,7 +67,11 @@ class ScaleRun {
     if (auto s = job_.axes.check(); !s) return s;
     if (job_.dempster && job_.mass_kg == 0.0)
       return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
-    for (const double sd : {job_.size_prior_sd, job_.position_prior_sd_m})
+    if (!job_.joints.empty() && !adapts())
+      return fail(Code::usage,
+                  "functional joints place those of a model that is adapted; give --static or "
+                  "--markers besides --joints");
+    for (const double sd : {job_.size_prior_sd, job_.position_prior_sd_m, job_.joint_prior_sd_m})
       if (!(sd > 0.0 && sd <= 1.0))
         return fail(Code::usage, fmt::format("a prior of {}; need above 0, at most 1", sd));
     return {};
@@ -93,6 +100,23 @@ class ScaleRun {
       out_.clavicles = std::move(*moving);
     }
     for (const auto& body : out_.model.bodies) out_.factors.push_back({.body = body.name});
+    return {};
+  }
+
+  /// The centres of `joints` that are joints of the model.
+  Status read_joints() {
+    if (job_.joints.empty()) return {};
+    auto file = read_skeleton(job_.joints);
+    if (!file) return std::unexpected(file.error());
+    recording_of_joints_ = file->recording.hash;
+    auto found = motion::match_joints(out_.model, file->skeleton);
+    job_.adapt.joints = std::move(found.joints);
+    out_.joints = std::move(found.names);
+    for (const auto& sentence : found.left_out)
+      out_.warnings.push_back(fmt::format("{}: {}", job_.joints.string(), sentence));
+    if (out_.joints.empty())
+      out_.warnings.push_back(fmt::format(
+          "{}: none of its joints is one of the model; sizes alone place them", job_.joints.string()));
     return {};
   }
 
@@ -131,7 +155,7 @@ class ScaleRun {
     options.ik.first_time_s = -1e300;
     options.ik.last_time_s = 1e300;
     options.max_frames = std::min<std::int64_t>(options.max_frames, 50);
-    auto adapted = adapt(trial, options);
+    auto adapted = adapt(trial, job_.static_trial, options);
     if (!adapted) return fail_at(job_.static_trial.string(), adapted.error());
     out_.from_static = std::move(*adapted);
     return place(trial, {});
@@ -143,7 +167,7 @@ class ScaleRun {
     if (auto s = read_trial(job_.markers, "adapting the model", trial); !s) return s;
     if (!setup_ && job_.static_trial.empty())
       if (auto s = take_overall_size(trial); !s) return fail_at(job_.markers.string(), s.error());
-    auto adapted = adapt(trial, job_.adapt);
+    auto adapted = adapt(trial, job_.markers, job_.adapt);
     if (!adapted) return fail_at(job_.markers.string(), adapted.error());
     out_.from_motion = std::move(*adapted);
     return {};
@@ -219,6 +243,9 @@ class ScaleRun {
   }
 
  private:
+  /// Whether sizes and positions are found by inverse kinematics.
+  bool adapts() const { return !job_.markers.empty() || (!job_.static_trial.empty() && !setup_); }
+
   /// Every file that is written.
   std::vector<fs::path> targets() const {
     std::vector<fs::path> files{job_.output, beside(job_.output, "_report.json")};
@@ -245,7 +272,7 @@ class ScaleRun {
 
   /// Every file that is read.
   std::vector<fs::path> inputs() const {
-    std::vector<fs::path> files{job_.model, job_.setup, job_.static_trial, job_.markers};
+    std::vector<fs::path> files{job_.model, job_.setup, job_.static_trial, job_.markers, job_.joints};
     if (!setup_) return files;
     files.insert(files.end(), {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file,
                                setup_->coordinate_file});
@@ -287,7 +314,14 @@ class ScaleRun {
     return {};
   }
 
-  Result<motion::AdaptResult> adapt(const data::Trajectories& trial, const motion::AdaptOptions& options) {
+  /// Joints that were found in this very recording are found with the sizes: their centres would count twice.
+  Result<motion::AdaptResult> adapt(const data::Trajectories& trial, const fs::path& file,
+                                    motion::AdaptOptions options) {
+    if (!job_.joints.empty()) {
+      const auto hash = hash_file(file);
+      if (!hash) return std::unexpected(hash.error());
+      if (hash->hex == recording_of_joints_) options.joints.clear();
+    }
     const auto groups = motion::default_scale_groups(out_.model, job_.symmetric);
     auto parameters = motion::scale_parameters(out_.model, groups, job_.size_prior_sd);
     if (!parameters) return std::unexpected(parameters.error());
@@ -295,6 +329,11 @@ class ScaleRun {
     const auto positions = motion::marker_parameters(out_.model, {}, job_.position_prior_sd_m);
     if (!positions) return std::unexpected(positions.error());
     parameters->insert(parameters->end(), positions->begin(), positions->end());
+    if (!out_.joints.empty()) {
+      const auto joints = motion::joint_parameters(out_.model, out_.joints, job_.joint_prior_sd_m);
+      if (!joints) return std::unexpected(joints.error());
+      parameters->insert(parameters->end(), joints->begin(), joints->end());
+    }
     auto adapted = motion::adapt_model(out_.model, trial, *parameters, options, job_.progress);
     if (!adapted) return adapted;
     // The bodies' own sizes carry their mass centres and inertias along; masses follow the volume.
@@ -318,6 +357,7 @@ class ScaleRun {
   std::optional<io::OsimDocument> document_;
   std::optional<io::ScaleSetup> setup_;
   std::vector<io::MarkerOfSet> marker_set_;
+  std::string recording_of_joints_;  ///< checksum; empty: not known
   ScaleOutcome out_;
 };
 
@@ -325,9 +365,10 @@ class ScaleRun {
 
 Result<ScaleOutcome> run_scale(ScaleJob job) {
   ScaleRun run(std::move(job));
-  for (const auto step : {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::scale_by_setup,
-                          &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh,
-                          &ScaleRun::scale_muscles, &ScaleRun::judge}) {
+  for (const auto step :
+       {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::read_joints, &ScaleRun::scale_by_setup,
+        &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh,
+        &ScaleRun::scale_muscles, &ScaleRun::judge}) {
     if (auto s = (run.*step)(); !s) return std::unexpected(s.error());
     if (step != &ScaleRun::read_setup) continue;
     if (auto s = run.check(); !s) return std::unexpected(s.error());

@@ -23,6 +23,7 @@ struct ScaleJob : JobSettings {
   std::filesystem::path setup;         ///< OpenSim ScaleTool file; fills what the other fields leave open
   std::filesystem::path static_trial;  ///< marker file of a static trial
   std::filesystem::path markers;       ///< marker file of a motion: sizes and positions are adapted to it
+  std::filesystem::path joints;        ///< skeleton.json of a motion, or its folder
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
   std::filesystem::path report;        ///< page to write as well, .html
   double rate_hz = 0.0;                ///< for marker files that store none (.v3d); 0: not given
@@ -33,6 +34,7 @@ struct ScaleJob : JobSettings {
   bool symmetric = false;              ///< one size for both sides
   double size_prior_sd = 0.1;          ///< of a segment's size against the model so far, share
   double position_prior_sd_m = 0.01;   ///< per axis; of a marker's position against the model so far
+  double joint_prior_sd_m = 0.02;      ///< per axis; of a joint of `joints` against the model so far
   motion::AdaptOptions adapt;          ///< of the fit of sizes to a motion
   double max_rms_m = 0.05;             ///< quality gate: RMS distance of measured and model markers
 };
@@ -46,12 +48,15 @@ struct ScaleOutcome : JobOutcome {
   std::optional<motion::AdaptResult> from_motion;  ///< sizes and positions from the motion
   std::vector<data::BodyFactors> factors;          ///< of every body, all steps together
   std::vector<std::string> clavicles;              ///< set free
+  std::vector<std::string> joints;                 ///< of `joints`, that are joints of the model
   std::vector<data::PathScale> muscles;            ///< lengths of muscles and ligaments, before and after
   std::vector<std::string> lost;                   ///< what the file held and the output does not
 };
 
 /// Scale, place, adapt, weigh and write, in this order; each step only where its input is given. Without a
 /// setup the model first gets the subject's overall size from distances between markers of one segment.
+/// Joints of `joints` may leave their position in the model so far; their centres count as observations, but
+/// not where they were found in the very recording that is adapted to, which tells them once already.
 /// Progress counts steps.
 [[nodiscard]] Result<ScaleOutcome> run_scale(ScaleJob job);
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/simulate/simulate_subject_job.h"
 #include "kinemark/pipeline/testing/shared_folder.h"
 #include "support/scratch.h"
@@ -118,6 +120,101 @@ TEST_F(RunScale, moves_clavicles_and_distributes_a_mass_when_asked) {
   EXPECT_TRUE(outcome->from_static);
   const auto& thigh = outcome->model.bodies[static_cast<std::size_t>(outcome->model.find_body("femur_r"))];
   EXPECT_NEAR(thigh.mass, 8.0, 1e-9);
+}
+
+/// The hips of a model among the markers of its pelvis, as `joints` writes them.
+std::string hips_of(const data::ModelDescription& model, double sd_m, const std::string& hash) {
+  const auto numbers = [](const Eigen::Vector3d& x) { return nlohmann::json{x.x(), x.y(), x.z()}; };
+  nlohmann::json json{{"schema", "kinemark.skeleton"}, {"input", {{"path", "star.c3d"}, {"xxh3_64", hash}}}};
+  for (const char* body : {"pelvis", "femur_r", "femur_l"}) {
+    nlohmann::json markers = nlohmann::json::array();
+    for (const auto& marker : model.markers)
+      if (marker.body_idx == model.find_body(body))
+        markers.push_back({{"name", marker.name}, {"x_in_segment_m", numbers(marker.x_in_body)}});
+    json["segments"].push_back({{"name", body}, {"kind", "solid"}, {"markers", std::move(markers)}});
+  }
+  const double v = sd_m * sd_m;
+  const nlohmann::json C{{v, 0, 0}, {0, v, 0}, {0, 0, v}};
+  for (const std::string side : {"r", "l"})
+    for (const auto& joint : model.joints)
+      if (joint.name == "hip_" + side)
+        json["joints"].push_back({{"name", "hip " + side},
+                                  {"kind", "ball"},
+                                  {"parent", "pelvis"},
+                                  {"child", "femur_" + side},
+                                  {"centre_in_parent_m", numbers(joint.parent_from_joint.translation)},
+                                  {"covariance_in_parent_m2", C}});
+  return json.dump();
+}
+
+/// The distance between the hips of a model.
+double between_hips(const data::ModelDescription& model) {
+  std::vector<Eigen::Vector3d> hips;
+  for (const auto& joint : model.joints)
+    if (joint.name.starts_with("hip_")) hips.push_back(joint.parent_from_joint.translation);
+  return hips.size() == 2 ? (hips[0] - hips[1]).norm() : 0.0;
+}
+
+// A static trial does not tell how far apart the hips of a subject are.
+TEST_F(RunScale, functional_joints_place_those_of_the_model) {
+  auto subject = io::read_osim(at("in/model.osim")).value();
+  for (auto& joint : subject.joints)
+    if (joint.name.starts_with("hip_")) joint.parent_from_joint.translation.z() *= 1.25;
+  io::write_text(at("skeleton.json"), hips_of(subject, 0.001, "0123456789abcdef"), true).value();
+  SimulateSubjectJob standing;
+  standing.folder = at("standing");
+  standing.options.duration_s = 0.05;
+  run_simulate_subject(standing).value();
+  ScaleJob j = job("without.osim");
+  j.markers.clear();
+  j.static_trial = at("standing/markers.c3d");
+  const auto without = run_scale(j);
+  ASSERT_TRUE(without) << without.error().message;
+  j.output = at("with.osim");
+  j.joints = at("skeleton.json");
+  const auto with = run_scale(j);
+  ASSERT_TRUE(with) << with.error().message;
+  EXPECT_THAT(with->joints, ::testing::UnorderedElementsAre("hip_r", "hip_l"));
+  const double asked = between_hips(subject);
+  EXPECT_NEAR(between_hips(with->model), asked, 0.004);
+  EXPECT_GT(std::abs(between_hips(without->model) - asked), 0.02);
+  EXPECT_GT(
+      std::ranges::count_if(with->from_static->parameters,
+                            [](const auto& p) { return p.kind == motion::ParameterKind::joint_offset; }),
+      5);
+  const auto report = nlohmann::json::parse(io::read_text(at("with_report.json")).value());
+  EXPECT_EQ(report["joints"].size(), 2U);
+}
+
+TEST_F(RunScale, joints_of_the_very_motion_do_not_count_twice) {
+  auto subject = io::read_osim(at("in/model.osim")).value();
+  for (auto& joint : subject.joints)
+    if (joint.name.starts_with("hip_")) joint.parent_from_joint.translation.z() *= 1.25;
+  io::write_text(at("skeleton.json"), hips_of(subject, 1e-4, hash_file(at("in/markers.c3d"))->hex), true)
+      .value();
+  ScaleJob j = job("once.osim");
+  j.joints = at("skeleton.json");
+  const auto outcome = run_scale(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->joints.size(), 2U);
+  // The false centres change nothing; the motion tells the true ones.
+  EXPECT_NEAR(between_hips(outcome->model), between_hips(io::read_osim(at("in/model.osim")).value()), 0.008);
+}
+
+TEST_F(RunScale, joints_that_the_model_does_not_have_are_said) {
+  auto subject = io::read_osim(at("in/model.osim")).value();
+  for (auto& marker : subject.markers) marker.name += "_of_another";
+  io::write_text(at("skeleton.json"), hips_of(subject, 1e-3, ""), true).value();
+  ScaleJob j = job("none.osim");
+  j.joints = at("skeleton.json");
+  const auto outcome = run_scale(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->joints.empty());
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("none of its joints is one of the model")));
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("segment 'pelvis' has fewer than two markers")));
+  j = job("unread.osim");
+  j.joints = at("in/model.osim");
+  EXPECT_THAT(message(j), HasSubstr("not JSON"));
 }
 
 TEST_F(RunScale, follows_an_opensim_setup_to_its_answer) {

@@ -88,6 +88,7 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
                       {"notes", outcome.warnings},
                       {"clavicles", outcome.clavicles},
                       {"factors", std::move(factors)}};
+  report["joints"] = outcome.joints;
   report["muscles"] = muscles(outcome.muscles);
   report["lost"] = outcome.lost;
   if (outcome.scaled) report["measurements"] = measurements(*outcome.scaled);

@@ -4,7 +4,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -37,6 +39,22 @@ Status check_terms(const data::ModelDescription& model, const std::vector<Geomet
         return fail(Code::bad_input, fmt::format("parameter '{}' moves a {} that the model does not have",
                                                  parameter.name, marker ? "marker" : "joint"));
     }
+  }
+  return {};
+}
+
+Status check_joints(const data::ModelDescription& model, const std::vector<MeasuredJoint>& joints) {
+  for (const auto& joint : joints) {
+    const bool there =
+        std::ranges::find(model.joints, joint.joint, &data::JointDescription::name) != model.joints.end();
+    const bool markers =
+        std::ranges::all_of(joint.markers, [&](int m) { return m >= 0 && at(m) < model.markers.size(); });
+    if (!there || !markers || joint.markers.size() < 3 || joint.x.cols() != std::ssize(joint.markers) ||
+        !joint.x.allFinite() || !joint.centre.allFinite() || !joint.covariance.allFinite())
+      return fail(Code::bad_input,
+                  fmt::format("measured joint '{}': need a joint of the model, three of its markers or more "
+                              "and numbers that are finite",
+                              joint.joint));
   }
   return {};
 }
@@ -91,6 +109,7 @@ Result<AdaptResult> adapt_model(const data::ModelDescription& model, const data:
   options.ik.error_bars = false;
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = check_terms(model, parameters); !s) return std::unexpected(s.error());
+  if (auto s = check_joints(model, options.joints); !s) return std::unexpected(s.error());
   if (!model.point_constraints.empty())
     return fail(
         Code::not_supported,

@@ -16,6 +16,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/motion/ik_options.h"
 #include "kinemark/stages/motion/scaling/geometry.h"
+#include "kinemark/stages/motion/scaling/measured_joints.h"
 
 namespace kinemark::motion {
 
@@ -24,6 +25,9 @@ struct AdaptOptions {
   /// Marker weights, coordinate tasks (posture where the markers leave it open) and the time range. Its loss
   /// must be square; limits are not enforced: a wrong size would push coordinates against them.
   IkOptions ik;
+  /// Joint centres found elsewhere, not in the recording that is adapted to: they would count twice. They
+  /// hold joints and markers together as far as parameters move them.
+  std::vector<MeasuredJoint> joints;
   double marker_noise_sd_m = 0.0;  ///< per axis; 0: estimated from the residuals
   bool soft_tissue = true;  ///< test for displacements that follow the posture, and widen the bars by them
   double start_noise_sd_m =
@@ -76,7 +80,7 @@ struct AdaptResult {
 
 /// Adapt the geometry of a model until it tracks the markers best: the sum over frames of the weighted
 /// squared distances at the best pose of each frame, plus noise variance times the squared changes over their
-/// prior variances.
+/// prior variances and the squared distances of measured joints over their covariances.
 ///
 /// Variable projection: every frame is solved exactly by inverse kinematics, the outer Levenberg-Marquardt
 /// step uses the Schur complement S = sum Jp'W Jp - Jp'W Jq (Jq'W Jq)^-1 Jq'W Jp. Frames have no priors of
@@ -87,8 +91,8 @@ struct AdaptResult {
 ///
 /// determined: without the prior of the marker positions the standard deviation is below half the parameter's
 /// prior. End segments (head, hand, toes) and limbs that keep still are not. Fails for a model with point
-/// constraints, no parameters, terms that do not exist, or what solve_ik() refuses. About 1 ms per frame and
-/// step for a whole body with 140 parameters.
+/// constraints, no parameters, terms or joints that do not exist, or what solve_ik() refuses. About 1 ms per
+/// frame and step for a whole body with 140 parameters.
 [[nodiscard]] Result<AdaptResult> adapt_model(const data::ModelDescription& model,
                                               const data::Trajectories& markers,
                                               const std::vector<GeometryParameter>& parameters,

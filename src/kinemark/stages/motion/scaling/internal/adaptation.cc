@@ -33,9 +33,9 @@ constexpr int kQuietRounds = 3;
 constexpr double kSameMotion = 0.1;  // shares of motion that need no further round
 constexpr double kFarthest = 3.0;    // prior deviations that a parameter may go in one step
 
-MatrixXd inverse(const NormalSums& sums, const VectorXd& prior) {
+MatrixXd inverse(const NormalSums& sums, const MatrixXd& known) {
   MatrixXd S = sums.S.selfadjointView<Eigen::Lower>();
-  S.diagonal() += prior;
+  S += known;
   S.diagonal().array() += 1e-14 * S.diagonal().maxCoeff();
   return S.llt().solve(MatrixXd::Identity(S.rows(), S.cols()));
 }
@@ -48,6 +48,7 @@ Adaptation::Adaptation(const data::ModelDescription& model, const data::Trajecto
     : parameters_(parameters),
       options_(options),
       projection_(model, parameters, std::move(problem), options.ik, markers, options.threads),
+      joints_(model, parameters, options.joints),
       states_(std::move(states)),
       markers_(markers),
       progress_(progress),
@@ -77,16 +78,20 @@ Status Adaptation::run(AdaptResult& result) {
   return {};
 }
 
-/// Weight of every parameter's prior in units of the squares.
-VectorXd Adaptation::priors(double position_sd) const {
-  VectorXd weight(x_.size());
-  for (Index k = 0; k < weight.size(); ++k) {
+Adaptation::Known Adaptation::known(const VectorXd& x, double position_sd) const {
+  const double s2 = noise_m_ * noise_m_;
+  const JointSums joints = joints_.sums(x);
+  Known out{.S = s2 * joints.information, .g = s2 * joints.gradient, .cost = s2 * joints.squares};
+  for (Index k = 0; k < x.size(); ++k) {
     const auto& parameter = parameters_[at(k)];
     const bool free_position = position_sd > 0.0 && parameter.kind == ParameterKind::marker_position;
     const double sd = free_position ? std::max(position_sd, parameter.prior_sd) : parameter.prior_sd;
-    weight[k] = noise_m_ * noise_m_ / (sd * sd);
+    const double weight = s2 / (sd * sd);
+    out.S(k, k) += weight;
+    out.g[k] -= weight * x[k];
+    out.cost += weight * x[k] * x[k];
   }
-  return weight;
+  return out;
 }
 
 double Adaptation::residual_noise() const {
@@ -95,16 +100,11 @@ double Adaptation::residual_noise() const {
   return std::max(kLeastNoise_m, std::sqrt(sums_.normal.weighted_squares / std::max(1.0, freedom)));
 }
 
-double Adaptation::cost(const ProjectedSums& sums, const VectorXd& x, const VectorXd& prior) const {
-  return sums.cost + (prior.array() * x.array().square()).sum();
-}
-
 /// Levenberg-Marquardt on the Schur complement, from the current geometry, until the gain of a step is below
 /// that of least_sd standard deviations of a parameter.
 Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
-  const VectorXd prior = priors();
   sums_ = projection_.solve(x_, states_);
-  double now = cost(sums_, x_, prior), damping = 1e-4;
+  double now = sums_.cost + known(x_).cost, damping = 1e-4;
   result.converged = false;
   if (!std::isfinite(now)) return fail(Code::bad_input, "the recording gives distances that are not finite");
   for (int i = 0; i < limit; ++i) {
@@ -112,8 +112,9 @@ Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
       return fail(Code::cancelled, "adapting the model was stopped");
     ++result.iterations;
     MatrixXd S = sums_.normal.S.selfadjointView<Eigen::Lower>();
-    S.diagonal() += prior;
-    const VectorXd g = sums_.normal.g - prior.cwiseProduct(x_);
+    const Known besides = known(x_);
+    S += besides.S;
+    const VectorXd g = sums_.normal.g + besides.g;
     bool better = false;
     double won = 0.0, ahead = std::numeric_limits<double>::infinity();
     for (int trial = 0; trial < 8 && !better; ++trial) {
@@ -130,7 +131,7 @@ Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
       const VectorXd x_try = x_ + step;
       MatrixXd states_try = states_;
       auto sums = projection_.solve(x_try, states_try);
-      const double then = cost(sums, x_try, prior);
+      const double then = sums.cost + known(x_try).cost;
       if (then < now) {
         better = true;
         won = now - then;
@@ -183,10 +184,10 @@ Status Adaptation::settle(AdaptResult& result) {
 /// One Newton step of settle(): its length in standard deviations, or nothing where there is no such step.
 std::optional<double> Adaptation::step_by(const Quiet& quiet) {
   const NormalSums sums = projection_.sums_at(states_, quiet.apply(projection_.problem(), states_));
-  const VectorXd prior = priors();
+  const Known besides = known(x_);
   MatrixXd S = sums.S.selfadjointView<Eigen::Lower>();
-  S.diagonal() += prior;
-  VectorXd step = S.llt().solve(sums.g - prior.cwiseProduct(x_));
+  S += besides.S;
+  VectorXd step = S.llt().solve(sums.g + besides.g);
   if (!step.allFinite()) return std::nullopt;
   for (Index k = 0; k < step.size(); ++k)
     step *= std::min(1.0, kFarthest * parameters_[at(k)].prior_sd / std::max(std::abs(step[k]), 1e-300));
@@ -221,11 +222,11 @@ Status Adaptation::find_covariance(AdaptResult& result) {
   result.tissue_sd_m = tissue.found ? tissue.sd_m : 0.0;
   const double s2 = noise_m_ * noise_m_;
   const auto covariance = [&](double position_sd) {
-    const VectorXd prior = priors(position_sd);
-    const MatrixXd inverse_S = inverse(of_motion_, prior);
+    const MatrixXd besides = known(x_, position_sd).S;
+    const MatrixXd inverse_S = inverse(of_motion_, besides);
     if (!tissue.found) return MatrixXd(s2 * inverse_S);
     MatrixXd middle = pass->middle(tissue, inverse_S);
-    middle.diagonal() += s2 * prior;
+    middle += s2 * besides;
     return MatrixXd(inverse_S * middle * inverse_S);
   };
   result.covariance = covariance(0.0);

@@ -13,6 +13,7 @@
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
 #include "kinemark/stages/motion/scaling/geometry.h"
+#include "kinemark/stages/motion/scaling/internal/joint_terms.h"
 #include "kinemark/stages/motion/scaling/internal/projection.h"
 #include "kinemark/stages/motion/scaling/internal/scatter.h"
 #include "kinemark/stages/motion/scaling/internal/tissue.h"
@@ -37,10 +38,15 @@ class Adaptation {
   [[nodiscard]] const Eigen::MatrixXd& states() const { return states_; }
 
  private:
-  [[nodiscard]] Eigen::VectorXd priors(double position_sd = 0.0) const;
+  /// What is known of the parameters besides the motion, in units of the squares.
+  struct Known {
+    Eigen::MatrixXd S;  ///< information
+    Eigen::VectorXd g;  ///< parameters move along it
+    double cost = 0.0;
+  };
+  /// Priors and measured joints at a geometry. @param position_sd  above 0: least prior of marker positions
+  [[nodiscard]] Known known(const Eigen::VectorXd& x, double position_sd = 0.0) const;
   [[nodiscard]] double residual_noise() const;
-  [[nodiscard]] double cost(const ProjectedSums& sums, const Eigen::VectorXd& x,
-                            const Eigen::VectorXd& prior) const;
   Status iterate(int limit, double least_sd, AdaptResult& result);
   Status settle(AdaptResult& result);
   std::optional<double> step_by(const Quiet& quiet);
@@ -49,6 +55,7 @@ class Adaptation {
   const std::vector<GeometryParameter>& parameters_;
   const AdaptOptions& options_;
   Projection projection_;
+  JointTerms joints_;
   Eigen::MatrixXd states_;
   const data::Trajectories& markers_;
   const Progress& progress_;
