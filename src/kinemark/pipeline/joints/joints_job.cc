@@ -150,10 +150,11 @@ void judge(const JointsJob& job, JointsOutcome& outcome) {
 }
 
 /// What is solved together: all joints, or for the articulated method of segments that were found in the data
-/// every tree by itself.
+/// or are a subject's every tree by itself.
 std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutcome& outcome,
                                           const data::SegmentLayout& layout) {
-  if (job.method != "articulated" || (!outcome.topology && outcome.left_out.empty())) return {layout};
+  const bool as_asked = !outcome.topology && outcome.left_out.empty() && !is_subject(job);
+  if (job.method != "articulated" || as_asked) return {layout};
   return trees_of(layout);
 }
 
