@@ -76,10 +76,12 @@ void judge_markers(const Clusters& clusters, const std::vector<std::string>& nam
     evidence.doubtful = evidence.second_segment >= 0 && (moves || evidence.nats < options.doubtful_nats);
     if (!evidence.doubtful) continue;
     const auto& segments = out.layout.segments;
-    doubtful.push_back(fmt::format("'{}' on {} (or {}; {:.1f} nats)", names[marker],
-                                   segments[static_cast<std::size_t>(clusters.segment[i])].name,
-                                   segments[static_cast<std::size_t>(evidence.second_segment)].name,
-                                   evidence.nats));
+    doubtful.push_back(fmt::format(
+        "'{}' on {} ({})", names[marker], segments[static_cast<std::size_t>(clusters.segment[i])].name,
+        evidence.nats < options.doubtful_nats
+            ? fmt::format("{} fits nearly as well",
+                          segments[static_cast<std::size_t>(evidence.second_segment)].name)
+            : "it moves against others there"));
   }
   if (!doubtful.empty())
     out.warnings.push_back(fmt::format("Segment of {} of {} markers doubtful: {}.", doubtful.size(),

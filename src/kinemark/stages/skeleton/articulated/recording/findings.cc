@@ -20,6 +20,9 @@ namespace {
 using data::SegmentKind;
 
 constexpr std::size_t kSwapFrames = 12;  // frames that are examined for exchanged names
+constexpr std::size_t kStretches = 20;   // of a series, to see how it scatters beside a step
+constexpr double kAtOnce = 0.5;          // share of a step that must happen from one sample to the next
+constexpr double kApart = 5.0;           // standard errors by these that make a step
 constexpr double kSwapFar = 4.0;         // SDs from its predicted position that make a marker suspect
 
 double angle_of(const Matrix3d& R) { return Eigen::AngleAxisd(R).angle(); }
@@ -121,6 +124,37 @@ Step largest_step(const std::vector<std::pair<std::int64_t, Vector3d>>& series) 
   return best;
 }
 
+/// How much of a step happens at once: the means next to it on either side, over the step's size.
+double at_once(const std::vector<std::pair<std::int64_t, Vector3d>>& series, const Step& step) {
+  const auto first =
+      std::ranges::find_if(series, [&](const auto& sample) { return sample.first >= step.frame; });
+  const auto near = static_cast<std::ptrdiff_t>(std::max<std::size_t>(3, series.size() / 30));
+  if (first - series.begin() < near || series.end() - first < near) return 0.0;
+  Vector3d change = Vector3d::Zero();
+  for (std::ptrdiff_t i = 0; i < near; ++i) change += first[i].second - first[-1 - i].second;
+  return (change / static_cast<double>(near)).norm() / step.size_m;
+}
+
+/// A step in standard errors, these from how the means of stretches of the series scatter on either side:
+/// what drifts or swings by as much all the time is no step.
+double stretches_apart(const std::vector<std::pair<std::int64_t, Vector3d>>& series, const Step& step) {
+  const auto side = [&](std::size_t i) { return series[i].first < step.frame ? 0 : 1; };
+  Vector3d mean[2] = {Vector3d::Zero(), Vector3d::Zero()};
+  double count[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < series.size(); ++i) mean[side(i)] += series[i].second, count[side(i)] += 1.0;
+  for (const int k : {0, 1}) mean[k] /= std::max(count[k], 1.0);
+  double scatter = 0.0;
+  for (std::size_t block = 0; block < kStretches; ++block) {
+    Vector3d sum = Vector3d::Zero();
+    const std::size_t from = block * series.size() / kStretches,
+                      to = (block + 1) * series.size() / kStretches;
+    for (std::size_t i = from; i < to; ++i) sum += series[i].second - mean[side(i)];
+    scatter += (sum / static_cast<double>(to - from)).squaredNorm() / (kStretches - 2.0);
+  }
+  const double n = static_cast<double>(series.size()) / kStretches;
+  return (mean[1] - mean[0]).norm() / std::sqrt(std::max(scatter * (n / count[0] + n / count[1]), 1e-30));
+}
+
 }  // namespace
 
 ObservedMotion observe_motion(const FittedChain& fit, const RecordingPass& pass, int joint) {
@@ -172,16 +206,22 @@ std::vector<SlippedMarker> find_slipped_markers(const FittedChain& fit, const Ch
                                                 const RecordingPass& pass) {
   std::vector<SlippedMarker> slips;
   for (int s = 0; s < fit.chain.segments(); ++s) {
-    SlippedMarker worst;
+    // The others of a segment follow the one that lies wrong most: it alone can be named.
+    Step worst;
+    int marker = -1;
+    std::vector<std::pair<std::int64_t, Vector3d>> of_worst;
     for (const int m : fit.chain.layout.markers_of(s)) {
-      const auto series = residuals(fit, samples, pass, m);
+      auto series = residuals(fit, samples, pass, m);
       if (series.size() < 40) continue;
       const Step step = largest_step(series);
-      const bool clear = step.significance > 12.0 && step.size_m > 2.0 * fit.noise_sd_m;
-      if (clear && step.size_m > worst.distance_m)
-        worst = {.marker = m, .frame = step.frame, .distance_m = step.size_m};
+      if (!(step.significance > 12.0 && step.size_m > worst.size_m)) continue;
+      worst = step;
+      marker = m;
+      of_worst = std::move(series);
     }
-    if (worst.distance_m > 0.0) slips.push_back(worst);
+    if (marker >= 0 && worst.size_m > 2.0 * fit.noise_sd_m && at_once(of_worst, worst) > kAtOnce &&
+        stretches_apart(of_worst, worst) > kApart)
+      slips.push_back({.marker = marker, .frame = worst.frame, .distance_m = worst.size_m});
   }
   return slips;
 }
@@ -201,12 +241,13 @@ std::vector<SwappedMarkers> find_swapped_markers(const FittedChain& fit, const C
     solver.solve(samples.frame(f), nullptr, frame);
     if (frame.mode_count == 0) continue;
     const std::vector<bool> far = far_off(fit, samples, f, frame);
+    const ChainPose near = frame.modes.front().pose;  // two names hardly move it
     for (int a = 0; a < K; ++a)
       for (int b = a + 1; b < K; ++b) {
         if (!far[at(a)] && !far[at(b)]) continue;
         std::copy_n(samples.frame(f), 3 * K, x.begin());
         std::swap_ranges(x.begin() + 3 * a, x.begin() + 3 * a + 3, x.begin() + 3 * b);
-        solver.solve(x.data(), nullptr, frame);
+        solver.solve(x.data(), &near, frame);
         if (frame.mode_count == 0) continue;
         const double cost = frame.modes.front().cost;
         if (cost < least && !is_misfit(fit.chain, cost, fit.noise_sd_m, frame.seen))

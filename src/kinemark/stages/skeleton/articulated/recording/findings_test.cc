@@ -88,6 +88,22 @@ TEST(SlippedMarkers, AStepInTimeHasItsMarkerItsFrameAndItsSize) {
   EXPECT_NEAR(slips[0].distance_m, 0.010, 0.004) << "its segment's pose follows it a little";
 }
 
+// A marker that swings on its segment all the time, as one of another body does, has slipped at no moment.
+TEST(SlippedMarkers, AMarkerThatSwingsIsNotSaidToSlip) {
+  for (const double period : {30.0, 55.0, 90.0, 150.0}) {
+    RandomChain limb = make_random_chain({.markers_per_segment = 5, .frames = 120});
+    const FittedChain fit = known_geometry(limb, 0.001);
+    for (std::size_t f = 0; f < 120; ++f) {
+      const double swing = 0.012 * std::sin(2.0 * 3.14159265358979 * static_cast<double>(f) / period);
+      const Vector3d off = limb.pose[f].rotation[1] * Vector3d(0.0, 0.0, swing);
+      for (int i = 0; i < 3; ++i) limb.samples.x[30 * f + 3 * 7 + static_cast<std::size_t>(i)] += off[i];
+    }
+    const auto pass = pass_over(fit, limb.samples, 1, {}).value();
+    EXPECT_TRUE(find_slipped_markers(fit, limb.samples, pass).empty()) << period;
+    EXPECT_FALSE(find_loose_markers(fit, limb.samples, pass).empty()) << period;
+  }
+}
+
 TEST(SwappedMarkers, TheExchangedPairIsNamed) {
   RandomChain limb = make_random_chain({.markers_per_segment = 4, .frames = 40});
   const FittedChain fit = known_geometry(limb, 0.001);
