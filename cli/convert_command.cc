@@ -88,6 +88,8 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
       "--edits", job.edits,
       "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
       "recording, where there is one");
+  command->add_flag("--ndx-pose", job.ndx_pose,
+                    "In an .nwb also a PoseEstimation of ndx-pose, which pynwb then needs to read the file");
   add_selection_options(*command, job.selection);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });

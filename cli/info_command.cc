@@ -65,7 +65,7 @@ void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
   const auto arguments = std::make_shared<InfoArguments>();
   command
       ->add_option("FILE", arguments->given,
-                   ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, or a folder of them")
+                   ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, .vsk, or a folder of them")
       ->required();
   command->add_option("--rate", arguments->rate_hz,
                       "Frame rate of a marker file that stores none (.v3d, .amc), Hz");

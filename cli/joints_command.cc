@@ -104,8 +104,9 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
       ->group("Several recordings");
   add_many_options(*command, arguments->many);
   command
-      ->add_option("--segments", job.segments,
-                   "TOML: [[segment]] name, markers; [[joint]] name, parent, child")
+      ->add_option(
+          "--segments", job.segments,
+          "TOML: [[segment]] name, markers; [[joint]] name, parent, child; or the .vsk of a Vicon subject")
       ->group("Input");
   command
       ->add_option(

@@ -61,9 +61,11 @@ function(kinemark_shared_library components)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
   pkg_check_modules(zlib REQUIRED IMPORTED_TARGET zlib)
+  pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+  pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
   # What headers need of others is public; the rest stays inside.
   target_link_libraries(kinemark_all PUBLIC Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus
-                        PRIVATE TBB::tbb pugixml::pugixml PkgConfig::xxhash PkgConfig::zlib)
+                        PRIVATE TBB::tbb pugixml::pugixml PkgConfig::xxhash PkgConfig::zlib PkgConfig::zstd PkgConfig::lz4)
   if(KINEMARK_NWB AND hdf5_FOUND)
     pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
     target_link_libraries(kinemark_all PRIVATE PkgConfig::hdf5)

@@ -121,6 +121,11 @@ void describe_facts(const pipeline::ModelFacts& facts, TrialRow& row) {
   row.markers = static_cast<std::int64_t>(facts.markers);
 }
 
+void describe_facts(const io::Vsk& facts, TrialRow& row) {
+  row.kind = "skeleton";
+  row.markers = std::ssize(facts.markers);
+}
+
 void describe_facts(const pipeline::MarkerFileFacts&, TrialRow& row) { row.kind = "markers"; }
 
 void describe_other(const fs::path& path, TrialRow& row) {

@@ -29,7 +29,7 @@ DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
 # Of formats that are only read: folder of the corpus (else that of its ending) and how such a file begins.
 SAMPLES = {"Qualisys TSV": ("vendor_exports", b"NO_OF_FRAMES"), "Motive CSV": ("vendor_exports", b"Format Version"),
-           "Vicon CSV": ("vendor_exports", b"Devices")}
+           "Vicon CSV": ("vendor_exports", b"Devices"), "PhaseSpace CSV": ("vendor_exports", b"0.000000,4,")}
 LABORATORY = "FunctionalWalk.c3d"  # a recording with groups of parameters, if it is there; else the first C3D file that has some
 PARTS = ("provenance", "covariances", "sample times", "residuals, cameras", "channels", "analog", "events", "force plates")
 WORDS = {"provenance": "the provenance of", "covariances": "covariances of samples", "sample times": "times of samples within",

@@ -60,6 +60,16 @@ Result<std::size_t> InputFile::read_at(std::size_t offset, std::span<std::byte> 
   return done;
 }
 
+Result<std::string> read_begin(const std::filesystem::path& path) {
+  const auto file = InputFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  std::string begin(512, '\0');
+  const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
+  if (!size) return std::unexpected(size.error());
+  begin.resize(*size);
+  return begin;
+}
+
 Result<std::string> read_text(const std::filesystem::path& path, std::size_t max_bytes) {
   auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());

@@ -36,6 +36,9 @@ class InputFile {
   std::string name_;
 };
 
+/// The first bytes of a file, 512 or all that there are: enough to tell its format.
+[[nodiscard]] Result<std::string> read_begin(const std::filesystem::path& path);
+
 /// The whole file as text. Files over `max_bytes` are refused with Code::bad_input.
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path,
                                             std::size_t max_bytes = 4UL << 30);

@@ -93,6 +93,8 @@ TEST(InputFile, ReadsAnywhereAndStopsAtTheEnd) {
   EXPECT_EQ(file.read_at(7, buffer).value(), 3U);
   EXPECT_EQ(file.read_at(99, buffer).value(), 0U);
   EXPECT_THAT(read_text(scratch / "n", 5).error().message, HasSubstr("10 bytes; at most 5"));
+  EXPECT_EQ(read_begin(scratch / "n").value(), read_text(scratch / "n").value());
+  EXPECT_EQ(read_begin(scratch / "none").error().code, Code::io);
 }
 
 }  // namespace

@@ -5,9 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,20 +66,17 @@ std::string names_of_read_formats() {
 /// As the reader of its format reads it; `box_m` around its samples where that reader knows it.
 Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options,
                                   Eigen::AlignedBox3d& box_m) {
-  const auto file = InputFile::open(path);
-  if (!file) return std::unexpected(file.error());
-  std::array<char, 512> begin{};
-  const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
-  if (!size) return std::unexpected(size.error());
-  if (begins_keypoints({begin.data(), *size}))
+  const auto begin = read_begin(path);
+  if (!begin) return std::unexpected(begin.error());
+  if (begins_keypoints(*begin))
     return fail(
         Code::not_supported,
         fmt::format("{}: holds points in the images of a camera, in pixels, and no positions of markers; "
                     "give it to ik or track with --rig and --images CAMERA=FILE",
                     path.string()));
   const std::string extension = lower_extension(path);
-  const MarkerFormat* format = format_of({begin.data(), *size}, extension);
-  if (format == nullptr && *size == 0)
+  const MarkerFormat* format = format_of(*begin, extension);
+  if (format == nullptr && begin->empty())
     return fail(Code::bad_input, fmt::format("{}: is empty", path.string()));
   if (format == nullptr && is_read(extension))
     return fail(Code::bad_input,
@@ -127,15 +121,20 @@ Status check_marker_format(const std::filesystem::path& path) {
                                        path.string(), named(extension), join_names(written, written.size())));
 }
 
-Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
-                     const std::string& set, std::vector<std::string>* lost) {
+Status write_markers(const std::filesystem::path& path, const data::Trial& trial,
+                     const MarkerWriteOptions& options) {
   if (auto s = check_marker_format(path); !s) return s;
   const MarkerFormat& format = *written_format(lower_extension(path));
-  if (lost != nullptr) {
+  if (options.lost != nullptr) {
     auto parts = lost_in(format, trial);
-    lost->insert(lost->end(), parts.begin(), parts.end());
+    options.lost->insert(options.lost->end(), parts.begin(), parts.end());
   }
-  return format.write(path, trial, {.force = force, .set = set, .lost = lost});
+  return format.write(path, trial, options);
+}
+
+Status write_markers(const std::filesystem::path& path, const data::Trial& trial, bool force,
+                     const std::string& set, std::vector<std::string>* lost) {
+  return write_markers(path, trial, {.force = force, .set = set, .lost = lost});
 }
 
 }  // namespace kinemark::io

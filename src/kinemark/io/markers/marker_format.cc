@@ -14,6 +14,7 @@
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/matlab/mat.h"
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
@@ -96,7 +97,8 @@ Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOpti
   NwbMetadata metadata;
   metadata.set = options.set;
   if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
-  return write_nwb(path, trial.markers, nullptr, metadata, {.force = options.force});
+  return write_nwb(path, trial.markers, nullptr, metadata,
+                   {.force = options.force, .ndx_pose = options.ndx_pose});
 }
 
 using enum Kept;
@@ -147,6 +149,10 @@ constexpr std::array kFormats = {
                  .extension = ".xdf",
                  .begins = is_xdf,
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_xdf(path); }},
+    MarkerFormat{.name = "MCAP",
+                 .extension = ".mcap",
+                 .begins = is_mcap,
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_mcap_markers(path); }},
     MarkerFormat{.name = "Qualisys TSV",
                  .extension = ".tsv",
                  .begins = begins_export<VendorExport::qtm>,
@@ -166,6 +172,10 @@ constexpr std::array kFormats = {
                  .extension = ".csv",
                  .begins = begins_export<VendorExport::vicon>,
                  .read = read_export<VendorExport::vicon>},
+    MarkerFormat{.name = "PhaseSpace CSV",
+                 .extension = ".csv",
+                 .begins = begins_export<VendorExport::phasespace>,
+                 .read = read_export<VendorExport::phasespace>},
     MarkerFormat{.name = "CSV",
                  .extension = ".csv",
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_trajectories_csv(path); },

@@ -35,13 +35,6 @@ inline constexpr std::size_t kParts = 9;  ///< number of them
 /// How much of a part a format keeps.
 enum class Kept : std::uint8_t { none, in_part, whole };
 
-/// Options of a writer.
-struct MarkerWriteOptions {
-  bool force = false;                        ///< replace a file that exists
-  std::string set;                           ///< of files that it belongs to; empty: none
-  std::vector<std::string>* lost = nullptr;  ///< gets what had no room after all; null: not wanted
-};
-
 /// One format of marker files: a row of the table that messages, help and documentation are made from.
 struct MarkerFormat {
   /// True for the beginning of such a file, its first 512 bytes.

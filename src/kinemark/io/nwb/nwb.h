@@ -47,6 +47,9 @@ struct NwbFile {
 struct NwbWriteOptions {
   bool force = false;   ///< replace a file that exists
   int compression = 4;  ///< deflate level, 0 (none) to 9; bytes are shuffled and checksummed in any case
+  /// Also a PoseEstimation of the extension ndx-pose, which shares the data of Position. Who reads the file
+  /// with pynwb then needs that extension.
+  bool ndx_pose = false;
 };
 
 /// Write a whole recording; the file appears complete or not at all. `derivatives` may be null.

@@ -12,6 +12,7 @@
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/output.h"
+#include "kinemark/io/nwb/internal/pose_writer.h"
 #include "kinemark/io/nwb/internal/root.h"
 #include "kinemark/io/nwb/nwb.h"
 
@@ -62,15 +63,18 @@ struct NwbWriter::Open {
     int width = 1;
   };
 
-  Open(OutputFile target, std::string name, NwbOutline promised, NwbMetadata given, int level)
+  Open(OutputFile target, std::string name, NwbOutline promised, NwbMetadata given,
+       const NwbWriteOptions& options)
       : file(std::move(target)),
         path(std::move(name)),
         outline(std::move(promised)),
         metadata(std::move(given)),
-        compression(level),
+        compression(options.compression),
+        ndx_pose(options.ndx_pose),
         out(file.temporary().string(), internal::identity_of(metadata, outline)) {}
 
   void build();
+  void build_pose();
   Series make_series(hid_t module, const char* container, const char* type, const char* unit,
                      const char* description, hid_t file_type, int width, double fill, bool spatial);
   void add_clock(Handle series, std::size_t marker, bool first);
@@ -89,11 +93,12 @@ struct NwbWriter::Open {
   NwbOutline outline;
   NwbMetadata metadata;
   int compression;
+  bool ndx_pose;
   Output out;
   Handle module;
   std::vector<std::string> series_names;
   std::map<std::string, std::size_t, std::less<>> index;  ///< of a marker
-  Series position, state, method, covariance, offset, stamps;
+  Series position, state, method, covariance, offset, stamps, confidence;
   std::vector<Series> rates;  ///< as kRates; empty where the outline has none
   std::vector<std::string> methods;
   std::vector<double> offset_s;                           ///< M
@@ -182,6 +187,16 @@ void NwbWriter::Open::build() {
     rates.push_back(holds(outline, rate) ? make_series(module.id(), rate.container, many, rate.unit,
                                                        rate.description, H5T_IEEE_F64LE, 3, kNaN, false)
                                          : Series{});
+  if (ndx_pose) build_pose();
+}
+
+void NwbWriter::Open::build_pose() {
+  auto series =
+      internal::write_pose(out, module.id(), metadata, series_names, outline.time.frames, compression);
+  for (std::size_t m = 0; m < series.size(); ++m) {
+    confidence.of_marker.push_back(std::move(series[m].confidence));
+    add_clock(std::move(series[m].series), m, false);
+  }
 }
 
 std::vector<std::uint8_t> NwbWriter::Open::merge_methods(const std::vector<std::string>& names) {
@@ -293,8 +308,7 @@ Result<NwbWriter> NwbWriter::create(const std::filesystem::path& path, const Nwb
   auto file = OutputFile::create(path, options.force);
   if (!file) return std::unexpected(file.error());
   const internal::Quiet quiet;
-  NwbWriter writer(
-      std::make_unique<Open>(std::move(*file), path.string(), outline, metadata, options.compression));
+  NwbWriter writer(std::make_unique<Open>(std::move(*file), path.string(), outline, metadata, options));
   writer.open_->build();
   if (writer.open_->out.failed())
     return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", path.string()));
@@ -329,6 +343,11 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
   open.put(open.position, H5T_NATIVE_DOUBLE, piece.x_in_world.data(), columns, first_frame, frames);
   open.put(open.state, H5T_NATIVE_UINT8, reinterpret_cast<const std::uint8_t*>(piece.state.data()), columns,
            first_frame, frames);
+  if (open.ndx_pose) {
+    Array<float> confidence(samples);
+    std::ranges::transform(piece.state, confidence.begin(), internal::confidence_of);
+    open.put(open.confidence, H5T_NATIVE_FLOAT, confidence.data(), columns, first_frame, frames);
+  }
   if (outline.covariance)
     open.put(open.covariance, H5T_NATIVE_DOUBLE, piece.covariance.data(), columns, first_frame, frames);
   if (!piece.method.empty()) {
@@ -364,8 +383,8 @@ Status NwbWriter::commit(const std::string& set) {
   open->write_tables();
   open->write_starts();
   open->module.close();
-  for (Open::Series* series :
-       {&open->position, &open->state, &open->method, &open->covariance, &open->offset, &open->stamps})
+  for (Open::Series* series : {&open->position, &open->state, &open->method, &open->covariance, &open->offset,
+                               &open->stamps, &open->confidence})
     series->of_marker.clear();
   open->rates.clear();
   internal::seal(open->out, set.empty() ? open->metadata.set : set);

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
+#include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
 #include "kinemark/io/text/internal/vendor_headers.h"
@@ -27,6 +29,8 @@ std::string_view format_name(VendorExport which) {
       return "Motive CSV";
     case VendorExport::vicon:
       return "Vicon CSV";
+    case VendorExport::phasespace:
+      return "PhaseSpace CSV";
   }
   return "";
 }
@@ -39,6 +43,8 @@ Result<VendorHeader> parse_header(Lines& lines, VendorExport which, data::Trial&
       return internal::parse_motive_header(lines, trial);
     case VendorExport::vicon:
       return internal::parse_vicon_header(lines, trial);
+    case VendorExport::phasespace:
+      return internal::parse_phasespace_header(lines, trial);
   }
   return fail(Code::usage, "no such text");
 }
@@ -68,6 +74,26 @@ Result<data::Trial> parse(std::string_view text, VendorExport which) {
   return trial;
 }
 
+/// A row of numbers: a time, then four cells a marker, of which the first, the condition, is a whole number.
+/// The row may go on beyond what is there.
+bool begins_phasespace(std::string_view begin) {
+  const std::size_t end = begin.find_first_of("\r\n");
+  const bool whole = end != std::string_view::npos;
+  std::string_view row = begin.substr(0, end);
+  std::size_t cells = 0;
+  while (true) {
+    const std::size_t comma = row.find(',');
+    if (comma == std::string_view::npos && !whole) break;  // may be cut
+    const auto number = parse_number(row.substr(0, comma));
+    if (!number) return false;
+    if (cells % 4 == 1 && *number != std::floor(*number)) return false;
+    ++cells;
+    if (comma == std::string_view::npos) break;
+    row.remove_prefix(comma + 1);
+  }
+  return cells >= 5 && (!whole || cells % 4 == 1);
+}
+
 }  // namespace
 
 std::optional<VendorExport> vendor_export_of(std::string_view begin) {
@@ -80,6 +106,7 @@ std::optional<VendorExport> vendor_export_of(std::string_view begin) {
   constexpr std::array<std::string_view, 7> kVicon{"trajectories", "devices", "model outputs", "joints",
                                                    "segments",     "events",  "title"};
   if (std::ranges::find(kVicon, first) != kVicon.end()) return VendorExport::vicon;
+  if (begins_phasespace(begin)) return VendorExport::phasespace;
   return std::nullopt;
 }
 

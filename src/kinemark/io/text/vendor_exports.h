@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Text exports of camera systems, each in the form of its vendor: Qualisys, OptiTrack, Vicon.
+// Text exports of camera systems, each in the form of its vendor: Qualisys, OptiTrack, Vicon, PhaseSpace.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,10 @@ namespace kinemark::io {
 
 /// A text export that read_vendor_export() knows.
 enum class VendorExport : std::uint8_t {
-  qtm,     ///< Qualisys Track Manager, TSV: 3D data with header
-  motive,  ///< OptiTrack Motive, CSV, format versions 1.0 to 1.25
-  vicon,   ///< Vicon Nexus or Workstation, CSV with a section of trajectories
+  qtm,         ///< Qualisys Track Manager, TSV: 3D data with header
+  motive,      ///< OptiTrack Motive, CSV, format versions 1.0 to 1.25
+  vicon,       ///< Vicon Nexus or Workstation, CSV with a section of trajectories
+  phasespace,  ///< PhaseSpace, CSV without a header: a time, then condition, x, y, z of each marker
 };
 
 /// Which of them a text is that begins like this (512 bytes are enough); none: another text.
@@ -36,6 +37,9 @@ enum class VendorExport : std::uint8_t {
 /// - Vicon: the first section "Trajectories"; units from the row of units, else millimetres. Other sections,
 /// and
 ///   columns that are not X, Y, Z, are not read (warning).
+/// - PhaseSpace: a row a frame; times in seconds, millimetres. A sample whose condition is 0 or below is
+/// missing. The
+///   text names no markers: M000, M001 and so on, in the order of its columns (warning).
 ///
 /// Blank cells and what is no finite number are missing samples. Names that stand twice get a number. Frame
 /// numbers give first_frame; times come from the time column, else from frame numbers and the stated rate.

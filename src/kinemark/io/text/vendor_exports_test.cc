@@ -217,6 +217,53 @@ TEST(ViconText, SaysWhatIsWrong) {
               HasSubstr("line 7, column 1: the frame number is 'half'"));
 }
 
+const std::string kPhaseSpace =
+    "0.000000,4,1,2,3,-1,0,0,0\n0.002083,5,1000,2,3,2,4,5,6\n0.004167,0,7,8,9,3,7,8,9\n";
+
+TEST(PhaseSpaceText, ReadsMarkersAndTheirConditions) {
+  const auto trial = good_export(kPhaseSpace, VendorExport::phasespace);
+  EXPECT_EQ(trial.format, "PhaseSpace CSV");
+  EXPECT_THAT(trial.markers.names, ElementsAre("M000", "M001"));
+  EXPECT_NEAR(trial.markers.time.rate_hz, 480.0, 0.1);
+  EXPECT_EQ(trial.markers.frames(), 3);
+  EXPECT_EQ(trial.markers.x(0, 0), Eigen::Vector3d(0.001, 0.002, 0.003));
+  EXPECT_EQ(trial.markers.x(1, 0).x(), 1.0);
+  EXPECT_FALSE(trial.markers.present(0, 1)) << "a condition of -1";
+  EXPECT_FALSE(trial.markers.present(2, 0)) << "a condition of 0, with coordinates";
+  EXPECT_TRUE(trial.markers.present(2, 1));
+  EXPECT_THAT(trial.warnings, Contains(HasSubstr("its markers are called M000 to M001, and millimetres")));
+}
+
+TEST(PhaseSpaceText, ABlankConditionIsNotSeenAndARowMayEndEarly) {
+  const auto trial =
+      good_export(with(with(kPhaseSpace, ",5,1000", ",,1000"), ",3,7,8,9", ""), VendorExport::phasespace);
+  EXPECT_FALSE(trial.markers.present(1, 0));
+  EXPECT_TRUE(trial.markers.present(1, 1));
+  EXPECT_FALSE(trial.markers.present(2, 1));
+  EXPECT_THAT(trial.warnings, Contains(HasSubstr("1 of 3 rows end before the last marker")));
+}
+
+TEST(PhaseSpaceText, IsKnownByItsFirstRowEvenIfCut) {
+  std::string row = "12.5";
+  for (int m = 0; m < 60; ++m) row += ",3,-12.25,1e3,0.5";
+  EXPECT_EQ(vendor_export_of(std::string_view(row).substr(0, 512)), VendorExport::phasespace);
+  for (const std::string_view begin :
+       {"1,2,3\n", "0.1,2,3,4,5,6\n", "0.1,2.5,3,4,5\n", "0.1,2,3,four,5\n", "0.1,2,3\n4,5"})
+    EXPECT_FALSE(vendor_export_of(begin)) << begin;
+}
+
+TEST(PhaseSpaceText, SaysWhatIsWrong) {
+  const auto bad = [](const std::string& text) { return bad_export(text, VendorExport::phasespace); };
+  EXPECT_THAT(bad(""), HasSubstr("the file is empty"));
+  EXPECT_THAT(bad("0.1,1,2,3\n"),
+              HasSubstr("line 1: holds 4 cells; expected a time, and of each marker its"));
+  EXPECT_THAT(bad(with(kPhaseSpace, ",5,", ",seen,")),
+              HasSubstr("line 2, column 2: the condition of marker 'M000' is 'seen'"));
+  EXPECT_THAT(bad(with(kPhaseSpace, "1000", "far")), HasSubstr("line 2, column 3: x of marker 'M000'"));
+  EXPECT_THAT(bad(with(kPhaseSpace, "0.002083", "")), HasSubstr("line 2, column 1: the time is blank"));
+  EXPECT_THAT(bad(with(kPhaseSpace, "0.004167", "0.000001")), HasSubstr("line 3"));
+}
+
 TEST(VendorExport, OthersAreNotTakenForOne) {
   for (const std::string_view begin : {"", "frame,time_s,marker,x_m,y_m,z_m\n", "PathFileType\t4\n",
                                        "Format of mine,1\n", "NO_OF_FRAMES 5\n", "Trajectoriesof,1\n"})

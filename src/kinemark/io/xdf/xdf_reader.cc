@@ -14,7 +14,7 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/length_unit.h"
-#include "kinemark/io/xdf/internal/sample_clock.h"
+#include "kinemark/io/sample_clock.h"
 #include "kinemark/io/xdf/internal/streams.h"
 #include "kinemark/io/xdf/xdf.h"
 
@@ -87,7 +87,7 @@ void take_events(const XdfStreams& all, const XdfStream& motion, double start_s,
       continue;
     }
     auto times = stream.time_s;
-    internal::correct_clock(stream.offsets, times);
+    correct_clock(stream.offsets, times);
     for (std::size_t i = 0; i < times.size(); ++i)
       if (std::isfinite(times[i]))
         trial.events.push_back(
@@ -111,8 +111,8 @@ Result<data::Trial> assemble(const XdfStreams& all) {
   const auto metres = units(header, trial);
   if (!metres) return at(metres.error());
   auto times = stream.time_s;
-  internal::correct_clock(stream.offsets, times);
-  const auto clock = internal::find_clock(std::move(times), header.rate_hz);
+  correct_clock(stream.offsets, times);
+  const auto clock = find_clock(std::move(times), header.rate_hz);
   if (!clock) return at(clock.error());
   if (clock->rate_hz != header.rate_hz)
     trial.warnings.push_back(

@@ -144,7 +144,9 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
     notes.insert(notes.end(), lost.begin(), lost.end());
     return notes;
   }
-  if (auto s = io::write_markers(job.out, *trial, job.force, {}, &notes); !s)
+  if (auto s =
+          io::write_markers(job.out, *trial, {.force = job.force, .ndx_pose = job.ndx_pose, .lost = &notes});
+      !s)
     return std::unexpected(s.error());
   return notes;
 }
@@ -207,6 +209,8 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
                 fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
   if (!job.edits.empty() && (kind_of(from) != Kind::markers || !job.merged.empty()))
     return fail(Code::usage, fmt::format("{}: --edits is for one marker file", job.in.string()));
+  if (job.ndx_pose && ending_of(job.out) != ".nwb")
+    return fail(Code::usage, fmt::format("--ndx-pose: {} is no .nwb file", job.out.string()));
   if (auto s = check_each_once(job); !s) return std::unexpected(s.error());
   std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton, job.edits};
   inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());

@@ -24,6 +24,7 @@ struct ConvertJob : JobSettings {
   Selection selection;                        ///< of a marker file
   std::filesystem::path edits;  ///< journal of a marker file's edits, applied before all else; "beside": the
                                 ///< one beside it, if there is one; empty: none
+  bool ndx_pose = false;        ///< an .nwb also holds the markers as a pose of ndx-pose
   std::string rotate;           ///< turns markers and force plates, "x -90"; empty: as they are
   std::filesystem::path
       model;  ///< .osim that a table is the motion of, to make a skeleton of it; empty: none

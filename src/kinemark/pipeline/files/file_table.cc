@@ -55,6 +55,8 @@ Size size_of(const RecordingFacts& facts) {
           .rate_hz = facts.counts->rate_hz};
 }
 
+Size size_of(const io::Vsk& vsk) { return {.holds = count(vsk.segments.size(), "segment")}; }
+
 Size size_of(const CheckedFile& checked) {
   Size size;
   if (checked.facts) size = std::visit([](const auto& facts) { return size_of(facts); }, *checked.facts);

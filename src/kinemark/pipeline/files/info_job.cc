@@ -8,6 +8,7 @@
 
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
+#include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -113,7 +114,11 @@ Result<CountsFacts> describe_counts(const std::filesystem::path& path) {
                      .labels = counts.leds};
 }
 
+/// Of an MCAP file of another program what of it is markers.
 Status describe_recording(const InfoJob& job, InfoOutcome& out) {
+  const auto begin = io::read_begin(job.file);
+  if (!begin) return std::unexpected(begin.error());
+  if (io::is_mcap_of_others(*begin)) return describe_markers(job, out);
   auto survey = io::survey_recording(job.file);
   if (!survey) return std::unexpected(survey.error());
   RecordingFacts facts{.end = survey->end, .bytes = survey->bytes, .messages = survey->messages};
@@ -129,6 +134,14 @@ Status describe_recording(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
+Status describe_skeleton(const InfoJob& job, InfoOutcome& out) {
+  auto vsk = io::read_vsk(job.file);
+  if (!vsk) return std::unexpected(vsk.error());
+  out.warnings = std::exchange(vsk->warnings, {});
+  out.facts = std::move(*vsk);
+  return {};
+}
+
 }  // namespace
 
 Result<InfoOutcome> run_info(const InfoJob& job) {
@@ -136,6 +149,7 @@ Result<InfoOutcome> run_info(const InfoJob& job) {
   const auto describe = ending == ".osim"                      ? describe_model
                         : ending == ".mot" || ending == ".sto" ? describe_table
                         : ending == ".mcap"                    ? describe_recording
+                        : io::is_vsk_ending(ending)            ? describe_skeleton
                                                                : describe_markers;
   InfoOutcome out;
   out.file = job.file;

@@ -11,6 +11,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/io/recording/reader.h"
+#include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
@@ -80,7 +81,7 @@ struct RecordingFacts {
 };
 
 /// By the kind of the file.
-using FileFacts = std::variant<MarkerFileFacts, TableFacts, ModelFacts, RecordingFacts>;
+using FileFacts = std::variant<MarkerFileFacts, TableFacts, ModelFacts, RecordingFacts, io::Vsk>;
 
 /// What `kinemark info` found.
 struct InfoOutcome : JobOutcome {

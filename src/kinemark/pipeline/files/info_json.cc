@@ -25,13 +25,41 @@ std::string channel_text(const Json& channel) {
   return fmt::format("{} ({}{}{})", of("name"), of("kind"), unit.empty() ? "" : ", ", unit);
 }
 
+/// "Femur (Pelvis, ball: LTHI LKNE)"
+std::string segment_text(const Json& segment) {
+  std::string out = printable(segment["name"].get<std::string>(), kNameLetters) + " (";
+  if (segment["parent"].is_string())
+    out += printable(segment["parent"].get<std::string>(), kNameLetters) + ", " +
+           segment["joint_kind"].get<std::string>();
+  else
+    out += "root";
+  const Json& markers = segment["markers"];
+  for (std::size_t i = 0; i < markers.size(); ++i)
+    out += (i == 0 ? ": " : " ") + printable(markers[i].get<std::string>(), kNameLetters);
+  return out + ")";
+}
+
+/// "KneeWidth=0.105 m"
+std::string parameter_text(const Json& parameter) {
+  const std::string unit = parameter["unit"].get<std::string>();
+  return fmt::format("{}={}{}{}", printable(parameter["name"].get<std::string>(), kNameLetters),
+                     parameter["value"].is_null() ? "?" : parameter["value"].dump(), unit.empty() ? "" : " ",
+                     unit);
+}
+
+/// One entry of a list.
+std::string entry_text(const Json& entry) {
+  if (entry.is_string()) return printable(entry.get<std::string>(), kNameLetters);
+  if (entry.contains("joint_kind")) return segment_text(entry);
+  return entry.contains("expression") ? parameter_text(entry) : channel_text(entry);
+}
+
 /// Names, or channels, one after another, in as many lines as it takes.
 std::string in_lines(const Json& names) {
   std::string text;
   std::size_t begin = 0;
   for (const auto& name : names) {
-    const std::string word =
-        name.is_object() ? channel_text(name) : printable(name.get<std::string>(), kNameLetters);
+    const std::string word = entry_text(name);
     if (text.size() > begin) {
       if (text.size() - begin + 1 + word.size() > kLineLetters) {
         text += kBesideKey;
@@ -118,6 +146,32 @@ void add(const RecordingFacts& facts, Json& to) {
   to["channels"] = facts.channels;
   to["metadata"] = facts.metadata;
   if (facts.counts) add(*facts.counts, to);
+}
+
+void add(const io::Vsk& vsk, Json& to) {
+  to["kind"] = "skeleton";
+  to["model"] = vsk.model;
+  to["points"] = vsk.markers.size();
+  to["sticks"] = vsk.sticks.size();
+  to["segments"] = Json::array();
+  for (std::size_t s = 0; s < vsk.segments.size(); ++s) {
+    const io::VskSegment& segment = vsk.segments[s];
+    Json entry{{"name", segment.name}, {"parent", nullptr}, {"joint", segment.joint}};
+    if (segment.parent >= 0) entry["parent"] = vsk.segments[static_cast<std::size_t>(segment.parent)].name;
+    entry["joint_kind"] = io::to_string(segment.kind);
+    entry["markers"] = Json::array();
+    for (const auto& marker : vsk.markers)
+      if (marker.segment == static_cast<int>(s)) entry["markers"].push_back(marker.name);
+    to["segments"].push_back(std::move(entry));
+  }
+  to["parameters"] = Json::array();
+  for (const auto& parameter : vsk.parameters)
+    to["parameters"].push_back({{"name", parameter.name},
+                                {"value", or_null(parameter.value)},
+                                {"unit", parameter.unit},
+                                {"expression", parameter.expression}});
+  to["labels"] = Json::array();
+  for (const auto& marker : vsk.markers) to["labels"].push_back(marker.name);
 }
 
 }  // namespace

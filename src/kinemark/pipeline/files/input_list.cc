@@ -47,11 +47,15 @@ Status append_folder(const fs::path& folder, const std::vector<std::string>& end
 
 }  // namespace
 
-std::vector<std::string> marker_endings() { return io::read_extensions(); }
+std::vector<std::string> marker_endings() {
+  auto endings = io::read_extensions();
+  std::erase(endings, ".mcap");  // in a folder these are counts
+  return endings;
+}
 
 std::vector<std::string> known_endings() {
   auto known = io::read_extensions();
-  for (const char* other : {".mot", ".sto", ".osim", ".mcap"}) known.emplace_back(other);
+  for (const char* other : {".mot", ".sto", ".osim", ".vsk", ".vst"}) known.emplace_back(other);
   return known;
 }
 

@@ -150,10 +150,11 @@ void judge(const JointsJob& job, JointsOutcome& outcome) {
 }
 
 /// What is solved together: all joints, or for the articulated method of segments that were found in the data
-/// every tree by itself.
+/// or are a subject's every tree by itself.
 std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutcome& outcome,
                                           const data::SegmentLayout& layout) {
-  if (job.method != "articulated" || (!outcome.topology && outcome.left_out.empty())) return {layout};
+  const bool as_asked = !outcome.topology && outcome.left_out.empty() && !is_subject(job);
+  if (job.method != "articulated" || as_asked) return {layout};
   return trees_of(layout);
 }
 
@@ -196,6 +197,8 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
   auto slips = skeleton::find_slips(markers, outcome.layout);
   if (!slips) return std::unexpected(slips.error());
   outcome.slips = std::move(*slips);
+  std::erase_if(outcome.slips,
+                [&](const auto& slip) { return skeleton::is_within_repeatability(slip, outcome.skeleton); });
   // The articulated fit itself reports markers that moved on their segment.
   for (const auto& slip : outcome.slips)
     if (job.method != "articulated" || slip.kind == data::FindingKind::joint_slip)

@@ -25,7 +25,8 @@ namespace kinemark::pipeline {
 struct JointsJob : JobSettings {
   std::filesystem::path input;     ///< .c3d, .trc, .csv, .nwb or .v3d
   double rate_hz = 0.0;            ///< for a marker file that stores none (.v3d); 0: not given
-  std::filesystem::path segments;  ///< TOML, see read_segments(); empty: found in the data
+  std::filesystem::path segments;  ///< TOML, see read_segments(), or the .vsk of a Vicon subject, see
+                                   ///< layout_of(); empty: found in the data
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
   /// file: the centres in its format, and NAME_skeleton.json beside it.
   std::filesystem::path output;

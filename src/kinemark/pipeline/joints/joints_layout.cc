@@ -10,7 +10,10 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
+#include "kinemark/io/vsk/vsk.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/joints/segments_file.h"
+#include "kinemark/pipeline/joints/vsk_layout.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -19,6 +22,12 @@ constexpr std::size_t kNamesListed = 8;
 
 Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajectories& markers,
                                         JointsOutcome& outcome) {
+  if (is_subject(job)) {
+    const auto vsk = io::read_vsk(job.segments);
+    if (!vsk) return std::unexpected(vsk.error());
+    auto layout = layout_of(*vsk, markers.names, outcome.warnings);
+    return layout ? std::move(layout) : fail_at(job.segments.string(), layout.error());
+  }
   if (!job.segments.empty()) return read_segments(job.segments, markers.names);
   if (markers.markers() < 4)
     return fail(
@@ -67,6 +76,8 @@ std::vector<std::string> lonely_segments(const data::SegmentLayout& layout) {
 
 }  // namespace
 
+bool is_subject(const JointsJob& job) { return io::is_vsk_ending(ending_of(job.segments)); }
+
 Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
   auto layout = find_layout(job, markers, outcome);
   const auto of_recording = [&](const Error& error) -> Status {
@@ -74,21 +85,21 @@ Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOu
   };
   if (!layout) return of_recording(layout.error());
   outcome.layout = std::move(*layout);
-  const bool lines_alone = job.method == "articulated" && outcome.topology.has_value();
+  const bool lines_alone = job.method == "articulated" && (outcome.topology.has_value() || is_subject(job));
   if (lines_alone) {
-    // Joints of a single marker cannot be asked for; of a layout that was found they are no one's wish.
+    // Joints of a single marker cannot be asked for; of a layout that nobody wrote they are no one's wish.
     const auto joints = outcome.layout.joints.size();
     std::erase_if(outcome.layout.joints, [&](const auto& joint) {
       return outcome.layout.segments[at(joint.parent)].markers.size() < 2 ||
              outcome.layout.segments[at(joint.child)].markers.size() < 2;
     });
     if (outcome.layout.joints.empty())
-      return of_recording(
-          {Code::bad_input,
-           fmt::format("none of the {} joints found lies between two segments of two markers or more, "
-                       "which the articulated method needs; name the segments in a file, or use "
-                       "another method",
-                       joints)});
+      return fail_at(job.input.string(),
+                     {Code::bad_input,
+                      fmt::format("none of the {} joints lies between two segments of two markers or more, "
+                                  "which the articulated method needs; name the segments in a file, or use "
+                                  "another method",
+                                  joints)});
     if (const auto lonely = lonely_segments(outcome.layout); !lonely.empty())
       outcome.warnings.push_back(fmt::format(
           "Left out, as the articulated method needs two markers on a segment and on one beside it: {}.",

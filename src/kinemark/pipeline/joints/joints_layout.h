@@ -15,6 +15,10 @@
 
 namespace kinemark::pipeline {
 
+/// Whether the job's segments are those of a Vicon subject, so that its joints are nobody's wish: those that
+/// cannot be found are left out, and what is not joined is solved apart.
+[[nodiscard]] bool is_subject(const JointsJob& job);
+
 /// Fills outcome.layout, and outcome.topology where the data give it: the segments of the job's file, or
 /// those that the markers show, in which case all failures are the recording's. What the markers contradict
 /// goes into outcome.left_out; of a layout that was found the articulated method gets segments of two markers

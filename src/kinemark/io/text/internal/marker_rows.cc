@@ -45,6 +45,7 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
   Cells cells(text, Separator::tab);
   bool ended = false;
   std::int64_t place = 0;
+  std::int32_t unseen = -1;  // the marker that its condition says was not seen
   for (const auto& column : columns.columns) {
     ++place;
     double number = kNaN;
@@ -64,13 +65,22 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
         rows.time_s.push_back(number);
         if (number != 0.0) rows.resolution_s = std::min(rows.resolution_s, resolution_of(cells.text()));
         break;
+      case Kind::condition:
+        if (kind == Cell::text)
+          return bad_cell(line, place,
+                          fmt::format("the condition of marker '{}'",
+                                      excerpt(columns.names[static_cast<std::size_t>(column.marker)])),
+                          cells.text());
+        if (!(number > 0.0)) unseen = column.marker;
+        break;
       case Kind::coordinate:
         if (kind == Cell::text && lower(cells.text()) != "null")
           return bad_cell(line, place,
                           fmt::format("{} of marker '{}'", "xyz"[column.axis],
                                       excerpt(columns.names[static_cast<std::size_t>(column.marker)])),
                           cells.text());
-        if (kind == Cell::number) x[3 * column.marker + column.axis] = number / columns.units_per_metre;
+        if (kind == Cell::number && column.marker != unseen)
+          x[3 * column.marker + column.axis] = number / columns.units_per_metre;
         break;
     }
   }

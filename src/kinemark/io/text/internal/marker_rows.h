@@ -18,10 +18,16 @@ namespace kinemark::io::internal {
 
 /// What stands in the columns of such rows.
 struct MarkerColumns {
-  enum class Kind : std::uint8_t { frame, time, coordinate, unread };
+  enum class Kind : std::uint8_t {
+    frame,
+    time,
+    condition,  ///< before the coordinates of its marker: 0 or below where the marker was not seen
+    coordinate,
+    unread
+  };
   struct Column {
     Kind kind = Kind::unread;
-    std::int32_t marker = -1;  ///< of a coordinate: index of its name
+    std::int32_t marker = -1;  ///< of a coordinate or a condition: index of its name
     std::int8_t axis = 0;      ///< of a coordinate: 0, 1, 2
   };
 
@@ -35,10 +41,10 @@ struct MarkerColumns {
 };
 
 /// Reads rows up to a blank line or the end of the text into `trial`: markers, their time base, first_frame
-/// and warnings. A sample is missing where one of its three cells is blank, no finite number, or not there.
-/// Times come from the time column (even_clock()), or else from frame numbers, which increase, and the stated
-/// rate. Errors carry line and column, not the file. O(bytes); no more than two samples a byte of text plus a
-/// million.
+/// and warnings. A sample is missing where one of its three cells is blank, no finite number, or not there,
+/// and where its condition is blank or not above 0. Times come from the time column (even_clock()), or else
+/// from frame numbers, which increase, and the stated rate. Errors carry line and column, not the file.
+/// O(bytes); no more than two samples a byte of text plus a million.
 [[nodiscard]] Status read_marker_rows(Lines& lines, const MarkerColumns& columns, std::size_t text_bytes,
                                       data::Trial& trial);
 

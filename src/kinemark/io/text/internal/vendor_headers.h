@@ -23,6 +23,7 @@ struct VendorHeader {
 [[nodiscard]] Result<VendorHeader> parse_qtm_header(Lines& lines, data::Trial& trial);
 [[nodiscard]] Result<VendorHeader> parse_motive_header(Lines& lines, data::Trial& trial);
 [[nodiscard]] Result<VendorHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
+[[nodiscard]] Result<VendorHeader> parse_phasespace_header(Lines& lines, data::Trial& trial);
 
 /// 1000 for "mm" or "Millimeters". Code::bad_input, naming
 /// the line, for any other word.

@@ -10,7 +10,7 @@
 
 #include "kinemark/core/result.h"
 
-namespace kinemark::io::internal {
+namespace kinemark::io {
 
 /// Times with the clock's offsets added: the line through them where there are two or more, none where there
 /// is none. @param offsets  when, and what is to be added, s
@@ -33,4 +33,4 @@ struct SampleClock {
 /// @param nominal_hz  0: the median step tells
 [[nodiscard]] Result<SampleClock> find_clock(std::vector<double> time_s, double nominal_hz);
 
-}  // namespace kinemark::io::internal
+}  // namespace kinemark::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/xdf/internal/sample_clock.h"
+#include "kinemark/io/sample_clock.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
 
-namespace kinemark::io::internal {
+namespace kinemark::io {
 namespace {
 
 using ::testing::ElementsAre;
@@ -107,4 +107,4 @@ TEST(SampleClock, OffsetsAreALineThatDriftsWithTheClock) {
 }
 
 }  // namespace
-}  // namespace kinemark::io::internal
+}  // namespace kinemark::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/xdf/internal/sample_clock.h"
+#include "kinemark/io/sample_clock.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "kinemark/io/rate.h"
 
-namespace kinemark::io::internal {
+namespace kinemark::io {
 namespace {
 
 constexpr double kLongestSpan_s =
@@ -114,4 +114,4 @@ Result<SampleClock> find_clock(std::vector<double> time_s, double nominal_hz) {
   return out;
 }
 
-}  // namespace kinemark::io::internal
+}  // namespace kinemark::io
