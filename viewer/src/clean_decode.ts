@@ -17,8 +17,8 @@ export interface MarkerSeries {
   velocitySd: Axes;
   acceleration: Axes;
   accelerationSd: Axes;
-  /** What the values are rounded to; null: they are not. */
-  steps: Record<"position" | "change" | "velocity" | "acceleration", number | null>;
+  /** What the values of x, y, z are rounded to; null: they are not. */
+  steps: Record<"position" | "change" | "velocity" | "acceleration", (number | null)[]>;
 }
 
 /** A cleaned recording, ready to draw. */
@@ -65,7 +65,7 @@ export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
         velocitySd: axes(m.velocity_sd),
         acceleration: axes(m.acceleration),
         accelerationSd: axes(m.acceleration_sd),
-        steps: { position: stepOf(...m.position_mm), change: stepOf(...m.change_mm), velocity: stepOf(...m.velocity), acceleration: stepOf(...m.acceleration) },
+        steps: { position: m.position_mm.map(stepOf), change: m.change_mm.map(stepOf), velocity: m.velocity.map(stepOf), acceleration: m.acceleration.map(stepOf) },
       };
       decoded.raw = m.raw_mm.map((text, k) => {
         if (text === null) return null;

@@ -72,14 +72,13 @@ export function decodeFloats(curve: EncodedCurve, points: number): Float32Array 
   return out;
 }
 
-/** What the numbers of these curves are rounded to, the finest of them; null: they are not. */
-export function stepOf(...curves: (EncodedCurve | null | undefined)[]): number | null {
-  return finest(...curves.map((c) => (c === null || c === undefined || typeof c === "string" ? null : c.step)));
-}
+/** What the numbers of a curve are rounded to; null: they are not. */
+export const stepOf = (curve: EncodedCurve | null): number | null => (curve === null || typeof curve === "string" ? null : curve.step);
 
-export function finest(...steps: (number | null | undefined)[]): number | null {
+/** What all of these curves are held to at least, so that no number seems finer than it is. */
+export function coarsest(...steps: (number | null | undefined)[]): number | null {
   const known = steps.filter((s) => typeof s === "number");
-  return known.length === 0 ? null : Math.min(...known);
+  return known.length === 0 ? null : Math.max(...known);
 }
 
 /** Decimals that multiples of a step of 1, 2 or 5 times a power of ten need. */

@@ -54,7 +54,7 @@ export function decode({ summary, series }: PageData): Trial {
     torques: (series.torques ?? []).map((t) => (t === null ? null : { value: floats(t.value), sd: t.sd === null ? null : floats(t.sd), undetermined: null, step: stepOf(t.value) })),
     rmsErrorMm: floats(series.rms_error_mm),
     markerErrorMm: series.marker_error_mm.map(floats),
-    markerErrorStepMm: series.marker_error_mm.map((e) => stepOf(e)),
+    markerErrorStepMm: series.marker_error_mm.map(stepOf),
     gaps: series.gaps.map((g) => (g === null ? null : bytes(g))),
     status: bytes(series.status),
   };

@@ -108,7 +108,7 @@ export function cleanMarker(
           bands: [{ series: [1, 2], fill: () => palette().band }],
           unit: () => `${axisNames[k]} (${quantity.unit})`,
           hatched: () => hatched,
-          precision: () => ({ step: trial.marker(Math.max(0, view.marker)).steps[quantity.held], framesOfPair: framesOfPair(trial.frameStep) }),
+          precision: () => ({ step: trial.marker(Math.max(0, view.marker)).steps[quantity.held][k] ?? null, framesOfPair: framesOfPair(trial.frameStep) }),
         }),
     );
     let drawn = -1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { band } from "../band.ts";
-import { finest, framesOfPair, inflateAll } from "../curves.ts";
+import { coarsest, framesOfPair, inflateAll } from "../curves.ts";
 import { decode, type CoordinateSeries, type Trial } from "../decode.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
@@ -100,7 +100,7 @@ export function compare(trial: Trial, view: View): { node: HTMLElement; start: (
       unit: () => unitOf(pair),
       hatched: () => [],
       precision: () => ({
-        step: torques && perMass ? null : finest(curvesOf(trial)[pair.right]?.step, curvesOf(trial)[pair.left]?.step),
+        step: torques && perMass ? null : coarsest(curvesOf(trial)[pair.right]?.step, curvesOf(trial)[pair.left]?.step),
         framesOfPair: framesOfPair(trial.frameStep),
       }),
       levels: () => (torques ? [] : (coordinates[pair.right]!.limits ?? [])),

@@ -41,6 +41,13 @@ describe("decodeClean", () => {
     data.summary.first_time_s = 3;
     expect(decodeClean(data).time[5]).toBeCloseTo(3.5, 12);
   });
+  it("says of each axis what it is rounded to", () => {
+    const data = simulatedClean(3);
+    const held = (step: number) => ({ kind: "rounded" as const, step, order: 0 as const, bytes: 0, absent: false, data: "" });
+    data.series.markers[0]!.position_mm = [held(0.01), held(0.002), null];
+    expect(decodeClean(data).marker(0).steps.position).toEqual([0.01, 0.002, null]);
+    expect(decodeClean(data).marker(0).steps.velocity).toEqual([null, null, null]);
+  });
   it("refuses another schema and a page with too few series", () => {
     const other = simulatedClean();
     other.summary.schema_version = 2;

@@ -135,8 +135,7 @@ Json pack_deviations(const Axes& axes, float scale, const PlotPoints& thinned) {
       out.push_back(nullptr);
       continue;
     }
-    const auto values = thinned.largest(scaled(axis, scale));
-    out.push_back(internal::pack_curve(values, internal::deviation_step(values)));
+    out.push_back(internal::pack_deviations(thinned.largest(scaled(axis, scale))));
   }
   return out;
 }

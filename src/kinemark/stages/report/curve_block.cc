@@ -19,7 +19,9 @@ using Json = nlohmann::ordered_json;
 using Words = std::vector<std::uint32_t>;
 constexpr double kMostWord = 2147483647.0;
 constexpr double kSdPerStep = 16.0, kStepsPerReach = 2000.0;
-constexpr double kStepsPerSmallest = 20.0, kStepsPerMedian = 1000.0;
+constexpr double kStepsPerSmallest = 40.0, kStepsPerMedian = 1000.0;
+/// Twice what the nearest float is off by, relative.
+constexpr double kFloatNoise = 1.2e-7;
 
 std::vector<float> finite(std::span<const float> values) {
   std::vector<float> out;
@@ -102,6 +104,13 @@ double deviation_step(std::span<const float> sd) {
   if (known.empty()) return 1.0;
   const double smallest = *std::ranges::min_element(known);
   return within_words(std::max(smallest / kStepsPerSmallest, median(known) / kStepsPerMedian), known);
+}
+
+Json pack_deviations(std::span<const float> sd) {
+  const double step = deviation_step(sd);
+  std::vector<float> up(sd.begin(), sd.end());
+  for (float& v : up) v = static_cast<float>(std::ceil((1.0 - kFloatNoise) * double{v} / step) * step);
+  return pack_curve(up, step);
 }
 
 Json pack_curve(std::span<const float> values, double step) {

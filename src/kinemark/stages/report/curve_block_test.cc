@@ -90,8 +90,8 @@ TEST(CurveStep, IsARoundNumberThatTheErrorBarDoesNotSee) {
   EXPECT_DOUBLE_EQ(curve_step(std::vector{7.0F, 7.0F}, {}, 0.01), 0.01);
   EXPECT_DOUBLE_EQ(curve_step(std::vector{kNone}, {}, 0.01), 0.01);
   EXPECT_DOUBLE_EQ(deviation_step(std::vector{0.16F, kNone, 14.0F}), 0.01)
-      << "a 1,000th of the median is above a 20th of the smallest";
-  EXPECT_DOUBLE_EQ(deviation_step(std::vector{0.3F, 0.3F, 14.0F}), 0.01);
+      << "a 1,000th of the median is above a 40th of the smallest";
+  EXPECT_DOUBLE_EQ(deviation_step(std::vector{0.3F, 0.3F, 14.0F}), 0.005);
   EXPECT_DOUBLE_EQ(deviation_step(std::vector{0.0F}), 1.0);
 }
 
@@ -103,6 +103,24 @@ TEST(CurveStep, AnyCurveCanBePacked) {
     const auto back = unpack_curve(pack_curve(values, step));
     EXPECT_NEAR(back[0], far, step) << far;
   }
+}
+
+TEST(PackDeviations, NoErrorBarIsUnderstated) {
+  Random random(11, 0);
+  std::vector<float> sd{0.3F, 0.0F, kNone, 0.001F, 14.0F};  // 0.001 is far below the step
+  for (int i = 0; i < 500; ++i) sd.push_back(static_cast<float>(10.0 * std::exp(random.gaussian())));
+  const double step = deviation_step(sd);
+  ASSERT_GT(step, 0.002);
+  const auto back = unpack_curve(pack_deviations(sd));
+  EXPECT_EQ(back[1], 0.0) << "0 stays 0";
+  EXPECT_TRUE(std::isnan(back[2]));
+  for (std::size_t i = 0; i < sd.size(); ++i) {
+    if (i == 2) continue;
+    EXPECT_GE(back[i], double{sd[i]} * (1.0 - 1e-6)) << i;
+    EXPECT_LE(back[i], double{sd[i]} + step) << i;
+  }
+  const auto whole = unpack_curve(pack_deviations(std::vector{0.3F, 0.3F, 14.0F}));
+  EXPECT_NEAR(whole[0], 0.3, 1e-7) << "a multiple of the step stays what it is";
 }
 
 TEST(PackWithin, ThinsUntilItFitsAndNoFurther) {

@@ -204,8 +204,7 @@ Json pack_value(const Curve& curve, const PlotPoints& thinned) {
 
 Json pack_deviation(const Curve& curve, const PlotPoints& thinned) {
   if (curve.sd.empty()) return nullptr;
-  const auto sd = thinned.largest(curve.sd);
-  return internal::pack_curve(sd, internal::deviation_step(sd));
+  return internal::pack_deviations(thinned.largest(curve.sd));
 }
 
 Json pack_worst(const std::vector<std::uint8_t>& codes, const PlotPoints& thinned) {

@@ -23,12 +23,16 @@ constexpr double kUsualStep_deg = 0.01, kUsualStep_m = 1e-4, kUsualStep_mm = 0.0
 /// whole curve). Never so fine that a value takes more than 31 bits.
 [[nodiscard]] double curve_step(std::span<const float> values, std::span<const float> sd, double usual);
 
-/// The step of a curve of standard deviations: a twentieth of the smallest, at least a 1,000th of the median.
+/// The step of a curve of standard deviations: a 40th of the smallest, at least a 1,000th of the median.
 [[nodiscard]] double deviation_step(std::span<const float> sd);
 
 /// One curve, as README.md describes it ("kind": "rounded"). NaN comes back as NaN.
 /// @param step  > 0, and at least a 2^31st part of the largest value
 [[nodiscard]] nlohmann::ordered_json pack_curve(std::span<const float> values, double step);
+
+/// A curve of standard deviations, rounded up to multiples of deviation_step(): never understated, and 0 only
+/// where it is 0.
+[[nodiscard]] nlohmann::ordered_json pack_deviations(std::span<const float> sd);
 
 /// Codes of a curve ("kind": "codes").
 [[nodiscard]] nlohmann::ordered_json pack_codes(std::span<const std::uint8_t> codes);
