@@ -73,12 +73,16 @@ Progress show_progress(const CommonOptions& common, std::string what) {
   using Clock = std::chrono::steady_clock;
   struct State {
     Clock::time_point start = Clock::now(), next = start + std::chrono::seconds(1);
+    std::int64_t said = 0;
   };
   const auto state = std::make_shared<State>();
   const bool quiet = common.quiet, terminal = isatty(STDERR_FILENO) != 0;
   return [quiet, terminal, state, what = std::move(what)](std::int64_t done, std::int64_t total) {
     const auto now = Clock::now();
     if (quiet || now < state->next) return true;
+    // Where lines are kept, one that says nothing new is left out.
+    if (!terminal && (done == 0 || done == state->said)) return true;
+    state->said = done;
     state->next = now + (terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(1000));
     const double elapsed = std::chrono::duration<double>(now - state->start).count();
     const double rate = static_cast<double>(done) / elapsed;

@@ -61,9 +61,11 @@ int run_study(const CommonOptions& common, const StudyArguments& arguments, cons
     if (auto s = file->write(studies::study_html(*page)); !s) return report_error(s.error());
     if (auto s = file->commit(); !s) return report_error(s.error());
   }
-  say(common, studies::study_text(study->table));
+  print_result(common.json ? pipeline::json_text(studies::study_json(study->table)) + "\n"
+                           : studies::study_text(study->table));
+  if (const auto missed = studies::missed_text(study->table); common.json && !missed.empty())
+    say(common, missed);
   if (file) say(common, "wrote " + arguments.figures);
-  if (common.json) print_result(pipeline::json_text(studies::study_json(study->table)) + "\n");
   return study->table.pass() ? 0 : 1;
 }
 

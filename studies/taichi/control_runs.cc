@@ -99,6 +99,7 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
   options.posture_kp = setting.posture_kp;
   options.posture_kd = setting.posture_kd;
   options.error_bars = setting.error_bars;
+  options.judge_samples = false;  // as least squares beside it, on the same goals
   // Half a frame off, so that rounding decides nothing.
   const double frame_s = 1.0 / goals.time.rate_hz;
   if (setting.first_frame > 0) options.first_time_s = goals.time.time_s(setting.first_frame) - 0.5 * frame_s;

@@ -20,6 +20,8 @@ DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "da
 SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", "/tmp")) / "joints-files"
 MOST_NOISE_M, LEAST_LENGTH_M, MOST_LENGTH_M = 0.020, 0.005, 1.5
 LONGEST_S = 600
+WHOLE_FRAMES, WHOLE_MARKERS = (1000, 2000), 30  # a recording of a whole body, as long as the one that is asked for
+MOST_S, ASKED_FRAMES = 10.0, 1500
 
 
 def lengths_of(skeleton):
@@ -38,6 +40,14 @@ def reaches_of(skeleton):
                 yield min(sum((a - b) ** 2 for a, b in zip(centre, x)) ** 0.5 for x in known)
 
 
+def frames_of_body(path):
+    """Frames of a recording of a whole body about as long as the one that is asked for; 0 for others."""
+    done = subprocess.run([PROGRAM, "info", str(path), "--json"], capture_output=True, text=True, check=False)
+    about = json.loads(done.stdout) if done.returncode == 0 else {}
+    whole = about.get("points", 0) >= WHOLE_MARKERS and WHOLE_FRAMES[0] <= about["frames"] <= WHOLE_FRAMES[1]
+    return about["frames"] if whole else 0
+
+
 def wrong(done, out):
     """What is wrong with a run, in words; nothing when all is well."""
     if done.returncode not in (0, 1, 3):
@@ -46,6 +56,9 @@ def wrong(done, out):
         if out.exists():
             return "exit status 3 and files"
         return "" if done.stderr.strip() else "exit status 3 without a word"
+    progress = [line for line in done.stderr.splitlines() if line.startswith("frames: ")]
+    if any(" 0 of " in f" {line}" or line == before for before, line in zip([""] + progress, progress)):
+        return "progress that says nothing new"
     skeleton = json.loads((out / "skeleton.json").read_text(encoding="utf-8"))
     noise = skeleton["noise_sd_m"]
     if noise is not None and noise > MOST_NOISE_M:
@@ -73,7 +86,7 @@ def main():
     chosen = sys.argv[1:]
     files = sorted(p for p in DATA.rglob("*") if p.suffix.lower() in (".c3d", ".trc"))
     files = [p for p in files if not chosen or any(c in str(p) for c in chosen)]
-    counts, slowest, bad = {}, (0.0, ""), []
+    counts, slowest, bad, paces = {}, (0.0, ""), [], []
     for number, path in enumerate(files):
         out = SCRATCH / f"{number}"
         start = time.monotonic()
@@ -84,7 +97,10 @@ def main():
             counts[done.returncode] = counts.get(done.returncode, 0) + 1
         except subprocess.TimeoutExpired:
             why = f"not done after {LONGEST_S} s"
-        slowest = max(slowest, (time.monotonic() - start, path.name))
+        took = time.monotonic() - start
+        slowest = max(slowest, (took, path.name))
+        if frames := frames_of_body(path):
+            paces.append((took * ASKED_FRAMES / frames, path.name))
         if why:
             bad.append(f"{path.relative_to(DATA)}: {why}")
     for why in bad:
@@ -93,7 +109,10 @@ def main():
     print(f"{'FAIL' if bad or not files else 'PASS'} | joints of every C3D and TRC without segments | "
           "noise <= 20 mm, lengths 5 mm to 1.5 m, or left out with its figure | "
           f"{len(bad)} of {len(files)} wrong; exit status {ended}; slowest {slowest[1]}, {slowest[0]:.1f} s", flush=True)
-    return 1 if bad or not files else 0
+    in_time = all(pace <= MOST_S for pace, _ in paces)
+    print(f"{'PASS' if in_time else 'FAIL'} | joints of whole bodies without segments: time of {ASKED_FRAMES} frames | <= {MOST_S:.0f} s | "
+          + (", ".join(f"{pace:.1f} s ({name})" for pace, name in sorted(paces, reverse=True)) or "none among the files"), flush=True)
+    return 1 if bad or not files or not in_time else 0
 
 
 if __name__ == "__main__":

@@ -53,7 +53,11 @@ class Poizner(CommandTest):
         ran = self.good("study", "poizner", "--seeds", "1", "--figures", "p.html")
         page = (self.folder / "p.html").read_text()
         self.assertIn("still tree: scatter of a frame, x", page)
-        self.assertIn("still tree: scatter of a frame, x", ran.err)
+        lines = ran.out.splitlines()
+        self.assertEqual(lines[0].split(), ["unit", "paper", "classic", "ours", "expected", "bound"])
+        self.assertTrue(lines[1].startswith("still tree: scatter of a frame, x "), lines[1])
+        self.assertEqual(len(lines), len(self.one["rows"]) + 3)
+        self.assertNotIn("still tree", ran.err)
         figures = json.loads(report_data(page))["result"]["figures"]
         self.assertGreater(len(figures), 2)
         for figure in figures:

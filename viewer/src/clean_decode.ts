@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { CleanPageData, CleanSummary, EncodedAxes } from "./clean_types.ts";
-import { decodeBytes, decodeFloats } from "./decode.ts";
+import { decodeBytes, decodeFloats, stepOf } from "./curves.ts";
 
 /** x, y, z; null where the result has no such number. */
 export type Axes = (Float32Array | null)[];
@@ -17,6 +17,8 @@ export interface MarkerSeries {
   velocitySd: Axes;
   acceleration: Axes;
   accelerationSd: Axes;
+  /** What the values are rounded to; null: they are not. */
+  steps: Record<"position" | "change" | "velocity" | "acceleration", number | null>;
 }
 
 /** A cleaned recording, ready to draw. */
@@ -32,6 +34,7 @@ export interface CleanTrial {
   marker: (index: number) => MarkerSeries;
 }
 
+/** The series must have been inflated, see inflateAll(). */
 export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
   if (summary.schema !== "kinemark.clean_report" || summary.schema_version !== 1) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
@@ -54,7 +57,7 @@ export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
       const m = series.markers[index];
       if (m === undefined) throw new Error(`there is no marker ${index}`);
       const decoded: MarkerSeries = {
-        raw: axes(m.raw_mm),
+        raw: [],
         position: axes(m.position_mm),
         positionSd: axes(m.position_sd_mm),
         change: axes(m.change_mm),
@@ -62,7 +65,14 @@ export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
         velocitySd: axes(m.velocity_sd),
         acceleration: axes(m.acceleration),
         accelerationSd: axes(m.acceleration_sd),
+        steps: { position: stepOf(...m.position_mm), change: stepOf(...m.change_mm), velocity: stepOf(...m.velocity), acceleration: stepOf(...m.acceleration) },
       };
+      decoded.raw = m.raw_mm.map((text, k) => {
+        if (text === null) return null;
+        if (typeof text === "string" || text.kind === "rounded") return decodeFloats(text, n);
+        const change = decoded.change[k]!;
+        return decoded.position[k]!.map((v, i) => v + change[i]!);
+      });
       known.set(index, decoded);
       return decoded;
     },

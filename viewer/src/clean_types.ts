@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { EncodedCodes, EncodedCurve } from "./curves.ts";
 import type { StateName } from "./states.ts";
 import type { Finding, Gate, InputFile } from "./types.ts";
 
@@ -117,11 +118,16 @@ export interface CleanDefect {
   handled: boolean;
 }
 
-/** One base64 series per axis; null where the result has no such number. */
-export type EncodedAxes = (string | null)[];
+/** One curve per axis; null where the result has no such number. */
+export type EncodedAxes = (EncodedCurve | null)[];
+
+/** What came in: position and change together. */
+export interface Sum {
+  kind: "sum";
+}
 
 export interface EncodedMarker {
-  raw_mm: EncodedAxes;
+  raw_mm: (EncodedCurve | Sum | null)[];
   position_mm: EncodedAxes;
   position_sd_mm: EncodedAxes;
   change_mm: EncodedAxes;
@@ -129,8 +135,8 @@ export interface EncodedMarker {
   velocity_sd: EncodedAxes;
   acceleration: EncodedAxes;
   acceleration_sd: EncodedAxes;
-  before: string;
-  after: string;
+  before: EncodedCodes;
+  after: EncodedCodes;
 }
 
 export interface CleanPageData {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import { decodeBytes, decodeFloats, stepOf, type EncodedCodes, type EncodedCurve } from "./curves.ts";
 import type { PageData, Summary } from "./types.ts";
 
 /** One coordinate on the points of the plots, deg or m; NaN where it is not determined. */
@@ -8,6 +9,8 @@ export interface CoordinateSeries {
   sd: Float32Array | null;
   /** 1 where a frame of this point is not determined; null when all are. */
   undetermined: Uint8Array | null;
+  /** What the values are rounded to; null, or not there: they are not. */
+  step?: number | null;
 }
 
 /** A solved trial, ready to draw. */
@@ -22,35 +25,22 @@ export interface Trial {
   rmsErrorMm: Float32Array;
   /** One per used marker, in the order of summary.markers. */
   markerErrorMm: Float32Array[];
+  /** What these are rounded to, in the same order. */
+  markerErrorStepMm: (number | null)[];
   /** One per marker of summary.markers: 0 measured, 1 filled, 2 missing, 3 rejected; null when not known. */
   gaps: (Uint8Array | null)[];
   /** 0 converged, 1 not all determined, 2 not converged, 3 no markers. */
   status: Uint8Array;
 }
 
-export function decodeBytes(base64: string, points: number): Uint8Array {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  if (bytes.length !== points) throw new Error(`a series holds ${bytes.length} codes; ${points} points need as many`);
-  return bytes;
-}
-
-export function decodeFloats(base64: string, points: number): Float32Array {
-  const bytes = decodeBytes(base64, 4 * points);
-  const view = new DataView(bytes.buffer);
-  const values = new Float32Array(points);
-  for (let i = 0; i < points; ++i) values[i] = view.getFloat32(4 * i, true);
-  return values;
-}
-
+/** The series must have been inflated, see inflateAll(). */
 export function decode({ summary, series }: PageData): Trial {
   if (summary.schema !== "kinemark.ik_report" || summary.schema_version !== 1) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   }
   const n = series.points;
-  const floats = (text: string) => decodeFloats(text, n);
-  const bytes = (text: string) => decodeBytes(text, n);
+  const floats = (text: EncodedCurve) => decodeFloats(text, n);
+  const bytes = (text: EncodedCodes) => decodeBytes(text, n);
   return {
     summary,
     frameStep: series.frame_step,
@@ -59,10 +49,12 @@ export function decode({ summary, series }: PageData): Trial {
       value: floats(c.value),
       sd: c.sd === null ? null : floats(c.sd),
       undetermined: c.undetermined === null ? null : bytes(c.undetermined),
+      step: stepOf(c.value),
     })),
-    torques: (series.torques ?? []).map((t) => (t === null ? null : { value: floats(t.value), sd: t.sd === null ? null : floats(t.sd), undetermined: null })),
+    torques: (series.torques ?? []).map((t) => (t === null ? null : { value: floats(t.value), sd: t.sd === null ? null : floats(t.sd), undetermined: null, step: stepOf(t.value) })),
     rmsErrorMm: floats(series.rms_error_mm),
     markerErrorMm: series.marker_error_mm.map(floats),
+    markerErrorStepMm: series.marker_error_mm.map((e) => stepOf(e)),
     gaps: series.gaps.map((g) => (g === null ? null : bytes(g))),
     status: bytes(series.status),
   };

@@ -3,6 +3,7 @@
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import type { CleanPageData } from "./clean_types.ts";
+import { inflateAll } from "./curves.ts";
 import { el } from "./dom.ts";
 import { cleanPage } from "./pages/clean.ts";
 import type { MarkersPageData } from "./markers_types.ts";
@@ -20,6 +21,7 @@ const isResult = (data: AnyPage): data is ResultPageData => data.summary.schema 
 const isMarkers = (data: AnyPage): data is MarkersPageData => data.summary.schema === "kinemark.markers_report";
 
 async function show(page: HTMLElement, data: AnyPage): Promise<void> {
+  if ("series" in data) await inflateAll(data.series);
   document.title = `${data.summary.trial} · kinemark report`;
   const content: Content = isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
   const [section, words] = content.skip;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { EncodedCodes, EncodedCurve } from "./curves.ts";
 import type { PackedScene } from "./scene/types.ts";
 
 /** What Q_report.json holds; src/kinemark/stages/report/README.md describes each field. Unknown numbers are null. */
@@ -115,17 +116,17 @@ export interface InputFile {
   hash_kind: string;
 }
 
-/** Plotted series: base64 of little-endian float32 or of uint8. */
+/** Plotted curves, packed. */
 export interface EncodedSeries {
   frame_step: number;
   points: number;
-  coordinates: { value: string; sd: string | null; undetermined: string | null }[];
+  coordinates: { value: EncodedCurve; sd: EncodedCurve | null; undetermined: EncodedCodes | null }[];
   /** One per coordinate; empty, or not there in older pages, where torques were not computed. */
-  torques?: ({ value: string; sd: string | null } | null)[];
-  rms_error_mm: string;
-  marker_error_mm: string[];
-  gaps: (string | null)[];
-  status: string;
+  torques?: ({ value: EncodedCurve; sd: EncodedCurve | null } | null)[];
+  rms_error_mm: EncodedCurve;
+  marker_error_mm: EncodedCurve[];
+  gaps: (EncodedCodes | null)[];
+  status: EncodedCodes;
 }
 
 export interface PageData {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import { decimalsOfStep, precisionWords, type Precision } from "../curves.ts";
 import { number } from "../format.ts";
 import { csv } from "../save.ts";
 
@@ -19,6 +20,8 @@ export interface Figure {
   bands: { colour: string; upper: readonly (number | null | undefined)[]; lower: readonly (number | null | undefined)[] }[];
   lines: FigureLine[];
   striped: readonly (readonly [from: number, to: number])[];
+  /** What the page holds of the result; not there: all of it. */
+  precision?: Precision;
 }
 
 /** Round numbers inside a range, about `count` of them. */
@@ -110,13 +113,16 @@ export function figureSvg(figure: Figure): string {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="#1b2730">${parts.join("")}</svg>\n`;
 }
 
-/** The numbers of a figure, a row an instant. */
+/** The numbers of a figure, a row an instant; what the page holds of them stands in the heading. */
 export function figureCsv(figure: Figure): string {
-  const heading = ["time (s)", ...figure.lines.map((_, i) => (i === 0 ? figure.unit : `${figure.unit} ${i + 1}`))];
+  const { step = null } = figure.precision ?? {};
+  const held = figure.precision === undefined ? "" : precisionWords(figure.precision, "");
+  const text = (v: number): string => String(Number(step === null ? v.toPrecision(9) : v.toFixed(decimalsOfStep(step))));
+  const heading = ["time (s)", ...figure.lines.map((_, i) => `${figure.unit}${i === 0 ? "" : ` ${i + 1}`}${held === "" ? "" : `, ${held}`}`)];
   const rows: string[][] = [];
   for (let i = 0; i < figure.x.length; ++i) {
     if (figure.x[i]! < figure.range[0] - 1e-9 || figure.x[i]! > figure.range[1] + 1e-9) continue;
-    rows.push([String(Number(figure.x[i]!.toFixed(9))), ...figure.lines.map((l) => (typeof l.values[i] === "number" ? String(Number(l.values[i]!.toPrecision(9))) : ""))]);
+    rows.push([String(Number(figure.x[i]!.toFixed(9))), ...figure.lines.map((l) => (typeof l.values[i] === "number" ? text(l.values[i]!) : ""))]);
   }
   return csv([heading, ...rows]);
 }

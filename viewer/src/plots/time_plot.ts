@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from "uplot";
+import { precisionWords, type Precision } from "../curves.ts";
 import { el } from "../dom.ts";
 import { number } from "../format.ts";
 import { fileName, save } from "../save.ts";
@@ -18,6 +19,8 @@ export interface TimePlotOptions {
   fromZero?: boolean;
   /** Stretches to hatch, in s. */
   hatched: () => [from: number, to: number][];
+  /** What the page holds of the curves; stands beside the buttons and in the saved numbers. */
+  precision?: () => Precision;
   /** Heights of dashed lines, where they are in sight. */
   levels?: () => readonly number[];
 }
@@ -104,9 +107,12 @@ export class TimePlot {
     onThemeChange(() => this.plot.redraw(false));
     view.onChange(() => this.#follow());
     this.#unit = options.unit;
+    this.#precision = options.precision;
   }
 
   readonly #unit: () => string;
+  readonly #precision: (() => Precision) | undefined;
+  readonly #held = el("small", { class: "held" });
 
   /** Buttons that save what is drawn. */
   #tools(options: TimePlotOptions): HTMLElement {
@@ -117,6 +123,7 @@ export class TimePlot {
     return el(
       "span",
       { class: "figure-tools" },
+      this.#held,
       button("SVG", "Save this figure as a drawing", () => save(name("svg"), text("image/svg+xml", figureSvg(this.#figure(options))))),
       button("PNG", "Save this figure as a picture", () => this.#savePng(name("png"))),
       button("CSV", "Save the numbers of this figure", () => save(name("csv"), text("text/csv", figureCsv(this.#figure(options))))),
@@ -135,6 +142,7 @@ export class TimePlot {
       bands: (options.bands ?? []).map((b) => ({ colour: b.fill(), upper: [...all[b.series[0] - 1]!], lower: [...all[b.series[1] - 1]!] })),
       lines: options.series.flatMap((s, i) => (s.width === 0 ? [] : [{ colour: s.stroke(false), width: s.width, values: [...all[i]!] }])),
       striped: options.hatched(),
+      ...(options.precision === undefined ? {} : { precision: options.precision() }),
     };
   }
 
@@ -150,6 +158,7 @@ export class TimePlot {
 
   setData(data: uPlot.AlignedData): void {
     this.plot.axes[1]!.label = this.#unit();
+    if (this.#precision !== undefined) this.#held.textContent = precisionWords(this.#precision(), "");
     this.plot.batch(() => {
       this.plot.setData(data, false);
       this.plot.setScale("x", { min: this.#view.range[0], max: this.#view.range[1] });

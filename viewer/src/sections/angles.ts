@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { band, stretches } from "../band.ts";
 import type { Trial } from "../decode.ts";
+import { framesOfPair } from "../curves.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
 import { decimalsOf, number, percent, seconds } from "../format.ts";
@@ -101,6 +102,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
       bands: [{ series: [1, 2], fill: () => palette().band }],
       unit: () => (coordinates[view.coordinate]?.unit === "m" ? "position (m)" : "angle (deg)"),
       hatched: () => hatched,
+      precision: () => ({ step: trial.coordinates[view.coordinate]?.step ?? null, framesOfPair: framesOfPair(trial.frameStep) }),
       levels: () => coordinates[view.coordinate]?.limits ?? [],
     });
     const choose = (): void => {
@@ -168,6 +170,6 @@ function thinned({ frameStep, summary }: Trial): HTMLElement | null {
     "p",
     { class: "thinned" },
     `Long recording: the plots keep the smallest and the largest value and the largest SD of every ${number(2 * frameStep)} frames ` +
-      `(${number((2 * frameStep) / summary.rate_hz, 3)} s). Tables and numbers come from all frames.`,
+      `(${number((2 * frameStep) / summary.rate_hz, 3)} s). So do the numbers that are saved from a plot; the files that the program writes hold every frame. Tables come from all frames.`,
   );
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { band, partWithCode, stretches, withBreaks, type Line } from "../band.ts";
 import type { Axes, CleanTrial, MarkerSeries } from "../clean_decode.ts";
+import { framesOfPair } from "../curves.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
 import { number, seconds } from "../format.ts";
@@ -23,16 +24,17 @@ interface Quantity {
   read: (s: MarkerSeries) => Axes;
   /** The thin line beneath. */
   raw: (s: MarkerSeries) => Axes;
+  held: keyof MarkerSeries["steps"];
 }
 
 const nowhere = (): Axes => [null, null, null];
 const zeros = (s: MarkerSeries): Axes => s.position.map((axis) => axis?.map((v) => 0 * v) ?? null);
 
 const quantities: readonly Quantity[] = [
-  { title: "Position", unit: "mm", decimals: 2, result: (s) => s.position, sd: (s) => s.positionSd, read: (s) => s.position, raw: (s) => s.raw },
-  { title: "Taken away", unit: "mm", decimals: 2, result: zeros, sd: (s) => s.positionSd, read: (s) => s.change, raw: (s) => s.change },
-  { title: "Velocity", unit: "m/s", decimals: 3, result: (s) => s.velocity, sd: (s) => s.velocitySd, read: (s) => s.velocity, raw: nowhere },
-  { title: "Acceleration", unit: "m/s²", decimals: 2, result: (s) => s.acceleration, sd: (s) => s.accelerationSd, read: (s) => s.acceleration, raw: nowhere },
+  { title: "Position", unit: "mm", decimals: 2, result: (s) => s.position, sd: (s) => s.positionSd, read: (s) => s.position, raw: (s) => s.raw, held: "position" },
+  { title: "Taken away", unit: "mm", decimals: 2, result: zeros, sd: (s) => s.positionSd, read: (s) => s.change, raw: (s) => s.change, held: "change" },
+  { title: "Velocity", unit: "m/s", decimals: 3, result: (s) => s.velocity, sd: (s) => s.velocitySd, read: (s) => s.velocity, raw: nowhere, held: "velocity" },
+  { title: "Acceleration", unit: "m/s²", decimals: 2, result: (s) => s.acceleration, sd: (s) => s.accelerationSd, read: (s) => s.acceleration, raw: nowhere, held: "acceleration" },
 ];
 
 /** One marker in full: the path with its error bars, what was made, why the filter was chosen, its gaps. */
@@ -106,6 +108,7 @@ export function cleanMarker(
           bands: [{ series: [1, 2], fill: () => palette().band }],
           unit: () => `${axisNames[k]} (${quantity.unit})`,
           hatched: () => hatched,
+          precision: () => ({ step: trial.marker(Math.max(0, view.marker)).steps[quantity.held], framesOfPair: framesOfPair(trial.frameStep) }),
         }),
     );
     let drawn = -1;
@@ -180,6 +183,6 @@ function thinned({ frameStep, summary }: CleanTrial): HTMLElement | null {
     "p",
     { class: "thinned" },
     `Long recording: the plots keep the smallest and the largest value and the largest SD of every ${number(2 * frameStep)} frames ` +
-      `(${number((2 * frameStep) / summary.rate_hz, 3)} s). Tables and numbers come from all frames.`,
+      `(${number((2 * frameStep) / summary.rate_hz, 3)} s). So do the numbers that are saved from a plot; the files that the program writes hold every frame. Tables come from all frames.`,
   );
 }

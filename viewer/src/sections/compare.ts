@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { band } from "../band.ts";
+import { finest, framesOfPair, inflateAll } from "../curves.ts";
 import { decode, type CoordinateSeries, type Trial } from "../decode.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
@@ -98,6 +99,10 @@ export function compare(trial: Trial, view: View): { node: HTMLElement; start: (
       bands: [{ series: [1, 2], fill: () => palette().band }, { series: [4, 5], fill: () => palette().secondBand }],
       unit: () => unitOf(pair),
       hatched: () => [],
+      precision: () => ({
+        step: torques && perMass ? null : finest(curvesOf(trial)[pair.right]?.step, curvesOf(trial)[pair.left]?.step),
+        framesOfPair: framesOfPair(trial.frameStep),
+      }),
       levels: () => (torques ? [] : (coordinates[pair.right]!.limits ?? [])),
     });
     plots.set(pair, { box: figure, plot });
@@ -126,7 +131,9 @@ export function compare(trial: Trial, view: View): { node: HTMLElement; start: (
     const [picked] = file.files ?? [];
     if (picked === undefined) return;
     try {
-      second = decode(dataOfPage(await picked.text()));
+      const data = dataOfPage(await picked.text());
+      await inflateAll(data.series);
+      second = decode(data);
       const shared = second.summary.coordinates.filter((c) => coordinates.some((o) => o.name === c.name)).length;
       note.textContent = `${second.summary.trial}, ${second.summary.method}, lies over it dashed: ${number(shared)} coordinates of the same name, ${differences(trial, second)}.`;
     } catch (error) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { withBreaks } from "../band.ts";
 import type { Trial } from "../decode.ts";
+import { framesOfPair } from "../curves.ts";
 import { columnRange, extremes, nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
 import { number, percent, seconds } from "../format.ts";
@@ -65,6 +66,7 @@ export function markers(trial: Trial, view: View): { node: HTMLElement; start: (
         { stroke: () => palette().second, width: 1.4 },
       ],
       unit: () => "error (mm)",
+      precision: () => ({ step: trial.markerErrorStepMm[Math.max(0, view.marker)] ?? null, framesOfPair: framesOfPair(trial.frameStep) }),
       fromZero: true,
       hatched: () => [],
     });

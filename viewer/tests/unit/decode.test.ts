@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { decode, decodeBytes, decodeFloats } from "../../src/decode.ts";
+import { decodeBytes, decodeFloats } from "../../src/curves.ts";
+import { decode } from "../../src/decode.ts";
 import { simulated } from "../simulated.ts";
 
 describe("decodeFloats", () => {

@@ -59,3 +59,14 @@ describe("a saved figure", () => {
     expect(figureCsv(figure)).toBe("time (s),x (mm)\r\n0,1\r\n1,\r\n2,5\r\n");
   });
 });
+
+describe("the numbers of a packed figure", () => {
+  const figure = { title: "", unit: "x (mm)", x: [0, 1], range: [0, 1] as const, height: [0, 10] as const, bands: [], lines: [{ colour: "red", width: 2, values: [1.2300000191, -0.5] }], striped: [] };
+  it("have the decimals that they are held to, and the heading says so", () => {
+    expect(figureCsv({ ...figure, precision: { step: 0.01, framesOfPair: 1 } })).toBe('time (s),"x (mm), rounded to 0.01"\r\n0,1.23\r\n1,-0.5\r\n');
+  });
+  it("say of how many frames they are the extremes", () => {
+    expect(figureCsv({ ...figure, precision: { step: null, framesOfPair: 30 } })).toContain('"x (mm), smallest and largest of 30 frames each"');
+    expect(figureCsv({ ...figure, precision: { step: null, framesOfPair: 1 } })).toContain("time (s),x (mm)\r\n");
+  });
+});

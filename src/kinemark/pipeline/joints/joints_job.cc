@@ -197,6 +197,8 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
   auto slips = skeleton::find_slips(markers, outcome.layout);
   if (!slips) return std::unexpected(slips.error());
   outcome.slips = std::move(*slips);
+  std::erase_if(outcome.slips,
+                [&](const auto& slip) { return skeleton::is_within_repeatability(slip, outcome.skeleton); });
   // The articulated fit itself reports markers that moved on their segment.
   for (const auto& slip : outcome.slips)
     if (job.method != "articulated" || slip.kind == data::FindingKind::joint_slip)

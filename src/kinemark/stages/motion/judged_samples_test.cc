@@ -152,6 +152,20 @@ TEST_F(JudgedSamples, AGapIsNoBadSample) {
   EXPECT_EQ(state(result, 30, 5), SampleState::missing);
 }
 
+TEST_F(JudgedSamples, TheOnlyMarkerOfASegmentComesBackWhereTheSegmentWent) {
+  auto gap = testing_body::record(model, 240, kNoise_m, 3);
+  for (std::int64_t f = 0; f < 240; ++f) gap.set_missing(f, 6);
+  for (const std::int64_t frames : {10, 50, 100}) {
+    auto away = gap;
+    for (std::int64_t f = 77; f < 77 + frames; ++f) away.set_missing(f, 7);
+    EXPECT_EQ(left_out(solve_ik(model, away).value()), 0) << frames;
+    away.x(77 + frames, 7) = gap.x(77 + frames, 2);
+    const auto wrong = solve_ik(model, away).value();
+    EXPECT_EQ(left_out(wrong), 1) << frames;
+    EXPECT_EQ(findings_of(wrong, gap.names[7], 77 + frames), 1) << frames;
+  }
+}
+
 TEST_F(JudgedSamples, ABlowToTheWholeBodyIsNoBadSample) {
   auto blow = markers;
   const Eigen::AngleAxisd rotation(0.3, Vector3d::UnitZ());

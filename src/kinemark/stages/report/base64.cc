@@ -7,8 +7,6 @@
 
 namespace kinemark::report::internal {
 
-static_assert(std::endian::native == std::endian::little, "the page reads floats lowest byte first");
-
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -22,10 +20,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
       out += digit <= have ? kDigits[(word >> (18 - 6 * digit)) & 63U] : '=';
   }
   return out;
-}
-
-std::string base64(std::span<const float> values) {
-  return base64(std::span(reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()));
 }
 
 }  // namespace kinemark::report::internal

@@ -35,10 +35,5 @@ TEST(Base64, UsesEveryDigit) {
             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/");
 }
 
-TEST(Base64, WritesFloatsLowestByteFirst) {
-  const std::vector<float> values{1.0F, -2.5F};  // 00 00 80 3f, 00 00 20 c0
-  EXPECT_EQ(base64(std::span<const float>(values)), "AACAPwAAIMA=");
-}
-
 }  // namespace
 }  // namespace kinemark::report::internal

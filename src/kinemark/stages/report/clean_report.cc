@@ -10,8 +10,8 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/math/symmetric3.h"
-#include "kinemark/stages/report/internal/base64.h"
 #include "kinemark/stages/report/internal/clean_text.h"
+#include "kinemark/stages/report/internal/curve_block.h"
 #include "kinemark/stages/report/internal/page.h"
 #include "kinemark/stages/report/internal/plot_points.h"
 
@@ -21,19 +21,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using data::Trajectories;
-using internal::base64;
 using internal::PlotPoints;
 
 /// Gaps and defects in a page; its tables and its size stay usable.
 constexpr std::size_t kMostListed = 3000;
 
-/// Points so that all markers of a recording stay within the page: per marker and point eight triples of
-/// floats and two states. Base64 adds a third.
+/// Numbers that curves of all markers may hold before they are packed; bounds the memory.
+constexpr std::int64_t kMostNumbers = 6'000'000;
+
+/// Points of the curves before they are packed: per marker eight triples.
 PlotPoints plot_grid(const TimeBase& time, std::int64_t markers, const ReportOptions& options) {
   check(options.check().has_value(), "report options are out of range");
-  const std::int64_t bytes = (8 * 3 * 4 + 2) * markers * 4 / 3 + 1;
-  return {time.frames,
-          std::max<std::int64_t>(2, std::min(options.max_points, options.max_series_bytes / bytes))};
+  const std::int64_t most = kMostNumbers / (24 * std::max<std::int64_t>(1, markers));
+  return {time.frames, std::max<std::int64_t>(2, std::min(options.max_points, most))};
 }
 
 /// Element (frame, marker, k) of an array of F x markers x width, for all frames.
@@ -105,32 +105,67 @@ struct Gatherer {
   }
 };
 
-Json axes_json(const std::array<std::vector<float>, 3>& axes, float scale) {
+using Axes = std::array<std::vector<float>, 3>;
+
+std::vector<float> scaled(const std::vector<float>& values, float scale) {
+  std::vector<float> out(values.size());
+  std::ranges::transform(values, out.begin(), [scale](float v) { return scale * v; });
+  return out;
+}
+
+/// One packed curve an axis; null where there is none.
+Json pack_axes(const Axes& axes, const Axes& sd, float scale, double usual_step, const PlotPoints& thinned) {
   Json out = Json::array();
-  for (const std::vector<float>& axis : axes) {
-    if (axis.empty()) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (axes[k].empty()) {
       out.push_back(nullptr);
       continue;
     }
-    std::vector<float> scaled(axis.size());
-    std::ranges::transform(axis, scaled.begin(), [scale](float v) { return scale * v; });
-    out.push_back(base64(scaled));
+    const auto values = thinned.extremes(scaled(axes[k], scale));
+    const double step = internal::curve_step(values, scaled(sd[k], scale), usual_step);
+    out.push_back(internal::pack_curve(values, step));
   }
   return out;
 }
 
-Json series_json(const CleanSeries& s) {
+Json pack_deviations(const Axes& axes, float scale, const PlotPoints& thinned) {
+  Json out = Json::array();
+  for (const auto& axis : axes) {
+    if (axis.empty()) {
+      out.push_back(nullptr);
+      continue;
+    }
+    const auto values = thinned.largest(scaled(axis, scale));
+    out.push_back(internal::pack_curve(values, internal::deviation_step(values)));
+  }
+  return out;
+}
+
+/// Whether what came in is position and change together, wherever it is there.
+bool is_sum(const CleanSeries& s, std::size_t axis) {
+  if (s.frame_step != 1 || s.position[axis].empty() || s.change[axis].empty()) return false;
+  for (std::size_t i = 0; i < s.raw[axis].size(); ++i)
+    if (std::isfinite(s.raw[axis][i]) != std::isfinite(s.change[axis][i])) return false;
+  return true;
+}
+
+Json pack_marker(const CleanSeries& s, const PlotPoints& thinned) {
   constexpr float kMmPerM = 1e3F;
-  return {{"raw_mm", axes_json(s.raw, kMmPerM)},
-          {"position_mm", axes_json(s.position, kMmPerM)},
-          {"position_sd_mm", axes_json(s.position_sd, kMmPerM)},
-          {"change_mm", axes_json(s.change, kMmPerM)},
-          {"velocity", axes_json(s.velocity, 1.0F)},
-          {"velocity_sd", axes_json(s.velocity_sd, 1.0F)},
-          {"acceleration", axes_json(s.acceleration, 1.0F)},
-          {"acceleration_sd", axes_json(s.acceleration_sd, 1.0F)},
-          {"before", base64(s.before)},
-          {"after", base64(s.after)}};
+  // No number is written twice.
+  Json raw = pack_axes(s.raw, s.position_sd, kMmPerM, internal::kUsualStep_mm, thinned);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (thinned.step() == 1 && is_sum(s, k)) raw[k] = {{"kind", "sum"}};
+  return {{"raw_mm", std::move(raw)},
+          {"position_mm", pack_axes(s.position, s.position_sd, kMmPerM, internal::kUsualStep_mm, thinned)},
+          {"position_sd_mm", pack_deviations(s.position_sd, kMmPerM, thinned)},
+          {"change_mm", pack_axes(s.change, s.position_sd, kMmPerM, internal::kUsualStep_mm, thinned)},
+          {"velocity", pack_axes(s.velocity, s.velocity_sd, 1.0F, internal::kUsualStep_m_s, thinned)},
+          {"velocity_sd", pack_deviations(s.velocity_sd, 1.0F, thinned)},
+          {"acceleration",
+           pack_axes(s.acceleration, s.acceleration_sd, 1.0F, internal::kUsualStep_m_s2, thinned)},
+          {"acceleration_sd", pack_deviations(s.acceleration_sd, 1.0F, thinned)},
+          {"before", internal::pack_codes(thinned.worst(s.before))},
+          {"after", internal::pack_codes(thinned.worst(s.after))}};
 }
 
 /// Only the longest of an array of things that last for some frames; the others keep their order.
@@ -193,7 +228,8 @@ void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerAr
   report.series.push_back(std::move(series));
 }
 
-nlohmann::ordered_json clean_report_json(const CleanReport& report) {
+nlohmann::ordered_json clean_report_json(const CleanReport& report, const ReportOptions& options) {
+  check(options.check().has_value(), "report options are out of range");
   check(report.series.size() == report.account.markers.size(),
         "add_marker() makes a report's markers and series");
   const bool alike = std::ranges::all_of(report.series, [&](const CleanSeries& s) {
@@ -203,18 +239,20 @@ nlohmann::ordered_json clean_report_json(const CleanReport& report) {
   Json summary = clean_summary_json(report);
   keep_longest(summary["gaps"]);
   keep_longest(summary["defects"]);
-  Json markers = Json::array();
-  for (const CleanSeries& s : report.series) markers.push_back(series_json(s));
   const bool none = report.series.empty();
-  return {{"summary", std::move(summary)},
-          {"series",
-           {{"frame_step", none ? 1 : report.series.front().frame_step},
-            {"points", none ? 0 : report.series.front().points},
-            {"markers", std::move(markers)}}}};
+  const std::int64_t points = none ? 0 : report.series.front().points;
+  const std::int64_t step = none ? 1 : report.series.front().frame_step;
+  Json series = internal::pack_within(points, options.max_data_bytes, [&](const PlotPoints& thinned) {
+    Json markers = Json::array();
+    for (const CleanSeries& s : report.series) markers.push_back(pack_marker(s, thinned));
+    return Json{
+        {"frame_step", step * thinned.step()}, {"points", thinned.size()}, {"markers", std::move(markers)}};
+  });
+  return {{"summary", std::move(summary)}, {"series", std::move(series)}};
 }
 
-std::string clean_report_html(const CleanReport& report) {
-  return internal::fill_page(clean_report_json(report));
+std::string clean_report_html(const CleanReport& report, const ReportOptions& options) {
+  return internal::fill_page(clean_report_json(report, options));
 }
 
 }  // namespace kinemark::report

@@ -75,9 +75,9 @@ struct MarkerArrays {
   const data::Derivatives* derivatives = nullptr;  ///< of `after`; nullptr: not known
 };
 
-/// Append a marker: its account, its samples by state, and its plots, thinned so that all markers of `before`
-/// together stay within the options. Neither array is needed afterwards. When the frames were decimated,
-/// `before` is the recording after that. O(F).
+/// Append a marker: its account, its samples by state, and its plots, thinned to the points of the options,
+/// and further where there are many markers. Neither array is needed afterwards. When the frames were
+/// decimated, `before` is the recording after that. O(F).
 void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerArrays& arrays,
                 const ReportOptions& options = {});
 
@@ -91,11 +91,13 @@ void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerAr
 [[nodiscard]] nlohmann::ordered_json clean_summary_json(const CleanReport& report);
 
 /// The data that the page draws: `{"summary": ..., "series": {...}}`. Of more than 3,000 gaps or defects the
-/// summary holds the longest ones; the JSON of clean_summary_json() holds all.
-[[nodiscard]] nlohmann::ordered_json clean_report_json(const CleanReport& report);
+/// summary holds the longest ones; the JSON of clean_summary_json() holds all. Curves are thinned to the
+/// bound of the options.
+[[nodiscard]] nlohmann::ordered_json clean_report_json(const CleanReport& report,
+                                                       const ReportOptions& options = {});
 
 /// The whole page. Equal reports give equal bytes: it holds no time of day and no machine name.
 /// Names and sentences may hold any bytes: they cannot end the data block and are shown as text only.
-[[nodiscard]] std::string clean_report_html(const CleanReport& report);
+[[nodiscard]] std::string clean_report_html(const CleanReport& report, const ReportOptions& options = {});
 
 }  // namespace kinemark::report

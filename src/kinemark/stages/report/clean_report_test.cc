@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <span>
 
-#include "kinemark/stages/report/internal/base64.h"
 #include "kinemark/stages/report/internal/example_clean.h"
+#include "kinemark/stages/report/internal/unpack_testing.h"
 
 namespace kinemark::report {
 namespace {
@@ -140,7 +139,7 @@ TEST(AddMarker, WhatTheResultDoesNotHaveIsLeftOut) {
   EXPECT_THAT(r.series[0].position, Each(Not(IsEmpty())));
   const Json marker = clean_report_json(r)["series"]["markers"][0];
   EXPECT_EQ(marker["velocity"].dump(), "[null,null,null]");
-  EXPECT_TRUE(marker["position_mm"][0].is_string());
+  EXPECT_EQ(marker["position_mm"][0]["kind"], "rounded");
 }
 
 TEST(AddMarker, ThinningKeepsPeaksAndTheWidestBand) {
@@ -182,10 +181,19 @@ TEST(CleanReportJson, SeriesAreInMillimetresAndOnePerMarker) {
   EXPECT_EQ(json["summary"], clean_summary_json(r));
   ASSERT_EQ(json["series"]["markers"].size(), 12U);
   EXPECT_EQ(json["series"]["points"], 200);
-  std::vector<float> expected;
-  for (const float v : r.series[2].position[0]) expected.push_back(1e3F * v);
-  EXPECT_EQ(json["series"]["markers"][2]["position_mm"][0],
-            internal::base64(std::span<const float>(expected)));
+  const Json& marker = json["series"]["markers"][2];
+  const auto position = internal::unpack_curve(marker["position_mm"][0]);
+  const auto change = internal::unpack_curve(marker["change_mm"][0]);
+  ASSERT_EQ(position.size(), 200U);
+  EXPECT_EQ(marker["raw_mm"][0]["kind"], "sum") << "no number is written twice";
+  for (std::size_t f = 0; f < position.size(); ++f) {
+    EXPECT_NEAR(position[f], 1e3 * double{r.series[2].position[0][f]}, 0.0026);
+    EXPECT_NEAR(position[f] + change[f], 1e3 * double{r.series[2].raw[0][f]}, 0.0052);
+  }
+  // A sample that came in and was thrown out has no sum.
+  const auto raw = internal::unpack_curve(json["series"]["markers"][kFinger]["raw_mm"][1]);
+  EXPECT_NEAR(raw[30], 1e3 * double{r.series[kFinger].raw[1][30]}, 0.0026);
+  EXPECT_EQ(internal::unpack_codes(marker["before"]), r.series[2].before);
 }
 
 TEST(CleanReportJson, APageListsTheLongestGapsOnly) {
@@ -224,7 +232,7 @@ TEST(CleanReportHtml, SizeIsBoundedWhateverTheLength) {
   const ExampleClean e = example_clean(12000);
   const std::size_t bare = clean_report_html(e.finished({.max_points = 2})).size();
   EXPECT_LT(bare, 1'000'000U) << "the bundle";
-  EXPECT_LT(clean_report_html(e.finished({.max_series_bytes = 500'000})).size(), bare + 500'000U);
+  EXPECT_LT(clean_report_html(e.finished(), {.max_data_bytes = 500'000}).size(), bare + 500'000U);
 }
 
 TEST(CleanReportHtml, IsDeterministicAndHoldsItsJson) {

@@ -7,7 +7,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/units.h"
-#include "kinemark/stages/report/internal/base64.h"
+#include "kinemark/stages/report/internal/curve_block.h"
 #include "kinemark/stages/report/internal/ik_scene.h"
 #include "kinemark/stages/report/internal/page.h"
 #include "kinemark/stages/report/internal/plot_points.h"
@@ -19,7 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using data::JointMotion;
 using data::SampleState;
-using internal::base64;
 using internal::PlotPoints;
 
 /// Codes of the gap map, the worse the larger, so that a thinned point shows its worst frame.
@@ -64,7 +63,21 @@ struct Column {
   explicit Column(std::int64_t frames) : values(frames, kNaN), codes(frames, 0) {}
 };
 
-Json coordinate_series(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
+/// What a plot shows, on the points of the page; a vector is empty where there is no such number.
+struct Curve {
+  std::vector<float> value, sd;
+  std::vector<std::uint8_t> undetermined;
+  double usual_step = internal::kUsualStep_mm;
+};
+
+struct Curves {
+  std::vector<Curve> coordinates, torques, errors;
+  Curve rms;
+  std::vector<std::vector<std::uint8_t>> gaps;
+  std::vector<std::uint8_t> status;
+};
+
+Curve coordinate_curve(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
                        Column& column) {
   const bool is_rotation = motion.is_rotation[static_cast<std::size_t>(coordinate)];
   const double unit = is_rotation ? kDegPerRad : 1.0;
@@ -76,45 +89,53 @@ Json coordinate_series(const JointMotion& motion, std::int64_t coordinate, const
     column.codes[f] = determined ? 0 : 1;
     any_undetermined = any_undetermined || !determined;
   }
-  Json out = {{"value", base64(points.extremes(column.values))}, {"sd", nullptr}, {"undetermined", nullptr}};
-  if (any_undetermined) out["undetermined"] = base64(points.worst(column.codes));
+  Curve out{.value = points.extremes(column.values),
+            .sd = {},
+            .undetermined = {},
+            .usual_step = is_rotation ? internal::kUsualStep_deg : internal::kUsualStep_m};
+  if (any_undetermined) out.undetermined = points.worst(column.codes);
   for (std::int64_t f = 0; f < motion.frames() && !motion.q_sd.empty(); ++f) {
     column.values[f] = column.codes[f] == 0 ? unit * motion.q_sd[motion.index(f, coordinate)] : kNaN;
     any_sd = any_sd || std::isfinite(column.values[f]);
   }
-  if (any_sd) out["sd"] = base64(points.largest(column.values));
+  if (any_sd) out.sd = points.largest(column.values);
   return out;
 }
 
-/// N m or N of one coordinate and its standard deviation; null where the motion has none.
-Json torque_series(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
+/// N m or N of one coordinate and its standard deviation; nothing where the motion has none.
+Curve torque_curve(const JointMotion& motion, std::int64_t coordinate, const PlotPoints& points,
                    Column& column) {
-  if (motion.tau.empty()) return nullptr;
   for (std::int64_t f = 0; f < motion.frames(); ++f)
     column.values[f] = motion.tau[motion.index(f, coordinate)];
-  if (std::ranges::none_of(column.values, [](double v) { return std::isfinite(v); })) return nullptr;
-  Json out = {{"value", base64(points.extremes(column.values))}, {"sd", nullptr}};
+  if (std::ranges::none_of(column.values, [](double v) { return std::isfinite(v); })) return {};
+  Curve out{.value = points.extremes(column.values),
+            .sd = {},
+            .undetermined = {},
+            .usual_step = internal::kUsualStep_nm};
   if (motion.tau_sd.empty()) return out;
   for (std::int64_t f = 0; f < motion.frames(); ++f)
     column.values[f] = motion.tau_sd[motion.index(f, coordinate)];
-  out["sd"] = base64(points.largest(column.values));
+  out.sd = points.largest(column.values);
   return out;
 }
 
-Json error_series(const JointMotion& motion, const PlotPoints& points, Column& column) {
-  Json out = Json::array();
+std::vector<Curve> error_curves(const JointMotion& motion, const PlotPoints& points, Column& column) {
+  std::vector<Curve> out;
   const std::size_t M = motion.markers.size();
   for (std::size_t m = 0; m < M && !motion.marker_error.empty(); ++m) {
     for (std::size_t f = 0; f < column.values.size(); ++f) {
       const double* e = motion.marker_error.data() + 3 * (f * M + m);
       column.values[f] = 1e3 * std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
     }
-    out.push_back(base64(points.extremes(column.values)));
+    out.push_back({.value = points.extremes(column.values),
+                   .sd = {},
+                   .undetermined = {},
+                   .usual_step = internal::kUsualStep_mm});
   }
   return out;
 }
 
-std::string rms_series(const JointMotion& motion, const PlotPoints& points, Column& column) {
+Curve rms_curve(const JointMotion& motion, const PlotPoints& points, Column& column) {
   const std::size_t M = motion.markers.size();
   for (std::size_t f = 0; f < column.values.size(); ++f) {
     double squares = 0.0;
@@ -128,19 +149,23 @@ std::string rms_series(const JointMotion& motion, const PlotPoints& points, Colu
     }
     column.values[f] = seen == 0 ? kNaN : 1e3 * std::sqrt(squares / seen);
   }
-  return base64(points.extremes(column.values));
+  return {.value = points.extremes(column.values),
+          .sd = {},
+          .undetermined = {},
+          .usual_step = internal::kUsualStep_mm};
 }
 
 /// A row of the gap map per marker: from the states where they are given, otherwise seen or not.
-Json gap_series(const IkReport& report, const PlotPoints& points, Column& column) {
+std::vector<std::vector<std::uint8_t>> gap_rows(const IkReport& report, const PlotPoints& points,
+                                                Column& column) {
   const JointMotion& motion = *report.motion;
-  Json out = Json::array();
+  std::vector<std::vector<std::uint8_t>> out;
   const std::size_t M = motion.markers.size();
   for (std::size_t row = 0; row < report.summary.markers.size(); ++row) {
     const std::int64_t marker =
         report.markers == nullptr ? -1 : report.markers->find(report.summary.markers[row].name);
     if (marker < 0 && (row >= M || motion.marker_error.empty())) {
-      out.push_back(nullptr);
+      out.emplace_back();
       continue;
     }
     for (std::int64_t f = 0; f < motion.frames(); ++f) {
@@ -150,34 +175,71 @@ Json gap_series(const IkReport& report, const PlotPoints& points, Column& column
                                : GapCode::measured;
       column.codes[f] = static_cast<std::uint8_t>(code);
     }
-    out.push_back(base64(points.worst(column.codes)));
+    out.push_back(points.worst(column.codes));
   }
   return out;
 }
 
-std::string status_series(const JointMotion& motion, const PlotPoints& points, Column& column) {
+Curves gather(const IkReport& report, const PlotPoints& points) {
+  const JointMotion& motion = *report.motion;
+  Column column(motion.frames());
+  Curves out;
+  for (std::int64_t j = 0; j < motion.size(); ++j)
+    out.coordinates.push_back(coordinate_curve(motion, j, points, column));
+  for (std::int64_t j = 0; j < motion.size() && !motion.tau.empty(); ++j)
+    out.torques.push_back(torque_curve(motion, j, points, column));
+  out.rms = rms_curve(motion, points, column);
+  out.errors = error_curves(motion, points, column);
+  out.gaps = gap_rows(report, points, column);
   std::ranges::fill(column.codes, std::uint8_t{0});
   std::ranges::transform(motion.status, column.codes.begin(), status_rank);
-  return base64(points.worst(column.codes));
+  out.status = points.worst(column.codes);
+  return out;
 }
 
-PlotPoints plot_grid(const IkReport& report, const ReportOptions& options) {
-  check(report.motion != nullptr, "a report needs a joint motion");
-  check(options.check().has_value(), "report options are out of range");
-  // Per point: value, SD and flag of a coordinate; error and gap code of a marker; RMS and status. Base64
-  // adds a third.
-  const auto coordinates = report.motion->size();
-  const auto markers = std::ssize(report.summary.markers);
-  const std::int64_t bytes =
-      ((report.motion->tau.empty() ? 9 : 17) * coordinates + 5 * markers + 5) * 4 / 3 + 1;
-  return {report.motion->frames(),
-          std::max<std::int64_t>(2, std::min(options.max_points, options.max_series_bytes / bytes))};
+Json pack_value(const Curve& curve, const PlotPoints& thinned) {
+  const auto value = thinned.extremes(curve.value);
+  return internal::pack_curve(value, internal::curve_step(value, curve.sd, curve.usual_step));
+}
+
+Json pack_deviation(const Curve& curve, const PlotPoints& thinned) {
+  if (curve.sd.empty()) return nullptr;
+  const auto sd = thinned.largest(curve.sd);
+  return internal::pack_curve(sd, internal::deviation_step(sd));
+}
+
+Json pack_worst(const std::vector<std::uint8_t>& codes, const PlotPoints& thinned) {
+  return codes.empty() ? Json(nullptr) : internal::pack_codes(thinned.worst(codes));
+}
+
+/// @param frame_step  of the curves, before they are thinned further
+Json pack_curves(const Curves& curves, std::int64_t frame_step, const PlotPoints& thinned) {
+  Json coordinates = Json::array(), torques = Json::array(), errors = Json::array(), gaps = Json::array();
+  for (const Curve& c : curves.coordinates)
+    coordinates.push_back({{"value", pack_value(c, thinned)},
+                           {"sd", pack_deviation(c, thinned)},
+                           {"undetermined", pack_worst(c.undetermined, thinned)}});
+  for (const Curve& c : curves.torques)
+    torques.push_back(c.value.empty()
+                          ? Json(nullptr)
+                          : Json{{"value", pack_value(c, thinned)}, {"sd", pack_deviation(c, thinned)}});
+  for (const Curve& c : curves.errors) errors.push_back(pack_value(c, thinned));
+  for (const auto& codes : curves.gaps) gaps.push_back(pack_worst(codes, thinned));
+  return {{"frame_step", frame_step * thinned.step()},
+          {"points", thinned.size()},
+          {"coordinates", std::move(coordinates)},
+          {"torques", std::move(torques)},
+          {"rms_error_mm", pack_value(curves.rms, thinned)},
+          {"marker_error_mm", std::move(errors)},
+          {"gaps", std::move(gaps)},
+          {"status", internal::pack_codes(thinned.worst(curves.status))}};
 }
 
 }  // namespace
 
 nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& options) {
   check(report.motion != nullptr, "a report needs a joint motion");
+  check(options.check().has_value(), "report options are out of range");
   const JointMotion& motion = *report.motion;
   check(motion.validate().has_value(), "a report needs a valid joint motion");
   check(std::ssize(report.summary.coordinates) == motion.size() &&
@@ -186,25 +248,15 @@ nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& 
   check(report.markers == nullptr || report.markers->time == motion.time,
         "a report needs markers and joint motion of the same frames");
 
-  const PlotPoints points = plot_grid(report, options);
-  Column column(motion.frames());
-  Json coordinates = Json::array();
-  for (std::int64_t j = 0; j < motion.size(); ++j)
-    coordinates.push_back(coordinate_series(motion, j, points, column));
-  Json torques = Json::array();
-  for (std::int64_t j = 0; j < motion.size() && !motion.tau.empty(); ++j)
-    torques.push_back(torque_series(motion, j, points, column));
+  // Half of the room is for the curves, the other for the space view.
+  const PlotPoints points(motion.frames(), options.max_points);
+  const Curves curves = gather(report, points);
+  Json series = internal::pack_within(
+      points.size(), options.max_data_bytes / 2,
+      [&](const PlotPoints& thinned) { return pack_curves(curves, points.step(), thinned); });
   return {{"summary", summary_json(report.summary)},
-          {"series",
-           {{"frame_step", points.step()},
-            {"points", points.size()},
-            {"coordinates", std::move(coordinates)},
-            {"torques", std::move(torques)},
-            {"rms_error_mm", rms_series(motion, points, column)},
-            {"marker_error_mm", error_series(motion, points, column)},
-            {"gaps", gap_series(report, points, column)},
-            {"status", status_series(motion, points, column)}}},
-          {"scene", internal::ik_scene_json(report)}};
+          {"series", std::move(series)},
+          {"scene", internal::ik_scene_json(report, options.max_data_bytes / 2)}};
 }
 
 std::string report_html(const IkReport& report, const ReportOptions& options) {

@@ -12,7 +12,7 @@ namespace kinemark::report::internal {
 using data::JointMotion;
 using data::Trajectories;
 
-nlohmann::ordered_json ik_scene_json(const IkReport& report) {
+nlohmann::ordered_json ik_scene_json(const IkReport& report, std::int64_t max_bytes) {
   const JointMotion& motion = *report.motion;
   if (report.markers == nullptr || !report.in_model_axes || motion.markers.empty() ||
       motion.marker_error.empty())
@@ -32,11 +32,15 @@ nlohmann::ordered_json ik_scene_json(const IkReport& report) {
       for (std::size_t k = 0; k < 3; ++k)
         model[3 * i + k] = used.x_in_world[3 * i + k] - motion.marker_error[3 * i + k];
     }
+  SceneOptions options;
+  options.max_bytes = std::min(options.max_bytes, max_bytes);
+  options.max_bytes_long = std::min(options.max_bytes_long, max_bytes);
   return scene_json({.markers = &used,
                      .model = &model,
                      .bodies = report.bodies,
                      .up = report.up,
-                     .up_from = report.up ? "the model's gravity" : ""});
+                     .up_from = report.up ? "the model's gravity" : ""},
+                    options);
 }
 
 }  // namespace kinemark::report::internal

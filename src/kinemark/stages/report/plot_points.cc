@@ -69,4 +69,12 @@ std::vector<std::uint8_t> PlotPoints::worst(std::span<const std::uint8_t> codes)
   return out;
 }
 
+std::vector<float> PlotPoints::extremes(std::span<const float> values) const {
+  return extremes(std::vector<double>(values.begin(), values.end()));
+}
+
+std::vector<float> PlotPoints::largest(std::span<const float> values) const {
+  return largest(std::vector<double>(values.begin(), values.end()));
+}
+
 }  // namespace kinemark::report::internal

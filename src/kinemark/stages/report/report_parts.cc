@@ -13,8 +13,8 @@ std::string_view to_string(Verdict verdict) { return verdict == Verdict::good ? 
 
 Status ReportOptions::check() const {
   if (max_points < 2) return fail(Code::usage, fmt::format("max_points is {}; need 2 or more", max_points));
-  if (max_series_bytes < 1000)
-    return fail(Code::usage, fmt::format("max_series_bytes is {}; need 1000 or more", max_series_bytes));
+  if (max_data_bytes < 2000)
+    return fail(Code::usage, fmt::format("max_data_bytes is {}; need 2000 or more", max_data_bytes));
   return {};
 }
 

@@ -49,8 +49,8 @@ void add_group(std::vector<NoticeGroup>& groups, Verdict level, std::string_view
 
 /// How much of the arrays goes into a page.
 struct ReportOptions {
-  std::int64_t max_points = 20'000;            ///< per plotted series, at least 2
-  std::int64_t max_series_bytes = 24'000'000;  ///< of all plotted series as they stand in the page
+  std::int64_t max_points = 20'000;         ///< per plotted curve, at least 2
+  std::int64_t max_data_bytes = 2'000'000;  ///< of all curves and the space view as they stand in the page
 
   [[nodiscard]] Status check() const;  ///< Ranges hold.
 };

@@ -10,6 +10,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/report/internal/clean_text.h"
+#include "kinemark/stages/report/internal/curve_block.h"
 #include "kinemark/stages/report/internal/scene_parts.h"
 #include "kinemark/stages/report/internal/track_block.h"
 
@@ -116,15 +117,6 @@ Json pack_scene(const Scene& scene, const Kept& kept) {
   return out;
 }
 
-/// Characters of all packed blocks.
-std::int64_t room(const Json& json) {
-  if (json.is_string()) return std::ssize(json.get_ref<const std::string&>());
-  std::int64_t sum = 8;
-  if (json.is_structured())
-    for (const auto& part : json) sum += room(part);
-  return sum;
-}
-
 }  // namespace
 
 Status SceneOptions::check() const {
@@ -159,7 +151,7 @@ Json scene_json(const Scene& scene, const SceneOptions& options) {
   Kept kept{frames, std::clamp<std::int64_t>(least / most, 1, coarsest)};
   for (;;) {
     Json out = pack_scene(scene, kept);
-    const std::int64_t taken = room(out);
+    const std::int64_t taken = internal::room(out);
     if (taken <= most || kept.step >= coarsest) return out;
     const auto wanted = static_cast<std::int64_t>(
         std::ceil(static_cast<double>(kept.step) * static_cast<double>(taken) / static_cast<double>(most)));

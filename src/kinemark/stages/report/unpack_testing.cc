@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <bit>
+#include <limits>
 #include <stdexcept>
 
 namespace kinemark::report::internal {
@@ -62,6 +63,37 @@ std::vector<double> unpack_series(const nlohmann::ordered_json& packed) {
     }
   }
   return out;
+}
+
+std::vector<double> unpack_curve(const nlohmann::ordered_json& packed) {
+  const auto bytes = inflate_base64(packed["data"].get<std::string>());
+  const auto width = packed["bytes"].get<std::size_t>(), order = packed["order"].get<std::size_t>();
+  const bool absent = packed["absent"].get<bool>();
+  const std::size_t planes = width + (absent ? 1 : 0);
+  const std::size_t points = planes == 0 ? 0 : bytes.size() / planes;
+  if (points * planes != bytes.size()) throw std::runtime_error("a packed curve has another size");
+  std::vector<std::int64_t> words(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    std::uint32_t packed_word = 0;
+    for (std::size_t b = 0; b < width; ++b) packed_word |= std::uint32_t{bytes[b * points + i]} << (8 * b);
+    const std::int64_t half = packed_word / 2;
+    words[i] = packed_word % 2 == 0 ? half : -half - 1;
+  }
+  // Sums undo differences; those of the second order begin at the second point.
+  if (order == 2)
+    for (std::size_t i = 2; i < points; ++i) words[i] += words[i - 1];
+  if (order >= 1)
+    for (std::size_t i = 1; i < points; ++i) words[i] += words[i - 1];
+  std::vector<double> out(points);
+  for (std::size_t i = 0; i < points; ++i)
+    out[i] = absent && bytes[width * points + i] == 1
+                 ? std::numeric_limits<double>::quiet_NaN()
+                 : static_cast<double>(words[i]) * packed["step"].get<double>();
+  return out;
+}
+
+std::vector<std::uint8_t> unpack_codes(const nlohmann::ordered_json& packed) {
+  return inflate_base64(packed["data"].get<std::string>());
 }
 
 }  // namespace kinemark::report::internal

@@ -84,7 +84,7 @@ TEST(OnlineTracker, ABadSampleIsLeftOutAndSaid) {
   const auto markers = record(model, 200, 0.5e-3, 6);
   auto bad = markers;
   bad.x(130, 6) += Eigen::Vector3d(0.2, -0.1, 0.1);
-  const TrackOptions options{.judge_samples = true, .marker_noise_sd_m = 0.5e-3};
+  const TrackOptions options{.marker_noise_sd_m = 0.5e-3};
   auto clean_tracker = OnlineTracker::create(model, markers.names, 100.0, options).value();
   const auto clean = stream(clean_tracker, markers);
   auto tracker = OnlineTracker::create(model, markers.names, 100.0, options).value();

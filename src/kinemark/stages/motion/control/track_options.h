@@ -54,9 +54,7 @@ struct TrackOptions {
   LockMode lock = LockMode::automatic;    ///< which coordinates are held besides
   std::vector<std::string> locked;        ///< coordinates held at the rest pose besides those the model locks
 
-  /// Leave out samples that neither the model nor the frames beside explain. The only marker of a segment is
-  /// then left out for a while when it comes back from a gap.
-  bool judge_samples = false;
+  bool judge_samples = true;  ///< leave out samples that neither the model nor the frames beside explain
 
   double first_time_s = -1e300;    ///< track only frames in [first_time_s, last_time_s]
   double last_time_s = 1e300;      ///< both ends included

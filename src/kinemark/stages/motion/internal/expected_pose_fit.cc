@@ -45,7 +45,7 @@ void ExpectedPoseFit::visit(const Expectation& expected) {
     w_.marker.col(m) = model::point_in_world(w_, model.markers()[at(m)].body, expected.position.col(m));
 }
 
-double ExpectedPoseFit::step(const Expectation& expected) {
+void ExpectedPoseFit::build(const Expectation& expected) {
   const auto& model = problem_.model;
   model::clear_forces(w_);
   model::add_marker_forces(model, w_, weight_, residual_);
@@ -68,12 +68,34 @@ double ExpectedPoseFit::step(const Expectation& expected) {
     g_[i] = 0.0;
   }
   llt_.compute(H_);
+}
+
+Eigen::VectorXd ExpectedPoseFit::information(const Expectation& expected, const Eigen::VectorXd& seen) {
+  x_ = expected.x;
+  moved_.setZero();
+  residual_.setZero();
+  for (Eigen::Index m = 0; m < seen.size(); ++m) {
+    const bool known = seen[m] > 0.0 && std::isfinite(expected.position_sd[m]);
+    weight_[m] = known ? 1.0 / (expected.position_sd[m] * expected.position_sd[m]) : 0.0;
+  }
+  visit(expected);
+  build(expected);
+  find_variance();
+  Eigen::VectorXd gained =
+      (variance_.array().inverse() - expected.speed_sd.array().square().inverse()).cwiseMax(0.0);
+  for (Eigen::Index i = 0; i < gained.size(); ++i)
+    if (problem_.fixed_speed[at(i)]) gained[i] = HUGE_VAL;
+  return gained;
+}
+
+double ExpectedPoseFit::step(const Expectation& expected) {
+  build(expected);
   llt_.solveInPlace(g_);
   if (!g_.allFinite()) return 0.0;
   const double longest = g_.cwiseAbs().maxCoeff();
   if (longest > kLongestStep) g_ *= kLongestStep / longest;
-  model::integrate(model, x_, g_);
-  model::difference(model, expected.x, x_, moved_);
+  model::integrate(problem_.model, x_, g_);
+  model::difference(problem_.model, expected.x, x_, moved_);
   return longest;
 }
 
@@ -109,7 +131,10 @@ void ExpectedPoseFit::solve(const Expectation& expected, const Eigen::Matrix3Xd&
     visit(expected);
     compare();
     if (round > 0 && distance_.maxCoeff() < kCalm) {
-      variance_.setZero(moved_.size());
+      if (seen.minCoeff() > 0.0)
+        variance_.setZero(moved_.size());
+      else
+        find_variance();
       return;
     }
     const double unit = roughness(HUGE_VAL);
@@ -155,6 +180,10 @@ void ExpectedPoseFit::solve(const Expectation& expected, const Eigen::Matrix3Xd&
     }
     if (!changed) break;
   }
+  find_variance();
+}
+
+void ExpectedPoseFit::find_variance() {
   H_.setIdentity();
   llt_.solveInPlace(H_);
   variance_ = H_.diagonal();

@@ -31,6 +31,10 @@ class ExpectedPoseFit {
   /// their bound are not taken into the pose.
   void solve(const Expectation& expected, const Eigen::Matrix3Xd& y, const Eigen::VectorXd& seen);
 
+  /// Per speed: 1 / variance that samples of the markers in `seen` give it in the expected pose, all other
+  /// speeds being as uncertain as expected; infinite where a speed is fixed. solve() must come after it anew.
+  [[nodiscard]] Eigen::VectorXd information(const Expectation& expected, const Eigen::VectorXd& seen);
+
   /// Pose that the samples that were taken agree on.
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
   /// Variance of x(), per speed: what the samples that were taken, and the expectation, leave open.
@@ -46,8 +50,12 @@ class ExpectedPoseFit {
 
  private:
   void visit(const Expectation& expected);
+  /// Normal equations with the present weights, H_ factorised.
+  void build(const Expectation& expected);
   /// One step with the present weights; its largest change.
   double step(const Expectation& expected);
+  /// variance_ of what H_ was built from.
+  void find_variance();
 
   const Problem& problem_;
   model::Workspace w_;

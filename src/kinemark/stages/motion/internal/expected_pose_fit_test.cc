@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kinemark/core/random.h"
+#include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/testing/body.h"
 
@@ -176,6 +177,39 @@ TEST(ExpectedPoseFit, ASecondFrameDoesNotRememberTheFirst) {
   EXPECT_EQ(used.rejected(), 0);
   EXPECT_EQ(used.fit.x(), fresh.fit.x());
   EXPECT_EQ(used.fit.distance(), fresh.fit.distance());
+}
+
+TEST(ExpectedPoseFit, TheInformationOfMarkersSaysWhatTheyObserve) {
+  ExpectedFrame frame;
+  frame.expected.speed_sd.setConstant(0.5);
+  const int knee = frame.problem.speed_of(11), elbow = frame.problem.speed_of(9);
+  const VectorXd all = frame.fit.information(frame.expected, frame.seen);
+  EXPECT_GT(all.minCoeff(), 1e3);
+  VectorXd without = frame.seen;
+  without[6] = without[7] = 0.0;  // the forearm's
+  const VectorXd some = frame.fit.information(frame.expected, without);
+  EXPECT_NEAR(some[elbow], 0.0, 1e-9);
+  EXPECT_GT(some[knee], 1e3);
+  EXPECT_TRUE((some.array() <= all.array() * (1.0 + 1e-9)).all());
+  // A hinge with one marker a distance r from its axis, everything else known: (r / s)^2.
+  without[7] = 1.0;
+  frame.expected.speed_sd.setConstant(1e-9);
+  frame.expected.speed_sd[elbow] = 0.5;
+  model::Workspace w(frame.problem.model);
+  model::kinematics(frame.problem.model, w, frame.expected.x);
+  Eigen::Matrix3Xd J(3, frame.problem.model.speed_count());
+  model::point_jacobian(frame.problem.model, w, frame.problem.model.markers()[7].body, w.marker.col(7), J);
+  const double lever = J.col(elbow).norm() / kPositionSd_m;
+  EXPECT_NEAR(frame.fit.information(frame.expected, without)[elbow], lever * lever, 1e-3 * lever * lever);
+}
+
+TEST(ExpectedPoseFit, ACalmFrameLeavesOpenWhatNothingObserves) {
+  ExpectedFrame frame;
+  frame.seen[6] = frame.seen[7] = 0.0;
+  frame.solve();
+  const int knee = frame.problem.speed_of(11), elbow = frame.problem.speed_of(9);
+  EXPECT_NEAR(frame.fit.variance()[elbow], 0.02 * 0.02, 1e-9);
+  EXPECT_LT(frame.fit.variance()[knee], 0.1 * 0.02 * 0.02);
 }
 
 }  // namespace

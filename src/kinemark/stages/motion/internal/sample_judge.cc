@@ -51,6 +51,7 @@ class FrameJudge::Impl {
     age_.assign(at(M_), 1);
     known_.assign(at(M_), 0);
     elsewhere_.assign(at(M_), 0);
+    astray_.assign(at(M_), 0);
     hold_ = std::max<std::int64_t>(8, std::llround(kLongestHold_s * rate_hz));
   }
 
@@ -64,6 +65,7 @@ class FrameJudge::Impl {
     expected_.position_sd = scale_.spread;
     x_ = state();
     take_over();
+    whole_position_ = expected_.position;
     if (before == nullptr) return;
     model::difference(problem_.model, *before, x_, move_);
     steady_ = 2;
@@ -126,6 +128,7 @@ class FrameJudge::Impl {
   void judge_frame(std::int64_t f) {
     if (!(seen_.array() > 0.0).any()) {
       remember();
+      ++away_;
       for (auto& age : age_) ++age;
       steady_ = 0;
       ++blind_;
@@ -133,8 +136,14 @@ class FrameJudge::Impl {
     }
     if (is_quiet()) {
       ++steady_;
-      open_now_.setZero();
-      open_before_.setZero();
+      if (seen_.minCoeff() > 0.0) {
+        open_now_.setZero();
+        open_before_.setZero();
+        away_ = 0;
+      } else {
+        ++away_;
+        ++unfitted_;
+      }
       move_ = difference_;
       x_ = state();
       for (Eigen::Index m = 0; m < M_; ++m)
@@ -150,6 +159,7 @@ class FrameJudge::Impl {
       solver_.emplace(problem_, options_);
     }
     remember();
+    reopen();
     expect();
     if (returns()) {
       take_over();
@@ -162,6 +172,7 @@ class FrameJudge::Impl {
 
   /// Keep what was known before the first frame of a disturbance.
   void remember() {
+    if (away_ == 0) whole_position_ = expected_.position;
     if (held_ == 0 && blind_ == 0) {
       sound_position_ = expected_.position;
       sound_x_ = x_;
@@ -197,6 +208,8 @@ class FrameJudge::Impl {
     steady_ = 1;
     held_ = 0;
     blind_ = 0;
+    unfitted_ = 0;
+    away_ = 0;
     for (Eigen::Index m = 0; m < M_; ++m) {
       if (seen_[m] == 0.0) {
         ++age_[at(m)];
@@ -207,6 +220,21 @@ class FrameJudge::Impl {
       known_[at(m)] = 1;
       if (open_[at(m)] >= 0) close(m, true);
     }
+  }
+
+  /// Nothing was fitted in the frames before: what their markers did not observe may have moved all the
+  /// while.
+  void reopen() {
+    if (unfitted_ == 0) return;
+    expected_.x = x_;
+    expected_.speed_sd.setConstant(std::sqrt(kMostOpen));
+    expected_.position_sd = scale_.position;
+    const double frames = static_cast<double>(unfitted_);
+    open_now_.array() += ((frames * scale_.stride).array().square().cwiseMin(kMostOpen).inverse() +
+                          fit_->information(expected_, used_).array())
+                             .inverse();
+    open_now_ = open_now_.cwiseMin(kMostOpen);
+    unfitted_ = 0;
   }
 
   void expect() {
@@ -237,6 +265,7 @@ class FrameJudge::Impl {
       world_.col(m) =
           model::point_in_world(fit_->workspace(), model.markers()[at(m)].body, expected_.position.col(m));
     out_ = fit_->rejected();
+    const bool readmitted = readmit(f);
     turn_round_exchanges(f);
     // The pose of what was taken, as the solver finds it.
     used_ = seen_;
@@ -247,11 +276,16 @@ class FrameJudge::Impl {
     }
     model::difference(model, x_, fit_->x(), move_);
     if (blind_ > 0) move_ /= 1.0 + static_cast<double>(blind_);
+    // A way from a place that was not known says little of the speed.
+    const auto usual = scale_.stride.array().square();
+    move_.array() *= usual / (usual + open_before_.array());
     ++steady_;
     blind_ = 0;
     model::difference(model, fit_->x(), state(), difference_);
-    const bool near = difference_.cwiseAbs().maxCoeff() < kLostPose;
-    if (rejected == 0 && near) {
+    // What nothing observes lies anywhere in the solved pose.
+    const bool near = (difference_.array().abs() < (kQuick * open_now_.array().sqrt()).max(kLostPose)).all();
+    const bool all = used_.minCoeff() > 0.0;
+    if (all && near) {
       x_ = state();
       model::kinematics(model, solver_->workspace(), x_);
     } else {
@@ -267,8 +301,57 @@ class FrameJudge::Impl {
       else
         expected_.position.col(m) = x;
     }
+    if (rejected == 0 && near) x_ = state();
+    if (readmitted) {
+      // Where they came from is not known, nor then the speed.
+      open_now_.setZero();
+      open_before_.setZero();
+      move_.setZero();
+      steady_ = 1;
+    }
     held_ = rejected;
+    away_ = all ? 0 : away_ + 1;
     for (Eigen::Index m = 0; m < M_; ++m) account(f, m, out_[at(m)] != 0);
+  }
+
+  /// Markers that return from a gap are compared with a pose in which nothing held their segment, and only to
+  /// first order. They are right when one pose that the body can have come to meanwhile has them, and all
+  /// that was taken, in their positions.
+  bool readmit(std::int64_t f) {
+    const auto returning = [&](Eigen::Index m) {
+      return out_[at(m)] && used_[m] == 0.0 && (open_[at(m)] < 0 || astray_[at(m)]) && known_[at(m)] &&
+             !elsewhere_[at(m)];
+    };
+    bool any = false, others = false;
+    weight_ = seen_;
+    for (Eigen::Index m = 0; m < M_; ++m) {
+      if (!out_[at(m)]) continue;
+      any = any || returning(m);
+      others = others || !returning(m);
+      if (!returning(m)) weight_[m] = 0.0;
+    }
+    if (!any) return false;
+    joint_ = others ? x_ : Eigen::VectorXd(state());
+    if (others) solver_->solve(y_, weight_, f, joint_);
+    model::difference(problem_.model, x_, joint_, difference_);
+    for (Eigen::Index i = 0; i < difference_.size(); ++i)
+      if (std::abs(difference_[i]) > kQuick * scale_.stride[i] * static_cast<double>(1 + away_)) return false;
+    auto& w = solver_->workspace();
+    model::kinematics(problem_.model, w, joint_);
+    for (Eigen::Index m = 0; m < M_; ++m) {
+      if (weight_[m] == 0.0 || !std::isfinite(expected_.position_sd[m])) continue;
+      const auto away_from = [&](const Eigen::Matrix3Xd& position) {
+        return (y_.col(m) - model::point_in_world(w, problem_.model.markers()[at(m)].body, position.col(m)))
+            .norm();
+      };
+      // As in the frame before, or as in the last one that had them all.
+      if (away_from(expected_.position) > kBound * expected_.position_sd[m] &&
+          away_from(whole_position_) > kBound * scale_.position_sd_after(m, 1 + away_))
+        return false;
+    }
+    for (Eigen::Index m = 0; m < M_; ++m)
+      if (weight_[m] > 0.0) out_[at(m)] = 0;
+    return true;
   }
 
   /// Two markers that changed positions may have been exchanged before: nearer to the model's markers they
@@ -320,6 +403,7 @@ class FrameJudge::Impl {
     if (open < 0) {
       pending_.push_back({.marker = static_cast<int>(m), .first_frame = f, .last_frame = f});
       open = std::ssize(pending_) - 1;
+      astray_[at(m)] = age_[at(m)] > 2;
     }
     Outlier& outlier = pending_[at(open)];
     outlier.first_frame = std::min(outlier.first_frame, f);
@@ -367,18 +451,21 @@ class FrameJudge::Impl {
   std::optional<ExpectedPoseFit> fit_;  // most recordings never need them
   std::optional<FrameSolver> solver_;
   Eigen::Index M_;
-  Eigen::Matrix3Xd y_, world_, sound_position_;
-  Eigen::VectorXd seen_, used_, x_, move_, difference_, sound_x_;
+  Eigen::Matrix3Xd y_, world_, sound_position_, whole_position_;
+  Eigen::VectorXd seen_, used_, x_, move_, difference_, sound_x_, weight_, joint_;
   Eigen::VectorXd open_now_, open_before_;  ///< nv: variance that the last two frames left open
   Expectation expected_;
   std::vector<std::int64_t> open_;       ///< per marker: index into pending_, or -1
   std::vector<std::int64_t> age_;        ///< per marker: frames since it was taken
   std::vector<std::uint8_t> known_;      ///< per marker: 1: taken before
   std::vector<std::uint8_t> elsewhere_;  ///< per marker: 1: its position is not known any more
+  std::vector<std::uint8_t> astray_;     ///< per marker: 1: it was away before it was not taken
   std::vector<Outlier> pending_, outliers_;
   std::vector<std::int64_t> since_;  ///< per marker: its position is its own since that frame
   std::vector<std::uint8_t> out_;    ///< per marker: 1: not taken in this frame
   std::int64_t direction_ = 1, hold_ = 0, blind_ = 0, disturbed_ = 0;
+  std::int64_t away_ = 0;      ///< frames in a row in which a marker was not seen or not taken
+  std::int64_t unfitted_ = 0;  ///< quiet ones of them since the last fit
   int steady_ = 0, held_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "kinemark/stages/motion/testing/body.h"
@@ -138,6 +139,60 @@ TEST_F(SampleJudge, ASampleBehindAGapIsJudgedByWhatWasThereBefore) {
   EXPECT_EQ(found[0].marker, 8);
   EXPECT_EQ(found[0].first_frame, 36);
   EXPECT_EQ(found[0].last_frame, 38);
+}
+
+/// The forearm's only marker is away while the elbow moves.
+class OnlyMarker : public SampleJudge {
+ protected:
+  static constexpr std::int64_t kOnly = 7, kOther = 6, kFrames = 240;
+  static constexpr int kOnlyOfThoseSeen = 6;
+
+  void away(std::int64_t first, std::int64_t frames) {
+    markers = testing_body::record(body, kFrames, kWhiteNoise_m, 3);
+    for (std::int64_t f = 0; f < kFrames; ++f) markers.set_missing(f, kOther);
+    for (std::int64_t f = first; f < first + frames; ++f) markers.set_missing(f, kOnly);
+  }
+};
+
+TEST_F(OnlyMarker, IsBelievedWhereItsSegmentMayHaveGoneWhileItWasAway) {
+  for (const std::int64_t first : {30, 77, 110})
+    for (const std::int64_t frames : {1, 4, 10, 25, 50, 100}) {
+      away(first, frames);
+      EXPECT_TRUE(judge(0, kFrames - 1).empty()) << first << ' ' << frames;
+      EXPECT_TRUE(judge(kFrames - 1, 0).empty()) << first << ' ' << frames;
+    }
+}
+
+TEST_F(OnlyMarker, IsBelievedThoughAnotherSampleOfThatFrameIsWrong) {
+  for (const std::int64_t frames : {10, 50, 100}) {
+    away(77, frames);
+    markers.x(77 + frames, 0) += Vector3d(0.1, -0.1, 0.1);
+    const auto found = judge(0, kFrames - 1);
+    ASSERT_EQ(found.size(), 1U) << frames;
+    EXPECT_EQ(found[0].marker, 0);
+    EXPECT_EQ(found[0].first_frame, 77 + frames);
+    EXPECT_EQ(found[0].last_frame, 77 + frames);
+  }
+}
+
+TEST_F(OnlyMarker, IsNotBelievedWhereItsSegmentCannotHaveGone) {
+  for (const std::int64_t frames : {10, 50, 100})
+    for (const auto& wrong : std::initializer_list<std::function<Vector3d(std::int64_t)>>{
+             [&](auto f) { return Vector3d(markers.x(f, kOnly) + Vector3d(0.3, 0.0, 0.0)); },
+             [&](auto f) { return Vector3d(markers.x(f, kOnly) + Vector3d(0.0, 0.3, 0.0)); },
+             [&](auto f) { return Vector3d(markers.x(f, kOnly) + Vector3d(0.0, 0.0, -0.3)); },
+             [&](auto) { return Vector3d(0.0, 0.0, 0.0); },
+             [&](auto f) { return Vector3d(markers.x(f, 11)); },
+             [&](auto f) { return Vector3d(markers.x(f, 2)); }}) {
+      away(77, frames);
+      const std::int64_t back = 77 + frames;
+      markers.x(back, kOnly) = wrong(back);
+      const auto found = judge(0, kFrames - 1);
+      ASSERT_EQ(found.size(), 1U) << frames;
+      EXPECT_EQ(found[0].marker, kOnlyOfThoseSeen);
+      EXPECT_EQ(found[0].first_frame, back);
+      EXPECT_EQ(found[0].last_frame, back);
+    }
 }
 
 TEST_F(SampleJudge, TheBodyMayBeThrownAsAWhole) {

@@ -44,7 +44,6 @@ StreamJudge::StreamJudge(const Problem& problem, const IkOptions& options, doubl
   held_.setConstant(3, M, kNaN);
   begun_.setZero(3, M);
   repeats_.assign(at(M), 0);
-  seen_before_.assign(at(M), 0);
 }
 
 void StreamJudge::keep_frame(const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight, double cost,
@@ -119,14 +118,7 @@ void StreamJudge::judge(Eigen::Matrix3Xd& y, Eigen::VectorXd& weight) {
   const JudgedFrame frame{
       .index = frames_, .y = &y, .seen = &weight, .state = x_.data(), .position = position_.data()};
   keep_frame(y, weight, outcome.cost, outcome.converged);
-  bool returning = false;
-  for (Eigen::Index m = 0; m < weight.size(); ++m) {
-    returning = returning || (weight[m] > 0.0 && seen_before_[at(m)] == 0);
-    seen_before_[at(m)] = weight[m] > 0.0 ? 1 : 0;
-  }
-  if (judge_ && returning) {
-    judge_->begin(frame, nullptr, 1);  // where its segment went meanwhile is not known
-  } else if (judge_) {
+  if (judge_) {
     judge_->judge(frame);
     judge_->forget();
     bool any = false;

@@ -48,7 +48,6 @@ class StreamJudge {
   std::vector<std::uint8_t> out_;
   Eigen::Matrix3Xd held_, begun_;      // per marker: value that repeats, and where the model had it at first
   std::vector<std::int64_t> repeats_;  // per marker: frames with that value
-  std::vector<std::uint8_t> seen_before_;  // per marker: in the frame before
 };
 
 }  // namespace kinemark::motion::internal

@@ -35,13 +35,14 @@ class JudgedStream : public ::testing::Test {
     const Problem problem = make_problem(body, markers, options).value();
     StreamJudge stream(problem, options, kRate_hz);
     std::set<Sample> out;
-    Eigen::Matrix3Xd y(3, body.marker_count());
-    Eigen::VectorXd weight(body.marker_count());
+    const int M = problem.model.marker_count();
+    Eigen::Matrix3Xd y(3, M);
+    Eigen::VectorXd weight(M);
     used_m = 0.0;
     for (std::int64_t f = 0; f < kFrames; ++f) {
       problem.observe(markers, f, y, weight);
       stream.judge(y, weight);
-      for (int m = 0; m < body.marker_count(); ++m) {
+      for (int m = 0; m < M; ++m) {
         if (stream.out()[static_cast<std::size_t>(m)] != 0) out.emplace(f, m);
         const int d = problem.data_marker[static_cast<std::size_t>(m)];
         if (weight[m] > 0.0) used_m = std::max(used_m, (y.col(m) - truth.x(f, d)).norm());
@@ -74,6 +75,20 @@ TEST_F(JudgedStream, GapsAreNoBadSamples) {
   for (std::int64_t f = 100; f < 104; ++f)
     for (std::int64_t m = 0; m < markers.markers(); ++m) markers.set_missing(f, m);
   EXPECT_THAT(judge(), ::testing::IsEmpty());
+}
+
+TEST_F(JudgedStream, TheOnlyMarkerOfASegmentIsBelievedWhenItComesBackAndNotWhereItCannotBe) {
+  for (std::int64_t f = 0; f < kFrames; ++f) markers.set_missing(f, 6);
+  const int only = 6;  // of those that are seen
+  for (const std::int64_t frames : {10, 50, 100}) {
+    const std::int64_t back = 70 + frames;
+    auto whole = markers;
+    for (std::int64_t f = 70; f < back; ++f) markers.set_missing(f, 7);
+    EXPECT_THAT(judge(), ::testing::IsEmpty()) << frames;
+    markers.x(back, 7) += Vector3d(0.0, 0.3, 0.0);
+    EXPECT_THAT(judge(), ::testing::ElementsAre(Sample{back, only})) << frames;
+    markers = whole;
+  }
 }
 
 TEST_F(JudgedStream, ASpikeOfAnyMarkerIsReplacedByItsPositionOnTheBody) {

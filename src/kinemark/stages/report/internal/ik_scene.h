@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "kinemark/stages/report/ik_report.h"
@@ -10,6 +11,8 @@ namespace kinemark::report::internal {
 
 /// The used markers and where the model has them, for the space view; null where positions are not known or
 /// do not lie in the model's axes.
-[[nodiscard]] nlohmann::ordered_json ik_scene_json(const IkReport& report);
+/// @param max_bytes  of the scene as text in the page, at least 1000
+[[nodiscard]] nlohmann::ordered_json ik_scene_json(const IkReport& report,
+                                                   std::int64_t max_bytes = 1'000'000);
 
 }  // namespace kinemark::report::internal

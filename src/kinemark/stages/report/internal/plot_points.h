@@ -27,6 +27,10 @@ class PlotPoints {
   /// The largest code among the frames of each point.
   [[nodiscard]] std::vector<std::uint8_t> worst(std::span<const std::uint8_t> codes) const;
 
+  /// Of curves that are points already: as their own, or thinned further. Pairs of pairs are pairs.
+  [[nodiscard]] std::vector<float> extremes(std::span<const float> values) const;
+  [[nodiscard]] std::vector<float> largest(std::span<const float> values) const;  ///< likewise
+
  private:
   std::int64_t frames_;
   std::int64_t step_ = 1;

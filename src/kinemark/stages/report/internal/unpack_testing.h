@@ -16,4 +16,10 @@ namespace kinemark::report::internal {
 /// Numbers of pack_series(), series after series.
 [[nodiscard]] std::vector<double> unpack_series(const nlohmann::ordered_json& packed);
 
+/// Numbers of pack_curve(); NaN where there is none.
+[[nodiscard]] std::vector<double> unpack_curve(const nlohmann::ordered_json& packed);
+
+/// Codes of pack_codes().
+[[nodiscard]] std::vector<std::uint8_t> unpack_codes(const nlohmann::ordered_json& packed);
+
 }  // namespace kinemark::report::internal

@@ -15,8 +15,10 @@ struct SkinPrior {
   /// SD of the turn of one segment's markers against the other's about each axis across a hinge, per rad of
   /// the hinge's angle: 6 deg in 60. The figures above lie between 0.07 and 0.2.
   double turn = 0.1;
-  /// How much it weighs beside what a recording's own markers show: as much as this many numbers.
-  double turn_weight = 4.0;
+  /// How much it weighs beside what a recording's own markers show: as much as this many numbers. Skin slides
+  /// by 5 to 20 mm from one person, movement and marker set to the next: of another's skin one number is
+  /// known.
+  double turn_weight = 1.0;
   /// Median of the slide of a hinge's place on an axis at one SD of its angle, m: 15 mm from one end of a
   /// movement to the other have an SD of 5 mm.
   double slide_m = 0.005;

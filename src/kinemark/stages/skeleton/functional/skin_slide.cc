@@ -17,8 +17,10 @@ namespace kinemark::skeleton {
 namespace {
 
 constexpr std::int64_t kLeastSlideFrames = 40;
-constexpr int kTerms = 9;                   ///< three linear, six quadratic functions of the posture
-constexpr int kSlide = 2 * 3 * kTerms;      ///< coefficients: both sides, three axes
+constexpr int kTerms = 9;               ///< three linear, six quadratic functions of the posture
+constexpr int kSlide = 2 * 3 * kTerms;  ///< coefficients: both sides, three axes
+/// Gaps and noise of no more than this are rounding: no marker is known so well.
+constexpr double kRounding_m = 1e-7;
 constexpr double kLeastPosture_rad = 0.01;  ///< components of the posture that move less are not blown up
 /// A component of the posture that hardly moves is mostly crosstalk and slides less than in proportion to its
 /// SD: it counts as having this SD in quadrature.
@@ -123,10 +125,14 @@ double SlideProblem::log_likelihood(double amplitude_m) const {
     squares -= zy.squaredNorm();
     log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
   }
-  M.diagonal().array() += 1.0 / (data::kJointPriorSd_m * data::kJointPriorSd_m);
-  const Eigen::LLT<Matrix6> llt(M);
-  log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (log_det + squares - right.dot(llt.solve(right)));
+  // What the motion leaves open, as the place along a hinge, has no eigenvalue but rounding: the prior's
+  // alone.
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(M);
+  const Vector6 information =
+      eigen.eigenvalues().cwiseMax(0.0).array() + 1.0 / (data::kJointPriorSd_m * data::kJointPriorSd_m);
+  const Vector6 along = eigen.eigenvectors().transpose() * right;
+  log_det += information.array().log().sum();
+  return -0.5 * (log_det + squares - along.cwiseAbs2().cwiseQuotient(information).sum());
 }
 
 /// The amplitude's grid with the weight of each value; the first is none.
@@ -212,12 +218,14 @@ SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& chi
   SlideProblem problem{.normal = Eigen::MatrixXd::Zero(kAll, kAll)};
   double gap = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
+    Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
+    // About the joint: sums of what is small beside the positions lose no digits.
+    row.col(kAll - 1) -= row.leftCols<6>() * centre;
     problem.normal.noalias() += row.transpose() * row;
-    gap += (row.col(kAll - 1) - row.leftCols<6>() * centre).squaredNorm();
+    gap += row.col(kAll - 1).squaredNorm();
   }
   gap = std::sqrt(gap / (3.0 * static_cast<double>(n)));
-  if (!(gap > 0.0)) return out;
+  if (!(gap > kRounding_m)) return out;
   // Noise about joint and slide together, both fitted.
   Eigen::MatrixXd both = problem.normal.topLeftCorner(kAll - 1, kAll - 1);
   both.diagonal().array() += 1e-9 * both.trace() / (kAll - 1);
@@ -225,10 +233,11 @@ SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& chi
   Eigen::MatrixX3d residual(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
-    residual.row(i) = (row.col(kAll - 1) - row.leftCols(kAll - 1) * fitted).transpose();
+    residual.row(i) =
+        (row.col(kAll - 1) - row.leftCols<6>() * centre - row.leftCols(kAll - 1) * fitted).transpose();
   }
   const double freedom = std::max(3.0 * static_cast<double>(n) - 6.0 - 0.5 * kSlide, 1.0);
-  const double variance = std::max(residual.squaredNorm() / freedom, 1e-12 * gap * gap);
+  const double variance = std::max(residual.squaredNorm() / freedom, kRounding_m * kRounding_m);
   out.known = true;
   out.frames_alike = frames_alike(residual);
   out.noise_sd_m = std::sqrt(variance);

@@ -22,7 +22,8 @@ namespace kinemark::skeleton {
 /// a function looks like a shift of the joint and cannot be seen; the part that can be seen tells how large
 /// the other is.
 struct SkinSlide {
-  bool known = false;         ///< false: too few frames (40) to tell; all below is zero
+  /// false: too few frames (40) to tell, or a gap of no more than rounding (0.1 um); all below is zero
+  bool known = false;
   double share = 0.0;         ///< probability that there is any slide, 0 to 1
   double amplitude_m = 0.0;   ///< SD of the slide on an axis at one SD of the posture's first component
   double noise_sd_m = 0.0;    ///< of the gap about the slide, per axis

@@ -125,6 +125,24 @@ TEST(SkinSlide, AHingeRepeatsToANumber) {
   }
 }
 
+TEST(SkinSlide, AHingeWithoutNoiseHasNone) {
+  // The place along the axis has no information but rounding, which may be below nothing.
+  for (const double range_rad : {0.001, 0.1, 1.2})
+    for (const double noise_sd_m : {0.0, 1e-12, 1e-9})
+      for (const std::int64_t frames : {40, 120}) {
+        const testing::JointSetup setup({.frames = frames,
+                                         .per_segment = 4,
+                                         .rotations = testing::Rotations::hinge,
+                                         .range_rad = range_rad,
+                                         .noise_sd_m = noise_sd_m});
+        for (const auto kind : {data::JointKind::hinge, data::JointKind::ball}) {
+          const JointFit fit = fit_score(setup.samples, setup.parent, setup.child, setup.task.motion, kind);
+          EXPECT_LT(fit.slide_share, 0.5) << range_rad << " rad, noise " << noise_sd_m << ", " << frames;
+          EXPECT_TRUE(fit.covariance.allFinite() && fit.repeatability.allFinite());
+        }
+      }
+}
+
 TEST(SkinSlide, APriorThatExpectsMoreWidensAHinge) {
   const auto chain = testing::make_chain({.frames = 300,
                                           .per_segment = 4,

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +29,8 @@ constexpr Eigen::Index kPartBeside = 50;  ///< compared there: this part of the 
 constexpr Eigen::Index kLeastBeside = 4;  ///< but no fewer than so many
 constexpr double kAlsoShare =
     0.5;  ///< a slipped marker shifts the pose: others that move by less than this share are not reported
+
+constexpr double kBeyondDoubt = 3.0;  ///< standard deviations between two halves of a recording
 
 struct Path {
   std::vector<std::int64_t> frames;
@@ -182,6 +185,21 @@ Result<std::vector<data::Finding>> find_slips(const data::Trajectories& trajecto
   for (int j = 0; j < static_cast<int>(layout.joints.size()); ++j)
     find_joint_slips(samples, layout, j, poses, options, slips);
   return slips;
+}
+
+bool is_within_repeatability(const data::Finding& slip, const data::Skeleton& skeleton) {
+  if (slip.kind != data::FindingKind::joint_slip) return false;
+  const auto joint = std::ranges::find(skeleton.joints, slip.subject, &data::SkeletonJoint::name);
+  if (joint == skeleton.joints.end()) return false;
+  const bool parent = skeleton.segments[static_cast<std::size_t>(joint->parent_segment)].name == slip.partner;
+  const auto& repeats = parent ? joint->repeatability_in_parent : joint->repeatability_in_child;
+  const auto& accuracy = parent ? joint->covariance_in_parent : joint->covariance_in_child;
+  const Eigen::Matrix3d& C = repeats.allFinite() ? repeats : accuracy;
+  if (!C.allFinite()) return true;
+  const int worst = joint->kind == data::JointKind::hinge ? 1 : 2;
+  const double variance =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues()[worst];
+  return !(slip.size > kBeyondDoubt * std::sqrt(4.0 * std::max(variance, 0.0) + slip.size_sd * slip.size_sd));
 }
 
 }  // namespace kinemark::skeleton

@@ -32,4 +32,10 @@ struct SlipOptions {
                                                             const data::SegmentLayout& layout,
                                                             const SlipOptions& options = {});
 
+/// Whether a joint slip is no more than the joint's own doubt. The difference of two halves has four times
+/// the variance of the whole recording, by its repeatability, or by its accuracy where that is not known; a
+/// joint without either slips nowhere. Across the axis for a hinge. False for what is no joint slip of the
+/// skeleton.
+[[nodiscard]] bool is_within_repeatability(const data::Finding& slip, const data::Skeleton& skeleton);
+
 }  // namespace kinemark::skeleton

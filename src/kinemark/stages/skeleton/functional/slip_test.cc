@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "kinemark/stages/skeleton/functional/testing/random_chain.h"
 
@@ -105,6 +106,32 @@ TEST(Slip, AWholeSleeveIsSeenByItsJoint) {
   EXPECT_EQ(slips->front().partner, chain.layout.segments[1].name);
   EXPECT_THAT(sentence_of(slips->front(), chain.markers.time), ::testing::EndsWith("slip together?"));
   EXPECT_NEAR(slips->front().size, 0.010, 0.003);
+}
+
+TEST(Slip, OfAJointThatIsNotKnownSoWellIsNone) {
+  data::Skeleton skeleton;
+  skeleton.segments = {{.name = "pelvis"}, {.name = "thigh"}};
+  skeleton.joints = {{.name = "hip", .parent_segment = 0, .child_segment = 1}};
+  auto& hip = skeleton.joints[0];
+  hip.covariance_in_parent = 0.016 * 0.016 * Eigen::Matrix3d::Identity();
+  hip.covariance_in_child.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto slip = [](double size_m, const char* segment) {
+    return data::Finding{.kind = data::FindingKind::joint_slip,
+                         .subject = "hip",
+                         .partner = segment,
+                         .size = size_m,
+                         .size_sd = 0.001};
+  };
+  EXPECT_TRUE(is_within_repeatability(slip(0.06, "pelvis"), skeleton)) << "by the accuracy";
+  EXPECT_TRUE(is_within_repeatability(slip(0.06, "thigh"), skeleton)) << "nothing is known of it";
+  hip.repeatability_in_parent = Eigen::Vector3d(1e-6, 4e-6, 1e-4).asDiagonal();
+  EXPECT_TRUE(is_within_repeatability(slip(0.059, "pelvis"), skeleton)) << "3 times 2 times 10 mm";
+  EXPECT_FALSE(is_within_repeatability(slip(0.062, "pelvis"), skeleton));
+  hip.kind = data::JointKind::hinge;
+  EXPECT_FALSE(is_within_repeatability(slip(0.014, "pelvis"), skeleton)) << "across the axis";
+  auto of_marker = slip(0.001, "pelvis");
+  of_marker.kind = data::FindingKind::marker_slip;
+  EXPECT_FALSE(is_within_repeatability(of_marker, skeleton));
 }
 
 TEST(Slip, RefusesWhatDoesNotFit) {

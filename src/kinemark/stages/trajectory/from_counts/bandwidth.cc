@@ -81,7 +81,7 @@ Problem split(std::span<const LedObservation> observations, std::size_t max_obse
 
 constexpr double kLongestGap = 4.5;  // intervals: longer gaps carry little information on the bandwidth
 
-double risk(const Problem& problem, const Bandwidth& at) {
+double risk(const Problem& problem, const Bandwidth& at, double most_squares) {
   const math::WienerProcess process{
       .order = at.order, .spectral_density = at.spectral_density, .time_scale_s = at.time_constant_s};
   math::WienerOptions<1> options;
@@ -95,7 +95,8 @@ double risk(const Problem& problem, const Bandwidth& at) {
                                const auto& sight = observations[first + k];
                                const double h = sight.information(0),
                                             r = sight.position(0) - x.derivatives(0);
-                               if (h > 0.0) sum += h * r * r + 2.0 * h * x.covariance(0, 0);
+                               if (h > 0.0)
+                                 sum += std::min(most_squares, h * r * r) + 2.0 * h * x.covariance(0, 0);
                              });
   }
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
@@ -155,7 +156,7 @@ Bandwidth choose_bandwidth(std::span<const LedObservation> observations, const B
     if (options.order > 0 && order != options.order) continue;
     const auto at = [&](double log_hz) {
       auto b = bandwidth_at(order, std::exp(log_hz), problem.information, problem.interval_s);
-      b.sure = risk(problem, b);
+      b.sure = risk(problem, b, options.most_squares);
       return b;
     };
     const double top = std::log(0.35 / problem.interval_s);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "kinemark/math/wiener_smoother.h"
@@ -31,6 +32,8 @@ struct BandwidthOptions {
   int order = 0;              ///< 3, 4 or 5; 0: the best of them
   double half_gain_hz = 0.0;  ///< 0: the best
   double around_hz = 0.0;     ///< half gain: search only within two octaves around it; 0: everywhere
+  /// Squares (z - x)' h (z - x) on one axis of one observation that count at most, against outliers; above 0.
+  double most_squares = std::numeric_limits<double>::infinity();
   std::size_t max_observations = 1200;  ///< records longer than that are judged by four pieces of them
 };
 

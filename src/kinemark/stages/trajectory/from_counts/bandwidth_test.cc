@@ -45,6 +45,16 @@ TEST(Bandwidth, KeepsWhatWasAskedFor) {
   EXPECT_NEAR(found.cutoff_hz, 8.0 * std::pow(std::numbers::sqrt2 - 1.0, 1.0 / 6.0), 1e-9);
 }
 
+TEST(Bandwidth, AFlashCountsNoMoreThanAskedAndQuietRecordsAreTheSame) {
+  auto quiet = wave(1.5, 5e-4, 400), flashed = quiet;
+  for (const int k : {60, 61, 127, 128, 194, 195, 261, 262, 328, 329})
+    flashed[static_cast<std::size_t>(k)].position.x() += 5e-3;
+  const double asked = choose_bandwidth(quiet).cutoff_hz;
+  EXPECT_GT(choose_bandwidth(flashed).cutoff_hz, 1.5 * asked);
+  EXPECT_NEAR(choose_bandwidth(flashed, {.most_squares = 9.0}).cutoff_hz, asked, 0.1 * asked);
+  EXPECT_NEAR(choose_bandwidth(quiet, {.most_squares = 9.0}).cutoff_hz, asked, 0.1 * asked);
+}
+
 TEST(Bandwidth, ANarrowSearchFindsTheSame) {
   const auto observations = wave(1.5, 5e-4, 400);
   const auto wide = choose_bandwidth(observations);

@@ -136,6 +136,35 @@ TEST_F(SmoothCounts, OutliersDoNoHarm) {
   EXPECT_LT(errors_of(s, 10, kFrames - 10).position_m, 0.45e-3);
 }
 
+/// The circle, which leaves its path along x by `size_m` for `length_s`, every 0.7 s: at once, or in half a
+/// sine.
+ts::PathOfLed leaving(double size_m, double length_s, bool at_once) {
+  return [=](int led, double t) {
+    const double since = std::fmod(t, 0.7) - 0.3;
+    if (led == 1 || since < 0.0 || since > length_s) return circle(led, t);
+    const double share = at_once ? 1.0 : std::sin(std::numbers::pi * since / length_s);
+    return Vector3d(circle(led, t) + share * Vector3d(size_m, 0.0, 0.0));
+  };
+}
+
+// A mirror shifts both cameras' view of the point, so that no frame contradicts itself.
+TEST_F(SmoothCounts, AFlashThatBothCamerasSeeIsNotFollowed) {
+  const auto flashed = ts::count_paths(rig, 2, kFrames, 100.0, leaving(0.006, 0.015, true), 21);
+  const auto s = smooth_counts(flashed, rig, rough(flashed)).value();
+  EXPECT_LT(errors_of(s, 10, kFrames - 10).position_m, 0.6e-3);
+  EXPECT_LT(s.leds[0].bandwidth.cutoff_hz, 20.0);
+}
+
+TEST_F(SmoothCounts, AMovementAsShortAsAPersonMakesItIsFollowed) {
+  const auto path = leaving(0.02, 0.12, false);
+  const auto tapped = ts::count_paths(rig, 2, kFrames, 100.0, path, 21);
+  const auto s = smooth_counts(tapped, rig, rough(tapped)).value();
+  double squares = 0.0;
+  for (std::int64_t f = 10; f < kFrames - 10; ++f)
+    squares += (s.points.x(f, 0) - path(0, s.points.time.time_s(f))).squaredNorm() / (kFrames - 20.0);
+  EXPECT_LT(std::sqrt(squares), 1.5e-3);
+}
+
 TEST_F(SmoothCounts, FindsTheFlickerOfTheRoom) {
   const auto flickering = ts::count_paths(rig, 2, kFrames, 100.0, circle, 21, 3.0);
   const auto s = smooth_counts(flickering, rig, rough(counts)).value();

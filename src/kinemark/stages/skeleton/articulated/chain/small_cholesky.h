@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace kinemark::skeleton::articulated {
 
@@ -61,20 +63,24 @@ void solve_cholesky(const Eigen::MatrixXd& L, Column&& x) {
 
 /// A = U U^T with U upper triangular, from the last row to the first; reads and overwrites the upper
 /// triangle. False when a pivot is at most 0. Where rows of a tree's leaves stand behind those of its root,
-/// as in a chain, nothing fills in: zeros stay zero and are passed over.
-inline bool cholesky_from_leaves(Eigen::MatrixXd& A) {
+/// as in a chain, nothing fills in: zeros stay zero and are passed over. `rows`: memory to work in.
+inline bool cholesky_from_leaves(Eigen::MatrixXd& A, std::vector<Eigen::Index>& rows) {
   const Eigen::Index n = A.rows();
   for (Eigen::Index j = n - 1; j >= 0; --j) {
     double* column = A.data() + j * n;
     if (!(column[j] > 0.0)) return false;
     const double root = std::sqrt(column[j]);
     column[j] = root;
-    for (Eigen::Index i = 0; i < j; ++i) column[i] /= root;
-    for (Eigen::Index c = 0; c < j; ++c) {
-      const double factor = column[c];
-      if (factor == 0.0) continue;
-      double* other = A.data() + c * n;
-      for (Eigen::Index i = 0; i <= c; ++i) other[i] -= factor * column[i];
+    rows.clear();
+    for (Eigen::Index i = 0; i < j; ++i) {
+      if (column[i] == 0.0) continue;
+      column[i] /= root;
+      rows.push_back(i);
+    }
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      const double factor = column[rows[c]];
+      double* other = A.data() + rows[c] * n;
+      for (std::size_t i = 0; i <= c; ++i) other[rows[i]] -= factor * column[rows[i]];
     }
   }
   return true;

@@ -46,11 +46,12 @@ TEST(SmallCholesky, FactorsAndSolvesOfAnySize) {
 
 TEST(SmallCholesky, FromLeavesFactorsAndSolvesOfAnySize) {
   Random random(2, 1);
+  std::vector<Eigen::Index> rows;
   for (const Eigen::Index n : {1, 3, 9, 15}) {
     const MatrixXd root = random_matrix(random, n, n + 4);
     const MatrixXd A = root * root.transpose();
     MatrixXd U = A;
-    ASSERT_TRUE(cholesky_from_leaves(U));
+    ASSERT_TRUE(cholesky_from_leaves(U, rows));
     const MatrixXd upper = U.triangularView<Eigen::Upper>();
     EXPECT_LT((upper * upper.transpose() - A).norm(), 1e-12 * A.norm()) << n;
     const VectorXd x = random_matrix(random, n, 1);
@@ -68,7 +69,8 @@ TEST(SmallCholesky, FromLeavesFillsNothingInATree) {
   MatrixXd A = MatrixXd::Identity(5, 5) * 4.0;
   for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {3, 4}})
     A(i, j) = A(j, i) = 1.0;
-  ASSERT_TRUE(cholesky_from_leaves(A));
+  std::vector<Eigen::Index> rows;
+  ASSERT_TRUE(cholesky_from_leaves(A, rows));
   for (const auto& [i, j] : {std::pair{1, 3}, {1, 4}, {2, 3}, {2, 4}}) EXPECT_EQ(A(i, j), 0.0);
 }
 
@@ -77,7 +79,8 @@ TEST(SmallCholesky, RefusesWhatIsNotPositive) {
   indefinite << 1.0, 2.0, 2.0, 1.0;
   weak << 1.0, 0.0, 0.0, 1e-6;
   MatrixXd same = indefinite;
-  EXPECT_FALSE(cholesky_from_leaves(same));
+  std::vector<Eigen::Index> rows;
+  EXPECT_FALSE(cholesky_from_leaves(same, rows));
   EXPECT_FALSE(cholesky(indefinite));
   MatrixXd copy = weak;
   EXPECT_TRUE(cholesky(copy));

@@ -21,9 +21,6 @@ namespace {
 using data::CentreState;
 using data::SegmentKind;
 
-// A segment's markers determine its pose alone when their second extent exceeds the noise by this
-// (chi-square).
-constexpr double kWide = 50.0;
 // Minima nearer to the best than this many of its SD are part of it.
 constexpr double kNear = 0.5;
 // Several positions count as one when their scatter about their mean is at most kCompact times the variance
@@ -58,18 +55,7 @@ struct ChainSolver::Work {
   bool gather(ChainFrame& out, int joint) const;
   bool follow_profile(ChainFrame& out, int joint);
   void reweigh(const double* x, ChainFrame& out);
-  // Three markers or more, wide enough to fix the segment's pose; of a line two.
-  bool anchored(int segment) const;
 };
-
-bool ChainSolver::Work::anchored(int segment) const {
-  const FrameSums::Segment& s = solver.sums().segment[segment];
-  if (fit.chain.kind[segment] == SegmentKind::line) return s.seen >= 2;
-  if (s.seen < 3) return false;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(s.mm - s.m * s.m.transpose() / s.w,
-                                                       Eigen::EigenvaluesOnly);
-  return spread.eigenvalues()[1] > kWide * fit.noise_sd_m * fit.noise_sd_m;
-}
 
 void ChainSolver::Work::begin(const double* x, ChainFrame& out) {
   const int joints = fit.chain.joints();
@@ -207,19 +193,16 @@ void ChainSolver::solve(const double* x, const ChainPose* warm, ChainFrame& out)
   const Chain& chain = w.fit.chain;
   w.begin(x, out);
   if (out.seen == 0) return;
-  bool all_anchored = !w.lines && warm != nullptr;
-  for (int j = 0; all_anchored && j < chain.joints(); ++j) {
-    all_anchored = w.anchored(chain.layout.parent[j]) || w.anchored(j + 1);
-  }
   bool settled = false;
-  if (all_anchored) {
+  if (!w.lines && warm != nullptr && w.solver.shows_all_joints(w.fit.noise_sd_m)) {
     if (out.modes.empty()) out.modes.emplace_back();
     ChainMode& mode = out.modes[0];
     mode.pose.joint0 = warm->joint0;
     mode.pose.rotation = warm->rotation;
     mode.cost = w.solver.refine(mode.pose);
     const double dof = std::max(3.0 * out.seen - chain.frame_parameters(), 1.0);
-    settled = mode.cost < w.fit.noise_sd_m * w.fit.noise_sd_m * (dof + 4.0 * std::sqrt(2.0 * dof));
+    settled = mode.cost < w.fit.noise_sd_m * w.fit.noise_sd_m * (dof + 4.0 * std::sqrt(2.0 * dof)) ||
+              w.finder.confirm(w.solver, w.fit.noise_sd_m, 40, mode.pose, mode.cost);
     if (settled) {
       mode.weight = 1.0;
       mode.centre.resize(chain.joints());

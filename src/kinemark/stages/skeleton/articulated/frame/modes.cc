@@ -119,6 +119,20 @@ int ModeFinder::find(PoseSolver& solver, const double* x, double sigma_m, const 
   return count_;
 }
 
+bool ModeFinder::confirm(PoseSolver& solver, double sigma_m, int iterations, ChainPose& pose, double& cost) {
+  again_ = starts_.find_rigid(solver);
+  const double other = solver.refine(again_, {}, iterations);
+  const double same_m = 0.2 * sigma_m + kSame;
+  for (int j = 0; j < solver.chain().joints(); ++j)
+    if (!((solver.chain().joint_centre(pose, j) - solver.chain().joint_centre(again_, j)).norm() < same_m))
+      return false;
+  if (other < cost) {
+    pose = again_;
+    cost = other;
+  }
+  return true;
+}
+
 namespace {
 
 // A joint held at positions along the weakest direction of its covariance, all else refitted.

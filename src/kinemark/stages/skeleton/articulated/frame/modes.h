@@ -22,6 +22,11 @@ class ModeFinder {
   /// `extra`: one more start, or null.
   int find(PoseSolver& solver, const double* x, double sigma_m, const ChainPose* extra, int iterations,
            std::vector<ChainMode>& modes);
+  /// Whether the rigid pose of the segment that shows most markers leads to the minimum `pose` of cost `cost`
+  /// as well, in a frame that shows every joint by the pose of one of its segments (shows_all_joints()). The
+  /// better of the two is left in `pose` and `cost`. False: only find() knows what other minima there are.
+  [[nodiscard]] bool confirm(PoseSolver& solver, double sigma_m, int iterations, ChainPose& pose,
+                             double& cost);
   [[nodiscard]] PoseStarts& starts() { return starts_; }
 
  private:
@@ -34,6 +39,7 @@ class ModeFinder {
   PoseStarts starts_;
   std::vector<Vector3d> centres_, about_;
   ChainPose mirrored_;
+  ChainPose again_;
   std::vector<double> log_weight_;
   Eigen::MatrixXd H_, scratch_;
   Eigen::VectorXd b_;

@@ -146,5 +146,20 @@ TEST(Profile, HasNoMomentsWhereItsStepsAreWrong) {
   }
 }
 
+TEST(ModeFinder, WholeFramesConfirmTheirMinimumAndNoOther) {
+  const RandomChain limb = make_random_chain({.segments = 3, .markers_per_segment = 4, .frames = 20});
+  for (int f = 0; f < 20; ++f) {
+    Found found(limb, f);
+    ChainPose pose = limb.pose[f];
+    double cost = found.solver.refine(pose);
+    EXPECT_TRUE(found.finder.confirm(found.solver, kNoise_m, 40, pose, cost)) << f;
+    EXPECT_NEAR(cost, found.modes[0].cost, 1e-9 * cost + 1e-14) << f;
+    ChainPose elsewhere = limb.pose[f];
+    elsewhere.joint0 += Vector3d(0.01, 0.0, 0.0);
+    cost = found.solver.cost(elsewhere);
+    EXPECT_FALSE(found.finder.confirm(found.solver, kNoise_m, 40, elsewhere, cost)) << f;
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::skeleton::articulated

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/frame/pose_solver.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,12 @@
 namespace kinemark::skeleton::articulated {
 
 namespace {
+
+// A segment's markers determine its pose alone when their second extent exceeds the noise by this
+// (chi-square).
+constexpr double kWide = 50.0;
+constexpr double kGrow =
+    6.0;  // of the damping after a step that made things worse; twice as much after another
 
 Matrix3d skew(const Vector3d& v) {
   Matrix3d S;
@@ -81,6 +88,21 @@ void PoseSolver::set(const double* x, std::span<const double> weights) {
     s.xx += w * y.squaredNorm();
     ++s.seen;
   }
+}
+
+bool PoseSolver::shows_pose(int segment, double sigma_m) const {
+  const FrameSums::Segment& s = sums_.segment[segment];
+  if (chain_->kind[segment] == data::SegmentKind::line) return s.seen >= 2;
+  if (s.seen < 3) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(s.mm - s.m * s.m.transpose() / s.w,
+                                                       Eigen::EigenvaluesOnly);
+  return spread.eigenvalues()[1] > kWide * sigma_m * sigma_m;
+}
+
+bool PoseSolver::shows_all_joints(double sigma_m) const {
+  for (int j = 0; j < chain_->joints(); ++j)
+    if (!shows_pose(chain_->layout.parent[j], sigma_m) && !shows_pose(j + 1, sigma_m)) return false;
+  return true;
 }
 
 double PoseSolver::cost(const ChainPose& pose, std::span<const JointPrior> priors) {
@@ -189,7 +211,7 @@ double PoseSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, i
   for (const FrameSums::Segment& s : sums_.segment) weight += s.w;
   const double length = c.scale();
   double best = cost(pose, priors);
-  double lambda = 1e-3;
+  double lambda = 1e-3, grow = kGrow;
   bool fresh = true;
   for (int round = 0; round < iterations; ++round) {
     if (fresh) {
@@ -206,7 +228,7 @@ double PoseSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, i
     for (int i = 0; i < n; ++i) {
       factor_(i, i) += lambda * damping_[i] + (i < 3 ? 1e-13 * weight + 1e-300 : 1e-12 * damping_[i]);
     }
-    if (!cholesky_from_leaves(factor_)) {
+    if (!cholesky_from_leaves(factor_, rows_)) {
       fresh = false;
       lambda = std::max(6.0 * lambda, 1e-8);
       if (lambda > 1e7) break;
@@ -217,6 +239,7 @@ double PoseSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, i
     solve_to_leaves(factor_, step_);
     double big = 0.0;
     for (int i = 3; i < n; ++i) big = std::max(big, std::abs(step_[i]));
+    const double expected = step_.dot(b_) + lambda * step_.cwiseAbs2().dot(damping_);
     if (big > 1.5) step_ *= 1.5 / big;
     trial_.joint0 = pose.joint0;
     trial_.rotation = pose.rotation;
@@ -228,12 +251,16 @@ double PoseSolver::refine(ChainPose& pose, std::span<const JointPrior> priors, i
       std::swap(pose.joint0, trial_.joint0);
       pose.rotation.swap(trial_.rotation);
       best = value;
-      lambda = std::max(lambda / 8.0, 1e-9);
+      // As far as the quadratic was right (Nielsen 1999, Technical University of Denmark IMM-REP-1999-05).
+      lambda *= std::max(1.0 / 8.0, 1.0 - std::pow(2.0 * gain / std::max(expected, gain) - 1.0, 3));
+      lambda = std::max(lambda, 1e-9);
+      grow = kGrow;
       // Costs are differences of sums of the order of the squared coordinates: below their rounding there is
       // nothing to gain.
       if (gain <= tolerance * best + 1e-16 * length * length * weight) break;
     } else {
-      lambda *= 6.0;
+      lambda *= grow;
+      grow *= 2.0;
       if (lambda > 1e7) break;
     }
   }

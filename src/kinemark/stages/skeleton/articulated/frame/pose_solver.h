@@ -46,6 +46,11 @@ class PoseSolver {
   /// Take a frame: K x 3 coordinates, NaN where not seen; weights K (empty: all 1; 0: as if not seen).
   void set(const double* x, std::span<const double> weights = {});
   [[nodiscard]] const FrameSums& sums() const { return sums_; }
+  /// Whether the frame shows three markers of a segment or more, wide enough beside the noise to fix its
+  /// pose; of a line two.
+  [[nodiscard]] bool shows_pose(int segment, double sigma_m) const;
+  /// Whether one of every joint's two segments shows its pose.
+  [[nodiscard]] bool shows_all_joints(double sigma_m) const;
 
   /// sum w |x - prediction|^2, m^2, and the priors' part.
   [[nodiscard]] double cost(const ChainPose& pose, std::span<const JointPrior> priors = {});
@@ -74,6 +79,7 @@ class PoseSolver {
   FrameSums sums_;
   Eigen::MatrixXd H_, factor_;
   Eigen::VectorXd b_, step_, damping_;
+  std::vector<Eigen::Index> rows_;
   std::vector<Vector3d> origin_, residual_;
   // Joint by joint: its lever, and the sums over all segments beyond it.
   std::vector<Matrix3d> lever_;

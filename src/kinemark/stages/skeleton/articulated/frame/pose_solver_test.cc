@@ -243,5 +243,24 @@ TEST(PoseSolver, APriorDrawsTheJointAsItsWeightSays) {
   EXPECT_LT((pose.joint0 - target).norm(), 1e-6);
 }
 
+TEST(PoseSolver, ThreeMarkersOrTwoOfALineShowAPose) {
+  RandomChain limb = make_random_chain({.segments = 3, .markers_per_segment = 4, .frames = 1});
+  PoseSolver solver(limb.chain);
+  solver.set(limb.samples.frame(0));
+  EXPECT_TRUE(solver.shows_all_joints(0.001));
+  EXPECT_FALSE(solver.shows_pose(0, 10.0)) << "narrower than the noise";
+  for (const int k : {4, 5}) hide(limb.samples, 0, k);
+  solver.set(limb.samples.frame(0));
+  EXPECT_FALSE(solver.shows_pose(1, 0.001));
+  EXPECT_TRUE(solver.shows_all_joints(0.001)) << "by the segments beside it";
+  for (const int k : {0, 1}) hide(limb.samples, 0, k);
+  solver.set(limb.samples.frame(0));
+  EXPECT_FALSE(solver.shows_all_joints(0.001));
+  const RandomChain line = make_random_chain({.frames = 1, .kind = data::SegmentKind::line});
+  PoseSolver of_line(line.chain);
+  of_line.set(line.samples.frame(0));
+  EXPECT_TRUE(of_line.shows_pose(0, 0.001));
+}
+
 }  // namespace
 }  // namespace kinemark::skeleton::articulated

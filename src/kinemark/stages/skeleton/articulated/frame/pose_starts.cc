@@ -67,6 +67,21 @@ void PoseStarts::complete(const PoseSolver& solver, ChainPose& pose) {
   pose.joint0 = origin_[0] + solver.sums().centre;
 }
 
+const ChainPose& PoseStarts::find_rigid(const PoseSolver& solver) {
+  int segment = 0;
+  for (int s = 1; s < chain_->segments(); ++s)
+    if (solver.sums().segment[s].seen > solver.sums().segment[segment].seen) segment = s;
+  const FrameSums::Segment& s = solver.sums().segment[segment];
+  const Vector3d mean_x = s.x / s.w;
+  count_ = 0;
+  ChainPose& pose = next();
+  pose.rotation[segment] = nearest_rotation(s.xm - mean_x * s.m.transpose());
+  origin_[segment] = mean_x - pose.rotation[segment] * s.m / s.w;
+  done_[segment] = 1;
+  complete(solver, pose);
+  return pose;
+}
+
 void PoseStarts::anchor(const PoseSolver& solver, int segment) {
   const FrameSums::Segment& s = solver.sums().segment[segment];
   if (s.seen < 2) return;

@@ -24,6 +24,10 @@ class PoseStarts {
     return {poses_.data(), static_cast<std::size_t>(count_)};
   }
 
+  /// The rigid pose of the segment that shows most markers (the first of them); the others follow joint by
+  /// joint. One marker at least must be seen.
+  const ChainPose& find_rigid(const PoseSolver& solver);
+
   /// Rotations that fit best for joints held at these positions, m.
   void from_centres(const PoseSolver& solver, std::span<const Vector3d> centres, ChainPose& out);
 

@@ -108,5 +108,17 @@ TEST(PoseStarts, RotationsFollowFromTrueCentres) {
   }
 }
 
+TEST(PoseStarts, TheRigidPoseOfExactMarkersIsTheTruth) {
+  RandomChain limb =
+      make_random_chain({.segments = 3, .markers_per_segment = 4, .frames = 5, .noise_sd_m = 0.0});
+  for (int f = 0; f < 5; ++f) {
+    hide(limb.samples, f, 0);  // the second segment shows most
+    PoseSolver solver(limb.chain);
+    PoseStarts starts(limb.chain);
+    solver.set(limb.samples.frame(f));
+    EXPECT_LT(solver.cost(starts.find_rigid(solver)), 1e-15) << f;
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::skeleton::articulated

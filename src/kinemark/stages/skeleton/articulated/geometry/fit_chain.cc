@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/parallel.h"
 #include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 #include "kinemark/stages/skeleton/articulated/geometry/bootstrap.h"
 #include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
@@ -28,7 +32,9 @@ constexpr double kFirstNoise = 1e-3;  // m, before the residuals are known
 constexpr double kLeastNoise = 1e-9;  // m: data without noise
 constexpr double kTooRough = 4.0;     // deviates of the residuals above the noise that was given
 constexpr int kReplicates = 3;
-constexpr double kMirrorClear = 10.0;  // chi-square between a geometry and its mirror image
+constexpr std::int64_t kFollowed = 256;    // frames that one thread follows from a cold start
+constexpr std::size_t kFirstFrames = 400;  // enough for a first geometry, which further rounds refine
+constexpr double kMirrorClear = 10.0;      // chi-square between a geometry and its mirror image
 
 Status check_options(const ChainSamples& samples, const ChainLayout& layout, const ChainFitOptions& options) {
   check(samples.markers == layout.markers(), "one segment a marker");
@@ -67,22 +73,36 @@ std::vector<int> drop_loose_markers(ChainSamples& samples, const ChainLayout& la
 }
 
 // Frames whose joints are all determined, with their poses.
-PosedFrames determined_frames(const ChainSamples& samples, const FittedChain& fit) {
+PosedFrames determined_frames(const ChainSamples& samples, const FittedChain& fit, int threads) {
+  std::vector<std::optional<ChainPose>> poses(at(samples.frames));
+  parallel_for(samples.frames, kFollowed, threads, [&](std::int64_t begin, std::int64_t end) {
+    ChainSolver solver(fit);
+    ChainFrame frame;
+    ChainPose last;
+    for (std::int64_t f = begin; f < end; ++f) {
+      solver.solve(samples.frame(f), last.rotation.empty() ? nullptr : &last, frame);
+      if (frame.mode_count == 0) continue;
+      last = frame.modes[0].pose;
+      const bool all = std::all_of(frame.state.begin(), frame.state.end(),
+                                   [](CentreState s) { return s == CentreState::determined; });
+      if (all && !frame.gathered) poses[at(f)] = last;
+    }
+  });
   PosedFrames out;
-  ChainSolver solver(fit);
-  ChainFrame frame;
-  ChainPose last;
   for (std::int64_t f = 0; f < samples.frames; ++f) {
-    solver.solve(samples.frame(f), last.rotation.empty() ? nullptr : &last, frame);
-    if (frame.mode_count == 0) continue;
-    last = frame.modes[0].pose;
-    const bool all = std::all_of(frame.state.begin(), frame.state.end(),
-                                 [](CentreState s) { return s == CentreState::determined; });
-    if (!all || frame.gathered) continue;
+    if (!poses[at(f)]) continue;
     out.frame.push_back(f);
-    out.pose.push_back(last);
+    out.pose.push_back(std::move(*poses[at(f)]));
     out.weight.push_back(fit.marker_weight);
   }
+  return out;
+}
+
+// At most `most` of the frames, evenly drawn.
+std::vector<std::int64_t> draw(const std::vector<std::int64_t>& frames, std::size_t most) {
+  if (frames.size() <= most) return frames;
+  std::vector<std::int64_t> out(most);
+  for (std::size_t i = 0; i < most; ++i) out[i] = frames[i * frames.size() / most];
   return out;
 }
 
@@ -209,7 +229,7 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
   const std::vector<int> dropped = drop_loose_markers(drawn, layout);
   std::vector<SegmentKind> kind = options.kind;
   if (kind.empty()) {
-    auto chosen = choose_kinds(drawn, layout, options.noise_sd_m, stopped);
+    auto chosen = choose_kinds(drawn, layout, options.noise_sd_m, stopped, options.threads);
     if (!chosen) return std::unexpected(chosen.error());
     kind = std::move(*chosen);
   }
@@ -233,16 +253,19 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
     return fail(Code::bad_input,
                 "fewer than five frames show enough markers of all segments to find their joints");
   Rounds rounds(drawn, options, fit);
-  PosedFrames frames = first_poses(drawn, fit.chain, first, fit.marker_weight, fit.noise_sd_m, 25);
+  const auto pose = [&](const std::vector<std::int64_t>& which) {
+    return first_poses(drawn, fit.chain, which, fit.marker_weight, fit.noise_sd_m, 25, options.threads);
+  };
   const bool two_lines =
       fit.chain.segments() == 2 && kind[0] == SegmentKind::line && kind[1] == SegmentKind::line;
   const int count = two_lines ? 1 : std::max(options.rounds, 1);
+  PosedFrames frames = pose(count > 1 ? draw(first, kFirstFrames) : first);
   for (int round = 0; round < count; ++round) {
     if (stopped()) return cancelled();
     rounds.fit(frames, round + 1 == count);
     if (stopped()) return cancelled();
-    if (round == 0 && try_mirrored(drawn, frames, fit)) {
-      frames = first_poses(drawn, fit.chain, frames.frame, fit.marker_weight, fit.noise_sd_m, 25);
+    if (round == 0 && try_mirrored(drawn, frames, fit, options.threads)) {
+      frames = pose(frames.frame);
       rounds.fit(frames, round + 1 == count);
     }
     if (round + 1 == count) break;
@@ -253,11 +276,12 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
       break;
     }
     if (stopped()) return cancelled();
-    PosedFrames next = determined_frames(drawn, fit);
+    PosedFrames next = determined_frames(drawn, fit, options.threads);
     if (next.size() < 20) {
       fit.warnings.emplace_back(
           "Fewer than 20 frames determine all joints by themselves; the geometry rests on the frames that "
           "show most markers.");
+      if (round == 0) frames = pose(first);
       rounds.fit(frames, true);
       break;
     }

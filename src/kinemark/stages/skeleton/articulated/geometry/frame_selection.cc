@@ -3,7 +3,12 @@
 #include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
 
+#include "kinemark/core/index.h"
+#include "kinemark/core/parallel.h"
 #include "kinemark/stages/skeleton/articulated/frame/modes.h"
 
 namespace kinemark::skeleton::articulated {
@@ -13,6 +18,7 @@ namespace {
 using data::SegmentKind;
 
 constexpr std::size_t kEnoughFrames = 40;
+constexpr std::int64_t kFirstFollowed = 64;  // frames that one thread follows from a cold start
 
 }  // namespace
 
@@ -72,16 +78,35 @@ std::vector<std::int64_t> first_frames(const ChainSamples& samples, const Chain&
 
 PosedFrames first_poses(const ChainSamples& samples, const Chain& chain,
                         const std::vector<std::int64_t>& frames, const std::vector<double>& marker_weight,
-                        double sigma_m, int iterations) {
+                        double sigma_m, int iterations, int threads) {
+  std::vector<std::optional<ChainPose>> poses(frames.size());
+  parallel_for(std::ssize(frames), kFirstFollowed, threads, [&](std::int64_t begin, std::int64_t end) {
+    PoseSolver solver(chain);
+    ModeFinder finder(chain);
+    std::vector<ChainMode> modes;
+    const auto follow = [&](const ChainPose& near, ChainPose& pose) {
+      if (!solver.shows_all_joints(sigma_m)) return false;
+      pose = near;
+      double cost = solver.refine(pose, {}, iterations);
+      return finder.confirm(solver, sigma_m, iterations, pose, cost);
+    };
+    ChainPose pose;
+    const ChainPose* before = nullptr;
+    for (std::int64_t i = begin; i < end; ++i) {
+      const double* x = samples.frame(frames[at(i)]);
+      solver.set(x, marker_weight);
+      if (before != nullptr && follow(*before, pose))
+        poses[at(i)] = pose;
+      else if (finder.find(solver, x, sigma_m, nullptr, iterations, modes) > 0)
+        poses[at(i)] = modes[0].pose;
+      if (poses[at(i)]) before = &*poses[at(i)];
+    }
+  });
   PosedFrames out;
-  PoseSolver solver(chain);
-  ModeFinder finder(chain);
-  std::vector<ChainMode> modes;
-  for (const std::int64_t f : frames) {
-    solver.set(samples.frame(f), marker_weight);
-    if (finder.find(solver, samples.frame(f), sigma_m, nullptr, iterations, modes) == 0) continue;
-    out.frame.push_back(f);
-    out.pose.push_back(modes[0].pose);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!poses[i]) continue;
+    out.frame.push_back(frames[i]);
+    out.pose.push_back(std::move(*poses[i]));
     out.weight.push_back(marker_weight);
   }
   return out;

@@ -18,10 +18,12 @@ namespace kinemark::skeleton::articulated {
 /// three of one and two of the others; two lines: two of one.
 [[nodiscard]] std::vector<std::int64_t> first_frames(const ChainSamples& samples, const Chain& chain);
 
-/// Best pose of each frame from all starts.
+/// Best pose of each frame from all starts; in frames that show every joint by the pose of a segment, from
+/// the frame before and one more start where these agree. Any number of threads (0: all cores) gives the same
+/// bits.
 [[nodiscard]] PosedFrames first_poses(const ChainSamples& samples, const Chain& chain,
                                       const std::vector<std::int64_t>& frames,
                                       const std::vector<double>& marker_weight, double sigma_m,
-                                      int iterations);
+                                      int iterations, int threads = 1);
 
 }  // namespace kinemark::skeleton::articulated

@@ -76,5 +76,20 @@ TEST(FirstPoses, FramesThatShowNothingAreLeftOut) {
   EXPECT_EQ(first_poses(limb.samples, limb.chain, {0, 1, 2}, none, 0.001, 15).size(), 0U);
 }
 
+TEST(FirstPoses, AreThoseOfAllStartsForAnyNumberOfThreads) {
+  const RandomChain limb = make_random_chain({.segments = 3, .markers_per_segment = 4, .frames = 150});
+  const std::vector<double> all(12, 1.0);
+  std::vector<std::int64_t> frames;
+  for (std::int64_t f = 0; f < 150; ++f) frames.push_back(f);
+  const PosedFrames one = first_poses(limb.samples, limb.chain, frames, all, 0.001, 40, 1),
+                    four = first_poses(limb.samples, limb.chain, frames, all, 0.001, 40, 4);
+  ASSERT_EQ(one.frame, frames);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one.pose[i].joint0, four.pose[i].joint0);
+    const PosedFrames alone = first_poses(limb.samples, limb.chain, {frames[i]}, all, 0.001, 40);
+    EXPECT_LT((one.pose[i].joint0 - alone.pose[0].joint0).norm(), 1e-6) << i;
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::skeleton::articulated

@@ -140,32 +140,26 @@ void GeometryFit::accumulate(std::int64_t begin, std::int64_t end, bool keep, Pa
   Eigen::MatrixXd H;
   Eigen::MatrixXd G;
   Eigen::VectorXd b;
+  std::vector<Eigen::Index> rows;
   for (std::int64_t i = begin; i < end; ++i) {
     const double* x = samples_.frame(frames_.frame[i]);
     solver.set(x, frames_.weight[i]);
     solver.normal(frames_.pose[i], {}, false, H, b);
     solver.linearize_geometry(frames_.pose[i], x, frames_.weight[i], G, &part.S, &part.right);
     hold_loose_rotations(chain_, H);
-    if (!cholesky_from_leaves(H)) continue;
-    if (keep) {
-      step_[i] = b;
-      solve_from_leaves(H, step_[i]);
-      solve_to_leaves(H, step_[i]);
-    }
+    if (!cholesky_from_leaves(H, rows)) continue;
     for (Eigen::Index c = 0; c < n; ++c) solve_from_leaves(H, G.col(c));
     solve_from_leaves(H, b);
     part.S.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose(), -1.0);
     part.right.noalias() -= G.transpose() * b;
-    if (!keep) continue;
-    for (Eigen::Index c = 0; c < n; ++c) solve_to_leaves(H, G.col(c));
-    by_geometry_[i] = G;
+    if (keep) eliminated_[i] = {.factor = H, .by_geometry = G, .right = b};
   }
 }
 
 void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
-  by_geometry_.assign(keep ? frames_.size() : 0, {});
-  step_.assign(keep ? frames_.size() : 0, {});
+  eliminated_.resize(keep ? frames_.size() : 0);
+  for (Eliminated& frame : eliminated_) frame.right.resize(0);
   const std::int64_t count = std::ssize(frames_.frame);
   std::vector<Part> parts((count + kChunk - 1) / kChunk);
   parallel_for(count, kChunk, threads_, [&](std::int64_t begin, std::int64_t end) {
@@ -182,7 +176,8 @@ void GeometryFit::accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool ke
   add_prior(S, right);
 }
 
-double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
+double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient,
+                        const std::function<bool(int round, double gain_m2)>& give_up) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
   double cost = refine_all(chain_, frames_.pose, 40) + prior_cost(chain_);
   double lambda = 1e-6;
@@ -209,8 +204,11 @@ double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
       trial.move_geometry(step);
       poses = frames_.pose;
       for (std::size_t i = 0; i < frames_.size(); ++i) {
-        if (by_geometry_[i].size() == 0) continue;
-        frame_step = step_[i] - by_geometry_[i] * step;
+        const Eliminated& frame = eliminated_[i];
+        if (frame.right.size() == 0) continue;
+        frame_step = frame.right;
+        frame_step.noalias() -= frame.by_geometry * step;
+        solve_to_leaves(frame.factor, frame_step);
         const double big = frame_step.tail(frame_step.size() - 3).cwiseAbs().maxCoeff();
         if (big > 0.5) frame_step *= 0.5 / big;
         move_pose(trial, frame_step, poses[i]);
@@ -229,7 +227,7 @@ double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient) {
       }
       lambda = std::max(5.0 * lambda, 1e-6);
     }
-    if (!better || gain < 1e-9 * cost + 1e-20) break;
+    if (!better || gain < 1e-9 * cost + 1e-20 || (give_up && give_up(round, gain))) break;
   }
   return cost - prior_cost(chain_);
 }

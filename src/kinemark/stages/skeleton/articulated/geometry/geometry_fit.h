@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
@@ -41,8 +42,10 @@ class GeometryFit {
 
   /// Damped Gauss-Newton with variable projection: S dg = sum (b_g - G^T H^-1 b), S = sum (H_gg - G^T H^-1
   /// G), each trial with all poses refined. `extra_gradient` (empty: none) is added to that of half the cost.
-  /// Returns the cost, m^2, without the prior's part.
-  double run(int iterations, const Eigen::VectorXd& extra_gradient = {});
+  /// Returns the cost, m^2, without the prior's part. `give_up` (may be empty) is asked after every step but
+  /// the last with its number, from 0, and by how much the cost fell; true ends the fit.
+  double run(int iterations, const Eigen::VectorXd& extra_gradient = {},
+             const std::function<bool(int round, double gain_m2)>& give_up = {});
   /// Gradient of sigma^2 / 2 sum log det H by the geometry parameters, by differences: it changes the profile
   /// likelihood into the integrated one. For lines only: a solid's rotation that the data hardly determine is
   /// not Gaussian, and the term then does harm.
@@ -78,6 +81,13 @@ class GeometryFit {
   void add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const;
   [[nodiscard]] double prior_cost(const Chain& chain) const;
 
+  /// A frame's own step after one of the geometry, U^-T (right - by_geometry * step), with H = U U^T. Empty
+  /// where H has no factor.
+  struct Eliminated {
+    Eigen::MatrixXd factor, by_geometry;  ///< U, U^-1 G
+    Eigen::VectorXd right;                ///< U^-1 b
+  };
+
   /// A joint's position along its axis from the mean of a segment's markers is offset_m + by_geometry * (the
   /// geometry parameters).
   struct Hold {
@@ -91,9 +101,8 @@ class GeometryFit {
   PoseSolver solver_;
   int threads_;
   std::vector<Hold> holds_;
-  double prior_weight_ = 0.0;                 // (noise / kJointPriorSd_m)^2
-  std::vector<Eigen::MatrixXd> by_geometry_;  // H^-1 G, frame by frame
-  std::vector<Eigen::VectorXd> step_;         // H^-1 b
+  double prior_weight_ = 0.0;           // (noise / kJointPriorSd_m)^2
+  std::vector<Eliminated> eliminated_;  // frame by frame
 };
 
 }  // namespace kinemark::skeleton::articulated

@@ -78,7 +78,7 @@ double joint_distance(const Chain& a, const PosedFrames& in_a, const Chain& b, c
 
 }  // namespace
 
-bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, FittedChain& fit) {
+bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, FittedChain& fit, int threads) {
   fit.mirror_margin = std::numeric_limits<double>::infinity();
   std::vector<int> open;
   for (int j = 0; j < fit.chain.joints(); ++j) {
@@ -92,8 +92,8 @@ bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, Fitted
   bool taken = false;
   const double share = static_cast<double>(frames.size()) / static_cast<double>(n);
   const auto refit = [&](Chain& chain, PosedFrames& poses) {
-    poses = first_poses(samples, chain, some, fit.marker_weight, fit.noise_sd_m, 15);
-    return GeometryFit(chain, samples, poses, fit.noise_sd_m).run(10);
+    poses = first_poses(samples, chain, some, fit.marker_weight, fit.noise_sd_m, 15, threads);
+    return GeometryFit(chain, samples, poses, fit.noise_sd_m, threads).run(10);
   };
   Chain best = fit.chain;
   PosedFrames best_poses;

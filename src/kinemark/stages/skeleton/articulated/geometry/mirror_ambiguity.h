@@ -11,6 +11,6 @@ namespace kinemark::skeleton::articulated {
 /// Refits from geometries whose joints are reflected at the plane of their segment's markers, joint by joint.
 /// A better one replaces `fit.chain` (returns true); fit.mirror_margin becomes the chi-square between it and
 /// the next best.
-bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, FittedChain& fit);
+bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, FittedChain& fit, int threads = 1);
 
 }  // namespace kinemark::skeleton::articulated

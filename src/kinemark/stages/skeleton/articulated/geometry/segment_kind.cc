@@ -26,6 +26,8 @@ constexpr double kPlaneBonus = 3.0;  // nats that a solid must be better than a 
 constexpr double kSurelyLine = 2.5;  // deviates of across_line()
 constexpr double kSurelyWide = 60.0;
 constexpr int kFrames = 400;
+constexpr int kFirstLook = 3, kSecondLook = 8;  // steps of a fit after which it may be given up
+constexpr double kGainsLeft = 100.0;            // a fit gains no more than so many times its last step
 
 /// Modified Bessel function I_0 by its power series, all of whose terms are positive: h from 0 to kFirm.
 /// (std::cyl_bessel_i is not in libc++.)
@@ -38,26 +40,36 @@ double bessel_i0(double h) {
   return sum;
 }
 
-struct Candidate {
-  double evidence = -std::numeric_limits<double>::infinity();
-  double noise_m = 0.0;
+/// What is tried, and on which frames.
+struct Trial {
+  const ChainSamples& samples;
+  const ChainLayout& layout;
+  std::vector<std::int64_t> frames;
+  double sigma_m = 0.0;  ///< 0: that which the first fit leaves
+  int threads = 1;
+
+  /// Log evidence of these kinds; where it cannot reach `needed`, what it is when that is seen. None where
+  /// they cannot be fitted.
+  [[nodiscard]] double evidence(const std::vector<SegmentKind>& kind, double needed);
 };
 
-Candidate try_kinds(const ChainSamples& samples, const ChainLayout& layout,
-                    const std::vector<SegmentKind>& kind, double sigma_m,
-                    const std::vector<std::int64_t>& frames) {
-  Candidate out;
+double Trial::evidence(const std::vector<SegmentKind>& kind, double needed) {
   const auto start = start_geometry(samples, layout, kind, sigma_m);
-  if (!start) return out;
+  if (!start) return kNever;
   Chain chain = *start;
   const std::vector<double> weights(chain.markers(), 1.0);
-  PosedFrames poses = first_poses(samples, chain, frames, weights, sigma_m > 0.0 ? sigma_m : 1e-3, 15);
-  if (poses.size() < 5) return out;
-  GeometryFit fit(chain, samples, poses);
-  const double cost = fit.run(20);
-  out.noise_m = std::sqrt(cost / std::max(fit.degrees_of_freedom(), 1.0));
-  if (sigma_m > 0.0) out.evidence = log_evidence(chain, samples, poses, sigma_m);
-  return out;
+  PosedFrames poses =
+      first_poses(samples, chain, frames, weights, sigma_m > 0.0 ? sigma_m : 1e-3, 15, threads);
+  if (poses.size() < 5) return kNever;
+  GeometryFit fit(chain, samples, poses, 0.0, threads);
+  const auto hopeless = [&](int round, double gain_m2) {
+    if (!(sigma_m > 0.0) || (round != kFirstLook && round != kSecondLook)) return false;
+    const double reach = kGainsLeft * gain_m2 / (2.0 * sigma_m * sigma_m);
+    return log_evidence(chain, samples, poses, sigma_m) + reach < needed;
+  };
+  const double cost = fit.run(20, {}, hopeless);
+  if (!(sigma_m > 0.0)) sigma_m = std::sqrt(cost / std::max(fit.degrees_of_freedom(), 1.0));
+  return sigma_m > 0.0 ? log_evidence(chain, samples, poses, sigma_m) : kNever;
 }
 
 }  // namespace
@@ -114,7 +126,8 @@ double across_line(const ChainSamples& samples, std::span<const int> markers, do
 }
 
 Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const ChainLayout& layout,
-                                              double sigma_m, const std::function<bool()>& stopped) {
+                                              double sigma_m, const std::function<bool()>& stopped,
+                                              int threads) {
   // Kinds that a segment may have: what two markers and a joint show is never more than a plane.
   const int segments = layout.segments();
   std::vector<std::vector<SegmentKind>> allowed(segments);
@@ -126,7 +139,8 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
     general[s] = points >= 4 ? SegmentKind::solid : points == 3 ? SegmentKind::plane : SegmentKind::line;
     allowed[s].push_back(general[s]);
   }
-  std::vector<std::int64_t> frames;
+  Trial trial{.samples = samples, .layout = layout, .frames = {}, .sigma_m = sigma_m, .threads = threads};
+  auto& frames = trial.frames;
   {
     const auto start = start_geometry(samples, layout, general, sigma_m);
     std::vector<SegmentKind> lines(segments, SegmentKind::line);
@@ -143,13 +157,12 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
     frames.swap(some);
   }
   if (frames.size() < 5) return general;
-  double sigma = sigma_m;
-  if (sigma <= 0.0) sigma = try_kinds(samples, layout, general, 0.0, frames).noise_m;
-  if (!(sigma > 0.0)) return general;
+  const double of_general = trial.evidence(general, kNever);
+  if (!(trial.sigma_m > 0.0)) return general;
   bool open = false;
   for (int s = 0; s < segments; ++s) {
     const std::vector<int> markers = layout.markers_of(s);
-    const double across = across_line(samples, markers, sigma);
+    const double across = across_line(samples, markers, trial.sigma_m);
     if (markers.size() >= 2 && general[s] != SegmentKind::line && across < kSurelyWide) {
       allowed[s].push_back(SegmentKind::line);
     }
@@ -166,19 +179,19 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
     return sum;
   };
   bool cancelled = false;
-  std::vector<std::pair<std::vector<SegmentKind>, double>> known;
+  std::vector<SegmentKind> best = general;
+  double best_value = of_general + bonus(general);
+  std::vector<std::pair<std::vector<SegmentKind>, double>> known{{general, best_value}};
   const auto value = [&](const std::vector<SegmentKind>& kind) {
     for (const auto& [tried, worth] : known) {
       if (tried == kind) return worth;
     }
     cancelled = cancelled || (stopped && stopped());
-    const double worth =
-        cancelled ? kNever : try_kinds(samples, layout, kind, sigma, frames).evidence + bonus(kind);
+    const double more = bonus(kind);
+    const double worth = cancelled ? kNever : trial.evidence(kind, best_value - more) + more;
     known.emplace_back(kind, worth);
     return worth;
   };
-  std::vector<SegmentKind> best = general;
-  double best_value = value(general);
   for (const SegmentKind kind : {SegmentKind::line, SegmentKind::plane}) {
     std::vector<SegmentKind> alike = general;
     for (int s = 0; s < segments; ++s) {

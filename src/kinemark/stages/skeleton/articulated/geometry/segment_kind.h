@@ -25,9 +25,11 @@ namespace kinemark::skeleton::articulated {
 
 /// Kind of every segment. A line is taken unless another kind is better by some tens of nats: its error is
 /// the smaller one where the two are near. `sigma_m` 0: estimated with all segments solid.
-/// `stopped` (empty: never) is asked before every trial; true ends the work with Code::cancelled.
+/// `stopped` (empty: never) is asked before every trial; true ends the work with Code::cancelled. Any number
+/// of threads (0: all cores) gives the same bits.
 [[nodiscard]] Result<std::vector<data::SegmentKind>> choose_kinds(const ChainSamples& samples,
                                                                   const ChainLayout& layout, double sigma_m,
-                                                                  const std::function<bool()>& stopped = {});
+                                                                  const std::function<bool()>& stopped = {},
+                                                                  int threads = 1);
 
 }  // namespace kinemark::skeleton::articulated

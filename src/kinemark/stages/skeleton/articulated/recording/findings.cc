@@ -241,12 +241,13 @@ std::vector<SwappedMarkers> find_swapped_markers(const FittedChain& fit, const C
     solver.solve(samples.frame(f), nullptr, frame);
     if (frame.mode_count == 0) continue;
     const std::vector<bool> far = far_off(fit, samples, f, frame);
+    const ChainPose near = frame.modes.front().pose;  // two names hardly move it
     for (int a = 0; a < K; ++a)
       for (int b = a + 1; b < K; ++b) {
         if (!far[at(a)] && !far[at(b)]) continue;
         std::copy_n(samples.frame(f), 3 * K, x.begin());
         std::swap_ranges(x.begin() + 3 * a, x.begin() + 3 * a + 3, x.begin() + 3 * b);
-        solver.solve(x.data(), nullptr, frame);
+        solver.solve(x.data(), &near, frame);
         if (frame.mode_count == 0) continue;
         const double cost = frame.modes.front().cost;
         if (cost < least && !is_misfit(fit.chain, cost, fit.noise_sd_m, frame.seen))

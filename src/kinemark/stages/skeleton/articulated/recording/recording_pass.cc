@@ -16,7 +16,7 @@
 namespace kinemark::skeleton::articulated {
 namespace {
 
-constexpr std::int64_t kChunk = 1024;    // frames that one thread follows from a cold start
+constexpr std::int64_t kChunk = 256;     // frames that one thread follows from a cold start
 constexpr std::int64_t kSampled = 4000;  // poses kept
 constexpr std::size_t kModesKept = 6;    // of a flagged frame
 constexpr double kLightest = 1e-12;      // share of probability below which a mode is dropped

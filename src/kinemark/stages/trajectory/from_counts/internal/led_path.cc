@@ -180,6 +180,55 @@ void LedPath::smooth(bool last) {
                            });
 }
 
+namespace {
+
+// A mirror that flashes shifts what all cameras see by centimetres for some milliseconds. One such frame
+// weighs as much in the risk as all others together, and makes a path wide enough to follow it.
+constexpr double kMostSquares = 9.0;      // on one axis
+constexpr double kClearlyNarrower = 0.7;  // of the bandwidth
+constexpr double kFlash_s = 0.025;        // longer is movement: no limb stops within it
+constexpr double kMostFlashes = 0.1;      // share of the frames
+
+}  // namespace
+
+/// Frames that the path leaves out are few, and in short runs.
+bool LedPath::only_flashes() {
+  std::size_t out = 0;
+  double begun_s = 0.0, longest_s = 0.0;
+  bool inside = false;
+  for (std::size_t k = 0; k < frames_; ++k) {
+    bool left_out = false;
+    for (std::size_t c = 0; c < cameras_; ++c) left_out |= view(k, c).usable && view(k, c).weight == 0.0;
+    if (left_out && !inside) begun_s = time_s_[k];
+    inside = left_out;
+    if (!left_out) continue;
+    ++out;
+    longest_s = std::max(longest_s, time_s_[k] - begun_s);
+  }
+  return longest_s <= kFlash_s && static_cast<double>(out) <= kMostFlashes * static_cast<double>(frames_);
+}
+
+/// A narrower bandwidth, if outliers alone made the chosen one wide. After the first gather().
+void LedPath::try_without_outliers() {
+  BandwidthOptions how{.order = options_.order, .half_gain_hz = options_.half_gain_hz};
+  how.most_squares = kMostSquares;
+  how.max_observations /= 2;
+  const Bandwidth wide = bandwidth_, narrow = choose_bandwidth(observations_, how);
+  if (narrow.time_constant_s * kClearlyNarrower < wide.time_constant_s) return;
+  const auto now = now_;
+  bandwidth_ = narrow;
+  for (int pass = 0; pass < 4; ++pass) {
+    smooth(false);
+    gather(true);
+  }
+  flashes_ = only_flashes();
+  if (flashes_) return;
+  bandwidth_ = wide;
+  now_ = now;
+  for (auto& v : views_) v.weight = 1.0;
+  gather(false);
+}
+
 void LedPath::run() {
   const bool regress = options_.flicker == Flicker::regress || options_.flicker == Flicker::dark_slot;
   const bool known = flicker_[0].norm() > 0.0;  // from the dark slot
@@ -197,7 +246,9 @@ void LedPath::run() {
         how.max_observations /= 2;
       else
         how.around_hz = 0.5 / (std::numbers::pi * bandwidth_.time_constant_s);
+      if (flashes_) how.most_squares = kMostSquares;
       bandwidth_ = choose_bandwidth(observations_, how);
+      if (pass == 0) try_without_outliers();
     }
     smooth(last);
   }

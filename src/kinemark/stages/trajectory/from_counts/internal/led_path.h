@@ -56,6 +56,8 @@ class LedPath {
   void gather(bool weigh);
   void regress_flicker();
   void smooth(bool last);
+  void try_without_outliers();
+  [[nodiscard]] bool only_flashes();
   void conclude();
 
   const data::Rig& rig_;
@@ -67,6 +69,7 @@ class LedPath {
   std::vector<Motion> now_;
   std::vector<LedObservation> observations_;
   Bandwidth bandwidth_;
+  bool flashes_ = false;  ///< the bandwidth was chosen without outliers
   std::vector<Eigen::Vector2d> flicker_;
   std::vector<Sample> result_;
   LedFit fit_;
