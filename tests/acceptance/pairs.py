@@ -6,7 +6,7 @@
 
 The formats are those of `kinemark help --formats`. Each file is looked at as the MAT file that kinemark makes of it, read
 by scipy.io: MAT keeps all parts but groups of parameters. The source of the formats that are written is a trial with
-every part, written here by scipy.io; those that are only read have a small file of the fuzzers.
+every part, written here by scipy.io; those that are only read have a small file of the fuzzers, AMC a real one.
 
 Needs Python with scipy. Finds the program in KINEMARK_PROGRAM and the recordings in KINEMARK_TEST_DATA; prints rows
 "PASS|FAIL|NOTE | check | asked | measured"; exit status 1 when one fails.
@@ -216,6 +216,9 @@ def check_pair(before, source, rate, target, groups, scratch):
 
 def sample_of(form, scratch):
     """A small file of a format that is only read, with what it needs to be read; or nothing."""
+    if form["name"] == "AMC":  # a pair of files
+        real = next(iter(sorted(DATA.rglob("*.amc"))), None)
+        return (real, ["--rate", "120"]) if real else None
     folder, begins = SAMPLES.get(form["name"], (form["ending"].lstrip("."), b""))
     rate = ["--rate", "100"] if form["name"] == "Visual3D text" else []
     for path in sorted((CORPUS / folder).glob("*")):

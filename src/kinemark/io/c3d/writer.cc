@@ -79,12 +79,12 @@ class FrameEncoder {
     put(trial_.markers.state[i] == SampleState::measured ? measured_word(i) : 0.0);
   }
 
-  /// Numbers of the file that they came from; not measured, or missing.
+  /// Numbers of the file that they came from; not measured, or missing. A point that is there has three.
   void channel(std::size_t frame, std::size_t c) {
     const double* values = trial_.channels.values.data() + 3 * (frame * plan_.channel_factor.size() + c);
     const double unit = plan_.channel_factor[c] / (plan_.integers ? plan_.scale : 1.0);
-    const bool there = std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
-    for (std::size_t axis = 0; axis < 3; ++axis) put(there ? values[axis] * unit : 0.0);
+    const bool there = std::any_of(values, values + 3, [](double v) { return std::isfinite(v); });
+    for (std::size_t axis = 0; axis < 3; ++axis) put(std::isfinite(values[axis]) ? values[axis] * unit : 0.0);
     put(there ? 0.0 : -1.0);
   }
 
@@ -118,6 +118,20 @@ Status write_frames(OutputFile& file, const data::Trial& trial, const C3dPlan& p
   return rest == 0 ? Status{} : file.write(std::span(padding).first(kC3dBlock - rest));
 }
 
+/// How many channels have a number in a frame, and not all three.
+std::int64_t channels_in_part(const data::Channels& channels) {
+  std::int64_t count = 0;
+  for (std::size_t c = 0; c < channels.names.size(); ++c)
+    for (std::size_t i = 3 * c; i < channels.values.size(); i += 3 * channels.names.size()) {
+      const auto numbers = std::ranges::count_if(std::span(channels.values).subspan(i, 3),
+                                                 [](double v) { return std::isfinite(v); });
+      if (numbers == 0 || numbers == 3) continue;
+      ++count;
+      break;
+    }
+  return count;
+}
+
 }  // namespace
 
 Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
@@ -127,6 +141,10 @@ Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
   const auto lose = [&](std::string what) {
     if (options.lost) options.lost->push_back(std::move(what));
   };
+  if (const auto part = channels_in_part(trial.channels); part > 0)
+    lose(fmt::format("{} fewer than three numbers: those that are not there are kept as 0 in a .c3d file",
+                     part == 1 ? "1 channel that is no marker has"
+                               : fmt::format("{} channels that are no markers have", part)));
   // What does not fit gives way: what is carried for others first, then how samples were filled.
   std::span<const data::ForeignGroup> foreign = trial.foreign;
   auto section = encode_parameters(plan->parameters, plan->processor, foreign);

@@ -255,5 +255,28 @@ TEST(C3dWriter, ReplacesAFileOnlyWhenForced) {
   EXPECT_TRUE(write_c3d(scratch / "a.c3d", trial, {.force = true}));
 }
 
+TEST(WriteC3d, AChannelOfOneNumberKeepsItAndTheOthersAreSaid) {
+  const testing_support::ScratchFolder scratch;
+  Trial trial = simulate_trial({.markers = 2, .frames = 3, .channels = 0});
+  trial.channels = {
+      .names = {"knee", "hip"},
+      .kinds = {data::ChannelKind::angle, data::ChannelKind::angle},
+      .units = {"deg", "deg"},
+      .rate_hz = trial.markers.time.rate_hz,
+      .frames = 3,
+      .values = {17.0, NAN, NAN, 1, 2, 3, NAN, NAN, NAN, 1, 2, 3, 18.0, NAN, NAN, NAN, NAN, NAN}};
+  std::vector<std::string> lost;
+  ASSERT_TRUE(write_c3d(scratch / "a.c3d", trial, {.lost = &lost}));
+  EXPECT_THAT(lost,
+              ElementsAre("1 channel that is no marker has fewer than three numbers: those that are not "
+                          "there are kept as 0 in a .c3d file"));
+  const auto back = read_c3d(scratch / "a.c3d");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_THAT(std::vector<double>(back->channels.values.begin(), back->channels.values.begin() + 6),
+              ElementsAre(17.0, 0.0, 0.0, 1.0, 2.0, 3.0));
+  EXPECT_TRUE(std::isnan(back->channels.values[6])) << "no number in this frame";
+  EXPECT_EQ(back->channels.values[12], 18.0);
+}
+
 }  // namespace
 }  // namespace kinemark::io
