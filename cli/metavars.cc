@@ -18,13 +18,13 @@ struct Values {
 
 constexpr std::array kValues = {
     Values{"FILE IN INPUT OUT output model markers static setup tasks forces rig nominal data report figures "
-           "segments skeleton edits",
+           "segments skeleton edits joints",
            "FILE"},
     Values{"out man-pages", "FOLDER"},
     Values{"rate cutoff half-gain resample", "HZ"},
     Values{"duration start end max-gap longest-gap", "S"},
     Values{"step", "MS"},
-    Values{"noise max-rms max-offset max-gap-sd place-prior stagger loss-scale", "MM"},
+    Values{"noise max-rms max-offset max-gap-sd place-prior joint-prior stagger loss-scale", "MM"},
     Values{"sides", "M"},
     Values{"image-noise", "PX"},
     Values{"mass", "KG"},

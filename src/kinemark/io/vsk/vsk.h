@@ -63,7 +63,7 @@ struct Vsk {
 
 /// Read a VSK or a VST file. Lengths are metres (millimetres in the file), angles radians, masses kilograms.
 /// Expressions are kept as text. Code::bad_input, with the element, for what does not fit: no
-/// <KinematicModel>, no segment, names that stand twice, a marker on a segment that is not there; Code::io
+/// KinematicModel, no segment, names that stand twice, a marker on a segment that is not there; Code::io
 /// when it cannot be read. At most 4 MiB are read.
 [[nodiscard]] Result<Vsk> read_vsk(const std::filesystem::path& path);
 
