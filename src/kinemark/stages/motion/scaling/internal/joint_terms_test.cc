@@ -78,7 +78,7 @@ TEST(JointTerms, slopes_are_those_of_finite_differences) {
   const JointTerms terms(model, list, {measured, hip_of(model, false, covariance())});
   Random random(5, 1);
   Eigen::VectorXd x(static_cast<Index>(list.size()));
-  for (Index k = 0; k < x.size(); ++k) x[k] = 1e-7 * random.gaussian();
+  for (double& step : x) step = 1e-7 * random.gaussian();
   const auto here = terms.sums(x);
   for (Index k = 0; k < x.size(); ++k) {
     const double h = 1e-6;
