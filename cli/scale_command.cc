@@ -36,7 +36,8 @@ void print_scale_outcome(const CommonOptions& common, const pipeline::ScaleJob& 
                          const pipeline::ScaleOutcome& outcome) {
   if (!outcome.clavicles.empty()) say(common, fmt::format("Set free: {}.", join(outcome.clavicles)));
   if (!outcome.joints.empty())
-    say(common, fmt::format("Joints that the motion places, not the sizes alone: {}.", join(outcome.joints)));
+    say(common,
+        fmt::format("Joints that may leave the place that sizes give them: {}.", join(outcome.joints)));
   if (outcome.scaled)
     for (const auto& m : outcome.scaled->measurements)
       say(common, fmt::format("measured {:16} x {:.4f}", m.name, m.factor));

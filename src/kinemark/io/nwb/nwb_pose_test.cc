@@ -16,7 +16,6 @@ namespace {
 
 using internal::Handle;
 using internal::Input;
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::sample_trajectories;
 

@@ -150,6 +150,7 @@ class Reader {
                                      {"axis_covariance_in_parent", &joint.axis_covariance_in_parent},
                                      {"axis_repeatability_in_parent", &joint.axis_repeatability_in_parent}})
       if (auto s = read_matrix(member(json, key), fmt::format("{}.{}", place, key), *value); !s) return s;
+    if (joint.kind == data::JointKind::ball) joint.axis_covariance_in_parent.setZero();
     joint.axis_sd_rad =
         joint.kind == data::JointKind::hinge ? number_of(json, "axis_sd_deg") * kRadPerDeg : 0.0;
     joint.range_of_motion_rad = number_of(json, "range_of_motion_deg") * kRadPerDeg;

@@ -68,6 +68,14 @@ TEST(SkeletonFile, holds_what_joints_wrote) {
   EXPECT_EQ(file->recording.hash, "00ff");
 }
 
+TEST(SkeletonFile, a_ball_has_no_axis_whose_doubt_could_be_unknown) {
+  json ball = example();
+  ball["joints"][0]["kind"] = "ball";
+  const auto joint = parse_skeleton(ball.dump(), "s.json").value().skeleton.joints[0];
+  EXPECT_EQ(joint.axis_covariance_in_parent.norm(), 0.0);
+  EXPECT_EQ(joint.axis_sd_rad, 0.0);
+}
+
 TEST(SkeletonFile, is_found_in_its_folder) {
   const testing_support::ScratchFolder scratch;
   io::write_text(scratch / "skeleton.json", example().dump(), false).value();

@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing_leg::leg;
+using testing_leg::sizes_and_hip;
 
 /// Pelvis, thigh and shank of a leg as `joints` leaves them, in axes of their own.
 data::Skeleton skeleton_of(const data::ModelDescription& model, double sd_m) {
@@ -105,19 +106,9 @@ TEST(MatchJoints, says_of_each_joint_that_is_not_used_why) {
               ElementsAre(HasSubstr("segment 'pelvis' has fewer than two markers")));
 }
 
-std::vector<GeometryParameter> with_hip(const data::ModelDescription& model) {
-  auto out = scale_parameters(model, default_scale_groups(model), 0.04).value();
-  const std::vector<std::string> hip{"hip_r"};
-  const auto joints = joint_parameters(model, hip, 0.02).value();
-  const auto markers = marker_parameters(model, {}, 0.005).value();
-  out.insert(out.end(), joints.begin(), joints.end());
-  out.insert(out.end(), markers.begin(), markers.end());
-  return out;
-}
-
 // Nobody moves: without the functional hip its position stays as the model has it.
 TEST(MeasuredJoints, place_the_hip_of_a_subject_who_stands_still_within_its_deviation) {
-  const auto list = with_hip(leg());
+  const auto list = sizes_and_hip(leg(), 0.04);
   constexpr int kSubjects = 12;
   double with = 0.0, without = 0.0, chi_squares = 0.0;
   for (int s = 0; s < kSubjects; ++s) {
@@ -163,7 +154,7 @@ TEST(MeasuredJoints, place_the_hip_of_a_subject_who_stands_still_within_its_devi
 }
 
 TEST(MeasuredJoints, that_do_not_fit_the_model_are_refused) {
-  const auto list = with_hip(leg());
+  const auto list = sizes_and_hip(leg(), 0.04);
   AdaptOptions options;
   options.joints = match_joints(leg(), skeleton_of(leg(), 0.002)).joints;
   const auto recording = testing_leg::record(leg(), {.frames = 10, .noise_sd_m = 0.001});

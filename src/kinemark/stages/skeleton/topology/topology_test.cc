@@ -101,6 +101,22 @@ TEST(Topology, GroupsNeverSeenTogetherStayApart) {
   EXPECT_NE(found->warnings.back().find("2 groups"), std::string::npos);
 }
 
+TEST(Topology, AMarkerThatMovesOnItsSegmentIsSaidToDoSo) {
+  auto chain = make_chain({.per_segment = 6, .stagger_m = 0.03, .noise_sd_m = 0.001});
+  for (std::int64_t f = 0; f < chain.markers.frames(); ++f) {
+    const Eigen::Vector3d along = (chain.markers.x(f, 3) - chain.markers.x(f, 0)).normalized();
+    chain.markers.x(f, 3) += 0.005 * std::sin(0.1 * static_cast<double>(f)) * along;
+  }
+  const auto found = find_topology(chain.markers);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->markers[3].doubtful);
+  EXPECT_GT(found->markers[3].nats, 6.0);
+  ASSERT_FALSE(found->warnings.empty());
+  EXPECT_NE(found->warnings[0].find("it moves against others there"), std::string::npos)
+      << found->warnings[0];
+  EXPECT_EQ(found->warnings[0].find("fits nearly as well"), std::string::npos) << found->warnings[0];
+}
+
 TEST(Topology, AMarkerOnTheJointIsDoubtful) {
   auto chain = make_chain({.per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.001});
   // Marker 3 goes to the joint itself, where it belongs to both.
@@ -112,6 +128,8 @@ TEST(Topology, AMarkerOnTheJointIsDoubtful) {
   for (const int m : {0, 1, 2, 4, 5, 6, 7})
     EXPECT_FALSE(found->markers[static_cast<std::size_t>(m)].doubtful) << m;
   EXPECT_NE(found->warnings[0].find("'s0m3'"), std::string::npos) << found->warnings[0];
+  EXPECT_NE(found->warnings[0].find("fits nearly as well"), std::string::npos) << found->warnings[0];
+  EXPECT_EQ(found->warnings[0].find("moves against"), std::string::npos) << found->warnings[0];
 }
 
 TEST(Topology, LongRecordingsAreDrawnFrom) {

@@ -8,6 +8,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/math/rotation_fit.h"
+#include "kinemark/math/se3.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -23,10 +24,6 @@ Matrix3d information_of(const Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(0.5 * (covariance + covariance.transpose()));
   const Vector3d variance = eigen.eigenvalues().cwiseMax(kLeastSd_m * kLeastSd_m);
   return eigen.eigenvectors() * variance.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-}
-
-Matrix3d cross(const Vector3d& v) {
-  return Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
 }
 
 }  // namespace
@@ -87,10 +84,10 @@ JointSums JointTerms::sums(const Eigen::VectorXd& x) const {
     // The markers turn by (sum r x r x)^-1 sum r x dx when they move by dx, and the covariance with them.
     Matrix3d inertia = Matrix3d::Zero();
     for (Index m = 0; m < term.x.cols(); ++m) {
-      const Matrix3d r = cross(R * term.x.col(m) + body_from_markers.translation - middle);
+      const Matrix3d r = math::skew(R * term.x.col(m) + body_from_markers.translation - middle);
       inertia += r.transpose() * r;
     }
-    const Matrix3d turn = -cross(joint - middle) * inertia.inverse();
+    const Matrix3d turn = -math::skew(joint - middle) * inertia.inverse();
     Eigen::MatrixXd A(3, std::ssize(term.moves));
     for (Index k = 0; k < A.cols(); ++k) {
       const auto& move = term.moves[at(k)];

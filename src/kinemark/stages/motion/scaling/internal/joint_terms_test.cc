@@ -16,16 +16,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using testing_leg::leg;
-
-std::vector<GeometryParameter> sizes_and_hip(const data::ModelDescription& model) {
-  auto out = scale_parameters(model, default_scale_groups(model), 0.3).value();
-  const std::vector<std::string> hip{"hip_r"};
-  const auto joints = joint_parameters(model, hip, 0.02).value();
-  const auto markers = marker_parameters(model, {}, 0.005).value();
-  out.insert(out.end(), joints.begin(), joints.end());
-  out.insert(out.end(), markers.begin(), markers.end());
-  return out;
-}
+using testing_leg::sizes_and_hip;
 
 /// The hip of a model among the markers of pelvis or thigh, in axes turned and moved away from the body's.
 MeasuredJoint hip_of(const data::ModelDescription& model, bool in_parent, const Matrix3d& covariance) {

@@ -92,6 +92,16 @@ data::ModelDescription leg() {
   return model;
 }
 
+std::vector<GeometryParameter> sizes_and_hip(const data::ModelDescription& model, double size_prior_sd) {
+  auto out = scale_parameters(model, default_scale_groups(model), size_prior_sd).value();
+  const std::vector<std::string> hip{"hip_r"};
+  const auto joints = joint_parameters(model, hip, 0.02).value();
+  const auto markers = marker_parameters(model, {}, 0.005).value();
+  out.insert(out.end(), joints.begin(), joints.end());
+  out.insert(out.end(), markers.begin(), markers.end());
+  return out;
+}
+
 data::Trajectories record(const data::ModelDescription& description, const Recording& how) {
   const auto model = model::Model::compile(description).value();
   std::vector<std::string> names;

@@ -6,13 +6,19 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "kinemark/data/model_description.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/motion/scaling/geometry.h"
 
 namespace kinemark::motion::testing_leg {
 
 [[nodiscard]] data::ModelDescription leg();
+
+/// Sizes of the leg's segments, its hip's offset in the pelvis (prior 20 mm) and all markers (5 mm).
+[[nodiscard]] std::vector<GeometryParameter> sizes_and_hip(const data::ModelDescription& model,
+                                                           double size_prior_sd = 0.3);
 
 /// How the leg is recorded.
 struct Recording {
