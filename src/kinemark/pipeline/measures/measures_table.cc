@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
 namespace kinemark::pipeline {
@@ -17,7 +19,16 @@ using Json = nlohmann::ordered_json;
 const data::MeasureDefinition* definition_of(std::string_view id) {
   for (const auto& definition : analysis::path_definitions())
     if (definition.what.id == id) return &definition.what;
-  return nullptr;
+  const auto* of_walking = analysis::find_gait_definition(id);
+  return of_walking != nullptr ? &of_walking->what : nullptr;
+}
+
+// All, in the order in which they are shown.
+std::vector<data::MeasureDefinition> all_definitions() {
+  std::vector<data::MeasureDefinition> out;
+  for (const auto& definition : analysis::path_definitions()) out.push_back(definition.what);
+  for (const auto& definition : analysis::gait_definitions()) out.push_back(definition.what);
+  return out;
 }
 
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
@@ -132,22 +143,22 @@ std::string measures_text(std::span<const data::Measure> measures) {
     const auto& m = measures[i];
     const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region;
     if (!same)
-      out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject,
+      out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject.empty() ? "Walking" : m.subject,
                          m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
                          m.share_not_measured > 0.0
                              ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
                              : "");
     const auto* definition = definition_of(m.id);
-    out += fmt::format("  {:<40} {}{}\n", definition ? definition->title : std::string_view(m.id),
-                       value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
+    const auto title = fmt::format("{}{}", definition ? definition->title : std::string_view(m.id),
+                                   m.context.empty() ? "" : ", " + m.context);
+    out += fmt::format("  {:<40} {}{}\n", title, value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
   }
   return out;
 }
 
 std::string measure_list() {
   std::string out;
-  for (const auto& definition : analysis::path_definitions()) {
-    const auto& what = definition.what;
+  for (const auto& what : all_definitions()) {
     const auto unit = data::shown_unit(what.quantity).name;
     out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
                        unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
@@ -157,8 +168,7 @@ std::string measure_list() {
 
 nlohmann::ordered_json measure_list_json() {
   Json out = Json::array();
-  for (const auto& definition : analysis::path_definitions()) {
-    const auto& what = definition.what;
+  for (const auto& what : all_definitions()) {
     out.push_back({{"measure", what.id},
                    {"group", what.group},
                    {"title", what.title},
