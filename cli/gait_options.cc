@@ -24,6 +24,16 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
                   "Foot strikes and leavings: .csv, or .c3d, the recording with these events")
       ->type_name("FILE")
       ->group(what);
+  command
+      .add_option("--write-cycles", request.write_cycles,
+                  "Angles over each cycle and their mean, 0 to 100 %, .csv: of the recording's own, or of --angles")
+      ->type_name("FILE")
+      ->group(what);
+  command
+      .add_option("--angles", request.angles,
+                  "Motion whose coordinates are cut into cycles, .mot or .sto; Q_sd.sto beside it counts too")
+      ->type_name("FILE")
+      ->group(what);
 }
 
 }  // namespace kinemark::cli

@@ -11,6 +11,7 @@
 #include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/settings_file.h"
+#include "kinemark/pipeline/measures/measures_table.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -92,17 +93,11 @@ Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const dat
 
 std::string events_csv(const analysis::Gait& gait, const TimeBase& time, const std::string& file) {
   std::string out = "file,context,label,time_s,frame,sd_s,source,method\n";
-  const auto quoted = [](const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string inside;
-    for (const char c : text) inside += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return '"' + inside + '"';
-  };
   for (const auto& event : gait.events)
-    out += fmt::format("{},{},{},{:.6f},{},{},{},{}\n", quoted(file), data::to_string(event.side),
+    out += fmt::format("{},{},{},{:.6f},{},{},{},{}\n", csv_quoted(file), data::to_string(event.side),
                        data::to_string(event.what), event.time_s, time.number(time.nearest_frame(event.time_s)),
                        std::isfinite(event.sd_s) ? fmt::format("{:.6f}", event.sd_s) : "",
-                       data::to_string(event.source), quoted(event.method));
+                       data::to_string(event.source), csv_quoted(event.method));
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
@@ -199,6 +200,14 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
     files.push_back(text_file(job.gait.write_events, [&] {
       return events_csv(*outcome.gait, trial.markers.time, job.input.filename().string());
     }));
+  std::vector<data::CycleCurves> curves;
+  if (!job.gait.write_cycles.empty()) {
+    auto cut = gait_curves(trial, outcome.gait->cycles, job.gait.angles);
+    if (!cut) return fail_at(name, cut.error());
+    curves = std::move(*cut);
+    files.push_back(
+        text_file(job.gait.write_cycles, [&] { return curves_csv(curves, job.input.filename().string()); }));
+  }
   if (files.empty()) return outcome;
   auto written = write_results(*staging, files, {}, "the measures");
   if (!written) return std::unexpected(written.error());

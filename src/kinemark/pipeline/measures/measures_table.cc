@@ -34,17 +34,6 @@ std::vector<data::MeasureDefinition> all_definitions() {
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-// As RFC 4180 has it.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
 // As many digits as the interval's width supports, two of it, and four significant ones without.
 std::string rounded(double value, double width) {
   if (!std::isfinite(value)) return "not determined";
@@ -91,6 +80,16 @@ std::string value_text(const data::Measure& measure) {
 
 }  // namespace
 
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
 std::string measures_csv(std::span<const data::Measure> measures, const std::string& file) {
   std::string out =
       "file,subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,"
@@ -100,11 +99,11 @@ std::string measures_csv(std::span<const data::Measure> measures, const std::str
     const auto unit = data::shown_unit(m.quantity);
     const auto shown = [&unit](double si) { return cell(unit.per_si * si); };
     out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", quoted(file), quoted(m.subject),
-        quoted(m.context), quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", csv_quoted(file), csv_quoted(m.subject),
+        csv_quoted(m.context), csv_quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
         cell(m.end_s), m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
         m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
-        shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), quoted(m.method), quoted(m.remark));
+        shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), csv_quoted(m.method), csv_quoted(m.remark));
   }
   return out;
 }

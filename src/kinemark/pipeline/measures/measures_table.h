@@ -11,6 +11,9 @@
 
 namespace kinemark::pipeline {
 
+/// A cell of a table as RFC 4180 has it: in quotes where it holds commas, quotes or ends of lines.
+[[nodiscard]] std::string csv_quoted(const std::string& text);
+
 /// A tidy table, one measure a row: file, subject, context, region, cycle, start_s, end_s, measure, value,
 /// unit, low, high, level, interval, approximate, sd, uncorrected, share_not_measured, method, remark. Values
 /// in the unit of the row, nine digits; empty where not determined. RFC 4180.

@@ -178,6 +178,7 @@ class Finder {
       // Half of what differs between two methods is taken as either's.
       out.event_sd_s = std::sqrt((before + 0.5 * squares_about(d, mean_of(d))) /
                                  (kFreedom + static_cast<double>(d.size()) - 1.0));
+      out.offset_sd_s = std::max(out.offset_sd_s, 0.5 * std::abs(mean_of(d)));
       break;
     }
     return out;

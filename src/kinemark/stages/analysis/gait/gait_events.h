@@ -79,8 +79,9 @@ struct FileEvents {
 /// For each kind, the method is the one that agrees best with the plates: each has an offset and errors of
 /// events, both normal (docs/theory/gait.md has their SDs), and the method of the greatest likelihood is taken.
 /// Without plates, strike is by O'Connor 2007 and leaving by Zeni 2008, else by the next that finds any. The
-/// offset to plates is taken off, shrunk by its variance; the SD of events is updated by what differs from plates
-/// (without them, between two methods). Noise is not in these SDs: analyze_gait() adds it.
+/// offset to plates is taken off, shrunk by its variance; the SD of events is updated by what differs from plates.
+/// Without them, by what differs between the two methods preferred, whose mean difference the SD of the offset is
+/// at least half of. Noise is not in these SDs: analyze_gait() adds it.
 ///
 /// @param of_plates, of_file  what they tell; their events are compared, and taken as `choice` says
 [[nodiscard]] EventsFound find_gait_events(const GaitPaths& paths, std::span<const data::GaitEvent> of_plates,

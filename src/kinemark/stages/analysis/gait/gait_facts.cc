@@ -16,7 +16,7 @@ using data::Side;
 using Eigen::Vector2d;
 
 constexpr double kLeastCycle_s = 0.4, kMostCycle_s = 3.0, kMostOfMedian = 1.6;
-constexpr double kPrintFrom = 0.15, kPrintTo = 0.5;  // of the stance
+constexpr double kPrintFrom = 0.2, kPrintTo = 0.45;  // of the stance
 constexpr double kUsualStance = 0.6;               // of the cycle
 
 using Times = std::array<std::array<std::vector<double>, 2>, 2>;  // by side and kind, ascending

@@ -38,7 +38,7 @@ struct GaitCycle {
 /// Cycles of both feet, ascending by side and time. A cycle lasts 0.4 to 3 s, and at most 1.6 times the median:
 /// longer ones have lost a strike.
 ///
-/// A footprint is the mean place of the heel from 15 to 50 % of the stance (of 60 % of the cycle, where the
+/// A footprint is the mean place of the heel from 20 to 45 % of the stance (of 60 % of the cycle, where the
 /// foot's leaving was not seen).
 /// @param events  ascending in time
 /// @param ground  how it moves, m/s; 0: over ground

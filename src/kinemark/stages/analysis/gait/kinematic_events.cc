@@ -19,11 +19,14 @@ using Series = Eigen::VectorXd;
 
 constexpr double kLeastSwing_m = 0.15;     // of one foot against the other, each way
 constexpr double kShareOfSwing = 0.4;      // of the median swing: less is no step
+constexpr double kEdge_s = 0.03;           // of the recording
 constexpr double kThreshold_m_per_s = 0.5;
+constexpr double kLowHeel = 0.35;  // of the range of its height: a heel that comes down is not higher
+constexpr double kExcluded = -1e9;
 // Windows around the frames at which a foot is farthest before and behind, in cycles.
 constexpr double kStrikeBefore = 0.12, kStrikeAfter = 0.15, kOffBefore = 0.06, kOffAfter = 0.22;
 // Of a stance, from where the foot is farthest before: it lies flat.
-constexpr double kFlatFrom = 0.15, kFlatTo = 0.35;
+constexpr double kFlatFrom = 0.15, kFlatTo = 0.28;
 
 Series central_slope(const Series& y, double rate_hz) {
   const auto n = y.size();
@@ -54,7 +57,9 @@ std::optional<double> largest_within(const Series& y, const StepWindow& window) 
   const auto last = std::min<Eigen::Index>(y.size() - 2, static_cast<Eigen::Index>(std::floor(window.last)));
   std::optional<Eigen::Index> best;
   for (Eigen::Index i = first; i <= last; ++i)
-    if (y[i] >= y[i - 1] && y[i] > y[i + 1] && (!best || y[i] > y[*best])) best = i;
+    if (y[i - 1] > kExcluded && y[i + 1] > kExcluded && y[i] >= y[i - 1] && y[i] > y[i + 1] &&
+        (!best || y[i] > y[*best]))
+      best = i;
   if (!best) return std::nullopt;
   return refined(y, *best);
 }
@@ -79,6 +84,8 @@ std::vector<Turn> turns_of(const Series& y, double least) {
       sought = 1, high = i;
     }
   }
+  // The last needs no turn back, only to lie within.
+  if (sought != 0) out.push_back({sought > 0 ? high : low, sought > 0});
   return out;
 }
 
@@ -104,8 +111,14 @@ std::optional<Series> signal_of(const GaitPaths& paths, const FootPaths& foot, F
   const bool strike = what == FootEvent::strike;
   switch (method) {
     case EventMethod::foot_velocity: {
-      const Series v = central_slope(0.5 * (foot.heel.col(2) + foot.toe.col(2)), paths.rate_hz);
-      return strike ? Series(-v) : v;
+      Series v = central_slope(0.5 * (foot.heel.col(2) + foot.toe.col(2)), paths.rate_hz);
+      if (!strike) return v;
+      v = -v;
+      const auto height = foot.heel.col(2);
+      const double low = height.minCoeff(), most = low + kLowHeel * (height.maxCoeff() - low);
+      for (Eigen::Index i = 0; i < v.size(); ++i)
+        if (height[i] > most) v[i] = kExcluded;
+      return v;
     }
     case EventMethod::coordinates: {
       if (paths.pelvis.rows() == 0) return std::nullopt;
@@ -160,8 +173,13 @@ FootSwings find_swings(const GaitPaths& paths, Side side) {
     swings.push_back(std::abs(before[turns[i + 1].frame] - before[turns[i].frame]));
   if (swings.empty()) return out;
   turns = turns_of(before, std::max(kLeastSwing_m, kShareOfSwing * math::median(swings)));
+  // The first and the last may be where the recording begins or ends, which is no turn.
+  const double edge = kEdge_s * paths.rate_hz, last = static_cast<double>(before.size() - 1) - edge;
+  std::erase_if(turns, [&](const Turn& turn) {
+    return static_cast<double>(turn.frame) < edge || static_cast<double>(turn.frame) > last;
+  });
   std::vector<double> halves;  // from farthest before to farthest behind and back
-  for (std::size_t i = turns.empty() || turns[0].frame > 0 ? 0 : 1; i + 1 < turns.size(); ++i)
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i)
     halves.push_back(static_cast<double>(turns[i + 1].frame - turns[i].frame));
   if (halves.empty()) return out;
   out.cycle = 2.0 * math::median(halves);

@@ -38,6 +38,8 @@ struct Plate {
   std::vector<double> load;  // N, upwards, less the unloaded plate's; NaN where not measured
   double noise_n = 0.0;
 
+  // N; a contact begins above it.
+  [[nodiscard]] double begins() const { return std::max(kContact_n, kInNoise * noise_n); }
   [[nodiscard]] Vector3d centre(std::int64_t f, const Eigen::Matrix3d& upright) const {
     return upright * Eigen::Map<const Vector3d>(wrench->point.data() + 3 * f);
   }
@@ -60,7 +62,7 @@ Plate plate_of(const data::Wrench& wrench, std::int64_t frames, const Eigen::Mat
 
 // Contacts that begin and end within the recording.
 std::vector<Contact> contacts_of(const Plate& plate, double rate_hz) {
-  const double begins = std::max(kContact_n, kInNoise * plate.noise_n), ends = 0.5 * begins;
+  const double begins = plate.begins(), ends = 0.5 * begins;
   std::vector<Contact> out;
   const auto n = static_cast<std::int64_t>(plate.load.size());
   for (std::int64_t f = 1; f < n; ++f) {
@@ -74,14 +76,6 @@ std::vector<Contact> contacts_of(const Plate& plate, double rate_hz) {
     f = std::max(f, last - 1);
   }
   return out;
-}
-
-// How long before the middle of the first loaded frame, in frames, a force began that rises evenly: from the
-// means over this frame and the next. Within the frame, mean = slope u^2 / 2 and slope (u + 1/2).
-double began_before(double first, double next) {
-  const double ratio = first / next;
-  if (!(next > first)) return 0.5;
-  return ratio <= 1.0 / 3.0 ? ratio + std::sqrt(ratio * ratio + ratio) - 0.5 : first / (next - first);
 }
 
 double distance_to_foot(const FootPaths& foot, std::int64_t f, const Vector3d& point) {
@@ -131,26 +125,23 @@ bool wholly_on(const std::vector<PlateCorners>& corners, const Plate& plate, con
   return outside(*best, upright, heel) < kOutside_m && outside(*best, upright, toe) < kOutside_m;
 }
 
-// Seconds, and their SD, of both ends of a contact.
+// Seconds, and their SD, at which the load rises above and falls below what is a contact.
 std::array<data::GaitEvent, 2> events_of(const Plate& plate, const Contact& contact, Side side,
                                          const GaitPaths& paths) {
-  const auto load = [&](std::int64_t f) { return plate.load[at(f)]; };
-  const auto last_frame = static_cast<std::int64_t>(plate.load.size()) - 1;
-  const auto one = [&](FootEvent what, std::int64_t f, std::int64_t inwards) {
-    // Where the frame before the contact bears more than noise, the force began there.
-    const std::int64_t before = std::clamp<std::int64_t>(f - inwards, 0, last_frame);
-    if (load(before) > 3.0 * plate.noise_n + 1.0 && load(before) < load(f)) f = before;
-    const double early = began_before(load(f), load(f + inwards));
-    const double slope = std::abs(load(f + inwards) - load(f)) * paths.rate_hz;
-    return data::GaitEvent{
-        .side = side,
-        .what = what,
-        .time_s = paths.time_s(static_cast<double>(f) - static_cast<double>(inwards) * early),
-        .sd_s = std::hypot(kLeastSd_s, kSdInFrames / paths.rate_hz, slope > 0.0 ? plate.noise_n / slope : 0.0),
-        .source = data::EventSource::plate,
-        .method = plate.wrench->name};
+  const double limit = plate.begins();
+  std::int64_t last = contact.last;
+  while (last > contact.first && plate.load[at(last)] <= limit) --last;
+  const auto one = [&](FootEvent what, std::int64_t f) {  // between frames f and f + 1
+    const double a = plate.load[at(f)], b = plate.load[at(f + 1)];
+    const double slope = std::abs(b - a) * paths.rate_hz;
+    return data::GaitEvent{.side = side,
+                           .what = what,
+                           .time_s = paths.time_s(static_cast<double>(f) + (limit - a) / (b - a)),
+                           .sd_s = std::hypot(kLeastSd_s, kSdInFrames / paths.rate_hz, plate.noise_n / slope),
+                           .source = data::EventSource::plate,
+                           .method = plate.wrench->name};
   };
-  return {one(FootEvent::strike, contact.first, 1), one(FootEvent::off, contact.last, -1)};
+  return {one(FootEvent::strike, contact.first - 1), one(FootEvent::off, last)};
 }
 
 }  // namespace

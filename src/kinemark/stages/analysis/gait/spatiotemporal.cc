@@ -55,7 +55,7 @@ constexpr std::array kDefinitions{
     GaitDefinition{{"stride_time", kGait, Quantity::time, "Stride time", "from a strike of the foot to its next", kPrints},
                    GaitScope::each_side, false, [](Cycles c) { return mean_of(c, duration); }},
     GaitDefinition{{"stride_length", kGait, Quantity::length, "Stride length",
-                    "from a print of the heel to its next; heel's mean place from 15 to 50 % of stance", kPrints},
+                    "from a print of the heel to its next; heel's mean place from 20 to 45 % of stance", kPrints},
                    GaitScope::each_side, false, [](Cycles c) { return mean_of(c, length); }},
     GaitDefinition{{"step_time", kGait, Quantity::time, "Step time", "from the other foot's strike to this one's", kPrints},
                    GaitScope::each_side, false,
