@@ -13,9 +13,10 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
       ->capture_default_str()
       ->group(what);
   command
-      .add_option("--gait-marker", request.markers,
-                  "A marker under a name of its own: left_heel=L_FCC (left_, right_: heel, toe, ankle; sacrum); or a "
-                  ".toml of such lines. Repeatable.")
+      .add_option(
+          "--gait-marker", request.markers,
+          "A marker under a name of its own: left_heel=L_FCC (left_, right_: heel, toe, ankle; sacrum); or a "
+          ".toml of such lines. Repeatable.")
       ->type_name("ROLE=NAME")
       ->allow_extra_args(false)
       ->group(what);
@@ -25,8 +26,9 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
       ->type_name("FILE")
       ->group(what);
   command
-      .add_option("--write-cycles", request.write_cycles,
-                  "Angles over each cycle and their mean, 0 to 100 %, .csv: of the recording's own, or of --angles")
+      .add_option(
+          "--write-cycles", request.write_cycles,
+          "Angles over each cycle and their mean, 0 to 100 %, .csv: of the recording's own, or of --angles")
       ->type_name("FILE")
       ->group(what);
   command

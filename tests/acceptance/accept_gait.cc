@@ -45,22 +45,21 @@ double truth_of(const KnownWalk& walk, const std::string& id, Side side) {
   const double step = side == Side::right ? walk.right_later : 1.0 - walk.right_later;
   const double until_other = 1.0 - step;  // from this foot's strike to the other's
   const double other_off = other - step;  // the other foot leaves, after this one's strike
-  const std::map<std::string, double> values{
-      {"gait_speed", walk.speed_m_per_s},
-      {"cadence", 2.0 / T},
-      {"step_width", walk.width_m},
-      {"stride_time", T},
-      {"stride_length", walk.stride_m()},
-      {"step_time", step * T},
-      {"step_length", step * walk.stride_m()},
-      {"stance_time", own * T},
-      {"swing_time", (1.0 - own) * T},
-      {"stance_share", own},
-      {"double_support", other_off * T},
-      {"single_support", (until_other - other_off) * T},
-      {"double_support_share", other_off + own - until_other},
-      {"stride_time_sd", 0.0},
-      {"step_width_sd", 0.0}};
+  const std::map<std::string, double> values{{"gait_speed", walk.speed_m_per_s},
+                                             {"cadence", 2.0 / T},
+                                             {"step_width", walk.width_m},
+                                             {"stride_time", T},
+                                             {"stride_length", walk.stride_m()},
+                                             {"step_time", step * T},
+                                             {"step_length", step * walk.stride_m()},
+                                             {"stance_time", own * T},
+                                             {"swing_time", (1.0 - own) * T},
+                                             {"stance_share", own},
+                                             {"double_support", other_off * T},
+                                             {"single_support", (until_other - other_off) * T},
+                                             {"double_support_share", other_off + own - until_other},
+                                             {"stride_time_sd", 0.0},
+                                             {"step_width_sd", 0.0}};
   return values.at(id);
 }
 
@@ -77,7 +76,8 @@ Walker walk_one(std::uint64_t seed) {
   data::Wrenches plates{.time = markers.time, .items = {}};
   if (out.plates)
     plates.items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)};
-  const auto gait = analysis::analyze_gait(markers, {.plates = out.plates ? &plates : nullptr}, {.seed = seed});
+  const auto gait =
+      analysis::analyze_gait(markers, {.plates = out.plates ? &plates : nullptr}, {.seed = seed});
   if (!gait) return out;
   out.recognised = gait->treadmill == walk.treadmill;
   for (const auto& measure : gait->measures)
@@ -89,8 +89,8 @@ Walker walk_one(std::uint64_t seed) {
     if (event.time_s < 0.3 || event.time_s > walk.duration_s - 0.3) continue;
     ++out.events;
     for (const auto& found : gait->events)
-      if (found.side == event.side && found.what == event.what && std::abs(found.time_s - event.time_s) < 0.15 &&
-          found.source == data::EventSource::kinematics) {
+      if (found.side == event.side && found.what == event.what &&
+          std::abs(found.time_s - event.time_s) < 0.15 && found.source == data::EventSource::kinematics) {
         out.event_errors.push_back(found.time_s - event.time_s);
         out.event_sds.push_back(found.sd_s);
       } else if (found.side == event.side && found.what == event.what &&
@@ -114,9 +114,12 @@ void judge_measure(const std::string& id, const std::vector<Walker>& walkers) {
         covered += one.truth >= one.measure.interval.low && one.truth <= one.measure.interval.high;
       }
     const auto name = fmt::format("gait, {}, {}", plates ? "plates see two steps" : "markers alone", id);
-    const double rms = 100.0 * std::sqrt(squares / std::max(1, count)), share = 100.0 * covered / std::max(1, count);
-    print_row(count > 0 && rms <= 1.0, name + ", error", "1 % RMS", fmt::format("{:.2f} % RMS of {}", rms, count));
-    print_row(count > 0 && share >= 90.0, name + ", coverage of 95 %", ">= 90 %", fmt::format("{:.1f} % of {}", share, count));
+    const double rms = 100.0 * std::sqrt(squares / std::max(1, count)),
+                 share = 100.0 * covered / std::max(1, count);
+    print_row(count > 0 && rms <= 1.0, name + ", error", "1 % RMS",
+              fmt::format("{:.2f} % RMS of {}", rms, count));
+    print_row(count > 0 && share >= 90.0, name + ", coverage of 95 %", ">= 90 %",
+              fmt::format("{:.1f} % of {}", share, count));
   }
 }
 
@@ -138,8 +141,10 @@ void judge_events(const std::vector<Walker>& walkers) {
     const auto name = fmt::format("gait, {}, events", plates ? "plates see two steps" : "markers alone");
     print_row(share(near, events) >= 95.0, name + " within 20 ms", ">= 95 %",
               fmt::format("{:.1f} % of {}, {} found", share(near, events), events, found));
-    print_row(share(one_sd, found) >= 62.0, name + " within one SD", ">= 62 %", fmt::format("{:.1f} %", share(one_sd, found)));
-    print_row(share(two_sd, found) >= 90.0, name + " within two SD", ">= 90 %", fmt::format("{:.1f} %", share(two_sd, found)));
+    print_row(share(one_sd, found) >= 62.0, name + " within one SD", ">= 62 %",
+              fmt::format("{:.1f} %", share(one_sd, found)));
+    print_row(share(two_sd, found) >= 90.0, name + " within two SD", ">= 90 %",
+              fmt::format("{:.1f} %", share(two_sd, found)));
   }
 }
 
@@ -152,8 +157,8 @@ int run(int argc, char** argv) {
       walkers[static_cast<std::size_t>(i)] = walk_one(first_seed + static_cast<std::uint64_t>(i));
   });
   const auto recognised = std::ranges::count_if(walkers, [](const auto& w) { return w.recognised; });
-  print_row(recognised == count, "gait, treadmill or ground recognised", fmt::format("{} of {}", count, count),
-            fmt::format("{} of {}", recognised, count));
+  print_row(recognised == count, "gait, treadmill or ground recognised",
+            fmt::format("{} of {}", count, count), fmt::format("{} of {}", recognised, count));
   judge_events(walkers);
   for (const auto& definition : analysis::gait_definitions())
     if (!definition.squared) judge_measure(std::string(definition.what.id), walkers);

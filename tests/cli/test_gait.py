@@ -55,7 +55,7 @@ class Gait(CommandTest):
         interval = values["stride_time", "Left"]["interval"]
         self.assertTrue(interval["low"] < STRIDE_S < interval["high"])
         self.assertFalse(reported["gait"]["treadmill"])
-        self.assertTrue(all(0 < e["sd_s"] < 0.05 for e in reported["gait"]["events"]))
+        self.assertTrue(all(0 < e["sd_s"] < 0.1 for e in reported["gait"]["events"]))
 
     def test_walking_is_measured_without_being_asked_for(self):
         result = self.run_in("analyze", self.file, "--refits", "0")
@@ -112,7 +112,7 @@ class Gait(CommandTest):
             ((self.file, "--measures", "step_lenght"), 2, "nearest: step_length"),
             ((self.file, "--events", "plate"), 2, "there are best, plates, kinematics and file"),
             ((self.file, "--gait-marker", "left_knee=LHEE"), 2, "no marker of walking"),
-            ((self.file, "--gait-marker", "left_heel=LHEEL"), 3, "nearest: LHEE"),
+            ((self.file, "--measures", "gait", "--gait-marker", "left_heel=LHEEL"), 3, "nearest: LHEE"),
             ((self.file, "--measures", "gait", "--events", "plates"), 3, "no events of feet by plates"),
             ((self.folder / "no_toe.trc", "--measures", "gait"), 3, "the left toes"),
             ((self.file, "--write-events", self.folder / "a.txt"), 2, "events are written as .csv or .c3d"),

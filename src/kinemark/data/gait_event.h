@@ -40,9 +40,7 @@ inline constexpr std::array<FootEvent, 2> kFootEvents{FootEvent::strike, FootEve
 enum class EventSource : std::uint8_t { plate, kinematics, file };
 /// "plate", "kinematics" or "file".
 [[nodiscard]] constexpr std::string_view to_string(EventSource source) {
-  return source == EventSource::plate        ? "plate"
-         : source == EventSource::kinematics ? "kinematics"
-                                             : "file";
+  return source == EventSource::plate ? "plate" : source == EventSource::kinematics ? "kinematics" : "file";
 }
 
 /// One instant of one foot.

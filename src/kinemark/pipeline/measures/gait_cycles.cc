@@ -109,8 +109,8 @@ std::string curves_csv(const std::vector<data::CycleCurves>& curves, const std::
   for (const auto& one : curves) {
     const auto unit = data::shown_unit(one.quantity);
     const auto row = [&](const std::string& cycle, std::int64_t p, double value, double sd) {
-      out += fmt::format("{},{},{},{},{:g},{},{},{}\n", csv_quoted(file), csv_quoted(one.id), one.context, cycle,
-                         100.0 * static_cast<double>(p) / static_cast<double>(one.points - 1),
+      out += fmt::format("{},{},{},{},{:g},{},{},{}\n", csv_quoted(file), csv_quoted(one.id), one.context,
+                         cycle, 100.0 * static_cast<double>(p) / static_cast<double>(one.points - 1),
                          cell(unit.per_si * value), cell(unit.per_si * sd), unit.name);
     };
     for (std::int64_t c = 0; c < one.count(); ++c)

@@ -53,7 +53,8 @@ std::optional<data::Wrenches> plates_of(const std::filesystem::path& path, const
 }  // namespace
 
 Status GaitRequest::check() const {
-  if (const auto choice = analysis::parse_event_choice(events); !choice) return std::unexpected(choice.error());
+  if (const auto choice = analysis::parse_event_choice(events); !choice)
+    return std::unexpected(choice.error());
   const auto ending = ending_of(write_events);
   if (!write_events.empty() && ending != ".csv" && ending != ".c3d")
     return fail(Code::usage, fmt::format("{}: events are written as .csv or .c3d", write_events.string()));
@@ -86,7 +87,8 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request) {
 Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,
                                     const analysis::GaitOptions& options) {
   const auto plates = plates_of(path, trial);
-  analysis::GaitEvidence evidence{.plates = plates ? &*plates : nullptr, .corners = {}, .events = trial.events};
+  analysis::GaitEvidence evidence{
+      .plates = plates ? &*plates : nullptr, .corners = {}, .events = trial.events};
   for (const auto& plate : trial.force_plates) evidence.corners.push_back(plate.corners_in_world);
   return analysis::analyze_gait(trial.markers, evidence, options);
 }
@@ -94,10 +96,11 @@ Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const dat
 std::string events_csv(const analysis::Gait& gait, const TimeBase& time, const std::string& file) {
   std::string out = "file,context,label,time_s,frame,sd_s,source,method\n";
   for (const auto& event : gait.events)
-    out += fmt::format("{},{},{},{:.6f},{},{},{},{}\n", csv_quoted(file), data::to_string(event.side),
-                       data::to_string(event.what), event.time_s, time.number(time.nearest_frame(event.time_s)),
-                       std::isfinite(event.sd_s) ? fmt::format("{:.6f}", event.sd_s) : "",
-                       data::to_string(event.source), csv_quoted(event.method));
+    out +=
+        fmt::format("{},{},{},{:.6f},{},{},{},{}\n", csv_quoted(file), data::to_string(event.side),
+                    data::to_string(event.what), event.time_s, time.number(time.nearest_frame(event.time_s)),
+                    std::isfinite(event.sd_s) ? fmt::format("{:.6f}", event.sd_s) : "",
+                    data::to_string(event.source), csv_quoted(event.method));
   return out;
 }
 
@@ -134,10 +137,11 @@ nlohmann::ordered_json gait_json(const analysis::Gait& gait) {
 std::string events_text(const analysis::Gait& gait) {
   std::string out = "Events of walking\n";
   for (const auto& event : gait.events)
-    out += fmt::format("  {:<5} {:<11} {:8.3f} {} s  {}\n", data::to_string(event.side), data::to_string(event.what),
-                       event.time_s,
-                       std::isfinite(event.sd_s) ? fmt::format("+- {:.3f}", event.sd_s) : std::string("        "),
-                       event.method);
+    out += fmt::format(
+        "  {:<5} {:<11} {:8.3f} {} s  {}\n", data::to_string(event.side), data::to_string(event.what),
+        event.time_s,
+        std::isfinite(event.sd_s) ? fmt::format("+- {:.3f}", event.sd_s) : std::string("        "),
+        event.method);
   return out;
 }
 

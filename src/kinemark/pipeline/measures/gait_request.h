@@ -41,7 +41,8 @@ struct GaitRequest {
 
 /// The events, one a row: file, context, label, time_s, frame (number in the file, of the nearest), sd_s,
 /// source, method. RFC 4180.
-[[nodiscard]] std::string events_csv(const analysis::Gait& gait, const TimeBase& time, const std::string& file);
+[[nodiscard]] std::string events_csv(const analysis::Gait& gait, const TimeBase& time,
+                                     const std::string& file);
 
 /// The trial with these events of feet instead of its own; events of other kinds stay.
 [[nodiscard]] data::Trial with_events(data::Trial trial, const analysis::Gait& gait);

@@ -189,10 +189,11 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
 
   std::vector<ResultFile> files;
   if (!job.output.empty())
-    files.push_back(ending_of(job.output) == ".csv"
-                        ? text_file(job.output,
-                                    [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
-                        : json_file(job.output, [&] { return measures_outcome_json(outcome); }));
+    files.push_back(
+        ending_of(job.output) == ".csv"
+            ? text_file(job.output,
+                        [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
+            : json_file(job.output, [&] { return measures_outcome_json(outcome); }));
   if (recorded && outcome.gait) recorded = with_events(std::move(*recorded), *outcome.gait);
   if (recorded)
     files.push_back(marker_file(job.gait.write_events, *recorded));

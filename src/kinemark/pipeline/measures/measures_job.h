@@ -27,14 +27,14 @@ struct MeasuresJob : JobSettings {
   Selection selection;  ///< which markers, which frames
   /// ids, of paths and of walking ("gait": all of these); empty: those that apply to each movement
   std::vector<std::string> measures;
-  std::vector<std::string> regions;   ///< parse_region(); beside those of the journal
-  std::vector<std::string> between;   ///< labels of events: regions_between()
-  std::filesystem::path output;       ///< .csv or .json
-  std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
-  double noise_sd_m = 0.0;            ///< per axis; 0: found from the samples
-  double level = 0.95;                ///< of the intervals
-  bool keep_defects = false;          ///< measure what screening calls spikes, swaps, stuck too
-  GaitRequest gait;                   ///< walking
+  std::vector<std::string> regions;  ///< parse_region(); beside those of the journal
+  std::vector<std::string> between;  ///< labels of events: regions_between()
+  std::filesystem::path output;      ///< .csv or .json
+  std::int64_t refits = 99;          ///< behind each interval; 0: no intervals
+  double noise_sd_m = 0.0;           ///< per axis; 0: found from the samples
+  double level = 0.95;               ///< of the intervals
+  bool keep_defects = false;         ///< measure what screening calls spikes, swaps, stuck too
+  GaitRequest gait;                  ///< walking
 };
 
 /// Warnings: what was left out, and markers that could not be measured.
@@ -44,16 +44,18 @@ struct MeasuresOutcome : JobOutcome {
   std::optional<analysis::Gait> gait;   ///< walking, where it was asked for or is there
 };
 
-/// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are asked
-/// for, where feet that step are found. Samples that the recorder made, that were filled or that screening rejects
-/// are not measured; nothing is written where nothing can be measured. Progress counts nothing.
+/// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are
+/// asked for, where feet that step are found. Samples that the recorder made, that were filled or that
+/// screening rejects are not measured; nothing is written where nothing can be measured. Progress counts
+/// nothing.
 ///
 /// Code::usage as analysis::PathMeasureOptions::check(), parse_region() and for another ending than .csv and
 /// .json; Code::bad_input as the readers, take_selection(), regions_between() and analysis::measure_paths(),
 /// and where no marker can be measured.
 [[nodiscard]] Result<MeasuresOutcome> run_measures(const MeasuresJob& job);
 
-/// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "written", "warnings".
+/// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "written",
+/// "warnings".
 [[nodiscard]] nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome);
 
 }  // namespace kinemark::pipeline

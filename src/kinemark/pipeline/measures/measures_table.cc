@@ -98,12 +98,13 @@ std::string measures_csv(std::span<const data::Measure> measures, const std::str
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
     const auto shown = [&unit](double si) { return cell(unit.per_si * si); };
-    out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", csv_quoted(file), csv_quoted(m.subject),
-        csv_quoted(m.context), csv_quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
-        cell(m.end_s), m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
-        m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
-        shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), csv_quoted(m.method), csv_quoted(m.remark));
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", csv_quoted(file),
+                       csv_quoted(m.subject), csv_quoted(m.context), csv_quoted(m.region),
+                       m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s), cell(m.end_s), m.id,
+                       shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
+                       m.interval.level, data::to_string(m.interval.kind),
+                       m.interval.approximate ? "yes" : "no", shown(m.sd), shown(m.uncorrected),
+                       cell(m.share_not_measured), csv_quoted(m.method), csv_quoted(m.remark));
   }
   return out;
 }
@@ -142,15 +143,16 @@ std::string measures_text(std::span<const data::Measure> measures) {
     const auto& m = measures[i];
     const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region;
     if (!same)
-      out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject.empty() ? "Walking" : m.subject,
-                         m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
-                         m.share_not_measured > 0.0
-                             ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
-                             : "");
+      out += fmt::format(
+          "{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject.empty() ? "Walking" : m.subject,
+          m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
+          m.share_not_measured > 0.0 ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
+                                     : "");
     const auto* definition = definition_of(m.id);
     const auto title = fmt::format("{}{}", definition ? definition->title : std::string_view(m.id),
                                    m.context.empty() ? "" : ", " + m.context);
-    out += fmt::format("  {:<40} {}{}\n", title, value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
+    out += fmt::format("  {:<40} {}{}\n", title, value_text(m),
+                       m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
   }
   return out;
 }

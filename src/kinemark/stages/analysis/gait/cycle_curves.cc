@@ -38,8 +38,8 @@ double value_at(const CycleSeries& series, const std::vector<double>& values, do
 
 }  // namespace
 
-data::CycleCurves cut_into_cycles(const CycleSeries& series, std::span<const GaitCycle> cycles, data::Side side,
-                                  std::int64_t points) {
+data::CycleCurves cut_into_cycles(const CycleSeries& series, std::span<const GaitCycle> cycles,
+                                  data::Side side, std::int64_t points) {
   check(points >= 2, "a curve has two points or more");
   check(series.values.size() == series.time_s.size() &&
             (series.sd.empty() || series.sd.size() == series.values.size()),

@@ -28,7 +28,8 @@ class CycleCurvesTest : public ::testing::Test {
       double value = 0.0;
       for (std::size_t c = 0; c < 3; ++c)
         if (t >= cycles_[c].start_s && t <= cycles_[c].end_s)
-          value = std::sin(2.0 * std::numbers::pi * (t - cycles_[c].start_s) / (cycles_[c].end_s - cycles_[c].start_s)) +
+          value = std::sin(2.0 * std::numbers::pi * (t - cycles_[c].start_s) /
+                           (cycles_[c].end_s - cycles_[c].start_s)) +
                   0.1 * static_cast<double>(c);
       series_.values.push_back(value);
     }
@@ -46,7 +47,9 @@ TEST_F(CycleCurvesTest, TakeTheirTimeOff) {
   EXPECT_EQ(curves.context, "Left");
   for (std::int64_t c = 0; c < 3; ++c)
     for (std::int64_t p = 5; p < 96; ++p)
-      EXPECT_NEAR(curves(c, p), std::sin(0.02 * std::numbers::pi * static_cast<double>(p)) + 0.1 * static_cast<double>(c), 1e-5);
+      EXPECT_NEAR(curves(c, p),
+                  std::sin(0.02 * std::numbers::pi * static_cast<double>(p)) + 0.1 * static_cast<double>(c),
+                  1e-5);
 }
 
 TEST_F(CycleCurvesTest, MeanAndSdAreThoseOfTheCycles) {

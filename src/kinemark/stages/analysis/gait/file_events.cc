@@ -17,9 +17,8 @@ using data::FootEvent;
 using data::GaitEvent;
 using data::Side;
 
-constexpr std::array<std::string_view, 9> kStrike{"footstrike", "heelstrike",  "initialcontact",
-                                                  "strike",     "footcontact", "heelcontact",
-                                                  "hs",         "fs",          "ic"};
+constexpr std::array<std::string_view, 9> kStrike{
+    "footstrike", "heelstrike", "initialcontact", "strike", "footcontact", "heelcontact", "hs", "fs", "ic"};
 constexpr std::array<std::string_view, 5> kOff{"footoff", "toeoff", "off", "to", "fo"};
 
 std::string letters(std::string_view text) {
@@ -66,14 +65,15 @@ FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& t
   for (const auto& event : events)
     if (const auto one = read_event(event)) read.push_back(*one);
   std::ranges::stable_sort(read, {}, &GaitEvent::time_s);
-  const double half = 0.5 / time.rate_hz, first = time.time_s(0) - half, last = time.time_s(time.frames - 1) + half;
+  const double half = 0.5 / time.rate_hz, first = time.time_s(0) - half,
+               last = time.time_s(time.frames - 1) + half;
   std::array<std::optional<FootEvent>, 2> before;
   for (const auto& event : read) {
     const auto name = fmt::format("the file's event {} {} at {:.3f} s", data::to_string(event.side),
                                   data::to_string(event.what), event.time_s);
     if (!(event.time_s >= first && event.time_s <= last)) {
-      out.notes.push_back(fmt::format("{} lies outside the recording, {:.3f} to {:.3f} s, and is left out", name,
-                                      time.time_s(0), time.time_s(time.frames - 1)));
+      out.notes.push_back(fmt::format("{} lies outside the recording, {:.3f} to {:.3f} s, and is left out",
+                                      name, time.time_s(0), time.time_s(time.frames - 1)));
       continue;
     }
     auto& same_side = before[data::index_of(event.side)];
@@ -81,9 +81,9 @@ FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& t
     const bool turns = std::ranges::any_of(
         read, [&](const auto& other) { return other.side == event.side && other.what != event.what; });
     if (turns && same_side == event.what) {
-      out.notes.push_back(fmt::format("{} follows another of its kind, with no {} between, and is left out", name,
-                                      data::to_string(event.what == FootEvent::strike ? FootEvent::off
-                                                                                      : FootEvent::strike)));
+      out.notes.push_back(
+          fmt::format("{} follows another of its kind, with no {} between, and is left out", name,
+                      data::to_string(event.what == FootEvent::strike ? FootEvent::off : FootEvent::strike)));
       continue;
     }
     same_side = event.what;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -28,6 +29,25 @@ bool is_belt(const Eigen::RowVector2d& ground) { return ground.norm() > kBelt_m_
 // How the ground moves, as far as it does.
 Eigen::RowVector2d belt_of(const Eigen::RowVector2d& ground) {
   return is_belt(ground) ? ground : Eigen::RowVector2d(0.0, 0.0);
+}
+
+// Every footprint moved by its own error; one that stands in several cycles, by the same.
+void jitter(std::vector<GaitCycle>& cycles, Random& random) {
+  std::map<std::pair<Side, double>, Eigen::Vector2d> moved;
+  const auto move = [&](Side side, double strike_s, Footprint& print) {
+    const auto [found, is_new] = moved.try_emplace({side, strike_s});
+    if (is_new) {
+      const double x = random.gaussian(), y = random.gaussian();
+      found->second = print.sd * Eigen::Vector2d(x, y);
+    }
+    print.x += found->second;
+  };
+  for (auto& cycle : cycles) {
+    move(cycle.side, cycle.start_s, cycle.print);
+    move(cycle.side, cycle.end_s, cycle.next_print);
+    if (std::isfinite(cycle.other_strike_s))
+      move(data::opposite(cycle.side), cycle.other_strike_s, cycle.other_print);
+  }
 }
 
 /// One number to compute: which definition, of which stretch, of which foot.
@@ -114,7 +134,8 @@ class GaitMeasurement {
     Random random(options_.seed, mix64(0x6576656e74) ^ static_cast<std::uint64_t>(k));
     std::array<double, 2> common{};
     for (const FootEvent what : data::kFootEvents)
-      common[data::index_of(what)] = found_.chosen[data::index_of(what)].error.offset_sd_s * random.gaussian();
+      common[data::index_of(what)] =
+          found_.chosen[data::index_of(what)].error.offset_sd_s * random.gaussian();
     auto events = found_.events;
     for (std::size_t i = 0; i < events.size(); ++i) {
       auto& event = events[i];
@@ -130,7 +151,9 @@ class GaitMeasurement {
       if (std::isfinite(moved)) noise[i][at(k)] = moved;
       event.time_s += noise[i][at(k)] + common[what] + error.event_sd_s * draw;
     }
-    return values_of(find_cycles(paths, events, is_belt(found_.ground) ? ground : belt_of(found_.ground)));
+    auto cycles = find_cycles(paths, events, is_belt(found_.ground) ? ground : belt_of(found_.ground));
+    jitter(cycles, random);
+    return values_of(cycles);
   }
 
   void state(const Slot& slot, double value, std::span<const double> deviations, Gait& out) const {
@@ -138,17 +161,19 @@ class GaitMeasurement {
     const bool asked = !options_.measures.empty();
     if (!std::isfinite(value) && !asked) return;
     const auto cycles = cycles_of(slot, out.cycles);
-    data::Measure measure{.id = std::string(definition.what.id),
-                          .context = definition.scope == GaitScope::each_side ? std::string(data::to_string(slot.side)) : "",
-                          .region = regions_[slot.region].name,
-                          .quantity = definition.what.quantity,
-                          .value = value};
+    data::Measure measure{
+        .id = std::string(definition.what.id),
+        .context = definition.scope == GaitScope::each_side ? std::string(data::to_string(slot.side)) : "",
+        .region = regions_[slot.region].name,
+        .quantity = definition.what.quantity,
+        .value = value};
     if (!cycles.empty()) {
       measure.start_s = std::ranges::min(cycles, {}, &GaitCycle::start_s).start_s;
       measure.end_s = std::ranges::max(cycles, {}, &GaitCycle::end_s).end_s;
     }
     measure.interval.level = options_.level;
-    measure.method = fmt::format("{} stride{}, {} refits", cycles.size(), cycles.size() == 1 ? "" : "s", options_.refits);
+    measure.method =
+        fmt::format("{} stride{}, {} refits", cycles.size(), cycles.size() == 1 ? "" : "s", options_.refits);
     if (!std::isfinite(value)) {
       measure.remark = cycles.empty() ? "no stride was seen from strike to strike"
                                       : "what it needs was not seen in any stride";
@@ -186,7 +211,8 @@ void note_choice(const EventsFound& found, Gait& out) {
   for (const FootEvent what : data::kFootEvents) {
     const auto i = data::index_of(what);
     const auto& chosen = found.chosen[i];
-    if (by_plate[i] > 0) out.notes.push_back(fmt::format("{}: {} by plates", data::to_string(what), by_plate[i]));
+    if (by_plate[i] > 0)
+      out.notes.push_back(fmt::format("{}: {} by plates", data::to_string(what), by_plate[i]));
     if (by_markers[i] > 0)
       out.notes.push_back(fmt::format(
           "{}: {} by {}{}", data::to_string(what), by_markers[i], to_string(chosen.method),
@@ -216,16 +242,18 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   std::ranges::move(of_file.notes, std::back_inserter(out.notes));
   const auto found = find_gait_events(paths, of_plates.events, of_file.events, options.choice);
   if (found.events.empty())
-    return fail(Code::bad_input, options.choice == EventChoice::best || options.choice == EventChoice::kinematics
-                                     ? std::string("no foot steps: neither swings by 0.15 m against the other")
-                                     : fmt::format("there are no events of feet by {}", to_string(options.choice)));
+    return fail(Code::bad_input,
+                options.choice == EventChoice::best || options.choice == EventChoice::kinematics
+                    ? std::string("no foot steps: neither swings by 0.15 m against the other")
+                    : fmt::format("there are no events of feet by {}", to_string(options.choice)));
   out.agreement = found.agreement;
   note_choice(found, out);
   if (is_belt(found.ground)) {
     out.treadmill = true;
     out.belt_speed_m_per_s = found.ground.norm();
-    out.notes.push_back(fmt::format("walking on a treadmill: the feet slide back at {:.3f} m/s while they stand",
-                                    out.belt_speed_m_per_s));
+    out.notes.push_back(
+        fmt::format("walking on a treadmill: the feet slide back at {:.3f} m/s while they stand",
+                    out.belt_speed_m_per_s));
   }
   GaitMeasurement(*smoother, found, markers.time, options).measure(out);
   return out;

@@ -22,33 +22,34 @@ namespace kinemark::analysis {
 
 /// What is measured of walking, and how.
 struct GaitOptions {
-  std::vector<MarkerRole> markers;           ///< roles of gait_roles(); others by their usual names
-  EventChoice choice = EventChoice::best;    ///< whose events
-  std::vector<std::string> measures;         ///< ids of gait_definitions(); empty: all that can be told
-  std::vector<data::Region> regions;         ///< of whole cycles; empty: the whole recording
-  std::int64_t refits = 99;                  ///< behind each interval: 0 (none) or at least 39
-  double noise_sd_m = 0.0;                   ///< per axis; 0: found from the samples
-  double level = 0.95;                       ///< of the intervals, above 0.5 and below 1
-  std::uint64_t seed = 1;                    ///< of the refits
-  int threads = 1;                           ///< 0: all cores; any number gives the same bits
+  std::vector<MarkerRole> markers;         ///< roles of gait_roles(); others by their usual names
+  EventChoice choice = EventChoice::best;  ///< whose events
+  std::vector<std::string> measures;       ///< ids of gait_definitions(); empty: all that can be told
+  std::vector<data::Region> regions;       ///< of whole cycles; empty: the whole recording
+  std::int64_t refits = 99;                ///< behind each interval: 0 (none) or at least 39
+  double noise_sd_m = 0.0;                 ///< per axis; 0: found from the samples
+  double level = 0.95;                     ///< of the intervals, above 0.5 and below 1
+  std::uint64_t seed = 1;                  ///< of the refits
+  int threads = 1;                         ///< 0: all cores; any number gives the same bits
 };
 
 /// What a recording tells of walking besides its markers.
 struct GaitEvidence {
-  const data::Wrenches* plates = nullptr;  ///< on the recording's clock, not cut off at a threshold; may be absent
-  std::vector<PlateCorners> corners;       ///< of all plates
-  std::vector<data::Event> events;         ///< the file's own
+  const data::Wrenches* plates =
+      nullptr;                        ///< on the recording's clock, not cut off at a threshold; may be absent
+  std::vector<PlateCorners> corners;  ///< of all plates
+  std::vector<data::Event> events;    ///< the file's own
 };
 
 /// Walking.
 struct Gait {
-  std::vector<data::GaitEvent> events;   ///< ascending in time, with SDs
-  std::vector<GaitCycle> cycles;         ///< by side and time
-  std::vector<data::Measure> measures;   ///< by region, in the order of gait_definitions(), left before right
-  bool treadmill = false;                ///< the feet slide back during stance
-  double belt_speed_m_per_s = 0.0;       ///< of a treadmill
-  std::vector<Agreement> agreement;      ///< between sources, between methods
-  std::vector<std::string> notes;        ///< which markers, which methods, what was left out; a sentence each
+  std::vector<data::GaitEvent> events;  ///< ascending in time, with SDs
+  std::vector<GaitCycle> cycles;        ///< by side and time
+  std::vector<data::Measure> measures;  ///< by region, in the order of gait_definitions(), left before right
+  bool treadmill = false;               ///< the feet slide back during stance
+  double belt_speed_m_per_s = 0.0;      ///< of a treadmill
+  std::vector<Agreement> agreement;     ///< between sources, between methods
+  std::vector<std::string> notes;       ///< which markers, which methods, what was left out; a sentence each
 };
 
 /// Find events, cycles and measures of walking (docs/theory/gait.md).

@@ -67,16 +67,19 @@ double squares_about(const std::vector<double>& x, double centre) {
 // Log likelihood of differences with a common offset and errors of each.
 double likelihood(const std::vector<double>& differences, double offset_sd, double event_sd) {
   const auto n = static_cast<double>(differences.size());
-  const double mean = mean_of(differences), each = event_sd * event_sd, total = each + n * offset_sd * offset_sd;
-  return -0.5 * (squares_about(differences, mean) / each + n * mean * mean / total + (n - 1.0) * std::log(each) +
-                 std::log(total));
+  const double mean = mean_of(differences), each = event_sd * event_sd,
+               total = each + n * offset_sd * offset_sd;
+  return -0.5 * (squares_about(differences, mean) / each + n * mean * mean / total +
+                 (n - 1.0) * std::log(each) + std::log(total));
 }
 
 Agreement agreement_of(std::string what, const std::vector<double>& differences) {
-  Agreement out{.what = std::move(what), .count = static_cast<int>(differences.size()), .mean_s = mean_of(differences)};
+  Agreement out{
+      .what = std::move(what), .count = static_cast<int>(differences.size()), .mean_s = mean_of(differences)};
   for (const double d : differences) out.most_s = std::max(out.most_s, std::abs(d));
   if (differences.size() > 1)
-    out.sd_s = std::sqrt(squares_about(differences, out.mean_s) / static_cast<double>(differences.size() - 1));
+    out.sd_s =
+        std::sqrt(squares_about(differences, out.mean_s) / static_cast<double>(differences.size() - 1));
   return out;
 }
 
@@ -85,7 +88,8 @@ std::vector<double> differences_to(const ByWindow& found, std::span<const GaitEv
   std::vector<double> out;
   for (const auto& event : events)
     if (event.what == what)
-      if (const auto t = nearest_to(found[data::index_of(event.side)], event.time_s)) out.push_back(*t - event.time_s);
+      if (const auto t = nearest_to(found[data::index_of(event.side)], event.time_s))
+        out.push_back(*t - event.time_s);
   return out;
 }
 
@@ -99,7 +103,8 @@ std::vector<double> differences_between(const ByWindow& a, const ByWindow& b) {
 
 std::size_t found_by(const ByWindow& times) {
   std::size_t count = 0;
-  for (const auto& side : times) count += static_cast<std::size_t>(std::ranges::count_if(side, [](double t) { return std::isfinite(t); }));
+  for (const auto& side : times)
+    count += static_cast<std::size_t>(std::ranges::count_if(side, [](double t) { return std::isfinite(t); }));
   return count;
 }
 
@@ -134,7 +139,8 @@ class Finder {
   ByWindow times_of(FootEvent what, EventMethod method) const {
     ByWindow out;
     for (const Side side : data::kBothSides) {
-      out[data::index_of(side)] = find_in_windows(paths_, side, what, method, out_.swings[data::index_of(side)], out_.ground);
+      out[data::index_of(side)] =
+          find_in_windows(paths_, side, what, method, out_.swings[data::index_of(side)], out_.ground);
       for (double& t : out[data::index_of(side)]) t = paths_.time_s(t);
     }
     return out;
@@ -210,7 +216,8 @@ void put(EventsFound& found, const GaitEvent& event) {
   for (std::size_t i = 0; i < found.events.size(); ++i) {
     const auto& there = found.events[i];
     if (there.side != event.side || there.what != event.what) continue;
-    const double limit = best < found.events.size() ? std::abs(found.events[best].time_s - event.time_s) : kSame_s;
+    const double limit =
+        best < found.events.size() ? std::abs(found.events[best].time_s - event.time_s) : kSame_s;
     if (std::abs(there.time_s - event.time_s) < limit) best = i;
   }
   if (best == found.events.size()) {
@@ -250,7 +257,9 @@ void compare_with_file(EventsFound& found, std::span<const GaitEvent> of_file) {
 
 std::string_view to_string(EventChoice choice) { return kChoices[choice]; }
 
-Result<EventChoice> parse_event_choice(std::string_view name) { return kChoices.parse(name, "choice of events"); }
+Result<EventChoice> parse_event_choice(std::string_view name) {
+  return kChoices.parse(name, "choice of events");
+}
 
 EventsFound find_gait_events(const GaitPaths& paths, std::span<const GaitEvent> of_plates,
                              std::span<const GaitEvent> of_file, EventChoice choice) {
@@ -272,8 +281,8 @@ EventsFound find_gait_events(const GaitPaths& paths, std::span<const GaitEvent> 
 std::string sentence_of(const Agreement& agreement) {
   const double mean = 1e3 * agreement.mean_s;
   if (agreement.count == 1) return fmt::format("{} differ by {:.0f} ms in one event", agreement.what, mean);
-  return fmt::format("{} differ by {:.0f} +- {:.0f} ms in {} events, by {:.0f} ms at most", agreement.what, mean,
-                     1e3 * agreement.sd_s, agreement.count, 1e3 * agreement.most_s);
+  return fmt::format("{} differ by {:.0f} +- {:.0f} ms in {} events, by {:.0f} ms at most", agreement.what,
+                     mean, 1e3 * agreement.sd_s, agreement.count, 1e3 * agreement.most_s);
 }
 
 }  // namespace kinemark::analysis

@@ -20,8 +20,8 @@ namespace kinemark::analysis {
 
 /// Whose events are taken.
 enum class EventChoice : std::uint8_t {
-  best,        ///< of each instant the plate's, where one saw it, else the markers'; the file's where neither is
-  plates,      ///< plates alone
+  best,    ///< of each instant the plate's, where one saw it, else the markers'; the file's where neither is
+  plates,  ///< plates alone
   kinematics,  ///< markers alone
   file,        ///< the file's alone
 };
@@ -55,16 +55,16 @@ struct Agreement {
 
 /// Events of a recording by one choice.
 struct EventsFound {
-  std::vector<data::GaitEvent> events;   ///< ascending in time
-  std::vector<std::int64_t> window;      ///< of each event: in swings of its side and kind; -1: not by markers
-  std::array<KinematicChoice, 2> chosen; ///< for strike, for leaving
-  std::array<FootSwings, 2> swings;      ///< left, right
+  std::vector<data::GaitEvent> events;  ///< ascending in time
+  std::vector<std::int64_t> window;     ///< of each event: in swings of its side and kind; -1: not by markers
+  std::array<KinematicChoice, 2> chosen;     ///< for strike, for leaving
+  std::array<FootSwings, 2> swings;          ///< left, right
   Eigen::RowVector2d ground = {kNaN, kNaN};  ///< ground_velocity()
   std::vector<Agreement> agreement;          ///< between sources, between methods
 };
 
-/// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or "LHS",
-/// "RTO" and the like; others are not about feet. An event outside the recording, and one that follows
+/// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or
+/// "LHS", "RTO" and the like; others are not about feet. An event outside the recording, and one that follows
 /// another of its kind and side with none between, is left out and told.
 struct FileEvents {
   std::vector<data::GaitEvent> events;  ///< ascending in time; SD not known
@@ -77,11 +77,11 @@ struct FileEvents {
 /// Find the events of all feet.
 ///
 /// For each kind, the method is the one that agrees best with the plates: each has an offset and errors of
-/// events, both normal (docs/theory/gait.md has their SDs), and the method of the greatest likelihood is taken.
-/// Without plates, strike is by O'Connor 2007 and leaving by Zeni 2008, else by the next that finds any. The
-/// offset to plates is taken off, shrunk by its variance; the SD of events is updated by what differs from plates.
-/// Without them, by what differs between the two methods preferred, whose mean difference the SD of the offset is
-/// at least half of. Noise is not in these SDs: analyze_gait() adds it.
+/// events, both normal (docs/theory/gait.md has their SDs), and the method of the greatest likelihood is
+/// taken. Without plates, strike is by O'Connor 2007 and leaving by Zeni 2008, else by the next that finds
+/// any. The offset to plates is taken off, shrunk by its variance; the SD of events is updated by what
+/// differs from plates. Without them, by what differs between the two methods preferred, whose mean
+/// difference the SD of the offset is at least half of. Noise is not in these SDs: analyze_gait() adds it.
 ///
 /// @param of_plates, of_file  what they tell; their events are compared, and taken as `choice` says
 [[nodiscard]] EventsFound find_gait_events(const GaitPaths& paths, std::span<const data::GaitEvent> of_plates,

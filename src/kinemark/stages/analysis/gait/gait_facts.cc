@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 
 constexpr double kLeastCycle_s = 0.4, kMostCycle_s = 3.0, kMostOfMedian = 1.6;
 constexpr double kPrintFrom = 0.2, kPrintTo = 0.45;  // of the stance
-constexpr double kUsualStance = 0.6;               // of the cycle
+constexpr double kUsualStance = 0.6;                 // of the cycle
 
 using Times = std::array<std::array<std::vector<double>, 2>, 2>;  // by side and kind, ascending
 
@@ -27,17 +27,24 @@ double first_between(const std::vector<double>& times, double after, double befo
   return found != times.end() && *found < before ? *found : kNaN;
 }
 
-Vector2d print_of(const GaitPaths& paths, const FootPaths& foot, double strike_s, double stance_s,
-                  const Eigen::RowVector2d& ground) {
+Footprint print_of(const GaitPaths& paths, const FootPaths& foot, double strike_s, double stance_s,
+                   const Eigen::RowVector2d& ground) {
   const auto frame = [&](double t) { return std::llround((t - paths.start_s) * paths.rate_hz); };
   const auto first = frame(strike_s + kPrintFrom * stance_s), last = frame(strike_s + kPrintTo * stance_s);
-  if (!foot.present() || !std::isfinite(stance_s) || first < 0 || last >= paths.frames()) return {kNaN, kNaN};
+  if (!foot.present() || !std::isfinite(stance_s) || first < 0 || last >= paths.frames()) return {};
   Vector2d sum = Vector2d::Zero();
+  double squares = 0.0;
+  const Vector2d about = foot.heel.row(first).leftCols<2>().transpose();
   for (auto f = first; f <= last; ++f) {
-    if (!foot.known[at(f)]) return {kNaN, kNaN};
-    sum += (foot.heel.row(f).leftCols<2>() - ground * (static_cast<double>(f) / paths.rate_hz)).transpose();
+    if (!foot.known[at(f)]) return {};
+    const Vector2d x = foot.heel.row(f).leftCols<2>().transpose() - about -
+                       static_cast<double>(f - first) / paths.rate_hz * ground.transpose();
+    sum += x, squares += x.squaredNorm();
   }
-  return sum / static_cast<double>(last - first + 1);
+  const auto n = static_cast<double>(last - first + 1);
+  const Vector2d mean = sum / n, carried = static_cast<double>(first) / paths.rate_hz * ground.transpose();
+  return {.x = about + mean - carried,
+          .sd = std::sqrt(std::max(0.0, 0.5 * (squares / n - mean.squaredNorm())))};
 }
 
 // A strike's stance: to the foot's leaving before its next strike, else the usual share of a cycle.
@@ -50,11 +57,11 @@ double stance_of(const Times& times, Side side, double strike_s, double cycle_s)
 }  // namespace
 
 double GaitCycle::step_length() const {
-  return (other_print - print).dot((next_print - print).normalized());
+  return (other_print.x - print.x).dot((next_print.x - print.x).normalized());
 }
 
 double GaitCycle::step_width() const {
-  const Vector2d along = (next_print - print).normalized(), across = other_print - print;
+  const Vector2d along = (next_print.x - print.x).normalized(), across = other_print.x - print.x;
   const double to_the_left = along.x() * across.y() - along.y() * across.x();
   return side == Side::right ? to_the_left : -to_the_left;
 }
@@ -62,7 +69,8 @@ double GaitCycle::step_width() const {
 std::vector<GaitCycle> find_cycles(const GaitPaths& paths, std::span<const data::GaitEvent> events,
                                    const Eigen::RowVector2d& ground) {
   Times times;
-  for (const auto& event : events) times[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
+  for (const auto& event : events)
+    times[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
   for (auto& side : times)
     for (auto& kind : side) std::ranges::sort(kind);
   std::vector<double> durations;

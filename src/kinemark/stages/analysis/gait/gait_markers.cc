@@ -16,13 +16,16 @@ namespace {
 
 using data::Side;
 
-constexpr std::array<std::string_view, 7> kRoles{"left_heel",  "left_toe",    "left_ankle", "right_heel",
-                                                 "right_toe",  "right_ankle", "sacrum"};
+constexpr std::array<std::string_view, 7> kRoles{"left_heel", "left_toe",    "left_ankle", "right_heel",
+                                                 "right_toe", "right_ankle", "sacrum"};
 
 // Usual names without side, case and separators, best first.
 constexpr std::array<std::string_view, 6> kHeel{"hee", "heel", "cal", "calc", "fcc", "calcaneus"};
-constexpr std::array<std::string_view, 17> kToe{"toe", "toetip", "mt2", "met2", "mth2", "fm2", "met", "metatarsal", "toe2", "mt1", "toe1", "fm1", "toemed", "bigtoe", "mt5", "fm5", "toelat"};
-constexpr std::array<std::string_view, 9> kAnkle{"ank", "ankle", "anklelat", "lmal", "lmall", "mall", "latmal", "fal", "ajc"};
+constexpr std::array<std::string_view, 17> kToe{"toe",    "toetip",     "mt2",  "met2", "mth2",  "fm2",
+                                                "met",    "metatarsal", "toe2", "mt1",  "toe1",  "fm1",
+                                                "toemed", "bigtoe",     "mt5",  "fm5",  "toelat"};
+constexpr std::array<std::string_view, 9> kAnkle{"ank",  "ankle",  "anklelat", "lmal", "lmall",
+                                                 "mall", "latmal", "fal",      "ajc"};
 constexpr std::array<std::string_view, 4> kBackOfPelvis{"psi", "psis", "ips", "bwt"};
 constexpr std::array<std::string_view, 4> kFrontOfPelvis{"asi", "asis", "ias", "fwt"};
 constexpr std::array<std::string_view, 6> kSacrum{"sacr", "sacrum", "vsac", "vsacral", "sacral", "midhip"};
@@ -117,15 +120,17 @@ Result<GaitMarkers> find_gait_markers(const std::vector<std::string>& names,
     if (foot.heel < 0) {
       foot.heel = pick(2, kAnkle);
       if (foot.heel >= 0)
-        out.notes.push_back(fmt::format("there is no marker of the {} heel; that of the ankle, {}, stands for it",
-                                        lower(side), names[at(foot.heel)]));
+        out.notes.push_back(
+            fmt::format("there is no marker of the {} heel; that of the ankle, {}, stands for it",
+                        lower(side), names[at(foot.heel)]));
     }
     if (foot.heel < 0) missing.push_back(fmt::format("the {} heel or ankle", lower(side)));
     if (foot.toe < 0) missing.push_back(fmt::format("the {} toes", lower(side)));
   }
   if (!missing.empty()) {
-    const auto sentence = fmt::format(
-        "there is no marker of {} under a usual name (LHEE, L.Heel; LANK; LTOE, L.MT2, ...)", join_names(missing, 4));
+    const auto sentence =
+        fmt::format("there is no marker of {} under a usual name (LHEE, L.Heel; LANK; LTOE, L.MT2, ...)",
+                    join_names(missing, 4));
     if (!out.feet[0].complete() && !out.feet[1].complete()) return fail(Code::bad_input, sentence);
     out.notes.push_back(sentence + "; that foot is not measured");
   }

@@ -10,14 +10,16 @@ namespace {
 using data::Side;
 using Names = std::vector<std::string>;
 
-
 TEST(GaitMarkers, AreFoundUnderUsualNames) {
   for (const auto& names :
-       {Names{"LHEE", "LTOE", "RHEE", "RTOE", "LPSI", "RPSI"}, Names{"L.Heel", "L.Toe", "R.Heel", "R.Toe", "V.Sacral"},
+       {Names{"LHEE", "LTOE", "RHEE", "RTOE", "LPSI", "RPSI"},
+        Names{"L.Heel", "L.Toe", "R.Heel", "R.Toe", "V.Sacral"},
         Names{"L.Heel", "L.Toe.Tip", "R.Heel", "R.Toe.Tip", "R.PSIS", "L.PSIS"},
         Names{"Anna:LHEE", "Anna:LTOE", "Anna:RHEE", "Anna:RTOE", "Anna:LBWT", "Anna:RBWT"},
-        Names{"L_FCC", "L_FM1", "R_FCC", "R_FM1", "L_IPS", "R_IPS"}, Names{"l heel", "l met", "r heel", "r met", "sacrum"},
-        Names{"LCAL", "LMT2", "RCAL", "RMT2", "LASI", "RASI"}, Names{"LHeel", "LBigToe", "RHeel", "RBigToe", "MidHip"}}) {
+        Names{"L_FCC", "L_FM1", "R_FCC", "R_FM1", "L_IPS", "R_IPS"},
+        Names{"l heel", "l met", "r heel", "r met", "sacrum"},
+        Names{"LCAL", "LMT2", "RCAL", "RMT2", "LASI", "RASI"},
+        Names{"LHeel", "LBigToe", "RHeel", "RBigToe", "MidHip"}}) {
     const auto found = find_gait_markers(names);
     ASSERT_TRUE(found) << names[0];
     EXPECT_EQ(found->foot(Side::left).heel, 0) << names[0];
@@ -31,7 +33,8 @@ TEST(GaitMarkers, AreFoundUnderUsualNames) {
 }
 
 TEST(GaitMarkers, PelvisHasSetsBestFirst) {
-  const auto found = find_gait_markers({"LHEE", "LTOE", "RHEE", "RTOE", "LASI", "RASI", "LPSI", "RPSI", "SACR"});
+  const auto found =
+      find_gait_markers({"LHEE", "LTOE", "RHEE", "RTOE", "LASI", "RASI", "LPSI", "RPSI", "SACR"});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->pelvis, (std::vector<std::vector<std::int64_t>>{{8}, {6, 7}, {4, 5}}));
 }
@@ -56,14 +59,18 @@ TEST(GaitMarkers, WhatIsMissingIsNamedInOneSentence) {
   const auto found = find_gait_markers({"LHEE", "RTOE", "Head"});
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, Code::bad_input);
-  EXPECT_NE(found.error().message.find("no marker of the left toes and the right heel or ankle"), std::string::npos)
+  EXPECT_NE(found.error().message.find("no marker of the left toes and the right heel or ankle"),
+            std::string::npos)
       << found.error().message;
 }
 
 TEST(GaitMarkers, GivenNamesTakePrecedence) {
   const Names names{"RFT1", "RFT2", "LFT1", "LFT2", "LHEE", "PV1"};
-  const std::vector<MarkerRole> roles{{"right_heel", "RFT1"}, {"right_toe", "RFT2"}, {"left_heel", "LFT1"},
-                                      {"left_toe", "LFT2"},   {"sacrum", "PV1"}};
+  const std::vector<MarkerRole> roles{{"right_heel", "RFT1"},
+                                      {"right_toe", "RFT2"},
+                                      {"left_heel", "LFT1"},
+                                      {"left_toe", "LFT2"},
+                                      {"sacrum", "PV1"}};
   const auto found = find_gait_markers(names, roles);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->foot(Side::left).heel, 2);

@@ -49,8 +49,10 @@ std::vector<bool> known_frames(const data::Trajectories& markers, const FootMark
   return out;
 }
 
-// The laboratory's axis along which the body stands above its feet.
-Result<Eigen::Vector3d> find_up(const data::Trajectories& markers, const GaitMarkers& which) {
+// The laboratory's axis along which the body stands above its feet: its pelvis, else all markers but the
+// feet's.
+Result<Eigen::Vector3d> find_up(const data::Trajectories& markers, const GaitMarkers& which,
+                                const std::vector<std::int64_t>& pelvis) {
   std::vector<bool> of_foot(at(markers.markers()), false);
   for (const auto& foot : which.feet)
     if (foot.complete()) of_foot[at(foot.heel)] = of_foot[at(foot.toe)] = true;
@@ -64,9 +66,8 @@ Result<Eigen::Vector3d> find_up(const data::Trajectories& markers, const GaitMar
   const auto step = std::max<std::int64_t>(1, markers.frames() / 500);
   for (std::int64_t f = 0; f < markers.frames(); f += step) {
     for (std::int64_t m = 0; m < markers.markers(); ++m)
-      if (of_foot[at(m)] || which.pelvis.empty()) add(f, m);
-    if (!which.pelvis.empty())
-      for (const auto m : which.pelvis.front()) add(f, m);
+      if (of_foot[at(m)] || pelvis.empty()) add(f, m);
+    for (const auto m : pelvis) add(f, m);
   }
   const Eigen::Vector3d upward = body / body_count - feet / feet_count;
   Eigen::Index axis = 0;
@@ -86,10 +87,11 @@ SeriesMatrix forward_of(const std::array<FootPaths, 2>& feet, std::int64_t n, do
   }
   SeriesMatrix out(n, 2);
   const std::int64_t half = std::llround(0.5 * rate_hz);
-  Eigen::RowVector2d before = sums.row(n).norm() > 0.0 ? Eigen::RowVector2d(sums.row(n).normalized())
-                                                       : Eigen::RowVector2d(1.0, 0.0);
+  Eigen::RowVector2d before =
+      sums.row(n).norm() > 0.0 ? Eigen::RowVector2d(sums.row(n).normalized()) : Eigen::RowVector2d(1.0, 0.0);
   for (std::int64_t f = 0; f < n; ++f) {
-    const Eigen::RowVector2d sum = sums.row(std::min(n, f + half + 1)) - sums.row(std::max<std::int64_t>(0, f - half));
+    const Eigen::RowVector2d sum =
+        sums.row(std::min(n, f + half + 1)) - sums.row(std::max<std::int64_t>(0, f - half));
     if (sum.norm() > 0.0) before = sum.normalized();
     out.row(f) = before;
   }
@@ -129,8 +131,9 @@ Result<GaitSmoother::Point> GaitSmoother::smooth_point(const data::Trajectories&
 Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, const GaitMarkers& which,
                                           double noise_sd_m) {
   if (!(markers.time.rate_hz >= kLeastRate_hz))
-    return fail(Code::bad_input, fmt::format("{:g} frames a second are too few for events of walking; need {:g}",
-                                             markers.time.rate_hz, kLeastRate_hz));
+    return fail(Code::bad_input,
+                fmt::format("{:g} frames a second are too few for events of walking; need {:g}",
+                            markers.time.rate_hz, kLeastRate_hz));
   GaitSmoother out;
   out.time_ = markers.time;
   for (const auto side : data::kBothSides) {
@@ -157,7 +160,7 @@ Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, con
     out.pelvis_ = static_cast<int>(out.points_.size());
     out.points_.push_back(std::move(*point));
   }
-  const auto up = find_up(markers, which);
+  const auto up = find_up(markers, which, pelvis);
   if (!up) return std::unexpected(up.error());
   out.upright_ = Eigen::Quaterniond::FromTwoVectors(*up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   std::vector<SeriesMatrix> points;

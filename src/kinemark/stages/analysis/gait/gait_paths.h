@@ -47,7 +47,8 @@ struct GaitPaths {
 class GaitSmoother {
  public:
   /// @param noise_sd_m  per axis, 0: found from each marker's sixth differences
-  /// @return  Code::bad_input where the rate is below 20 Hz, a marker was measured in fewer than 20 frames, or
+  /// @return  Code::bad_input where the rate is below 20 Hz, a marker was measured in fewer than 20 frames,
+  /// or
   ///          nobody can tell which way is up.
   [[nodiscard]] static Result<GaitSmoother> create(const data::Trajectories& markers,
                                                    const GaitMarkers& which, double noise_sd_m);

@@ -78,21 +78,24 @@ TEST(Gait, IntervalsHoldTheTruthAndDoNotDependOnThreads) {
       EXPECT_GT(m.interval.high, 1.08);
       EXPECT_LT(m.sd, 0.006);
     }
-  for (const auto& event : one.events) EXPECT_TRUE(event.sd_s > 0.005 && event.sd_s < 0.03);
+  // Without plates, at least half of what the two methods preferred differ by.
+  for (const auto& event : one.events) EXPECT_TRUE(event.sd_s > 0.005 && event.sd_s < 0.06) << event.sd_s;
 }
 
 TEST(Gait, PlatesReplaceAndCorrectWhatMarkersTell) {
   const KnownWalk walk;
   const auto markers = walk.markers(0.0003, 3);
-  const data::Wrenches plates{.time = markers.time,
-                              .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
+  const data::Wrenches plates{
+      .time = markers.time,
+      .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
   const auto with = analyze_gait(markers, {.plates = &plates}, {.refits = 0}).value();
   const auto without = analyze_gait(markers, {}, {.refits = 0}).value();
   int by_plate = 0;
   double worst_with = 0.0, worst_without = 0.0;
   for (const auto& truth : walk.events()) {
     for (const auto& event : with.events)
-      if (event.side == truth.side && event.what == truth.what && std::abs(event.time_s - truth.time_s) < 0.1) {
+      if (event.side == truth.side && event.what == truth.what &&
+          std::abs(event.time_s - truth.time_s) < 0.1) {
         by_plate += event.source == EventSource::plate;
         worst_with = std::max(worst_with, std::abs(event.time_s - truth.time_s));
       }
@@ -103,7 +106,8 @@ TEST(Gait, PlatesReplaceAndCorrectWhatMarkersTell) {
   EXPECT_EQ(by_plate, 4);
   EXPECT_LT(worst_with, 0.01);
   EXPECT_GT(worst_without, worst_with);
-  const auto alone = analyze_gait(markers, {.plates = &plates}, {.choice = EventChoice::plates, .refits = 0}).value();
+  const auto alone =
+      analyze_gait(markers, {.plates = &plates}, {.choice = EventChoice::plates, .refits = 0}).value();
   EXPECT_EQ(alone.events.size(), 4u);
 }
 
@@ -112,9 +116,11 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
   const auto markers = walk.markers(0.0003, 3);
   GaitEvidence evidence;
   for (const auto& event : walk.events())
-    evidence.events.push_back({std::string(data::to_string(event.what)), std::string(data::to_string(event.side)), event.time_s});
+    evidence.events.push_back(
+        {std::string(data::to_string(event.what)), std::string(data::to_string(event.side)), event.time_s});
   const auto compared = analyze_gait(markers, evidence, {.refits = 0}).value();
-  EXPECT_TRUE(std::ranges::any_of(compared.agreement, [](const auto& a) { return a.what == "Foot Strike: these and the file's"; }));
+  EXPECT_TRUE(std::ranges::any_of(
+      compared.agreement, [](const auto& a) { return a.what == "Foot Strike: these and the file's"; }));
   const auto taken = analyze_gait(markers, evidence, {.choice = EventChoice::file, .refits = 0}).value();
   EXPECT_EQ(taken.events.size(), walk.events().size());
   EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
@@ -143,8 +149,9 @@ TEST(Gait, WhoStandsHasNone) {
 
 TEST(EventsOfFile, AreReadUnderTheirNames) {
   const TimeBase time{.rate_hz = 100.0, .t0_s = 1.0, .frames = 300};
-  const std::vector<data::Event> events{{"Foot Strike", "Left", 1.5}, {"RTO", "", 1.6}, {"Foot Off", "Left", 2.1},
-                                        {"LHS", "", 2.5},             {"jump", "Left", 1.7}, {"Toe Off", "Right", 2.7},
+  const std::vector<data::Event> events{{"Foot Strike", "Left", 1.5},   {"RTO", "", 1.6},
+                                        {"Foot Off", "Left", 2.1},      {"LHS", "", 2.5},
+                                        {"jump", "Left", 1.7},          {"Toe Off", "Right", 2.7},
                                         {"Foot Strike", "General", 2.0}};
   const auto found = events_of_file(events, time);
   ASSERT_EQ(found.events.size(), 5u);  // no right strike is there, so that right leavings need not take turns
@@ -153,15 +160,18 @@ TEST(EventsOfFile, AreReadUnderTheirNames) {
   EXPECT_EQ(found.events[1].what, FootEvent::off);
 }
 
-TEST(EventsOfFile, OutsideAndInTheWrongOrderAreLeftOutAndTold) {
+TEST(EventsOfFile, OutsideAndInTheWrongOrderAreLeftOut) {
   const TimeBase time{.rate_hz = 100.0, .t0_s = 1.0, .frames = 300};
-  const std::vector<data::Event> events{{"Foot Strike", "Left", 0.5}, {"Foot Strike", "Left", 1.5},
-                                        {"Foot Strike", "Left", 2.0}, {"Foot Off", "Left", 2.1}};
+  const std::vector<data::Event> events{{"Foot Strike", "Left", 0.5},
+                                        {"Foot Strike", "Left", 1.5},
+                                        {"Foot Strike", "Left", 2.0},
+                                        {"Foot Off", "Left", 2.1}};
   const auto found = events_of_file(events, time);
   EXPECT_EQ(found.events.size(), 2u);
   ASSERT_EQ(found.notes.size(), 2u);
   EXPECT_EQ(found.notes[0],
-            "the file's event Left Foot Strike at 0.500 s lies outside the recording, 1.000 to 3.990 s, and is left out");
+            "the file's event Left Foot Strike at 0.500 s lies outside the recording, 1.000 to 3.990 s, and "
+            "is left out");
   EXPECT_NE(found.notes[1].find("follows another of its kind, with no Foot Off between"), std::string::npos);
 }
 

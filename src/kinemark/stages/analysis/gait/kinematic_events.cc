@@ -17,9 +17,9 @@ using data::FootEvent;
 using data::Side;
 using Series = Eigen::VectorXd;
 
-constexpr double kLeastSwing_m = 0.15;     // of one foot against the other, each way
-constexpr double kShareOfSwing = 0.4;      // of the median swing: less is no step
-constexpr double kEdge_s = 0.03;           // of the recording
+constexpr double kLeastSwing_m = 0.15;  // of one foot against the other, each way
+constexpr double kShareOfSwing = 0.4;   // of the median swing: less is no step
+constexpr double kEdge_s = 0.03;        // of the recording
 constexpr double kThreshold_m_per_s = 0.5;
 constexpr double kLowHeel = 0.35;  // of the range of its height: a heel that comes down is not higher
 constexpr double kExcluded = -1e9;
@@ -165,7 +165,8 @@ FootSwings find_swings(const GaitPaths& paths, Side side) {
   const auto &foot = paths.foot(side), &other = paths.foot(data::opposite(side));
   if (!foot.present() || (!other.present() && paths.pelvis.rows() == 0)) return out;
   const math::SeriesMatrix middle = 0.5 * (foot.heel + foot.toe);
-  const math::SeriesMatrix from = other.present() ? math::SeriesMatrix(0.5 * (other.heel + other.toe)) : paths.pelvis;
+  const math::SeriesMatrix from =
+      other.present() ? math::SeriesMatrix(0.5 * (other.heel + other.toe)) : paths.pelvis;
   const Series before = along(middle - from, paths.forward);
   auto turns = turns_of(before, kLeastSwing_m);
   std::vector<double> swings;
@@ -200,8 +201,8 @@ Eigen::RowVector2d ground_velocity(const GaitPaths& paths, const std::array<Foot
     for (const auto& window : of.of(FootEvent::strike)) {
       const auto first = static_cast<Eigen::Index>(std::llround(window.centre + kFlatFrom * of.cycle)),
                  last = static_cast<Eigen::Index>(std::llround(window.centre + kFlatTo * of.cycle));
-      if (first < 0 || last >= paths.frames() || last <= first || !known_at(foot, static_cast<double>(first)) ||
-          !known_at(foot, static_cast<double>(last)))
+      if (first < 0 || last >= paths.frames() || last <= first ||
+          !known_at(foot, static_cast<double>(first)) || !known_at(foot, static_cast<double>(last)))
         continue;
       const Eigen::RowVector3d moved =
           0.5 * (foot.heel.row(last) - foot.heel.row(first) + foot.toe.row(last) - foot.toe.row(first));

@@ -21,12 +21,12 @@ enum class EventMethod : std::uint8_t {
   coordinates,      ///< strike: heel farthest before the pelvis, off: toe farthest behind it
                     ///< (Zeni, Richards & Higginson 2008, Gait & Posture 27:710)
   speed_threshold,  ///< strike: the heel's speed over the ground in the sagittal plane falls below 0.5 m/s,
-                    ///< off: the toe's rises above it (Ghoussayni et al. 2004, Gait & Posture 20:266; threshold:
-                    ///< Bruening & Ridge 2014, Gait & Posture 39:472)
+                    ///< off: the toe's rises above it (Ghoussayni et al. 2004, Gait & Posture 20:266;
+                    ///< threshold: Bruening & Ridge 2014, Gait & Posture 39:472)
 };
 /// All.
-inline constexpr std::array<EventMethod, 3> kEventMethods{EventMethod::foot_velocity, EventMethod::coordinates,
-                                                          EventMethod::speed_threshold};
+inline constexpr std::array<EventMethod, 3> kEventMethods{
+    EventMethod::foot_velocity, EventMethod::coordinates, EventMethod::speed_threshold};
 /// "O'Connor 2007", "Zeni 2008" or "Ghoussayni 2004".
 [[nodiscard]] std::string_view to_string(EventMethod method);
 
@@ -60,8 +60,8 @@ struct FootSwings {
 /// The event in each window, frames that need not be whole; NaN where the method finds none (no pelvis, not
 /// measured there, at the edge of the recording).
 /// @param ground  ground_velocity()
-[[nodiscard]] std::vector<double> find_in_windows(const GaitPaths& paths, data::Side side, data::FootEvent what,
-                                                  EventMethod method, const FootSwings& swings,
-                                                  const Eigen::RowVector2d& ground);
+[[nodiscard]] std::vector<double> find_in_windows(const GaitPaths& paths, data::Side side,
+                                                  data::FootEvent what, EventMethod method,
+                                                  const FootSwings& swings, const Eigen::RowVector2d& ground);
 
 }  // namespace kinemark::analysis

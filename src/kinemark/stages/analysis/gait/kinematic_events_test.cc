@@ -77,8 +77,10 @@ TEST(KinematicEvents, DoNotDependOnHowTheLaboratoryStands) {
   const std::array<FootSwings, 2> swings{find_swings(upright, Side::left), find_swings(upright, Side::right)};
   const std::array<FootSwings, 2> again{find_swings(turned, Side::left), find_swings(turned, Side::right)};
   for (const auto method : kEventMethods) {
-    const auto a = find_in_windows(upright, Side::left, FootEvent::strike, method, swings[0], ground_velocity(upright, swings)),
-               b = find_in_windows(turned, Side::left, FootEvent::strike, method, again[0], ground_velocity(turned, again));
+    const auto a = find_in_windows(upright, Side::left, FootEvent::strike, method, swings[0],
+                                   ground_velocity(upright, swings)),
+               b = find_in_windows(turned, Side::left, FootEvent::strike, method, again[0],
+                                   ground_velocity(turned, again));
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i)
       if (std::isfinite(a[i])) EXPECT_NEAR(a[i], b[i], 1e-6);
@@ -90,7 +92,8 @@ TEST(KinematicEvents, GroundMovesOnATreadmillAlone) {
   for (const bool treadmill : {false, true}) {
     walk.treadmill = treadmill;
     const auto paths = paths_of(walk.markers(0.0003, 3));
-    const auto ground = ground_velocity(paths, {find_swings(paths, Side::left), find_swings(paths, Side::right)});
+    const auto ground =
+        ground_velocity(paths, {find_swings(paths, Side::left), find_swings(paths, Side::right)});
     EXPECT_NEAR(ground.norm(), treadmill ? walk.speed_m_per_s : 0.0, 0.005);
   }
 }
@@ -99,20 +102,22 @@ TEST(KinematicEvents, WhoStandsDoesNotStep) {
   KnownWalk walk;
   auto markers = walk.markers(0.001, 3);
   for (std::int64_t f = 1; f < markers.frames(); ++f)
-    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m) = markers.x(0, m) + 1e-3 * (markers.x(f, m) - markers.x(0, m));
+    for (std::int64_t m = 0; m < markers.markers(); ++m)
+      markers.x(f, m) = markers.x(0, m) + 1e-3 * (markers.x(f, m) - markers.x(0, m));
   const auto paths = paths_of(markers);
   EXPECT_EQ(find_swings(paths, Side::left).cycle, 0.0);
   EXPECT_TRUE(find_swings(paths, Side::left).of(FootEvent::strike).empty());
 }
 
-TEST(KinematicEvents, NothingIsToldOfWhatWasNotSeen) {
+TEST(KinematicEvents, WhatWasNotSeenHasNone) {
   const KnownWalk walk;
   auto markers = walk.markers(0.0003, 3);
   for (std::int64_t f = 200; f < 330; ++f) markers.set_missing(f, 0);  // LHEE
   const auto paths = paths_of(markers);
   const std::array<FootSwings, 2> swings{find_swings(paths, Side::left), find_swings(paths, Side::right)};
   for (const auto method : kEventMethods)
-    for (const double frame : find_in_windows(paths, Side::left, FootEvent::strike, method, swings[0], ground_velocity(paths, swings)))
+    for (const double frame : find_in_windows(paths, Side::left, FootEvent::strike, method, swings[0],
+                                              ground_velocity(paths, swings)))
       EXPECT_FALSE(frame > 211.0 && frame < 319.0) << to_string(method);
 }
 
@@ -125,7 +130,27 @@ TEST(GaitSmoother, RefusesWhatCannotBeMeasured) {
   EXPECT_EQ(GaitSmoother::create(slow, which, 0.0).error().message,
             "10 frames a second are too few for events of walking; need 20");
   for (std::int64_t f = 5; f < markers.frames(); ++f) markers.set_missing(f, 3);
-  EXPECT_EQ(GaitSmoother::create(markers, which, 0.0).error().message, "RTOE was measured in 5 frames; need 20 at least");
+  EXPECT_EQ(GaitSmoother::create(markers, which, 0.0).error().message,
+            "RTOE was measured in 5 frames; need 20 at least");
+}
+
+TEST(GaitSmoother, APelvisMarkerThatIsNeverSeenStandsForNothing) {
+  auto markers = KnownWalk{}.markers(0.0003, 3);
+  for (std::int64_t f = 0; f < markers.frames(); ++f) markers.set_missing(f, 4);  // SACR
+  const auto which = find_gait_markers(markers.names).value();
+  EXPECT_NE(GaitSmoother::create(markers, which, 0.0).error().message.find("which way is up"),
+            std::string::npos);
+  auto more = data::Trajectories::all_missing({"LHEE", "LTOE", "RHEE", "RTOE", "SACR", "CLAV"}, markers.time);
+  for (std::int64_t f = 0; f < more.frames(); ++f)
+    for (std::int64_t m = 0; m < 6; ++m) {
+      if (m == 4) continue;
+      more.x(f, m) = m == 5 ? Eigen::Vector3d(markers.x(f, 0) + Eigen::Vector3d(0, 0, 1.4))
+                            : Eigen::Vector3d(markers.x(f, m));
+      more.state[more.index(f, m)] = data::SampleState::measured;
+    }
+  const auto smoother = GaitSmoother::create(more, find_gait_markers(more.names).value(), 0.0);
+  ASSERT_TRUE(smoother);
+  EXPECT_EQ(smoother->paths().pelvis.rows(), 0);
 }
 
 TEST(GaitSmoother, NoiseIsThatOfItsNumberAndSmall) {

@@ -20,8 +20,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kContact_n = 20.0, kInNoise = 5.0;
-constexpr double kBears_n = 100.0;    // a contact that never bears more is no step
-constexpr double kSurely_n = 50.0;    // the centre of pressure means something
+constexpr double kBears_n = 100.0;  // a contact that never bears more is no step
+constexpr double kSurely_n = 50.0;  // the centre of pressure means something
 constexpr double kLeast_s = 0.15, kMost_s = 3.0;
 constexpr double kBeside_m = 0.12;    // from the line between heel and toe to the centre of pressure
 constexpr double kShareBeside = 0.1;  // of a contact's frames
@@ -71,7 +71,8 @@ std::vector<Contact> contacts_of(const Plate& plate, double rate_hz) {
     double most = 0.0;
     while (last < n && plate.load[at(last)] > ends) most = std::max(most, plate.load[at(last++)]);
     const auto seconds = static_cast<double>(last - f) / rate_hz;
-    if (last < n && std::isfinite(plate.load[at(last)]) && most > kBears_n && seconds > kLeast_s && seconds < kMost_s)
+    if (last < n && std::isfinite(plate.load[at(last)]) && most > kBears_n && seconds > kLeast_s &&
+        seconds < kMost_s)
       out.push_back({f, last - 1});
     f = std::max(f, last - 1);
   }

@@ -26,8 +26,8 @@ struct PlateEvents {
 /// Events of clean contacts: one foot alone on the plate, wholly, from landing to leaving.
 ///
 /// A contact begins above 20 N, or five times the noise of the unloaded plate if that is more, and has ended
-/// below half of it. Its instants are those at which the load, linear between frames, passes the former. Their
-/// SD is a fifth of a frame, 2 ms and the noise over the slope, together.
+/// below half of it. Its instants are those at which the load, linear between frames, passes the former.
+/// Their SD is a fifth of a frame, 2 ms and the noise over the slope, together.
 ///
 /// @param plates   vertical forces that were not cut off at a threshold (contact_force_n 0), recording's
 ///                 clock and axes

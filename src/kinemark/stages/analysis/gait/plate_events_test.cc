@@ -25,8 +25,10 @@ class PlateEventsTest : public ::testing::Test {
   }
   // A square around a place.
   static PlateCorners square(const Eigen::Vector3d& at, double half) {
-    return {Eigen::Vector3d(at + Eigen::Vector3d(half, half, 0)), Eigen::Vector3d(at + Eigen::Vector3d(-half, half, 0)),
-            Eigen::Vector3d(at + Eigen::Vector3d(-half, -half, 0)), Eigen::Vector3d(at + Eigen::Vector3d(half, -half, 0))};
+    return {Eigen::Vector3d(at + Eigen::Vector3d(half, half, 0)),
+            Eigen::Vector3d(at + Eigen::Vector3d(-half, half, 0)),
+            Eigen::Vector3d(at + Eigen::Vector3d(-half, -half, 0)),
+            Eigen::Vector3d(at + Eigen::Vector3d(half, -half, 0))};
   }
 
   KnownWalk walk_;
@@ -69,7 +71,8 @@ TEST_F(PlateEventsTest, TwoFeetOnOnePlateTellNothing) {
   const auto found = find();
   EXPECT_TRUE(found.events.empty());
   ASSERT_EQ(found.notes.size(), 1u);
-  EXPECT_NE(found.notes[0].find("tells of no event: the force does not stay under one foot"), std::string::npos);
+  EXPECT_NE(found.notes[0].find("tells of no event: the force does not stay under one foot"),
+            std::string::npos);
 }
 
 TEST_F(PlateEventsTest, AFootAcrossTheEdgeTellsNothing) {

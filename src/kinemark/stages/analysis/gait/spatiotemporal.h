@@ -20,9 +20,9 @@ enum class GaitScope : std::uint8_t {
 
 /// One spatiotemporal measure.
 struct GaitDefinition {
-  data::MeasureDefinition what;          ///< its line in `analyze --list`
-  GaitScope scope = GaitScope::body;     ///< whether left and right have values of their own
-  bool squared = false;                  ///< a deviation, which noise raises: its bias is that of its square
+  data::MeasureDefinition what;       ///< its line in `analyze --list`
+  GaitScope scope = GaitScope::body;  ///< whether left and right have values of their own
+  bool squared = false;               ///< a deviation, which noise raises: its bias is that of its square
   /// Of cycles of one foot, or of both (body), in SI units; NaN where none tells.
   double (*value)(std::span<const GaitCycle> cycles) = nullptr;
   bool of_other = false;  ///< each_side: from the cycles of the other foot, within which this one steps

@@ -27,21 +27,22 @@ struct KnownWalk {
   double right_later = 0.5;                  ///< share of the stride, of the right strike after the left one
   double width_m = 0.1;                      ///< between the heels' lines
   double foot_m = 0.2;                       ///< from heel to toe marker
-  double tip_m = 0.06;                       ///< from the toe marker (second metatarsal) to the tip, which leaves last
-  double land_rad = 0.35, push_rad = 1.05;   ///< pitch of the foot at strike, toes up, and at leaving, toes down
-  double flat_at = 0.13;                     ///< share of the stance after which the foot lies flat
-  double rises_at = 0.55;                    ///< share of the stance at which the heel rises
+  double tip_m = 0.06;  ///< from the toe marker (second metatarsal) to the tip, which leaves last
+  double land_rad = 0.35,
+         push_rad = 1.05;  ///< pitch of the foot at strike, toes up, and at leaving, toes down
+  double flat_at = 0.13;   ///< share of the stance after which the foot lies flat
+  double rises_at = 0.55;  ///< share of the stance at which the heel rises
   Eigen::Vector2d land_velocity{0.5, -0.2};  ///< of the heel at strike, forward and up, m/s
   /// Pitch rates over the mean rate of the phase: at strike, slow, as the forefoot falls faster once the heel
   /// stands; at leaving, the fastest.
   double land_rate = 0.7, push_rate = 2.3;
-  double toe_out_rad = 0.1;                  ///< of each foot
-  double heading_rad = 0.4;                  ///< of the walk in the laboratory
-  bool treadmill = false;                    ///< stays where it is; the belt runs
-  double duration_s = 6.0;                   ///< of the recording
-  double rate_hz = 100.0;                    ///< of frames
-  double weight_n = 700.0;                   ///< of the body
-  double first_strike_s = -0.3;              ///< of the left foot
+  double toe_out_rad = 0.1;      ///< of each foot
+  double heading_rad = 0.4;      ///< of the walk in the laboratory
+  bool treadmill = false;        ///< stays where it is; the belt runs
+  double duration_s = 6.0;       ///< of the recording
+  double rate_hz = 100.0;        ///< of frames
+  double weight_n = 700.0;       ///< of the body
+  double first_strike_s = -0.3;  ///< of the left foot
 
   /// Somebody, drawn.
   static KnownWalk draw(Random& random) {
@@ -68,7 +69,8 @@ struct KnownWalk {
   [[nodiscard]] double stride_m() const { return speed_m_per_s * stride_s; }  ///< of both feet
   /// Strike of a foot's step, s.
   [[nodiscard]] double strike_s(data::Side side, std::int64_t step) const {
-    return first_strike_s + stride_s * (static_cast<double>(step) + (side == data::Side::left ? 0.0 : right_later));
+    return first_strike_s +
+           stride_s * (static_cast<double>(step) + (side == data::Side::left ? 0.0 : right_later));
   }
   /// The foot leaves the ground after that strike, s.
   [[nodiscard]] double off_s(data::Side side, std::int64_t step) const {
@@ -100,8 +102,10 @@ namespace walk_detail {
 // Cubic between two values with their slopes; u from 0 to 1 over `span`. Value and slope.
 inline std::array<double, 2> hermite(double u, double span, double a, double va, double b, double vb) {
   const double u2 = u * u, u3 = u2 * u;
-  return {(2 * u3 - 3 * u2 + 1) * a + (u3 - 2 * u2 + u) * span * va + (-2 * u3 + 3 * u2) * b + (u3 - u2) * span * vb,
-          ((6 * u2 - 6 * u) * a + (-6 * u2 + 6 * u) * b) / span + (3 * u2 - 4 * u + 1) * va + (3 * u2 - 2 * u) * vb};
+  return {(2 * u3 - 3 * u2 + 1) * a + (u3 - 2 * u2 + u) * span * va + (-2 * u3 + 3 * u2) * b +
+              (u3 - u2) * span * vb,
+          ((6 * u2 - 6 * u) * a + (-6 * u2 + 6 * u) * b) / span + (3 * u2 - 4 * u + 1) * va +
+              (3 * u2 - 2 * u) * vb};
 }
 
 inline constexpr double kHeelHeight_m = 0.035, kToeHeight_m = 0.03;
@@ -113,8 +117,8 @@ struct Pose {
 inline Pose about_heel(double x0, double pitch, double rate) {
   // The heel marker stands over the point it turns about.
   const double h = kHeelHeight_m;
-  return {x0 - h * std::sin(pitch), h * std::cos(pitch), pitch, -h * std::cos(pitch) * rate,
-          -h * std::sin(pitch) * rate, rate};
+  return {x0 - h * std::sin(pitch),    h * std::cos(pitch),         pitch,
+          -h * std::cos(pitch) * rate, -h * std::sin(pitch) * rate, rate};
 }
 inline Pose about_tip(double x0, double foot, double pitch, double rate) {
   // From the tip's contact back to the heel marker: (-foot, height).
@@ -131,8 +135,10 @@ inline std::array<Eigen::Vector3d, 2> KnownWalk::foot_at(data::Side side, double
                rise_s = rises_at * share * stride_s, leave_s = share * stride_s;
   const double begun = strike_s(side, 0);
   const auto step = static_cast<std::int64_t>(std::floor((time_s - begun) / stride_s));
-  const double t = time_s - strike_s(side, step), x0 = speed_m_per_s * (strike_s(side, step) - strike_s(data::Side::left, 0));
-  const double landing_rate = -land_rate * land_rad / flat_s, leave_rate = -push_rate * push_rad / (leave_s - rise_s);
+  const double t = time_s - strike_s(side, step),
+               x0 = speed_m_per_s * (strike_s(side, step) - strike_s(data::Side::left, 0));
+  const double landing_rate = -land_rate * land_rad / flat_s,
+               leave_rate = -push_rate * push_rad / (leave_s - rise_s);
   const Pose leaving = about_tip(x0, foot_m + tip_m, -push_rad, leave_rate);
   Pose pose{};
   if (t < flat_s) {
@@ -141,7 +147,8 @@ inline std::array<Eigen::Vector3d, 2> KnownWalk::foot_at(data::Side side, double
   } else if (t < rise_s) {
     pose = about_heel(x0, 0.0, 0.0);
   } else if (t < leave_s) {
-    const auto p = hermite((t - rise_s) / (leave_s - rise_s), leave_s - rise_s, 0.0, 0.0, -push_rad, leave_rate);
+    const auto p =
+        hermite((t - rise_s) / (leave_s - rise_s), leave_s - rise_s, 0.0, 0.0, -push_rad, leave_rate);
     pose = about_tip(x0, foot_m + tip_m, p[0], p[1]);
   } else {
     const double span = stride_s - leave_s, u = (t - leave_s) / span;
@@ -160,10 +167,10 @@ inline std::array<Eigen::Vector3d, 2> KnownWalk::foot_at(data::Side side, double
 
 inline Eigen::Vector3d KnownWalk::pelvis_at(double time_s) const {
   const double phase = 2.0 * std::numbers::pi * (time_s - first_strike_s) / stride_s;
-  const double middle = speed_m_per_s * (time_s - strike_s(data::Side::left, 0)) +
-                        0.5 * foot_m - 0.31 * stride_m() - 0.08;
-  return in_laboratory(middle + 0.01 * std::sin(2.0 * phase), 0.02 * std::cos(phase), 0.95 - 0.02 * std::cos(2.0 * phase),
-                       time_s);
+  const double middle =
+      speed_m_per_s * (time_s - strike_s(data::Side::left, 0)) + 0.5 * foot_m - 0.31 * stride_m() - 0.08;
+  return in_laboratory(middle + 0.01 * std::sin(2.0 * phase), 0.02 * std::cos(phase),
+                       0.95 - 0.02 * std::cos(2.0 * phase), time_s);
 }
 
 inline std::vector<data::GaitEvent> KnownWalk::events() const {
