@@ -24,11 +24,12 @@ using data::Side;
 
 constexpr double kBelt_m_per_s = 0.15;  // slower is no belt, but a foot that rolls
 
-bool is_belt(const Eigen::RowVector2d& ground) { return ground.norm() > kBelt_m_per_s; }
+bool is_belt(const Ground& ground) { return ground.velocity.norm() > kBelt_m_per_s; }
 
-// How the ground moves, as far as it does.
-Eigen::RowVector2d belt_of(const Eigen::RowVector2d& ground) {
-  return is_belt(ground) ? ground : Eigen::RowVector2d(0.0, 0.0);
+// How the ground moves, as far as it does, with an error of its speed.
+Eigen::RowVector2d belt_of(const Ground& ground, double error_m_per_s = 0.0) {
+  if (!is_belt(ground)) return {0.0, 0.0};
+  return (1.0 + error_m_per_s / ground.velocity.norm()) * ground.velocity;
 }
 
 // Every footprint moved by its own error; one that stands in several cycles, by the same.
@@ -130,7 +131,7 @@ class GaitMeasurement {
       for (const FootEvent what : data::kFootEvents)
         again[data::index_of(side)][data::index_of(what)] =
             find_in_windows(paths, side, what, found_.chosen[data::index_of(what)].method,
-                            found_.swings[data::index_of(side)], ground);
+                            found_.swings[data::index_of(side)], ground.velocity);
     Random random(options_.seed, mix64(0x6576656e74) ^ static_cast<std::uint64_t>(k));
     std::array<double, 2> common{};
     for (const FootEvent what : data::kFootEvents)
@@ -151,7 +152,8 @@ class GaitMeasurement {
       if (std::isfinite(moved)) noise[i][at(k)] = moved;
       event.time_s += noise[i][at(k)] + common[what] + error.event_sd_s * draw;
     }
-    auto cycles = find_cycles(paths, events, is_belt(found_.ground) ? ground : belt_of(found_.ground));
+    const double belt_error = found_.ground.sd * random.gaussian();
+    auto cycles = find_cycles(paths, events, belt_of(is_belt(found_.ground) ? ground : found_.ground, belt_error));
     jitter(cycles, random);
     return values_of(cycles);
   }
@@ -250,7 +252,7 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   note_choice(found, out);
   if (is_belt(found.ground)) {
     out.treadmill = true;
-    out.belt_speed_m_per_s = found.ground.norm();
+    out.belt_speed_m_per_s = found.ground.velocity.norm();
     out.notes.push_back(
         fmt::format("walking on a treadmill: the feet slide back at {:.3f} m/s while they stand",
                     out.belt_speed_m_per_s));

@@ -59,7 +59,7 @@ struct EventsFound {
   std::vector<std::int64_t> window;     ///< of each event: in swings of its side and kind; -1: not by markers
   std::array<KinematicChoice, 2> chosen;     ///< for strike, for leaving
   std::array<FootSwings, 2> swings;          ///< left, right
-  Eigen::RowVector2d ground = {kNaN, kNaN};  ///< ground_velocity()
+  Ground ground;                          ///< ground_velocity()
   std::vector<Agreement> agreement;          ///< between sources, between methods
 };
 

@@ -193,8 +193,8 @@ FootSwings find_swings(const GaitPaths& paths, Side side) {
   return out;
 }
 
-Eigen::RowVector2d ground_velocity(const GaitPaths& paths, const std::array<FootSwings, 2>& swings) {
-  std::array<std::vector<double>, 2> found;
+Ground ground_velocity(const GaitPaths& paths, const std::array<FootSwings, 2>& swings) {
+  std::array<std::vector<double>, 2> mean, apart;  // of heel and toe, by axis
   for (const Side side : data::kBothSides) {
     const auto& foot = paths.foot(side);
     const auto& of = swings[data::index_of(side)];
@@ -204,13 +204,20 @@ Eigen::RowVector2d ground_velocity(const GaitPaths& paths, const std::array<Foot
       if (first < 0 || last >= paths.frames() || last <= first ||
           !known_at(foot, static_cast<double>(first)) || !known_at(foot, static_cast<double>(last)))
         continue;
-      const Eigen::RowVector3d moved =
-          0.5 * (foot.heel.row(last) - foot.heel.row(first) + foot.toe.row(last) - foot.toe.row(first));
-      for (const Eigen::Index axis : {0, 1})
-        found[at(axis)].push_back(moved[axis] * paths.rate_hz / static_cast<double>(last - first));
+      const double per_s = paths.rate_hz / static_cast<double>(last - first);
+      const Eigen::RowVector3d heel = per_s * (foot.heel.row(last) - foot.heel.row(first)),
+                               toe = per_s * (foot.toe.row(last) - foot.toe.row(first));
+      for (const Eigen::Index axis : {0, 1}) {
+        mean[at(axis)].push_back(0.5 * (heel[axis] + toe[axis]));
+        apart[at(axis)].push_back(heel[axis] - toe[axis]);
+      }
     }
   }
-  return {math::median(found[0]), math::median(found[1])};
+  Ground out;
+  if (mean[0].empty()) return out;
+  out.velocity = {math::median(mean[0]), math::median(mean[1])};
+  out.sd = 0.5 * std::hypot(math::median(apart[0]), math::median(apart[1]));
+  return out;
 }
 
 std::vector<double> find_in_windows(const GaitPaths& paths, Side side, FootEvent what, EventMethod method,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/data/gait_event.h"
 #include "kinemark/stages/analysis/gait/gait_paths.h"
 
@@ -52,14 +53,17 @@ struct FootSwings {
 /// The swings of a foot; none where it does not swing by 0.15 m or more.
 [[nodiscard]] FootSwings find_swings(const GaitPaths& paths, data::Side side);
 
-/// How the ground moves under the feet, m/s, horizontal: 0 over ground, backwards on a treadmill. From the
-/// middle of stances, median over them; NaN where there is none.
-[[nodiscard]] Eigen::RowVector2d ground_velocity(const GaitPaths& paths,
-                                                 const std::array<FootSwings, 2>& swings);
+/// How the ground moves under the feet, horizontal: not at all over ground, backwards on a treadmill.
+struct Ground {
+  Eigen::RowVector2d velocity{kNaN, kNaN};  ///< m/s, median over the middles of stances; NaN where there is none
+  double sd = 0.0;  ///< m/s, of its length: half of what heels and toes, which lie flat then, differ by
+};
+/// From the feet while they lie flat.
+[[nodiscard]] Ground ground_velocity(const GaitPaths& paths, const std::array<FootSwings, 2>& swings);
 
 /// The event in each window, frames that need not be whole; NaN where the method finds none (no pelvis, not
 /// measured there, at the edge of the recording).
-/// @param ground  ground_velocity()
+/// @param ground  ground_velocity().velocity
 [[nodiscard]] std::vector<double> find_in_windows(const GaitPaths& paths, data::Side side,
                                                   data::FootEvent what, EventMethod method,
                                                   const FootSwings& swings, const Eigen::RowVector2d& ground);
