@@ -114,6 +114,13 @@ nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
   return out;
 }
 
+std::string shown_value(const data::Measure& measure) { return value_text(measure); }
+
+std::string title_of_measure(const std::string& id) {
+  const auto* definition = definition_of(id);
+  return definition ? std::string(definition->title) : id;
+}
+
 std::string measures_text(std::span<const data::Measure> measures) {
   std::string out;
   for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -125,9 +132,8 @@ std::string measures_text(std::span<const data::Measure> measures) {
                          m.share_not_measured > 0.0
                              ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
                              : "");
-    const auto* definition = definition_of(m.id);
-    out += fmt::format("  {:<40} {}{}\n", definition ? definition->title : std::string_view(m.id),
-                       value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
+    out += fmt::format("  {:<40} {}{}\n", title_of_measure(m.id), shown_value(m),
+                       m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
   }
   return out;
 }
