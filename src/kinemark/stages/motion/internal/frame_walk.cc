@@ -108,12 +108,18 @@ bool FrameWalk::walk(const data::Trajectories& markers, std::int64_t first, std:
   return true;
 }
 
+double FrameWalk::marker_cost() const {
+  double sum = 0.0;
+  for (Eigen::Index m = 0; m < weight_.size(); ++m)
+    sum += weight_[m] * solver_.residual().col(m).squaredNorm();
+  return sum / weight_.sum();
+}
+
 void FrameWalk::store(std::int64_t f, bool converged, SolvedFrames& solved) {
   const auto& model = problem_.model;
   const auto& w = solver_.workspace();
   const auto M = weight_.size();
   solved.states.col(f) = x_;
-  double sum = 0.0;
   for (Eigen::Index m = 0; m < M; ++m) {
     const auto i = at((f * M + m) * 3);
     const Eigen::Vector3d error =
@@ -129,19 +135,19 @@ void FrameWalk::store(std::int64_t f, bool converged, SolvedFrames& solved) {
         solved.positions[i + at(axis)] =
             weight_[m] > 0.0 ? static_cast<float>(position[axis]) : std::numeric_limits<float>::quiet_NaN();
     }
-    if (weight_[m] > 0.0) sum += weight_[m] * error.squaredNorm();
   }
   const bool seen = (weight_.array() > 0.0).any();
   solved.status[at(f)] = !seen       ? FrameStatus::no_markers
                          : converged ? FrameStatus::converged
                                      : FrameStatus::not_converged;
   solved.loop_gap_m[at(f)] = seen ? solver_.loop_gap() : 0.0;
-  solved.cost[at(f)] = seen ? sum / weight_.sum() : 0.0;
+  solved.cost[at(f)] = seen ? marker_cost() : 0.0;
 }
 
 void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector<std::uint8_t>& concerned,
                             SolvedFrames& solved) {
   const std::int64_t F = problem_.frames;
+  if (concerned[at(solved.first)]) start_again(markers, concerned, solved);
   for (std::int64_t from = 0; from < F; ++from) {
     if (!concerned[at(from)]) continue;
     std::int64_t to = from;
@@ -149,12 +155,13 @@ void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector
     // As the recording was walked over: away from the frame that was solved first.
     const bool holds_first = from <= solved.first && solved.first <= to;
     if (holds_first) {
-      solve_stretch(markers, solved.first, to, solved.states.col(solved.first), true, solved);
-      solve_stretch(markers, solved.first, from, solved.states.col(solved.first), false, solved);
+      const Eigen::VectorXd first = solved.states.col(solved.first);
+      solve_stretch(markers, solved.first, to, first, solved);
+      solve_stretch(markers, solved.first, from, first, solved);
     } else if (from > solved.first) {
-      solve_stretch(markers, from, to, solved.states.col(from - 1), false, solved);
+      solve_stretch(markers, from, to, solved.states.col(from - 1), solved);
     } else {
-      solve_stretch(markers, to, from, solved.states.col(to + 1), false, solved);
+      solve_stretch(markers, to, from, solved.states.col(to + 1), solved);
     }
     if (to >= solved.first) follow(markers, to, 1, solved);
     if (from <= solved.first) follow(markers, from, -1, solved);
@@ -163,8 +170,24 @@ void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector
   solved.iterations = solver_.iterations();
 }
 
+void FrameWalk::start_again(const data::Trajectories& markers, const std::vector<std::uint8_t>& concerned,
+                            SolvedFrames& solved) {
+  solved.first = find_first(markers);
+  const std::int64_t f = solved.first;
+  problem_.observe(markers, f, y_, weight_);
+  if (!(weight_.array() > 0.0).any()) return;
+  x_ = problem_.model.default_state();
+  const auto outcome = find_start(problem_, options_, solver_, y_, weight_, f, options_.starts, x_);
+  solver_.square_cost(y_, weight_, f, x_);
+  model::difference(problem_.model, x_, solved.states.col(f), move_);
+  const bool as_good = marker_cost() <= (1.0 + kSameCost) * solved.cost[at(f)] + 1e-12;
+  if (!concerned[at(f)] && (!as_good || move_.cwiseAbs().maxCoeff() < kSamePose)) return;
+  store(f, outcome.converged, solved);
+  for (const int direction : {1, -1}) follow(markers, f, direction, solved);
+}
+
 void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t from, std::int64_t to,
-                              const Eigen::VectorXd& start, bool many_starts, SolvedFrames& solved) {
+                              const Eigen::VectorXd& start, SolvedFrames& solved) {
   const int direction = to >= from ? 1 : -1;
   Eigen::VectorXd near = start;
   for (std::int64_t f = from; f != to + direction; f += direction) {
@@ -176,10 +199,10 @@ void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t fr
     }
     x_ = near;
     auto outcome = solver_.solve(y_, weight_, f, x_);
-    if (many_starts || !outcome.converged) {
+    if (!outcome.converged) {
       retry_ = near;
-      const auto second = find_start(problem_, options_, solver_, y_, weight_, f,
-                                     many_starts ? options_.starts : kRetryStarts, retry_);
+      const auto second =
+          find_start(problem_, options_, solver_, y_, weight_, f, kRetryStarts, retry_);
       if (second.cost < (1.0 - kSameCost) * outcome.cost) {
         x_ = retry_;
         outcome = second;
@@ -188,7 +211,6 @@ void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t fr
     solver_.square_cost(y_, weight_, f, x_);
     store(f, outcome.converged, solved);
     near = x_;
-    many_starts = false;
   }
 }
 
@@ -205,10 +227,7 @@ void FrameWalk::follow(const data::Trajectories& markers, std::int64_t from, int
     model::difference(problem_.model, x_, solved.states.col(f), move_);
     if (move_.cwiseAbs().maxCoeff() < kSamePose) return;
     solver_.square_cost(y_, weight_, f, x_);
-    double cost = 0.0;
-    for (Eigen::Index m = 0; m < weight_.size(); ++m)
-      cost += weight_[m] * solver_.residual().col(m).squaredNorm();
-    if (!(cost / weight_.sum() <= kMuchWorse * solved.cost[at(f)] + 1e-12)) return;
+    if (!(marker_cost() <= kMuchWorse * solved.cost[at(f)] + 1e-12)) return;
     store(f, outcome.converged, solved);
   }
 }

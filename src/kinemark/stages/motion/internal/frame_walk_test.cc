@@ -156,6 +156,29 @@ TEST(FrameWalk, SolvesTheFirstFrameAgainFromManyStarts) {
   for (std::int64_t f = 0; f < 12; ++f) EXPECT_LT(w.off(f, w.solved.states.col(f)), 1e-5) << f;
 }
 
+TEST(FrameWalk, ABadFirstFrameLeavesNoWholeTurnBehind) {
+  Walked w(30);
+  w.run();
+  const SolvedFrames right = w.solved;
+  // The first frame was spoilt and the elbow began one turn away: every other frame followed it there.
+  VectorXd turn = VectorXd::Zero(w.problem.model.speed_count());
+  turn[w.problem.speed_of(9)] = 6.283185307179586;
+  for (std::int64_t f = 0; f < 30; ++f) {
+    VectorXd x = w.solved.states.col(f);
+    model::integrate(w.problem.model, x, turn);
+    w.solved.states.col(f) = x;
+  }
+  for (const bool a_marker_is_gone : {false, true}) {
+    SolvedFrames solved = w.solved;
+    auto kept = w.markers;
+    if (a_marker_is_gone) kept.set_missing(0, 5);
+    w.walk->solve_again(kept, w.only({0}), solved);
+    EXPECT_EQ(solved.first, a_marker_is_gone ? 1 : 0);
+    for (std::int64_t f = 0; f < 30; ++f)
+      EXPECT_LT(w.apart(right.states.col(f), solved.states.col(f)), 1e-5) << f;
+  }
+}
+
 TEST(FrameWalk, FramesThatFollowedAWrongPoseFollowTheRightOne) {
   Walked w(30);
   w.run();
