@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -18,6 +19,7 @@ using data::FrameStatus;
 
 constexpr int kRetryStarts = 6;     // poses tried on a frame whose cost jumps
 constexpr double kSameCost = 1e-6;  // of the cost: a pose that is better by less is as good
+constexpr double kSameCost_m2 = 1e-12;
 constexpr double kMuchWorse = 2.0;  // times the cost: for a pose that goes on from its neighbour's
 constexpr double kSamePose = 1e-4;  // rad or m
 constexpr double kFarPose = 0.5;    // rad or m: no body moves so far in a frame
@@ -102,10 +104,30 @@ bool FrameWalk::walk(const data::Trajectories& markers, std::int64_t first, std:
       steady = 0;
       solver_.square_cost(y_, weight_, f, x_);  // residuals of the pose that was kept
     }
+    unwind(before_, f);
     usual_cost = usual_cost < 0.0 ? outcome.cost : 0.95 * usual_cost + 0.05 * outcome.cost;
     store(f, outcome.converged, solved);
   }
   return true;
+}
+
+// A hinge that a bad sample had turned comes back the shorter way round, which may end a whole turn away.
+void FrameWalk::unwind(const Eigen::VectorXd& near, std::int64_t f) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (const auto& c : problem_.model.coordinates()) {
+    if (c.speed_idx < 0) continue;
+    const double turns = std::round((x_[c.state_idx] - near[c.state_idx]) / kTurn);
+    if (turns == 0.0) continue;
+    const double wound = x_[c.state_idx], unwound = wound - turns * kTurn;
+    if (unwound < problem_.lower[c.speed_idx] || unwound > problem_.upper[c.speed_idx]) continue;
+    const double cost = solver_.square_cost(y_, weight_, f, x_);
+    x_[c.state_idx] = unwound;
+    // Not every coordinate is a hinge: the pose must stay as it is.
+    if (solver_.square_cost(y_, weight_, f, x_) > (1.0 + kSameCost) * cost + kSameCost_m2) {
+      x_[c.state_idx] = wound;
+      solver_.square_cost(y_, weight_, f, x_);
+    }
+  }
 }
 
 double FrameWalk::marker_cost() const {
@@ -180,7 +202,7 @@ void FrameWalk::start_again(const data::Trajectories& markers, const std::vector
   const auto outcome = find_start(problem_, options_, solver_, y_, weight_, f, options_.starts, x_);
   solver_.square_cost(y_, weight_, f, x_);
   model::difference(problem_.model, x_, solved.states.col(f), move_);
-  const bool as_good = marker_cost() <= (1.0 + kSameCost) * solved.cost[at(f)] + 1e-12;
+  const bool as_good = marker_cost() <= (1.0 + kSameCost) * solved.cost[at(f)] + kSameCost_m2;
   if (!concerned[at(f)] && (!as_good || move_.cwiseAbs().maxCoeff() < kSamePose)) return;
   store(f, outcome.converged, solved);
   for (const int direction : {1, -1}) follow(markers, f, direction, solved);
@@ -208,6 +230,7 @@ void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t fr
         outcome = second;
       }
     }
+    unwind(near, f);
     solver_.square_cost(y_, weight_, f, x_);
     store(f, outcome.converged, solved);
     near = x_;
@@ -227,7 +250,7 @@ void FrameWalk::follow(const data::Trajectories& markers, std::int64_t from, int
     model::difference(problem_.model, x_, solved.states.col(f), move_);
     if (move_.cwiseAbs().maxCoeff() < kSamePose) return;
     solver_.square_cost(y_, weight_, f, x_);
-    if (!(marker_cost() <= kMuchWorse * solved.cost[at(f)] + 1e-12)) return;
+    if (!(marker_cost() <= kMuchWorse * solved.cost[at(f)] + kSameCost_m2)) return;
     store(f, outcome.converged, solved);
   }
 }

@@ -69,6 +69,8 @@ class FrameWalk {
                      const Eigen::VectorXd& start, SolvedFrames& solved);
   /// Solve the frames behind `from` again as long as that finds another pose that is not much worse.
   void follow(const data::Trajectories& markers, std::int64_t from, int direction, SolvedFrames& solved);
+  /// Take from x_ the whole turns by which hinges lie away from `near`, where the pose stays the same.
+  void unwind(const Eigen::VectorXd& near, std::int64_t f);
   /// Weighted mean of the squared residuals of the pose last visited, m^2.
   [[nodiscard]] double marker_cost() const;
   void store(std::int64_t f, bool converged, SolvedFrames& solved);
