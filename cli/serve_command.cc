@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/edit_job.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
 #include "server/http_server.h"
@@ -59,7 +60,8 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
   server::TrialService service({.given = arguments.given,
                                 .keys = std::move(*keys),
                                 .make_page = server::make_trial_page,
-                                .describe = server::describe_trial});
+                                .describe = server::describe_trial,
+                                .edits = {.time_now = pipeline::time_of_edit}});
   (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
     service.handle(request, reply);
   });

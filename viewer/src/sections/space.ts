@@ -29,6 +29,8 @@ export interface SpaceOptions {
   others: { legend: string; switch: string } | null;
   /** A sentence above the picture. */
   lead?: string;
+  /** Where to look from, kept while what is drawn is drawn anew. */
+  kept?: { camera: Camera | null };
 }
 
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4] as const;
@@ -39,7 +41,7 @@ const axisWords = (up: Vec): string => {
 };
 
 /** The recording in space, on the instant that all plots share. */
-export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void } {
+export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void; stop: () => void } {
   const M = scene.names.length;
   const everThere = scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
   const lines = sticks(scene);
@@ -355,9 +357,16 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       setPlaying(false);
       goTo(Number(slider.value));
     });
-    camera = firstCamera();
+    camera = options.kept?.camera ?? firstCamera();
     fit();
     tell();
+  }
+
+  function stop(): void {
+    setPlaying(false);
+    if (options.kept !== undefined) options.kept.camera = camera;
+    picture?.dispose();
+    picture = null;
   }
 
   async function savePicture(): Promise<void> {
@@ -485,5 +494,5 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     ),
     el("p", { class: "facts" }, `${facts.join("; ")}. Click into the picture: space plays, arrows step, 1 to 4 are views, + and − come nearer, 0 starts over.`),
   );
-  return { node, start };
+  return { node, start, stop };
 }

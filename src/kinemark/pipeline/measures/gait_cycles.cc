@@ -14,7 +14,7 @@
 #include "kinemark/core/units.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/pipeline/files/table_cell.h"
 #include "kinemark/stages/analysis/gait/cycle_curves.h"
 
 namespace kinemark::pipeline {
@@ -105,13 +105,12 @@ Result<std::vector<data::CycleCurves>> gait_curves(const data::Trial& trial,
 
 std::string curves_csv(const std::vector<data::CycleCurves>& curves, const std::string& file) {
   std::string out = "file,curve,context,cycle,percent,value,sd,unit\n";
-  const auto cell = [](double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : std::string(); };
   for (const auto& one : curves) {
     const auto unit = data::shown_unit(one.quantity);
     const auto row = [&](const std::string& cycle, std::int64_t p, double value, double sd) {
-      out += fmt::format("{},{},{},{},{:g},{},{},{}\n", csv_quoted(file), csv_quoted(one.id), one.context,
+      out += fmt::format("{},{},{},{},{:g},{},{},{}\n", table_cell(file), table_cell(one.id), one.context,
                          cycle, 100.0 * static_cast<double>(p) / static_cast<double>(one.points - 1),
-                         cell(unit.per_si * value), cell(unit.per_si * sd), unit.name);
+                         table_cell(unit.per_si * value), table_cell(unit.per_si * sd), unit.name);
     };
     for (std::int64_t c = 0; c < one.count(); ++c)
       for (std::int64_t p = 0; p < one.points; ++p)

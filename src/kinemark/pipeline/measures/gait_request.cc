@@ -11,7 +11,7 @@
 #include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/settings_file.h"
-#include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/pipeline/files/table_cell.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -97,10 +97,10 @@ std::string events_csv(const analysis::Gait& gait, const TimeBase& time, const s
   std::string out = "file,context,label,time_s,frame,sd_s,source,method\n";
   for (const auto& event : gait.events)
     out +=
-        fmt::format("{},{},{},{:.6f},{},{},{},{}\n", csv_quoted(file), data::to_string(event.side),
+        fmt::format("{},{},{},{:.6f},{},{},{},{}\n", table_cell(file), data::to_string(event.side),
                     data::to_string(event.what), event.time_s, time.number(time.nearest_frame(event.time_s)),
                     std::isfinite(event.sd_s) ? fmt::format("{:.6f}", event.sd_s) : "",
-                    data::to_string(event.source), csv_quoted(event.method));
+                    data::to_string(event.source), table_cell(event.method));
   return out;
 }
 

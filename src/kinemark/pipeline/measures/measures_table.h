@@ -11,9 +11,6 @@
 
 namespace kinemark::pipeline {
 
-/// A cell of a table as RFC 4180 has it: in quotes where it holds commas, quotes or ends of lines.
-[[nodiscard]] std::string csv_quoted(const std::string& text);
-
 /// A tidy table, one measure a row: file, subject, context, region, cycle, start_s, end_s, measure, value,
 /// unit, low, high, level, interval, approximate, sd, uncorrected, share_not_measured, method, remark. Values
 /// in the unit of the row, nine digits; empty where not determined. RFC 4180.
@@ -26,6 +23,13 @@ namespace kinemark::pipeline {
 /// For people, a block for each marker and region: title, value with its interval and unit, what must be
 /// known of it.
 [[nodiscard]] std::string measures_text(std::span<const data::Measure> measures);
+
+/// "340.12 [339.70 to 340.55] mm": the value with its interval and unit.
+[[nodiscard]] std::string shown_value(const data::Measure& measure);
+/// What the definition calls it, "Path length"; the id where there is none.
+[[nodiscard]] std::string title_of_measure(const std::string& id);
+/// The same with its side: "Stride time, Left".
+[[nodiscard]] std::string title_of_measure(const data::Measure& measure);
 
 /// What each measure of a path is, one line each: id, what it is, unit, formula, source.
 [[nodiscard]] std::string measure_list();

@@ -153,7 +153,8 @@ class GaitMeasurement {
       event.time_s += noise[i][at(k)] + common[what] + error.event_sd_s * draw;
     }
     const double belt_error = found_.ground.sd * random.gaussian();
-    auto cycles = find_cycles(paths, events, belt_of(is_belt(found_.ground) ? ground : found_.ground, belt_error));
+    auto cycles =
+        find_cycles(paths, events, belt_of(is_belt(found_.ground) ? ground : found_.ground, belt_error));
     jitter(cycles, random);
     return values_of(cycles);
   }

@@ -139,8 +139,8 @@ class Finder {
   ByWindow times_of(FootEvent what, EventMethod method) const {
     ByWindow out;
     for (const Side side : data::kBothSides) {
-      out[data::index_of(side)] =
-          find_in_windows(paths_, side, what, method, out_.swings[data::index_of(side)], out_.ground.velocity);
+      out[data::index_of(side)] = find_in_windows(paths_, side, what, method,
+                                                  out_.swings[data::index_of(side)], out_.ground.velocity);
       for (double& t : out[data::index_of(side)]) t = paths_.time_s(t);
     }
     return out;

@@ -57,10 +57,10 @@ struct Agreement {
 struct EventsFound {
   std::vector<data::GaitEvent> events;  ///< ascending in time
   std::vector<std::int64_t> window;     ///< of each event: in swings of its side and kind; -1: not by markers
-  std::array<KinematicChoice, 2> chosen;     ///< for strike, for leaving
-  std::array<FootSwings, 2> swings;          ///< left, right
+  std::array<KinematicChoice, 2> chosen;  ///< for strike, for leaving
+  std::array<FootSwings, 2> swings;       ///< left, right
   Ground ground;                          ///< ground_velocity()
-  std::vector<Agreement> agreement;          ///< between sources, between methods
+  std::vector<Agreement> agreement;       ///< between sources, between methods
 };
 
 /// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or

@@ -55,7 +55,8 @@ struct FootSwings {
 
 /// How the ground moves under the feet, horizontal: not at all over ground, backwards on a treadmill.
 struct Ground {
-  Eigen::RowVector2d velocity{kNaN, kNaN};  ///< m/s, median over the middles of stances; NaN where there is none
+  Eigen::RowVector2d velocity{kNaN,
+                              kNaN};  ///< m/s, median over the middles of stances; NaN where there is none
   double sd = 0.0;  ///< m/s, of its length: half of what heels and toes, which lie flat then, differ by
 };
 /// From the feet while they lie flat.
