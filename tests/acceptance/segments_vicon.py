@@ -14,6 +14,7 @@ import json
 import math
 import os
 import random
+import re
 import struct
 import subprocess
 import sys
@@ -127,6 +128,32 @@ def compare(name, angles, centres, theirs, suffix, asked):
         f"{number} positions, largest distance {far[0]:.5f} mm ({far[1]})")
 
 
+def read_vicon_csv(path):
+    """Frames of each column of three of the first section of Vicon's text export; None where a cell is empty."""
+    lines = list(csv.reader(path.read_text(encoding="latin-1").splitlines()))
+    at = next(i for i, line in enumerate(lines) if line[:1] == ["Field #"])
+    names = {k: name for k, name in enumerate(lines[at - 1]) if name}
+    out = {name: [] for name in names.values()}
+    for line in lines[at + 1:]:
+        if not line or not line[0].strip().isdigit():
+            break
+        for k, name in names.items():
+            cells = line[k: k + 3]
+            out[name].append(tuple(map(float, cells)) if len(cells) == 3 and all(cells) else None)
+    return out
+
+
+def offsets(folder, vsk):
+    """The foot's offsets of a static trial beside those that Vicon found in it."""
+    found = {p["name"]: math.radians(p["value"]) for p in json.loads((folder / "segments.json").read_text(encoding="utf-8"))["parameters"]}
+    worst = 0.0
+    for side, word in (("L", "Left"), ("R", "Right")):
+        for offset in ("StaticPlantFlex", "StaticRotOff"):
+            theirs = float(re.search(rf'NAME="{word}{offset}"[^>]* VALUE="([^"]+)"', vsk)[1])
+            worst = max(worst, abs(math.degrees(found[side + offset] - theirs)))
+    row(worst <= 0.5, "Plug-in Gait foot offsets of a static trial, Sample_Static", "within 0.5 deg of the subject's VSK", f"largest difference {worst:.5f} deg")
+
+
 def write_trc(path, markers, rate):
     names = list(markers)
     frames = len(markers[names[0]])
@@ -175,14 +202,18 @@ def main():
     rom = data / "pycgm-rom"
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
+        # The subject of pycgm-rom was processed without a level foot: the offsets in its VSK are those of such a foot alone.
+        standing = ("--static", rom / "Sample_Static.c3d", "--vsk", rom / "Sample_SM.vsk", "--subject", "FlatFoot=0")
         for recording, more, suffix, asked in ((walk, ("--static", still), "V", 12), (still, ("--static", still), "V", 12),
-                                               (rom / "Sample_Static.c3d", ("--static", rom / "Sample_Static.c3d", "--vsk", rom / "Sample_SM.vsk"), "", 26)):
+                                               (rom / "Sample_Static.c3d", standing, "", 26)):
             out = folder / recording.stem
             kinemark("analyze", recording, "--segments", "pig", *more, "-o", out)
             compare(recording.stem, *read_results(out), read_c3d(recording), suffix, asked)
+        compare("Sample_Static.csv", *read_results(folder / "Sample_Static"), read_vicon_csv(rom / "Sample_Static.csv"), "", 26)
         names = json.loads((folder / walk.stem / "segments.json").read_text(encoding="utf-8"))["angles"]
         moments = [entry["name"] for entry in names if entry["name"].endswith("Moment")]
         row(len(moments) == 6, "Plug-in Gait moments, PiG_Motion3_FF", "ankles, knees and hips, beside Vicon's", f"{len(moments)} of 6 computed")
+        offsets(folder / "Sample_Static", (rom / "Sample_SM.vsk").read_text(encoding="utf-8"))
         coverage(folder, walk, still)
     return 1 if failed else 0
 
