@@ -16,7 +16,7 @@ export interface Opened {
 /** Something that must be true of an opened page; it throws when it is not. */
 export type Check = (opened: Opened) => Promise<void>;
 
-/** Open a file in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
+/** Open a file, or an address of a server, in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
 export async function open(file: string, colorScheme: "light" | "dark" = "light", webGl = true): Promise<Opened> {
   const profile = mkdtempSync(join(tmpdir(), "kinemark-viewer-"));
   const context = await chromium.launchPersistentContext(profile, {
@@ -35,10 +35,11 @@ export async function open(file: string, colorScheme: "light" | "dark" = "light"
     ],
   });
   const page = context.pages()[0] ?? (await context.newPage());
-  const url = pathToFileURL(file).href;
+  const served = file.startsWith("http:");
+  const url = served ? file : pathToFileURL(file).href;
   const complaints: string[] = [];
   page.on("request", (r) => {
-    if (r.url().split("#")[0] !== url) complaints.push(`asked for ${r.url().slice(0, 200)}`);
+    if (served ? new URL(r.url()).host !== new URL(url).host : r.url().split("#")[0] !== url) complaints.push(`asked for ${r.url().slice(0, 200)}`);
   });
   page.on("console", (m) => {
     if (m.type() === "error" || m.type() === "warning") complaints.push(`console: ${m.text()}`);
