@@ -133,7 +133,10 @@ TEST_F(LiveFeedThread, EndsInTheMiddleWithWhatHasCome) {
   const auto trial = io::read_mcap_markers(scratch_ / "live.mcap").value();
   EXPECT_THAT(trial.warnings, IsEmpty()) << "it was closed";
   EXPECT_GT(trial.markers.frames(), 0);
-  while (viewer->next() != nullptr) continue;
+  double taken = 0.0;
+  while (viewer->next() != nullptr) ++taken;
+  EXPECT_FALSE(viewer->end()) << "it has not drawn what came";
+  EXPECT_TRUE(viewer->heard({reinterpret_cast<const char*>(&taken), sizeof(taken)}));
   EXPECT_TRUE(viewer->end());
 }
 

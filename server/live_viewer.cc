@@ -93,7 +93,7 @@ void LiveViewer::sent() {
 
 std::optional<SocketEnd> LiveViewer::end() {
   const std::scoped_lock lock(mutex_);
-  if (!finished_ || !waiting_.empty()) return std::nullopt;
+  if (!finished_ || !waiting_.empty() || !under_way_due_s_.empty()) return std::nullopt;
   return SocketEnd{.code = 1000, .reason = finished_->substr(0, 120)};
 }
 

@@ -56,7 +56,7 @@ class LiveViewer final : public SocketPeer {
 
   /// A message, of which this viewer gets its own head. Never waits.
   void offer(std::shared_ptr<const std::string> message, LiveKind kind, double due_s);
-  /// No more messages come; when all are sent the connection ends with that sentence.
+  /// No more messages come; when all are drawn the connection ends with that sentence.
   void finish(std::string sentence);
   [[nodiscard]] bool gone() const;              ///< whether its connection is over
   [[nodiscard]] LiveViewerState state() const;  ///< how it fares

@@ -124,13 +124,15 @@ TEST_F(LiveViewerTest, WhatCannotHaveBeenDrawnIsNotUnderstood) {
   EXPECT_FALSE(viewer_.heard(count_bytes(1))) << "less than before";
 }
 
-TEST_F(LiveViewerTest, EndsWhenAllIsSent) {
+TEST_F(LiveViewerTest, EndsWhenAllIsDrawn) {
   offer(0);
   viewer_.finish("the source has ended after 1 frame");
   viewer_.finish("and again");
   offer(1);
   EXPECT_FALSE(viewer_.end());
   EXPECT_EQ(take(), (std::vector<double>{0})) << "nothing comes after the end";
+  EXPECT_FALSE(viewer_.end()) << "it is not drawn yet";
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
   ASSERT_TRUE(viewer_.end());
   EXPECT_EQ(viewer_.end()->code, 1000);
   EXPECT_EQ(viewer_.end()->reason, "the source has ended after 1 frame");

@@ -76,8 +76,8 @@ def main(seconds, seed):
                 viewers = state["viewers"] if len(state["viewers"]) == 2 else viewers
             fast.join(60)
             slow.join(60)
-        told = subprocess.run([PROGRAM, "info", "live.mcap", "--json"], cwd=scratch, capture_output=True, text=True, check=True)
-        facts = json.loads(told.stdout)
+        said = subprocess.run([PROGRAM, "info", "live.mcap", "--json"], cwd=scratch, capture_output=True, text=True, check=True)
+        facts = json.loads(said.stdout)
         row(facts["frames"] == frames and state["recorded"] == frames and not facts["warnings"], f"{seconds:g} s at {RATE} Hz: frames in the recording",
             f"{frames}, no remark", f"{facts['frames']}, {len(facts['warnings'])} remarks")
         first, last = fast.frames[0][0], fast.frames[-1][0]

@@ -67,7 +67,7 @@ class Seen(LiveTest):
         status, headers, body = server.request("/")
         self.assertEqual(status, 200)
         self.assertIn(f"connect-src 'self' ws://{server.name}", headers["Content-Security-Policy"])
-        summary = report_data(body)["summary"]
+        summary = json.loads(report_data(body))["summary"]
         self.assertEqual((summary["schema"], summary["rate_hz"], summary["recording"]), ("kinemark.live", 240, "live.mcap"))
         self.assertEqual(len(summary["markers"]), 40)
         self.assertIn("deg", {c["unit"] for c in summary["coordinates"]})
@@ -93,9 +93,9 @@ class Recorded(LiveTest):
         while recorded < 50:
             recorded = json.loads(server.request("/api/live")[2])["recorded"]
         server.end(signal.SIGKILL)
-        told = run("info", "live.mcap", "--json", cwd=self.folder)
-        self.assertEqual(told.status, 0, told.err)
-        facts = json.loads(told.out)
+        said = run("info", "live.mcap", "--json", cwd=self.folder)
+        self.assertEqual(said.status, 0, said.err)
+        facts = json.loads(said.out)
         self.assertGreaterEqual(facts["frames"], recorded)
         self.assertEqual(facts["rate_hz"], 240)
         self.assertTrue(any("not closed" in w for w in facts["warnings"]), facts["warnings"])

@@ -35,7 +35,8 @@ TEST(LiveAngles, AreThoseOfTheTrackerInDegreesAndMillimetres) {
         const double unit = coordinates[c].is_rotation ? kDegPerRad : 1e3;
         const auto i = static_cast<Eigen::Index>(c);
         EXPECT_EQ(shown->value[c], static_cast<float>(unit * pose->q[i]));
-        if (shown->determined[c] != 0) EXPECT_EQ(shown->sd[c], static_cast<float>(unit * pose->q_sd[i]));
+        if (shown->determined[c] == 0) continue;
+        EXPECT_EQ(shown->sd[c], static_cast<float>(unit * pose->q_sd[i]));
       }
       ++compared;
     }
