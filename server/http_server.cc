@@ -19,6 +19,8 @@
 #include <utility>
 #include <variant>
 
+#include "server/web_socket.h"
+
 namespace kinemark::server {
 namespace {
 
@@ -99,6 +101,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Close at once; what is under way ends with errors.
   void close() {
     leave();
+    if (const auto socket = socket_.lock()) return socket->close();
     stream_.close();
   }
 
@@ -154,6 +157,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       admit();
     else
       move_to(books_.strangers);
+    if (response.socket) return upgrade(std::move(response.socket));
     keep_alive_ = keep_alive_ && response.admitted;
     body_ = std::move(response.body);
     const std::string_view text = body_ ? std::string_view(*body_) : std::string_view();
@@ -166,6 +170,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
     message.body() = {text.data(), text.size()};
     fill(message, response, text.size());
     send(message);
+  }
+
+  /// From here on the connection is a WebSocket's, which keeps its place in the books.
+  void upgrade(std::shared_ptr<SocketPeer> peer) {
+    stream_.expires_never();
+    socket_ = open_web_socket(stream_.release_socket(), parser_->get(), std::move(peer), books_.limits,
+                              [self = shared_from_this()] { self->leave(); });
   }
 
   template <class Message>
@@ -215,6 +226,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::request_parser<http::string_body>> parser_;
   std::variant<std::monostate, Whole, HeaderOnly> message_;
   std::shared_ptr<const std::string> body_;
+  std::weak_ptr<WebSocket> socket_;
   std::array<char, 4096> rest_{};
   std::size_t drained_ = 0;
   bool keep_alive_ = false, only_header_ = false;

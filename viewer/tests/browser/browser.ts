@@ -16,8 +16,9 @@ export interface Opened {
 /** Something that must be true of an opened page; it throws when it is not. */
 export type Check = (opened: Opened) => Promise<void>;
 
-/** Open a file in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
+/** Open a file, or an address, in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
 export function open(file: string, colorScheme: "light" | "dark" = "light", webGl = true): Promise<Opened> {
+  if (file.startsWith("http:")) return openAddress(file, (asked) => new URL(asked).host === new URL(file).host, colorScheme, webGl);
   const url = pathToFileURL(file).href;
   return openAddress(url, (asked) => asked.split("#")[0] === url, colorScheme, webGl);
 }
