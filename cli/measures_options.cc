@@ -65,6 +65,19 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->capture_default_str()
       ->group(what);
   command
+      .add_option("--figures", job.figures,
+                  "Folder for figures of each path: in its plane, speed and acceleration, cycles")
+      ->type_name("FOLDER")
+      ->group("Output");
+  command
+      .add_option("--figure-formats", job.figure_formats,
+                  "svg, png or both with a comma between; what this program can write when absent")
+      ->type_name("NAME")
+      ->group("Output");
+  command.add_option("--report", job.report, "Page to write as well, .html: figures and the table")
+      ->type_name("FILE")
+      ->group("Output");
+  command
       .add_option("--edits", job.edits,
                   "Journal of edits to apply first; 'beside': the one beside the recording")
       ->type_name("FILE")

@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/edit_job.h"
 #include "kinemark/pipeline/live/live_source.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
@@ -119,7 +120,8 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
   server::TrialService service({.given = arguments.given,
                                 .keys = std::move(*keys),
                                 .make_page = server::make_trial_page,
-                                .describe = server::describe_trial});
+                                .describe = server::describe_trial,
+                                .edits = {.time_now = pipeline::time_of_edit}});
   (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
     service.handle(request, reply);
   });

@@ -56,15 +56,17 @@ std::optional<std::string> joined(const http::fields& fields, http::field name) 
   return value;
 }
 
-Request request_of(const http::request<http::string_body>& message) {
-  return {.method = std::string(view(message.method_string())),
-          .target = std::string(view(message.target())),
-          .host = joined(message, http::field::host),
-          .origin = joined(message, http::field::origin),
-          .cookie = joined(message, http::field::cookie).value_or(""),
-          .authorization = joined(message, http::field::authorization).value_or(""),
-          .upgrade =
-              beast::websocket::is_upgrade(message) || message.find(http::field::upgrade) != message.end()};
+Request request_of(http::request<http::string_body>&& message) {
+  return {
+      .method = std::string(view(message.method_string())),
+      .target = std::string(view(message.target())),
+      .host = joined(message, http::field::host),
+      .origin = joined(message, http::field::origin),
+      .cookie = joined(message, http::field::cookie).value_or(""),
+      .authorization = joined(message, http::field::authorization).value_or(""),
+      .upgrade = beast::websocket::is_upgrade(message) || message.find(http::field::upgrade) != message.end(),
+      .type = joined(message, http::field::content_type).value_or(""),
+      .body = std::move(message.body())};
 }
 
 /// Status for a request that cannot be read; 0: nobody waits for a response.
@@ -125,14 +127,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (const int status = status_of(error); status != 0) return refuse(status);
       return close();
     }
-    const auto& message = parser_->get();
+    auto& message = parser_->get();
     keep_alive_ = message.keep_alive();
     only_header_ = message.method() == http::verb::head;
     if (message.count(http::field::host) > 1) return refuse(400);
     stream_.expires_never();
     // Refusals come at once, so who waits here is let in: no crowd of strangers may push it out.
     if (list_ == &books_.strangers) move_to(books_.waiting);
-    books_.handler(request_of(message), [self = shared_from_this()](Response response) {
+    books_.handler(request_of(std::move(message)), [self = shared_from_this()](Response response) {
       asio::post(self->stream_.get_executor(),
                  [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
     });

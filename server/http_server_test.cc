@@ -37,7 +37,7 @@ class HttpThread : public ::testing::Test {
         response.body = std::make_shared<const std::string>(
             request.method + "|" + request.target + "|" + request.host.value_or("none") + "|" +
             request.origin.value_or("none") + "|" + request.cookie + "|" + request.authorization + "|" +
-            (request.upgrade ? "upgrade" : "plain"));
+            (request.upgrade ? "upgrade" : "plain") + request.type + request.body);
         if (request.target == "/friend/large")
           response.body = std::make_shared<const std::string>(8UL << 20, 'x');
         if (request.target == "/friend/later") {
@@ -77,6 +77,19 @@ TEST_F(HttpThread, UnderstandsWhatDecides) {
   EXPECT_THAT(ask("GET / HTTP/1.0\r\n\r\n"), ::testing::EndsWith("GET|/|none|none|||plain"));
   EXPECT_THAT(ask(get("/", "Origin: http://a\r\nOrigin: http://b\r\nCookie: c=1\r\nCookie: c=2\r\n")),
               HasSubstr("|http://a, http://b|c=1; c=2|"));
+}
+
+TEST_F(HttpThread, BodiesAreAsTheyWereSent) {
+  start();
+  const std::string body("{\"a\":\"\xc3\xa4\0\r\n\r\n\"}", 15);
+  EXPECT_THAT(ask("POST /x HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Type: application/json\r\n"
+                  "Content-Length: " +
+                  std::to_string(body.size()) + "\r\n\r\n" + body),
+              ::testing::EndsWith("POST|/x|x|none|||plainapplication/json" + body));
+  EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Type: a\r\n"
+                  "Content-Type: b\r\nContent-Length: 1\r\n\r\n1"),
+              ::testing::EndsWith("plaina, b1"))
+      << "two types are none of them";
 }
 
 TEST_F(HttpThread, TwoHostsAreNone) {

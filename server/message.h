@@ -25,6 +25,8 @@ struct Request {
   std::string cookie;                 ///< of the header; empty without
   std::string authorization;          ///< of the header; empty without
   bool upgrade = false;               ///< asks for a WebSocket
+  std::string type;                   ///< of the body, as the header says; empty without
+  std::string body;                   ///< as sent; empty without
 };
 
 /// An HTTP response; what all of them carry (length, date) is added where it is sent.

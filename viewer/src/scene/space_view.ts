@@ -174,8 +174,10 @@ export class SpaceView {
     this.#renderer.clippingPlanes = [new ClipPlane(new Vector3(...forward), -depth)];
   }
 
+  /** Give back what a browser has few of. */
   dispose(): void {
     this.#renderer.dispose();
+    this.#renderer.getContext().getExtension("WEBGL_lose_context")?.loseContext();
   }
 
   #cameraOf(camera: Camera, pose: Pose): PerspectiveCamera | OrthographicCamera {

@@ -30,6 +30,8 @@ export interface SpaceOptions {
   others: { legend: string; switch: string } | null;
   /** A sentence above the picture. */
   lead?: string;
+  /** Where to look from, kept while what is drawn is drawn anew. */
+  kept?: { camera: Camera | null };
   /** The last point is now, and the points before it change: nothing to play, nothing to save but the picture. Tells which markers were seen so far. */
   live?: { seen: readonly boolean[] };
 }
@@ -42,7 +44,7 @@ const axisWords = (up: Vec): string => {
 };
 
 /** The recording in space, on the instant that all plots share. */
-export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void } {
+export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void; stop: () => void } {
   const M = scene.names.length;
   const everThere = options.live?.seen ?? scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
   const lines = sticks(scene);
@@ -378,9 +380,17 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       setPlaying(false);
       goTo(Number(slider.value));
     });
-    camera = firstCamera();
+    camera = options.kept?.camera ?? firstCamera();
     fit();
     tell();
+  }
+
+  function stop(): void {
+    setPlaying(false);
+    clearTimeout(resting);
+    if (options.kept !== undefined) options.kept.camera = camera;
+    picture?.dispose();
+    picture = null;
   }
 
   async function savePicture(): Promise<void> {
@@ -508,5 +518,5 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     ),
     el("p", { class: "facts" }, `${facts.join("; ")}. Click into the picture: ${options.live !== undefined ? "" : "space plays, arrows step, "}1 to 4 are views, + and − come nearer, 0 starts over.`),
   );
-  return { node, start };
+  return { node, start, stop };
 }

@@ -5,14 +5,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <set>
 #include <utility>
 
+#include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/pipeline/measures/measures_page.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 
@@ -73,6 +79,67 @@ Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& t
   return regions_of(job, trial, std::move(taken->regions));
 }
 
+// Names of files that are told apart by more than the case of their letters.
+void make_unique(std::vector<NamedFigure>& figures) {
+  std::set<std::string> seen;
+  for (auto& figure : figures) {
+    std::string name = figure.name;
+    const auto is_new = [&seen](std::string text) {
+      std::ranges::transform(text, text.begin(),
+                             [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return seen.insert(std::move(text)).second;
+    };
+    for (int number = 2; !is_new(name); ++number) name = fmt::format("{}_{}", figure.name, number);
+    figure.name = std::move(name);
+  }
+}
+
+Status write_figures(const MeasuresJob& job, const std::vector<std::string>& formats,
+                     const std::vector<NamedFigure>& figures, MeasuresOutcome& outcome) {
+  std::vector<std::string> names;
+  std::vector<ResultFile> files;
+  for (const auto& figure : figures)
+    for (const auto& format : formats) {
+      names.push_back(figure.name + "." + format);
+      files.push_back(
+          {.target = job.figures / names.back(),
+           .write = [&figure, format](const std::filesystem::path& staged, const std::string&) -> Status {
+             const auto content = figure_file(figure.figure, format);
+             if (!content) return std::unexpected(content.error());
+             return io::write_text(staged, *content, false);
+           }});
+    }
+  auto staging = Staging::create_in(job.figures, names, job.force, {job.input, job.edits});
+  if (!staging) return std::unexpected(staging.error());
+  auto written = write_results(*staging, files, {}, "the figures");
+  if (!written) return std::unexpected(written.error());
+  std::ranges::move(*written, std::back_inserter(outcome.written));
+  return {};
+}
+
+// The table, the figures, the page: what of them is asked for.
+Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats,
+                 const std::vector<analysis::PathCurves>& curves, Staging& staging, PageFile& page,
+                 MeasuresOutcome& outcome) {
+  std::vector<NamedFigure> figures;
+  for (const auto& one : curves) std::ranges::move(measure_figures(one), std::back_inserter(figures));
+  make_unique(figures);
+  if (!job.output.empty()) {
+    const bool csv = ending_of(job.output) == ".csv";
+    const auto file =
+        csv ? text_file(job.output,
+                        [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
+            : json_file(job.output, [&] { return measures_outcome_json(outcome); });
+    auto written = write_results(staging, {file}, {}, "the measures");
+    if (!written) return std::unexpected(written.error());
+    outcome.written = std::move(*written);
+  }
+  if (!job.figures.empty())
+    if (auto s = write_figures(job, formats, figures, outcome); !s) return s;
+  if (page.wanted()) return page.write(measures_page(job, outcome, figures), outcome);
+  return {};
+}
+
 }  // namespace
 
 Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
@@ -83,12 +150,17 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
                                        .noise_sd_m = job.noise_sd_m,
                                        .level = job.level,
                                        .seed = job.seed,
-                                       .threads = job.threads};
+                                       .threads = job.threads,
+                                       .curves = !job.figures.empty() || !job.report.empty()};
   if (auto s = options.check(); !s) return std::unexpected(s.error());
+  const auto formats = parse_figure_formats(job.figure_formats);
+  if (!formats) return std::unexpected(formats.error());
   auto staging =
       Staging::create(job.output.empty() ? std::vector<std::filesystem::path>{} : std::vector{job.output},
                       job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());
+  auto page = PageFile::begin(job.report, {job.input, job.edits, job.output}, job.force);
+  if (!page) return std::unexpected(page.error());
   auto input =
       read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .needs_samples = true, .record = true});
   if (!input) return std::unexpected(input.error());
@@ -107,15 +179,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
                             measured->warnings.empty() ? "no measure applies" : measured->warnings.front()));
   outcome.measures = std::move(measured->measures);
   std::ranges::move(measured->warnings, std::back_inserter(outcome.warnings));
-  if (job.output.empty()) return outcome;
-  const bool csv = ending_of(job.output) == ".csv";
-  const auto file =
-      csv ? text_file(job.output,
-                      [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
-          : json_file(job.output, [&] { return measures_outcome_json(outcome); });
-  auto written = write_results(*staging, {file}, {}, "the measures");
-  if (!written) return std::unexpected(written.error());
-  outcome.written = std::move(*written);
+  if (auto s = write_all(job, *formats, measured->curves, *staging, *page, outcome); !s)
+    return std::unexpected(s.error());
   return outcome;
 }
 

@@ -27,6 +27,9 @@ struct MeasuresJob : JobSettings {
   std::vector<std::string> regions;   ///< parse_region(); beside those of the journal
   std::vector<std::string> between;   ///< labels of events: regions_between()
   std::filesystem::path output;       ///< .csv or .json
+  std::filesystem::path figures;      ///< folder for figures; empty: none are written
+  std::string figure_formats;         ///< as parse_figure_formats(); empty: all that this program can write
+  std::filesystem::path report;       ///< page to write as well, .html
   std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
   double noise_sd_m = 0.0;            ///< per axis; 0: found from the samples
   double level = 0.95;                ///< of the intervals
@@ -42,9 +45,9 @@ struct MeasuresOutcome : JobOutcome {
 /// Read, screen, measure, write. Samples that the recorder made, that were filled or that screening rejects
 /// are not measured; nothing is written where nothing can be measured. Progress counts nothing.
 ///
-/// Code::usage as analysis::PathMeasureOptions::check(), parse_region() and for another ending than .csv and
-/// .json; Code::bad_input as the readers, take_selection(), regions_between() and analysis::measure_paths(),
-/// and where no marker can be measured.
+/// Code::usage as analysis::PathMeasureOptions::check(), parse_region(), parse_figure_formats() and for
+/// another ending than .csv and .json; Code::bad_input as the readers, take_selection(), regions_between()
+/// and analysis::measure_paths(), and where no marker can be measured.
 [[nodiscard]] Result<MeasuresOutcome> run_measures(const MeasuresJob& job);
 
 /// "input", "measures" (measures_json()), "written", "warnings".

@@ -20,6 +20,6 @@ namespace kinemark::motion::internal {
 /// @return           the recording with those samples, in the state model_filled
 [[nodiscard]] data::Trajectories fill_rejected(const Problem& problem, const data::Trajectories& kept,
                                                const std::vector<std::uint8_t>& concerned,
-                                               const StepScale& scale, SolvedFrames& solved);
+                                               StepScale& scale, SolvedFrames& solved);
 
 }  // namespace kinemark::motion::internal
