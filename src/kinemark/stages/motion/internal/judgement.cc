@@ -169,8 +169,8 @@ Judgement judge_recording(const Problem& problem, const IkOptions& options, cons
       const bool to_the_end = outlier.last_frame == last || outlier.first_frame == 0;
       // What came back is bad; what did not may have a new position now, unless the model says no.
       const bool bad =
-          outlier.returned || (outlier.distance > kOneSided &&
-                               (outlier.clearly_wrong() || (to_the_end && frames <= kFewFrames)));
+          outlier.returned ||
+          (outlier.distance > kOneSided && (outlier.clearly_wrong() || (to_the_end && frames <= kFewFrames)));
       (bad ? judgement.bad : judgement.doubtful).push_back(outlier);
     }
   return judgement;
