@@ -387,6 +387,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   function stop(): void {
     setPlaying(false);
+    clearTimeout(resting);
     if (options.kept !== undefined) options.kept.camera = camera;
     picture?.dispose();
     picture = null;
