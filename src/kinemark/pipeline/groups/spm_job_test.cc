@@ -10,7 +10,6 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
-#include "kinemark/pipeline/groups/groups_tables.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -102,16 +101,6 @@ TEST_F(SpmJobTest, BadOptionsAndTooFewCurvesAreRefused) {
   EXPECT_EQ(run_spm({.inputs = {a}, .output = scratch_ / "o.txt"}).error().code, Code::usage);
   ASSERT_TRUE(io::write_text(scratch_ / "one.csv", "1,2,3\n", false));
   EXPECT_EQ(run_spm({.inputs = {a, scratch_ / "one.csv"}}).error().code, Code::bad_input);
-}
-
-TEST(GroupsTables, MeansOverTheCurvesThatAreThere) {
-  const data::CycleCurves curves{
-      .id = "c", .points = 2, .cycles = {"1", "2", "3"}, .values = {1.0, kNaN, 3.0, 4.0, 8.0, kNaN}};
-  const auto means = point_means(curves);
-  EXPECT_EQ(means.mean[0], 4.0);
-  EXPECT_NEAR(means.sd[0], std::sqrt(13.0), 1e-12);
-  EXPECT_EQ(means.mean[1], 4.0);
-  EXPECT_TRUE(std::isnan(means.sd[1]));
 }
 
 }  // namespace
