@@ -75,7 +75,7 @@ class Segments(CommandTest):
     def test_what_the_recording_lacks_is_one_sentence(self):
         result = self.analyze("--drop", "F3")
         self.assertIn("Not computed: elbow; there is no marker 'F3'", result.err)
-        self.assertIn("An elbow: 0 angles, 1 values, 0 points in 100 frames.", result.err)
+        self.assertIn("An elbow: 0 angles, 1 value and 0 points in 100 frames.", result.err)
         missing = self.analyze("--drop", "A1,F1", status=3)
         self.assertIn("nothing can be computed", missing.err)
 
@@ -92,6 +92,8 @@ class Segments(CommandTest):
             (("--segments", "pig", "--subject", "LegLength"), 2, "is not NAME=VALUE"),
             (("--segments", "pig", "--subject", "LLegLenght=3"), 2, "it has LLegLength"),
             (("--segments", "pig", "--up", "w"), 2, "expected x, y, z"),
+            (("--static", self.file), 2, "--static"),
+            (("--segments", "pig", "--measures", "path_length"), 2, "--measures"),
             (("--segments", self.folder / "none.toml"), 4, "none.toml"),
             (("--segments", self.file), 3, "elbow.trc"),
             (("--segments", "pig"), 3, "nothing can be computed"),

@@ -170,7 +170,8 @@ nlohmann::ordered_json parameters_json(const SegmentMotion& motion) {
     out.push_back({{"name", p.name},
                    {"value", p.value / per_shown(p.quantity)},
                    {"unit", shown_unit(p.quantity)},
-                   {"sd", p.sd / per_shown(p.quantity)},
+                   {"sd", p.sd > 0.0 ? nlohmann::ordered_json(p.sd / per_shown(p.quantity))
+                                     : nlohmann::ordered_json(nullptr)},
                    {"from", p.from}});
   return out;
 }

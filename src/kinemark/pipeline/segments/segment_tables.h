@@ -27,7 +27,7 @@ namespace kinemark::pipeline {
 /// the recording has the name of a result makes room for it.
 [[nodiscard]] data::Trial trial_with(const analysis::SegmentMotion& motion, data::Trial recording);
 
-/// Measures of the subject: a list of "name", "value", "unit", "sd", "from".
+/// Measures of the subject: a list of "name", "value", "unit", "sd" (null: not known), "from".
 [[nodiscard]] nlohmann::ordered_json parameters_json(const analysis::SegmentMotion& motion);
 /// Angles and values: a list of "name", "components", "unit", and how many frames are "measured",
 /// "interpolated" and "missing", with the root mean square of the deviations ("sd").

@@ -60,6 +60,9 @@ Result<data::Trial> read_trial(const SegmentsJob& job, const fs::path& path, Seg
   outcome.inputs.push_back(std::move(input->file));
   std::ranges::move(input->trial.warnings, std::back_inserter(outcome.warnings));
   input->trial.warnings.clear();
+  // The recording is screened when its part is taken.
+  if (path != job.input)
+    if (auto s = screen(job, input->trial, outcome); !s) return fail_at(path.string(), s.error());
   return std::move(input->trial);
 }
 
