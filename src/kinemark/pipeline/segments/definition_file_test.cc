@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr std::string_view kGood = R"(
+constexpr std::string_view kGood = R"toml(
 title = "One leg"
 sides = [["L", "Left", 1], ["R", "Right", -1]]
 [progression]
@@ -52,7 +52,7 @@ components = [["flexion", "y", -90], ["inversion", "{-}x"], ["rotation", "3"]]
 name = "height"
 quantity = "length"
 formula = "z(LANK)"
-)";
+)toml";
 
 std::string trouble(std::string text) {
   const auto read = parse_definition(text, "d.toml");

@@ -20,7 +20,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-constexpr std::string_view kDefinition = R"(
+constexpr std::string_view kDefinition = R"toml(
 title = "A knee"
 [[segment]]
 name = "thigh"
@@ -53,11 +53,9 @@ components = [["flexion", "y"], ["varus", "x"], ["rotation", "z"]]
 name = "length"
 quantity = "length"
 formula = "distance(T1, T2)"
-)";
+)toml";
 
-double flexion(std::int64_t f) {
-  return 0.5 - 0.5 * std::cos(0.05 * static_cast<double>(f));
-}
+double flexion(std::int64_t f) { return 0.5 - 0.5 * std::cos(0.05 * static_cast<double>(f)); }
 
 // A thigh that is still and a shank that flexes about an axis that is turned by `turn`; T3 is missing in
 // frame 20.
