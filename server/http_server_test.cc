@@ -160,7 +160,7 @@ TEST_F(HttpThread, WhatIsTooLongIsRefusedWithItsStatus) {
 
 TEST_F(HttpThread, WhatIsNoHttpIsRefused) {
   start();
-  for (const std::string& text :
+  for (const char* const text :
        {"\x16\x03\x01\x02\x01\x01\xfc\x03\x03 TLS\r\n\r\n", "GET\r\n\r\n", "GET / FTP/1.1\r\n\r\n",
         "GET / HTTP/1.1\r\nHost\r\n\r\n", "GET / HTTP/1.1\r\n: x\r\n\r\n",
         "GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",

@@ -3,6 +3,7 @@
 #include "server/live_viewer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -72,13 +73,19 @@ void LiveViewer::opened(std::function<void()> wake) {
   wake_ = std::move(wake);
 }
 
+bool LiveViewer::is_behind() const {
+  return under_way_.size() >= limits_.under_way ||
+         (!under_way_.empty() && clock_->now_s() - under_way_.front().given_s > limits_.ahead_s);
+}
+
 std::shared_ptr<const std::string> LiveViewer::next() {
   const std::scoped_lock lock(mutex_);
-  if (waiting_.empty() || under_way_due_s_.size() >= limits_.under_way) return nullptr;
+  if (waiting_.empty() || is_behind()) return nullptr;
   auto [message, kind, due_s] = std::move(waiting_.front());
   waiting_.pop_front();
-  under_way_due_s_.push_back(due_s);
-  saying_due_s_ = due_s;
+  // Angles come late by design, which is no delay of the connection.
+  saying_due_s_ = kind == LiveKind::markers ? due_s : std::numeric_limits<double>::quiet_NaN();
+  under_way_.push_back({.due_s = saying_due_s_, .given_s = clock_->now_s()});
   auto own = std::make_shared<std::string>(*message);
   set_viewer_fields(*own, dropped_[static_cast<std::size_t>(kind)], answer_s_);
   return own;
@@ -88,12 +95,12 @@ void LiveViewer::sent() {
   const double now_s = clock_->now_s();
   const std::scoped_lock lock(mutex_);
   ++sent_;
-  to_socket_.add(now_s - saying_due_s_);
+  if (!std::isnan(saying_due_s_)) to_socket_.add(now_s - saying_due_s_);
 }
 
 std::optional<SocketEnd> LiveViewer::end() {
   const std::scoped_lock lock(mutex_);
-  if (!finished_ || !waiting_.empty() || !under_way_due_s_.empty()) return std::nullopt;
+  if (!finished_ || !waiting_.empty() || !under_way_.empty()) return std::nullopt;
   return SocketEnd{.code = 1000, .reason = finished_->substr(0, 120)};
 }
 
@@ -101,10 +108,11 @@ bool LiveViewer::heard(std::string_view bytes) {
   const double now_s = clock_->now_s();
   const auto drawn = drawn_count(bytes);
   const std::scoped_lock lock(mutex_);
-  if (!drawn || *drawn < drawn_ || *drawn - drawn_ > under_way_due_s_.size()) return false;
+  if (!drawn || *drawn < drawn_ || *drawn - drawn_ > under_way_.size()) return false;
   for (; drawn_ < *drawn; ++drawn_) {
-    answer_s_ = static_cast<float>(now_s - under_way_due_s_.front());
-    under_way_due_s_.pop_front();
+    const double due_s = under_way_.front().due_s;
+    if (!std::isnan(due_s)) answer_s_ = static_cast<float>(now_s - due_s);
+    under_way_.pop_front();
   }
   return true;
 }

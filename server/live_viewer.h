@@ -22,6 +22,7 @@ namespace kinemark::server {
 struct LiveLimits {
   std::size_t waiting = 32;    ///< messages that wait for it: beyond, the oldest is dropped and counted
   std::size_t under_way = 64;  ///< messages that were sent and not yet drawn: beyond, none is sent
+  double ahead_s = 0.3;        ///< none is sent either while one that was given so long ago is not drawn
 };
 
 /// How often each duration occurred, in steps of 50 us up to 100 ms; all that is longer is one.
@@ -42,10 +43,11 @@ class Durations {
 
 /// How a viewer fares.
 struct LiveViewerState {
-  std::int64_t sent = 0;                                  ///< messages that are with the system
-  std::int64_t dropped = 0;                               ///< frames of markers that it did not get
-  std::int64_t dropped_angles = 0;                        ///< frames of angles that it did not get
-  double half_ms = 0.0, most_ms = 0.0, longest_ms = 0.0;  ///< from due to the socket: 50 %, 99 %, all
+  std::int64_t sent = 0;            ///< messages that are with the system
+  std::int64_t dropped = 0;         ///< frames of markers that it did not get
+  std::int64_t dropped_angles = 0;  ///< frames of angles that it did not get
+  /// From when a frame of markers is due until the system has it: 50 %, 99 %, all.
+  double half_ms = 0.0, most_ms = 0.0, longest_ms = 0.0;
 };
 
 /// One viewer of a live source: messages wait here until its connection takes them. Who is slow loses the
@@ -74,14 +76,20 @@ class LiveViewer final : public SocketPeer {
     LiveKind kind;
     double due_s;
   };
+  /// A message that was given to the connection and is not drawn; due_s is NaN of what is no frame of
+  /// markers.
+  struct UnderWay {
+    double due_s, given_s;
+  };
   void drop_oldest();
+  [[nodiscard]] bool is_behind() const;
 
   LiveLimits limits_;
   std::shared_ptr<LiveClock> clock_;
   mutable std::mutex mutex_;
   std::function<void()> wake_;
   std::deque<Waiting> waiting_;
-  std::deque<double> under_way_due_s_;  ///< of messages that were sent and not drawn
+  std::deque<UnderWay> under_way_;
   double saying_due_s_ = 0.0;
   std::uint64_t drawn_ = 0;
   std::int64_t sent_ = 0;

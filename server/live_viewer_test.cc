@@ -102,6 +102,31 @@ TEST_F(LiveViewerTest, NoMoreIsUnderWayThanWasAgreed) {
   EXPECT_EQ(viewer_.state().dropped, 0);
 }
 
+TEST_F(LiveViewerTest, WhoDrawsLateGetsNothingAheadOfThat) {
+  offer(0);
+  (void)take();
+  clock_->pass(0.31);
+  offer(1);
+  EXPECT_EQ(viewer_.next(), nullptr) << "frame 0 is not drawn for long";
+  for (int f = 2; f < 6; ++f) offer(f);
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
+  EXPECT_EQ(take(), (std::vector<double>{3, 4, 5})) << "the newest, not those that were there first";
+  EXPECT_EQ(viewer_.state().dropped, 2);
+}
+
+TEST_F(LiveViewerTest, AnglesThatComeLateByDesignAreNoDelay) {
+  offer(0, LiveKind::angles);
+  clock_->pass(0.25);
+  (void)take();
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
+  EXPECT_EQ(viewer_.state().longest_ms, 0.0);
+  offer(1);
+  clock_->pass(0.125);
+  (void)take();
+  EXPECT_TRUE(std::isnan(answer_of(last_)));
+  EXPECT_EQ(viewer_.state().longest_ms, 125.0);
+}
+
 TEST_F(LiveViewerTest, HowLongItTookUntilDrawnStandsInTheNextMessage) {
   offer(0);
   (void)take();

@@ -135,7 +135,7 @@ TEST_F(WebSocketThread, IsAcceptedAsTheStandardSays) {
 
 TEST_F(WebSocketThread, WhatIsNoSoundRequestForOneGetsNone) {
   start();
-  for (const std::string& headers :
+  for (const char* const headers :
        {"Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 12\r\nSec-WebSocket-Key: "
         "dGhlIHNhbXBsZSBub25jZQ==\r\n",
         "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n",

@@ -29,28 +29,25 @@ export class LiveWindow {
     };
   }
 
-  /** A newer frame; true when a marker is seen for the first time. */
-  push(message: MarkersMessage): boolean {
+  /** A newer frame. */
+  push(message: MarkersMessage): void {
     const { scene } = this;
     const { points: P, frameStep, markers } = scene;
     const cell = Math.floor(message.frame / frameStep);
     // Frames before the newest are not shown.
-    if (cell < this.#cell) return false;
+    if (cell < this.#cell) return;
     const by = this.#cell < 0 ? P : Math.min(P, cell - this.#cell);
     if (by > 0) this.#shift(by);
     this.#cell = cell;
     scene.firstFrame = message.frame - (P - 1) * frameStep;
     for (let p = 0; p < P; ++p) scene.time[p] = message.time_s - ((P - 1 - p) * frameStep) / scene.rateHz;
-    let isNew = false;
     for (let m = 0; m < scene.names.length; ++m) {
       const state = message.states[m]!;
       markers.states[m * P + P - 1] = state;
       if (state >= firstAbsent) continue;
       for (let k = 0; k < 3; ++k) markers.x[(3 * m + k) * P + P - 1] = message.x[3 * m + k]!;
-      isNew ||= !this.seen[m];
       this.seen[m] = true;
     }
-    return isNew;
   }
 
   /** Move everything by so many points into the past; what comes in is missing, where it was last. */

@@ -55,7 +55,11 @@ export class EditedPage {
     if (answer.value === null) return answer.refused;
     const { editing } = answer.value;
     if (editing !== undefined && !("refused" in editing)) this.#editing = editing;
-    await this.draw(answer.value);
+    try {
+      await this.draw(answer.value);
+    } catch (error) {
+      return error instanceof Error ? error.message : String(error);
+    }
     return null;
   }
 }

@@ -46,10 +46,10 @@ export function livePage({ summary }: LivePageData, around = browser): Content {
   };
   const spot = el("div", { id: "space-spot" }, section("space", "Space", "", el("p", { class: "facts" }, "No frame has come yet.")));
 
-  /** The space view anew, once it is known which markers there are. */
+  /** The space view, once it is seen which markers keep their distances. */
   function build(): void {
     built = true;
-    const part = space(shown.scene, view, { trial: summary.trial, others: null, live: true });
+    const part = space(shown.scene, view, { trial: summary.trial, others: null, live: shown });
     spot.replaceChildren(part.node);
     part.start();
   }
@@ -93,8 +93,8 @@ export function livePage({ summary }: LivePageData, around = browser): Content {
 
   const stream = new LiveStream(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live/socket`, {
     markers: (message) => {
-      const isNew = shown.push(message);
-      if ((isNew && built) || (!built && stream.frames >= secondsBeforePicture * summary.rate_hz)) build();
+      shown.push(message);
+      if (!built && stream.frames >= secondsBeforePicture * summary.rate_hz) build();
       wake();
     },
     angles: (message) => {

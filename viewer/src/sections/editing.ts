@@ -262,8 +262,10 @@ export class EditBar {
     const answer = await this.channel.state();
     if (this.#busy) return;
     if (answer.refused !== null) {
+      // Told once, not every few seconds.
+      if (!this.#lost) this.#say(answer.refused, true);
       this.#lost = true;
-      return this.#say(answer.refused, true);
+      return;
     }
     if (answer.value === null || (answer.value.edits.length === this.#state.edits.length && answer.value.digest === this.#state.digest)) {
       if (this.#lost) this.#say("The server answers again.");
@@ -311,7 +313,7 @@ export class EditBar {
   /** Letters work wherever nobody is typing; undo and redo there too. */
   #press(event: KeyboardEvent): void {
     if (this.#shown === null || !this.node.isConnected || !isOurs(event)) return;
-    const act: Record<string, () => void> = {
+    const acts: Record<string, () => void> = {
       undo: () => !this.#undo.disabled && this.#undo.click(),
       redo: () => !this.#redo.disabled && this.#redo.click(),
       "[": () => this.#bound(this.#from),
@@ -328,9 +330,9 @@ export class EditBar {
       g: () => this.#region.focus(),
     };
     const key = keyOf(event);
-    const act1 = act[key];
-    if (act1 === undefined || (key !== "undo" && key !== "redo" && !this.#keys.checked)) return;
+    const wanted = acts[key];
+    if (wanted === undefined || (key !== "undo" && key !== "redo" && !this.#keys.checked)) return;
     event.preventDefault();
-    act1();
+    wanted();
   }
 }

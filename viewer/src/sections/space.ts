@@ -31,8 +31,8 @@ export interface SpaceOptions {
   lead?: string;
   /** Where to look from, kept while what is drawn is drawn anew. */
   kept?: { camera: Camera | null };
-  /** The last point is now, and the points before it change: nothing to play, nothing to save but the picture. */
-  live?: boolean;
+  /** The last point is now, and the points before it change: nothing to play, nothing to save but the picture. Tells which markers were seen so far. */
+  live?: { seen: readonly boolean[] };
 }
 
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4] as const;
@@ -45,7 +45,7 @@ const axisWords = (up: Vec): string => {
 /** The recording in space, on the instant that all plots share. */
 export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void; stop: () => void } {
   const M = scene.names.length;
-  const everThere = scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
+  const everThere = options.live?.seen ?? scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
   const lines = sticks(scene);
   const ahead = facing(scene);
   const canvas = el("canvas", { class: "space-canvas", tabindex: 0, role: "img", "aria-label": "Markers in space. Drag to turn, shift and drag to move, wheel to come nearer." });
@@ -314,7 +314,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     const views: Record<string, StandardView> = { "1": "front", "2": "side", "3": "top", "4": "corner" };
     const wanted = views[key];
     if (wanted !== undefined) seeFrom(wanted);
-    else if (options.live === true && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(key)) return false;
+    else if (options.live !== undefined && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(key)) return false;
     else if (key === " ") setPlaying(!playing);
     else if (key === "ArrowLeft" || key === "ArrowRight") goTo(point + (key === "ArrowLeft" ? -1 : 1) * (shift ? 10 : 1));
     else if (key === "Home" || key === "End") goTo(key === "Home" ? 0 : scene.points - 1);
@@ -447,7 +447,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     "space",
     "Space",
     options.lead ?? "",
-    scene.frameStep === 1 || options.live === true
+    scene.frameStep === 1 || options.live !== undefined
       ? null
       : el("p", { class: "thinned" }, `Long recording: space and curves show every ${number(scene.frameStep)}${scene.frameStep === 2 ? "nd" : scene.frameStep === 3 ? "rd" : "th"} frame as it is (${number(scene.rateHz / scene.frameStep, 2)} Hz). The map of gaps and all numbers come from all frames.`),
     el(
@@ -467,14 +467,14 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       scene.skeleton === null ? null : choice("95 % regions", [["0", "none"], ["1", "true size"], ["3", "3 ×"], ["10", "10 ×"]], "1", (v) => { regions = Number(v); redraw(); }),
       scene.bodies === null ? null : toggle("Bodies", true, (on) => { bodies = on; redraw(); }),
       scene.cameras.length === 0 ? null : toggle("Rays", true, (on) => { rays = on; redraw(); }),
-      options.live === true ? null : planeButton,
+      options.live !== undefined ? null : planeButton,
       el("label", { class: "pick" }, el("span", {}, "Cut"), cutSlider),
       el("button", { type: "button", click: () => void savePicture() }, "Save picture"),
-      options.live === true ? null : el("button", { type: "button", title: "Save the animation for Blender and others", click: () => saveGlb() }, "Save GLB"),
-      canFilm() && options.live !== true ? filmButton : null,
+      options.live !== undefined ? null : el("button", { type: "button", title: "Save the animation for Blender and others", click: () => saveGlb() }, "Save GLB"),
+      canFilm() && options.live === undefined ? filmButton : null,
     ),
     frame,
-    options.live === true ? null : el(
+    options.live !== undefined ? null : el(
       "div",
       { class: "transport" },
       play,
@@ -495,7 +495,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       ),
       options.others === null ? null : el("li", {}, svg("svg", { viewBox: "0 0 20 20", class: "mark mark-other hollow", "aria-hidden": "true" }, svg("path", { d: statePaths[4]!.d })) as unknown as HTMLElement, options.others.legend),
     ),
-    el("p", { class: "facts" }, `${facts.join("; ")}. Click into the picture: ${options.live === true ? "" : "space plays, arrows step, "}1 to 4 are views, + and − come nearer, 0 starts over.`),
+    el("p", { class: "facts" }, `${facts.join("; ")}. Click into the picture: ${options.live !== undefined ? "" : "space plays, arrows step, "}1 to 4 are views, + and − come nearer, 0 starts over.`),
   );
   return { node, start, stop };
 }

@@ -64,7 +64,9 @@ Result<EditSession::StateIs> EditSession::state_of(std::vector<data::Edit> in_fo
   auto edited =
       trajectory::apply_edits(std::move(begin), rest, {.seed = options_.seed, .threads = options_.threads});
   if (!edited) return std::unexpected(edited.error());
-  return std::make_shared<const State>(std::move(in_force), std::move(*edited));
+  std::vector<trajectory::MarkerChange> changes;
+  if (!in_force.empty()) changes = trajectory::changes_between(recorded_.trial, edited->trial);
+  return std::make_shared<const State>(std::move(in_force), std::move(*edited), std::move(changes));
 }
 
 void EditSession::take(data::EditList list, StateIs state) {
@@ -117,10 +119,6 @@ EditOutcome EditSession::outcome() const {
   out.warnings = notes_;
   out.warnings.insert(out.warnings.end(), now_->edited.notes.begin(), now_->edited.notes.end());
   return out;
-}
-
-std::vector<trajectory::MarkerChange> EditSession::all_changes() const {
-  return trajectory::changes_between(recorded_.trial, now());
 }
 
 std::size_t EditSession::bytes() const {

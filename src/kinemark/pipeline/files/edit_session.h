@@ -52,8 +52,8 @@ class EditSession {
   [[nodiscard]] EditOutcome outcome() const;                                   ///< what is in the journal
   /// How the recording differs from what it was before the last operation that came here; empty before one.
   [[nodiscard]] const std::vector<trajectory::MarkerChange>& last_changes() const { return last_changes_; }
-  /// How it differs from what was recorded. O(samples).
-  [[nodiscard]] std::vector<trajectory::MarkerChange> all_changes() const;
+  /// How it differs from what was recorded.
+  [[nodiscard]] const std::vector<trajectory::MarkerChange>& all_changes() const { return now_->changes; }
   [[nodiscard]] std::size_t bytes() const;  ///< of all states that are kept, about
 
  private:
@@ -61,6 +61,7 @@ class EditSession {
   struct State {
     std::vector<data::Edit> in_force;
     trajectory::EditedTrial edited;
+    std::vector<trajectory::MarkerChange> changes;  ///< from what was recorded
   };
   using StateIs = std::shared_ptr<const State>;
 

@@ -22,11 +22,12 @@ std::vector<report::Notice> remarks(const std::vector<data::Measure>& measures, 
   std::vector<report::Notice> out;
   for (const auto& measure : measures)
     if (!measure.remark.empty() && std::isfinite(measure.value) == determined)
-      out.push_back({.about = "measure",
-                     .subject = measure.subject,
-                     .text = fmt::format("{}{}: {}: {}.", measure.subject,
-                                         measure.region.empty() ? "" : ", " + measure.region,
-                                         title_of_measure(measure.id), measure.remark)});
+      out.push_back(
+          {.about = "measure",
+           .subject = measure.subject,
+           .text = fmt::format("{}{}: {}: {}.", measure.subject.empty() ? "Walking" : measure.subject,
+                               measure.region.empty() ? "" : ", " + measure.region, title_of_measure(measure),
+                               measure.remark)});
   return out;
 }
 
@@ -47,7 +48,7 @@ std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome
   std::set<std::string> markers, regions;
   double not_measured = 0.0;
   for (const auto& measure : outcome.measures) {
-    markers.insert(measure.subject);
+    if (!measure.subject.empty()) markers.insert(measure.subject);
     regions.insert(measure.region);
     not_measured = std::max(not_measured, measure.share_not_measured);
   }
@@ -59,7 +60,8 @@ std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome
   out.result["measures"] = measures_json(outcome.measures);
   for (std::size_t i = 0; i < outcome.measures.size(); ++i) {
     auto& row = out.result["measures"][i];
-    row["title"] = title_of_measure(outcome.measures[i].id);
+    row["title"] = title_of_measure(outcome.measures[i]);
+    if (outcome.measures[i].subject.empty()) row["subject"] = "Walking";
     row["shown"] = shown_value(outcome.measures[i]);
   }
   out.result["figures"] = nlohmann::ordered_json::array();

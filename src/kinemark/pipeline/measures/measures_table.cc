@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "kinemark/pipeline/files/table_cell.h"
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
 namespace kinemark::pipeline {
@@ -18,7 +20,16 @@ using Json = nlohmann::ordered_json;
 const data::MeasureDefinition* definition_of(std::string_view id) {
   for (const auto& definition : analysis::path_definitions())
     if (definition.what.id == id) return &definition.what;
-  return nullptr;
+  const auto* of_walking = analysis::find_gait_definition(id);
+  return of_walking != nullptr ? &of_walking->what : nullptr;
+}
+
+// All, in the order in which they are shown.
+std::vector<data::MeasureDefinition> all_definitions() {
+  std::vector<data::MeasureDefinition> out;
+  for (const auto& definition : analysis::path_definitions()) out.push_back(definition.what);
+  for (const auto& definition : analysis::gait_definitions()) out.push_back(definition.what);
+  return out;
 }
 
 // As many digits as the interval's width supports, two of it, and four significant ones without.
@@ -121,18 +132,22 @@ std::string title_of_measure(const std::string& id) {
   return definition ? std::string(definition->title) : id;
 }
 
+std::string title_of_measure(const data::Measure& measure) {
+  return title_of_measure(measure.id) + (measure.context.empty() ? "" : ", " + measure.context);
+}
+
 std::string measures_text(std::span<const data::Measure> measures) {
   std::string out;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const auto& m = measures[i];
     const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region;
     if (!same)
-      out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject,
-                         m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
-                         m.share_not_measured > 0.0
-                             ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
-                             : "");
-    out += fmt::format("  {:<40} {}{}\n", title_of_measure(m.id), shown_value(m),
+      out += fmt::format(
+          "{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject.empty() ? "Walking" : m.subject,
+          m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
+          m.share_not_measured > 0.0 ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
+                                     : "");
+    out += fmt::format("  {:<40} {}{}\n", title_of_measure(m), shown_value(m),
                        m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
   }
   return out;
@@ -140,8 +155,7 @@ std::string measures_text(std::span<const data::Measure> measures) {
 
 std::string measure_list() {
   std::string out;
-  for (const auto& definition : analysis::path_definitions()) {
-    const auto& what = definition.what;
+  for (const auto& what : all_definitions()) {
     const auto unit = data::shown_unit(what.quantity).name;
     out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
                        unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
@@ -151,8 +165,7 @@ std::string measure_list() {
 
 nlohmann::ordered_json measure_list_json() {
   Json out = Json::array();
-  for (const auto& definition : analysis::path_definitions()) {
-    const auto& what = definition.what;
+  for (const auto& what : all_definitions()) {
     out.push_back({{"measure", what.id},
                    {"group", what.group},
                    {"title", what.title},

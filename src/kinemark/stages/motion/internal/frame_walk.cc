@@ -223,8 +223,7 @@ void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t fr
     auto outcome = solver_.solve(y_, weight_, f, x_);
     if (!outcome.converged) {
       retry_ = near;
-      const auto second =
-          find_start(problem_, options_, solver_, y_, weight_, f, kRetryStarts, retry_);
+      const auto second = find_start(problem_, options_, solver_, y_, weight_, f, kRetryStarts, retry_);
       if (second.cost < (1.0 - kSameCost) * outcome.cost) {
         x_ = retry_;
         outcome = second;

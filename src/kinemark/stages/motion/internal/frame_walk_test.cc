@@ -129,11 +129,11 @@ TEST(FrameWalk, NoBadSampleWindsAHinge) {
     Walked w(8, 0.0, {.limits = false});
     std::swap(w.markers.x(4, 7 * i % 14)[0], w.markers.x(4, 5 * i % 14)[0]);
     for (const int m : {4, 5, 6, 7})
-      w.markers.x(4, m) += 0.2 * (i / 7 % 9) *
-                           Vector3d(std::cos(0.7 * i * m), std::sin(0.43 * i * m), std::sin(0.32 * i * m));
+      w.markers.x(4, m) +=
+          0.2 * (i / 7 % 9) * Vector3d(std::cos(0.7 * i * m), std::sin(0.43 * i * m), std::sin(0.32 * i * m));
     w.run(false);
     for (std::int64_t f = 1; f < 8; ++f)
-      EXPECT_LT(w.apart(w.solved.states.col(f - 1), w.solved.states.col(f)), 3.1416) << "WIND" << i << ' ' << f;
+      EXPECT_LT(w.apart(w.solved.states.col(f - 1), w.solved.states.col(f)), 3.1416) << i << ' ' << f;
   }
 }
 
