@@ -352,7 +352,8 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       if (planeButton.getAttribute("aria-pressed") === "true" && (planeOfMarker !== view.marker || planeRange !== view.range)) fitPlane(true);
       [planeOfMarker, planeRange] = [view.marker, view.range];
       const time = (playing ? null : view.pointer) ?? view.focus;
-      if (time !== null) point = pointAt(scene, time);
+      if (options.live !== undefined) point = scene.points - 1;
+      else if (time !== null) point = pointAt(scene, time);
       tell();
       redraw();
     });
