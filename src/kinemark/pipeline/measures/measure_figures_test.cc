@@ -9,7 +9,6 @@
 #include <numbers>
 
 // Patterns of fonts that fontconfig keeps for Cairo.
-// NOLINTNEXTLINE(bugprone-reserved-identifier): the sanitizer asks for it by this name
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
 
 namespace kinemark::pipeline {
