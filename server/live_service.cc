@@ -19,13 +19,6 @@ Response sentence(int status, std::string_view title, std::string_view what) {
   return response;
 }
 
-/// The policy of a page that may also talk with this server.
-std::string with_socket(const std::string& policy, const std::vector<std::string>& hosts) {
-  std::string out = policy + "; connect-src 'self'";
-  for (const auto& host : hosts) out += " ws://" + host;
-  return out;
-}
-
 }  // namespace
 
 std::string live_state_json(const LiveState& state) {
@@ -46,8 +39,9 @@ std::string live_state_json(const LiveState& state) {
 }
 
 LiveService::LiveService(Keys keys, std::string page, std::string_view nonce, std::unique_ptr<LiveFeed> feed)
-    : entrance_(keys), page_(shielded(std::move(page), nonce)), feed_(std::move(feed)) {
-  page_.policy = with_socket(page_.policy, keys.hosts);
+    : entrance_(std::move(keys)),
+      page_(shielded(std::move(page), nonce, /*asks=*/true)),
+      feed_(std::move(feed)) {
   feed_->start();
 }
 

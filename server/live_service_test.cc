@@ -28,7 +28,8 @@ class LiveServiceThread : public ::testing::Test {
     feed_ = feed.get();
     service_ = std::make_unique<LiveService>(
         Keys{.hosts = {"127.0.0.1:1", "localhost:1"}, .token = "t", .session = "s", .cookie = "c"},
-        "<style>a</style><script type=\"module\">b</script>", "0123", std::move(feed));
+        "<meta content=\"default-src 'none'; x\"><style>a</style><script type=\"module\">b</script>", "0123",
+        std::move(feed));
   }
 
   Response ask(Request request) {
@@ -62,8 +63,8 @@ TEST_F(LiveServiceThread, ThePageMayTalkWithItsServerAlone) {
   EXPECT_EQ(page.status, 200);
   EXPECT_TRUE(page.admitted);
   EXPECT_THAT(*page.body, HasSubstr("nonce=\"0123\""));
-  EXPECT_THAT(header(page, "Content-Security-Policy"),
-              HasSubstr("connect-src 'self' ws://127.0.0.1:1 ws://localhost:1"));
+  EXPECT_THAT(*page.body, HasSubstr("default-src 'none'; connect-src 'self'; x"));
+  EXPECT_THAT(header(page, "Content-Security-Policy"), HasSubstr("connect-src 'self'; "));
   EXPECT_THAT(header(page, "Content-Security-Policy"), HasSubstr("default-src 'none'"));
   EXPECT_EQ(header(page, "X-Content-Type-Options"), "nosniff");
 }

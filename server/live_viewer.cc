@@ -30,20 +30,21 @@ double Durations::share_ms(double share) const {
 LiveViewer::LiveViewer(const LiveLimits& limits, std::shared_ptr<LiveClock> clock)
     : limits_(limits), clock_(std::move(clock)), answer_s_(std::numeric_limits<float>::quiet_NaN()) {}
 
-void LiveViewer::drop_oldest() {
-  // What people should know is not dropped: there are few of those.
-  const auto oldest =
-      std::ranges::find_if(waiting_, [](const Waiting& one) { return one.kind != LiveKind::sentence; });
-  if (oldest == waiting_.end()) return;
-  ++dropped_[static_cast<std::size_t>(oldest->kind)];
-  waiting_.erase(oldest);
+void LiveViewer::drop_beyond_limit(LiveKind kind) {
+  // What people should know is not dropped: there are few of those. Each kind has room of its own, so that
+  // angles, which come late, do not push out the newest markers.
+  if (kind == LiveKind::sentence) return;
+  const auto is_that = [kind](const Waiting& one) { return one.kind == kind; };
+  if (std::cmp_less_equal(std::ranges::count_if(waiting_, is_that), limits_.waiting)) return;
+  ++dropped_[static_cast<std::size_t>(kind)];
+  waiting_.erase(std::ranges::find_if(waiting_, is_that));
 }
 
 void LiveViewer::offer(std::shared_ptr<const std::string> message, LiveKind kind, double due_s) {
   const std::scoped_lock lock(mutex_);
   if (gone_ || finished_) return;
   waiting_.push_back({std::move(message), kind, due_s});
-  if (waiting_.size() > limits_.waiting) drop_oldest();
+  drop_beyond_limit(kind);
   if (wake_) wake_();
 }
 

@@ -20,7 +20,8 @@ namespace kinemark::server {
 
 /// What one viewer can hold back.
 struct LiveLimits {
-  std::size_t waiting = 32;    ///< messages that wait for it: beyond, the oldest is dropped and counted
+  std::size_t waiting =
+      16;  ///< messages of a kind that wait for it: beyond, the oldest is dropped and counted
   std::size_t under_way = 64;  ///< messages that were sent and not yet drawn: beyond, none is sent
   double ahead_s = 0.3;        ///< none is sent either while one that was given so long ago is not drawn
 };
@@ -81,7 +82,7 @@ class LiveViewer final : public SocketPeer {
   struct UnderWay {
     double due_s, given_s;
   };
-  void drop_oldest();
+  void drop_beyond_limit(LiveKind kind);
   [[nodiscard]] bool is_behind() const;
 
   LiveLimits limits_;

@@ -83,13 +83,16 @@ TEST_F(LiveViewerTest, DropsAreCountedByKind) {
   offer(0, LiveKind::angles);
   for (int f = 1; f < 4; ++f) offer(f);
   EXPECT_EQ(viewer_.state().dropped, 1);
+  EXPECT_EQ(viewer_.state().dropped_angles, 0) << "frames of markers do not push angles out";
+  for (int f = 1; f < 4; ++f) offer(f, LiveKind::angles);
+  EXPECT_EQ(viewer_.state().dropped, 1) << "nor angles the newest markers";
   EXPECT_EQ(viewer_.state().dropped_angles, 1);
 }
 
 TEST_F(LiveViewerTest, WhatPeopleShouldKnowIsNotDropped) {
   offer(-1, LiveKind::sentence);
   for (int f = 0; f < 10; ++f) offer(f);
-  EXPECT_EQ(take(), (std::vector<double>{-1, 8, 9}));
+  EXPECT_EQ(take(), (std::vector<double>{-1, 7, 8, 9}));
 }
 
 TEST_F(LiveViewerTest, NoMoreIsUnderWayThanWasAgreed) {

@@ -25,7 +25,7 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
     stream_.auto_fragment(false);
     stream_.read_message_max(limits.message_bytes);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      response.erase(beast::http::field::server);  // what program answers is nobody's matter
+      response.set(beast::http::field::server, "kinemark");  // without one, Beast names itself
     }));
     stream_.set_option(websocket::stream_base::timeout{
         .handshake_timeout = limits.request, .idle_timeout = limits.silence, .keep_alive_pings = true});

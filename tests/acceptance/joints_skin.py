@@ -146,9 +146,11 @@ def knees(first, subjects):
             tilt = rotation @ found[0].axis_covariance @ rotation.T
             tilts += list(axis[1:] / np.sqrt(np.diag(tilt)[1:]))
             angle.append(axis[1:] @ axis[1:])
-            # The place is a point of the line: where it meets the plane of the middle of the bone's axis.
-            centre, step = centre - axis * (centre[0] / axis[0]), centre[0]
-            offs += list(centre[1:] / np.sqrt(np.diag(covariance + step**2 * tilt)[1:]))
+            # The place is a point of the line: where it meets the plane of the middle of the bone's axis. Its covariance goes
+            # there along the line as the point does: what is open along the line says nothing of its place.
+            carry = np.eye(3) - np.outer(axis, [1, 0, 0]) / axis[0]
+            centre, step = carry @ centre, centre[0]
+            offs += list(centre[1:] / np.sqrt(np.diag(carry @ covariance @ carry.T + step**2 * tilt)[1:]))
             place.append(centre[1:] @ centre[1:])
         angles[method], positions[method] = np.degrees(np.sqrt(np.mean(angle))), 1e3 * np.sqrt(np.mean(place))
         for what, z in (("direction", tilts), ("place", offs)):

@@ -319,7 +319,7 @@ class Started(ServeTest):
         self.assertIn("'NOSE'", answer["error"])
         self.assertEqual(recording.read_bytes(), original)
         self.assertEqual(server.end(signal.SIGKILL)[0], -signal.SIGKILL)
-        self.assertEqual(listing(self.folder), ["walk.trc", "walk_edits.jsonl"])
+        self.assertEqual(sorted(listing(self.folder)), ["walk.trc", "walk_edits.jsonl"])
 
     def test_what_is_no_recording_of_markers_has_no_edits(self):
         server = self.serve(self.study / "q.mot", self.write("bad.trc", b"nothing"))

@@ -129,9 +129,7 @@ export class SpaceView {
     this.#reach = Math.max(0.2, length(sub(high, low)));
   }
 
-  /** Of the canvas, in CSS pixels; `share`: of the screen's pixels along each side. */
-  resize(width: number, height: number, share = 1): void {
-    const ratio = share * Math.min(2, Math.max(1, window.devicePixelRatio));
+  resize(width: number, height: number, ratio = Math.min(2, Math.max(1, window.devicePixelRatio))): void {
     this.#width = width;
     this.#height = height;
     this.#renderer.setPixelRatio(ratio);

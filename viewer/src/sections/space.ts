@@ -8,7 +8,6 @@ import { facing } from "../scene/facing.ts";
 import { canFilm, film } from "../scene/film.ts";
 import { floorHeight } from "../scene/floor.ts";
 import { glbOf } from "../scene/glb.ts";
-import { Pace, pause_ms } from "../scene/pace.ts";
 import { planeOf, type Plane } from "../scene/plane.ts";
 import { at, bounds, isEverThere, isThere, pointAt, type Scene } from "../scene/scene.ts";
 import { statePaths } from "../scene/shapes.ts";
@@ -92,9 +91,6 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let hover = -1;
   let picture: SpaceView | null = null;
   let pending = false;
-  let fineness = 1;
-  let resting: ReturnType<typeof setTimeout> | undefined;
-  const pace = new Pace();
   camera = firstCamera();
 
   function firstCamera(): Camera {
@@ -141,24 +137,8 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     pending = true;
     requestAnimationFrame(() => {
       pending = false;
-      // What people save is as fine as it can be.
-      refine(filming === null ? pace.next(performance.now()) : 1);
       draw();
-      clearTimeout(resting);
-      if (fineness < 1) resting = setTimeout(drawFinely, pause_ms);
     });
-  }
-
-  /** So many pixels along each side, of those that the screen has. */
-  function refine(share: number): void {
-    if (share === fineness || picture === null) return;
-    fineness = share;
-    picture.resize(frame.clientWidth, frame.clientHeight, share);
-  }
-
-  function drawFinely(): void {
-    refine(1);
-    draw();
   }
 
   function draw(): void {
@@ -361,7 +341,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     }
     const fit = (): void => {
       if (frame.clientWidth === 0) return;
-      picture?.resize(frame.clientWidth, frame.clientHeight, fineness);
+      picture?.resize(frame.clientWidth, frame.clientHeight);
       draw();
     };
     new ResizeObserver(fit).observe(frame);
@@ -372,7 +352,8 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       if (planeButton.getAttribute("aria-pressed") === "true" && (planeOfMarker !== view.marker || planeRange !== view.range)) fitPlane(true);
       [planeOfMarker, planeRange] = [view.marker, view.range];
       const time = (playing ? null : view.pointer) ?? view.focus;
-      if (time !== null) point = pointAt(scene, time);
+      if (options.live !== undefined) point = scene.points - 1;
+      else if (time !== null) point = pointAt(scene, time);
       tell();
       redraw();
     });
@@ -387,14 +368,13 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
 
   function stop(): void {
     setPlaying(false);
-    clearTimeout(resting);
     if (options.kept !== undefined) options.kept.camera = camera;
     picture?.dispose();
     picture = null;
   }
 
   async function savePicture(): Promise<void> {
-    drawFinely();
+    draw();
     const ratio = canvas.width / Math.max(1, canvas.clientWidth);
     const copy = el("canvas", { width: canvas.width, height: canvas.height });
     const pen = copy.getContext("2d")!;

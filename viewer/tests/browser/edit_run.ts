@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // npm run test:edits            a simulated recording edited in the page of `kinemark serve`
-// npm run test:edits -- FILE... the same of C3D files with markers LKNE, RKNE and LASI, of which copies are edited
+// npm run test:edits -- FILE... the same of C3D files with three markers that are whole, of which copies are edited
 // KINEMARK_PROGRAM names the program, KINEMARK_SCREENSHOTS a folder for pictures.
 import assert from "node:assert/strict";
 import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import type { MarkersPageData } from "../../src/markers_types.ts";
 import { hostile } from "../simulated.ts";
 import { ink, openAddress, settle, type Opened } from "./browser.ts";
 import { clipped, violations } from "./looks.ts";
@@ -246,11 +247,14 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
 async function tryOn(recording: string, given: string): Promise<number> {
   copyFileSync(given, recording);
   const original = readFileSync(recording);
-  const facts = JSON.parse(kinemark("info", recording, "--json")) as { labels: string[]; first_frame: number };
-  const names = ["LKNE", "RKNE", "LASI"].map((n) => facts.labels.find((l) => l === n || l.endsWith(`:${n}`)) ?? facts.labels[["LKNE", "RKNE", "LASI"].indexOf(n)]!) as [string, string, string];
   const served = await serve(recording);
   const opened = await openAddress(served.address, (asked) => asked.startsWith(`${served.origin}/`), "light", true, `${served.origin}/trial/1`);
-  const t: Tried = { ...opened, served, recording, journal: recording.replace(".c3d", "_edits.jsonl"), names, first: facts.first_frame };
+  // What is cut and swapped has to be there: whole markers, as the page itself tells.
+  const { summary } = await opened.page.evaluate(() => JSON.parse(document.getElementById("kinemark-data")!.textContent) as MarkersPageData);
+  const whole = summary.markers.filter((m) => m.labelled && m.states.measured === summary.frames).map((m) => m.name);
+  assert.ok(whole.length >= 3, "the recording has no three whole markers");
+  const names = whole.slice(0, 3) as [string, string, string];
+  const t: Tried = { ...opened, served, recording, journal: recording.replace(".c3d", "_edits.jsonl"), names, first: summary.first_frame };
   let failed = 0;
   const all: typeof checks = {
     ...checks,

@@ -292,8 +292,9 @@ Status take_entry(std::string_view kind, const toml::table& table, const std::st
   if (kind == "angle") plain.erase("components");
   io::TomlFields fields(plain, fmt::format("{}: {} '{}'", where, kind, name));
   const auto add = [&](auto& list, auto read) -> Status {
-    if (auto s = fields.finish(); !s) return s;
+    if (fields.failed()) return fields.finish();
     if (!read) return std::unexpected(read.error());
+    if (auto s = fields.finish(); !s) return s;
     list.push_back(std::move(*read));
     return {};
   };

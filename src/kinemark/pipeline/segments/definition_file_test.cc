@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr std::string_view kGood = R"(
+constexpr std::string_view kGood = R"toml(
 title = "One leg"
 sides = [["L", "Left", 1], ["R", "Right", -1]]
 [progression]
@@ -52,7 +52,7 @@ components = [["flexion", "y", -90], ["inversion", "{-}x"], ["rotation", "3"]]
 name = "height"
 quantity = "length"
 formula = "z(LANK)"
-)";
+)toml";
 
 std::string trouble(std::string text) {
   const auto read = parse_definition(text, "d.toml");
@@ -101,14 +101,14 @@ TEST(DefinitionFile, NamesThePlaceOfWhatIsWrong) {
            {"formula = \"0.1\"", "formla = \"0.1\"", "formla"},
            {"quantity = \"length\"", "quantity = \"speed\"", "\"number\", \"length\", \"angle\" or \"mass\""},
            {"trial = \"static\"", "trial = \"still\"", "\"any\", \"static\" or \"moving\""},
-           {"origin = \"LJC\"", "", "segment 'foot': needs"},
+           {"origin = \"LJC\"", "", "segment 'foot': origin is missing"},
            {"[\"z\", \"LANK - LTOE\"]", "[\"w\", \"LANK\"]", "segment 'foot': first: expected"},
            {"[[\"x\", \"0.1\"],", "[[\"x\"],", "segment 'foot': turns: expected"},
            {"sequence = \"yxz\"", "sequence = \"yyz\"", "angle 'LAnkle': sequence: 'yyz' is no sequence"},
            {"[\"rotation\", \"3\"]", "[\"rotation\", \"4\"]", "angle 'LAnkle': components: expected three"},
            {", [\"rotation\", \"3\"]", "", "angle 'LAnkle': needs three components"},
            {"child = \"foot\"", "child = \"shank\"", "no segment is called 'shank'"},
-           {"point = \"LASI\"", "", "progression: needs"}}) {
+           {"point = \"LASI\"", "", "progression: point is missing"}}) {
     const auto said = trouble(changed(what, by));
     EXPECT_THAT(said, HasSubstr(words)) << what << " -> " << by;
     EXPECT_THAT(said, HasSubstr("d.toml"));

@@ -50,10 +50,11 @@ void expect_angles(const data::Trajectories& markers, const std::string& name, c
   const auto motion = analysis::compute_segments(find_definition("isb-shoulder").value(),
                                                  {.markers = &markers}, {.up = Vector3d::UnitY()});
   ASSERT_TRUE(motion) << motion.error().message;
-  for (const auto& series : motion->angles)
-    if (series.name == name)
-      for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_NEAR(series.value[k] / kOneDegree, degrees[static_cast<Eigen::Index>(k)], 1e-7) << name << k;
+  for (const auto& series : motion->angles) {
+    if (series.name != name) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(series.value[k] / kOneDegree, degrees[static_cast<Eigen::Index>(k)], 1e-7) << name << k;
+  }
 }
 
 TEST(IsbShoulder, CallsAbductionPlaneZeroAndFlexionPlaneNinety) {

@@ -121,8 +121,8 @@ TEST(ConventionalGaitModel, SeesAWrongAxisWithoutIt) {
 }
 
 TEST(ConventionalGaitModel, HasAFlatFootInTheStaticTrial) {
-  const auto still = leg({0.0, 0.0}, false), walk = leg(kFlexion, false);
-  const auto standing = computed(still, &still), moving = computed(still, &walk);
+  const auto still = leg({0.0, 0.0}, true), walk = leg(kFlexion, false);
+  const auto standing = computed(still, &still), moving = computed(walk, &still);
   EXPECT_NEAR(angle(standing, "LAnkleAngles").value[0], 0.0, 1e-9) << "foot and shank are perpendicular";
   EXPECT_TRUE(std::isnan(parameter(computed(walk, nullptr), "LStaticPlantFlex")));
   EXPECT_TRUE(std::isfinite(parameter(moving, "LStaticPlantFlex")));

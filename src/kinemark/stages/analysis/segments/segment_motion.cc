@@ -266,8 +266,10 @@ std::string lack_sentence(const SegmentDefinition& d, const std::set<std::string
       parts.emplace_back("direction of progression");
     } else {
       const auto near = nearest_names(name, markers, 1);
-      parts.push_back(fmt::format("marker '{}'{}", name,
-                                  near.empty() ? "" : fmt::format(" (there is '{}')", near.front())));
+      const bool label = !near.empty() && near.front() == name;
+      parts.push_back(
+          fmt::format("{} '{}'{}", label ? "sample of marker" : "marker", name,
+                      near.empty() || label ? "" : fmt::format(" (there is '{}')", near.front())));
     }
   }
   return fmt::format("Not computed: {}; there is no {}.", fmt::join(without, ", "),

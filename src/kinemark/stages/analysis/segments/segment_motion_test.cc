@@ -132,6 +132,11 @@ TEST(SegmentMotion, SaysWhatItLacksAndComputesTheRest) {
   EXPECT_TRUE(motion->angles.empty());
   EXPECT_EQ(motion->values.size(), 1U);
   EXPECT_THAT(motion->warnings, Contains(HasSubstr("Not computed: joint, turn; there is no marker 'C2'")));
+  markers = movement(1);
+  markers.names[4] = "C2";
+  markers.set_missing(0, 4);
+  EXPECT_THAT(compute_segments(two_segments(), {.markers = &markers})->warnings,
+              Contains(HasSubstr("joint, turn; there is no sample of marker 'C2'.")));
   markers.names = {"a", "b", "c", "d", "e", "f"};
   const auto none = compute_segments(two_segments(), {.markers = &markers});
   ASSERT_FALSE(none);

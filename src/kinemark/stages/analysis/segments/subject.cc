@@ -201,6 +201,18 @@ class Finder {
 
 }  // namespace
 
+TrialMarkers::TrialMarkers(const data::Trajectories& markers)
+    : markers_(markers), index_(markers.names), seen_(markers.names.size()) {
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m)
+      if (markers.present(f, m)) seen_[static_cast<std::size_t>(m)] = true;
+}
+
+bool TrialMarkers::has(const std::string& name) const {
+  const auto m = index_.find(name);
+  return m >= 0 && seen_[static_cast<std::size_t>(m)];
+}
+
 GraphNames Subject::names(const TrialMarkers& trial, bool is_static) const {
   return {.has_marker = [&trial](const std::string& name) { return trial.has(name); },
           .has_parameter = [this](const std::string& name) { return parameters.contains(name); },

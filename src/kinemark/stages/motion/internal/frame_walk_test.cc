@@ -133,8 +133,7 @@ TEST(FrameWalk, NoBadSampleWindsAHinge) {
           0.2 * (i / 7 % 9) * Vector3d(std::cos(0.7 * i * m), std::sin(0.43 * i * m), std::sin(0.32 * i * m));
     w.run(false);
     for (std::int64_t f = 1; f < 8; ++f)
-      EXPECT_LT(w.apart(w.solved.states.col(f - 1), w.solved.states.col(f)), 3.1416)
-          << "WIND" << i << ' ' << f;
+      EXPECT_LT(w.apart(w.solved.states.col(f - 1), w.solved.states.col(f)), 3.1416) << i << ' ' << f;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/stages/motion/internal/plain_defects.h"
 #include "kinemark/stages/motion/internal/rejected_samples.h"
 
 namespace kinemark::motion::internal {

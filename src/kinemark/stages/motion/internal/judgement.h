@@ -17,11 +17,22 @@ struct Judgement {
   std::vector<Outlier> doubtful;  ///< this or the other side of its beginning is wrong; kept
 };
 
-/// Samples that give themselves away without any model: a value held digit by digit while the body moves, a
-/// coordinate that is exactly 0 between others that are not.
-[[nodiscard]] std::vector<Outlier> find_plain_defects(const Problem& problem,
-                                                      const data::Trajectories& markers,
-                                                      const SolvedFrames& solved);
+/// A frame whose samples may be believed, and those of the two on each side: the cheapest such stretch of
+/// frames that see nearly all markers, and where there is one, the same in each. Where a marker comes or goes
+/// the pose leaps, and with it the speed.
+[[nodiscard]] std::int64_t find_sound_frame(const Problem& problem, const data::Trajectories& markers,
+                                            const SolvedFrames& solved);
+
+/// Judge the frames from `sound`, whose samples are believed, to `last` (included; last < sound: backwards).
+/// So is the speed that led to it: the frame before must be sound too, where there is one.
+///
+/// @param solved  the pose of each frame, all its samples believed, and the positions of its markers
+/// @param scale   its growth is learnt when it is first needed
+/// @return        in the order in which they end
+[[nodiscard]] std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
+                                                 const data::Trajectories& markers,
+                                                 const SolvedFrames& solved, StepScale& scale,
+                                                 std::int64_t sound, std::int64_t last);
 
 /// Judge all samples that are present, by the poses and positions of `solved`.
 [[nodiscard]] Judgement judge_recording(const Problem& problem, const IkOptions& options,

@@ -24,18 +24,16 @@ constexpr double kRare = 1.6;           // and by so many times what the body do
 constexpr double kMostOpen = 0.25;      // rad^2 or m^2: nothing is vaguer
 constexpr double kLostPose = 0.3;       // rad or m: a pose so far from the expected one followed a bad sample
 constexpr double kExchanged = 0.3;      // of their distance: so near to its partner's position is in it
+constexpr double kFarSkin = 2.0;        // times as far as in one frame
 constexpr double kClearlyNearer = 0.8;  // of the squared distances from the model's markers
-constexpr double kClearlyFarther =
-    1.5;  // times as far from the model's marker as expected: it is wrong there
-constexpr double kLeastFarther_m = 0.01;  // and by so much
-constexpr double kLongestHold_s = 1.0;    // a marker away for longer may have a new position now
+constexpr double kLongestHold_s = 1.0;  // a marker away for longer may have a new position now
 
 }  // namespace
 
 class FrameJudge::Impl {
  public:
   Impl(const Problem& problem, const IkOptions& options, double rate_hz, StepScale& scale)
-      : problem_(problem), scale_(scale), options_(options), M_(problem.model.marker_count()) {
+      : problem_(problem), scale_(scale), options_(options), M_(problem.model.marker_count()), account_(M_) {
     const int n = problem.model.speed_count();
     y_.setZero(3, M_);
     for (auto* v : {&seen_, &used_, &last_}) v->setZero(M_);
@@ -48,7 +46,6 @@ class FrameJudge::Impl {
     expected_.speed_sd.setZero(n);
     world_.setZero(3, M_);
     x_ = expected_.x = problem.model.default_state();
-    open_.assign(at(M_), -1);
     age_.assign(at(M_), 1);
     known_.assign(at(M_), 0);
     elsewhere_.assign(at(M_), 0);
@@ -78,17 +75,8 @@ class FrameJudge::Impl {
     judge_frame(frame.index);
   }
 
-  std::vector<Outlier> finish() {
-    for (Eigen::Index m = 0; m < M_; ++m)
-      if (open_[at(m)] >= 0) close(m, false);
-    pending_.clear();
-    return std::move(outliers_);
-  }
-
-  void forget() {
-    outliers_.clear();
-    if (std::ranges::all_of(open_, [](auto open) { return open < 0; })) pending_.clear();
-  }
+  std::vector<Outlier> finish() { return account_.finish(); }
+  void forget() { account_.forget(); }
 
   [[nodiscard]] const std::vector<std::uint8_t>& out() const { return out_; }
   [[nodiscard]] const Eigen::Matrix3Xd& expected() const { return world_; }
@@ -166,7 +154,7 @@ class FrameJudge::Impl {
       return;
     }
     for (Eigen::Index m = 0; m < M_; ++m)
-      expected_.bound[m] = open_[at(m)] >= 0 ? std::clamp(kLeap * last_[m], kBack, kBound) : kBound;
+      expected_.bound[m] = account_.lasts(m) ? std::clamp(kLeap * last_[m], kBack, kBound) : kBound;
     fit_->solve(expected_, y_, seen_);
     settle(f);
   }
@@ -185,7 +173,7 @@ class FrameJudge::Impl {
   /// All samples lie in their positions of before the disturbance by the pose that believes them all, and the
   /// body can have come to that pose meanwhile: whatever was held back is itself again.
   bool returns() {
-    if (held_ == 0 && blind_ == 0) return false;
+    if ((held_ == 0 && blind_ == 0) || still_exchanged()) return false;
     for (Eigen::Index m = 0; m < M_; ++m) {
       if (seen_[m] == 0.0) continue;
       if (!known_[at(m)] || elsewhere_[at(m)]) return false;
@@ -197,6 +185,28 @@ class FrameJudge::Impl {
       if (std::abs(difference_[i]) > kQuick * scale_.stride[i] * static_cast<double>(disturbed_))
         return false;
     return true;
+  }
+
+  /// Two markers that were exchanged still lie nearer to each other's positions than to their own. After some
+  /// frames in which skin may have moved far, each would pass for the other.
+  bool still_exchanged() {
+    auto& w = solver_->workspace();
+    bool posed = false;
+    for (Eigen::Index m = 0; m < M_; ++m) {
+      const int k = account_.lasts(m) ? account_.lasting(m).partner : -1;
+      if (k < 0 || seen_[m] == 0.0 || seen_[k] == 0.0) continue;
+      if (scale_.position_sd_after(m, disturbed_) < kFarSkin * scale_.position[m]) continue;
+      if (!posed) model::kinematics(problem_.model, w, state());
+      posed = true;
+      const auto squares = [&](Eigen::Index at_m, Eigen::Index at_k) {
+        const auto place = [&](Eigen::Index i) {
+          return model::point_in_world(w, problem_.model.markers()[at(i)].body, sound_position_.col(i));
+        };
+        return (y_.col(m) - place(at_m)).squaredNorm() + (y_.col(k) - place(at_k)).squaredNorm();
+      };
+      if (squares(k, m) < squares(m, k)) return true;
+    }
+    return false;
   }
 
   /// Believe the whole frame; no speed is known behind it.
@@ -219,7 +229,7 @@ class FrameJudge::Impl {
       expected_.position.col(m) = position(m);
       age_[at(m)] = 1;
       known_[at(m)] = 1;
-      if (open_[at(m)] >= 0) close(m, true);
+      if (account_.lasts(m)) account_.end(m, true);
     }
   }
 
@@ -320,7 +330,7 @@ class FrameJudge::Impl {
   /// that was taken, in their positions.
   bool readmit(std::int64_t f) {
     const auto returning = [&](Eigen::Index m) {
-      return out_[at(m)] && used_[m] == 0.0 && (open_[at(m)] < 0 || astray_[at(m)]) && known_[at(m)] &&
+      return out_[at(m)] && used_[m] == 0.0 && (!account_.lasts(m) || astray_[at(m)]) && known_[at(m)] &&
              !elsewhere_[at(m)];
     };
     bool any = false, others = false;
@@ -374,13 +384,13 @@ class FrameJudge::Impl {
       if (squares(y_) > kClearlyNearer * squares(world_)) continue;
       for (const Eigen::Index i : {m, static_cast<Eigen::Index>(k)}) {
         const int partner = static_cast<int>(i == m ? k : m);
-        if (open_[at(i)] >= 0) close(i, false);
-        outliers_.push_back({.marker = static_cast<int>(i),
-                             .first_frame = std::min(since_[at(i)], f - direction_),
-                             .last_frame = std::max(since_[at(i)], f - direction_),
-                             .distance = fit_->distance()[i],
-                             .length_m = fit_->length()[i],
-                             .partner = partner});
+        if (account_.lasts(i)) account_.end(i, false);
+        account_.add({.marker = static_cast<int>(i),
+                      .first_frame = std::min(since_[at(i)], f - direction_),
+                      .last_frame = std::max(since_[at(i)], f - direction_),
+                      .distance = fit_->distance()[i],
+                      .length_m = fit_->length()[i],
+                      .partner = partner});
         since_[at(i)] = f;
         out_[at(i)] = 0;
       }
@@ -388,9 +398,8 @@ class FrameJudge::Impl {
   }
 
   void account(std::int64_t f, Eigen::Index m, bool out) {
-    auto& open = open_[at(m)];
     if (!out) {
-      if (open >= 0 && seen_[m] > 0.0) close(m, true);
+      if (account_.lasts(m) && seen_[m] > 0.0) account_.end(m, true);
       if (seen_[m] > 0.0) {
         age_[at(m)] = 1;
         known_[at(m)] = 1;
@@ -401,14 +410,8 @@ class FrameJudge::Impl {
       return;
     }
     ++age_[at(m)];
-    if (open < 0) {
-      pending_.push_back({.marker = static_cast<int>(m), .first_frame = f, .last_frame = f});
-      open = std::ssize(pending_) - 1;
-      astray_[at(m)] = age_[at(m)] > 2;
-    }
-    Outlier& outlier = pending_[at(open)];
-    outlier.first_frame = std::min(outlier.first_frame, f);
-    outlier.last_frame = std::max(outlier.last_frame, f);
+    if (!account_.lasts(m)) astray_[at(m)] = age_[at(m)] > 2;
+    Outlier& outlier = account_.extend(m, f);
     last_[m] = fit_->distance()[m];
     outlier.distance = std::max(outlier.distance, last_[m]);
     outlier.length_m = std::max(outlier.length_m, fit_->length()[m]);
@@ -421,7 +424,7 @@ class FrameJudge::Impl {
         std::max(outlier.expected_from_model_m, (world_.col(m) - modelled).norm());
     // Away for so long, and not where the model would not have it: it may well have a new position now.
     if (outlier.last_frame - outlier.first_frame + 1 >= hold_ && !outlier.clearly_wrong()) {
-      close(m, false);
+      account_.end(m, false);
       elsewhere_[at(m)] = 1;
       --held_;
     }
@@ -439,13 +442,6 @@ class FrameJudge::Impl {
     return -1;
   }
 
-  void close(Eigen::Index m, bool returned) {
-    Outlier outlier = pending_[at(open_[at(m)])];
-    outlier.returned = returned;
-    outliers_.push_back(outlier);
-    open_[at(m)] = -1;
-  }
-
   const Problem& problem_;
   StepScale& scale_;
   const IkOptions& options_;
@@ -453,19 +449,18 @@ class FrameJudge::Impl {
   std::optional<ExpectedPoseFit> fit_;  // most recordings never need them
   std::optional<FrameSolver> solver_;
   Eigen::Index M_;
+  OutlierAccount account_;
   Eigen::Matrix3Xd y_, world_, sound_position_, whole_position_;
   Eigen::VectorXd seen_, used_, x_, move_, difference_, sound_x_, weight_, joint_;
   Eigen::VectorXd last_;                    ///< M: distance when it was last not taken
   Eigen::VectorXd open_now_, open_before_;  ///< nv: variance that the last two frames left open
   Expectation expected_;
-  std::vector<std::int64_t> open_;       ///< per marker: index into pending_, or -1
   std::vector<std::int64_t> age_;        ///< per marker: frames since it was taken
   std::vector<std::uint8_t> known_;      ///< per marker: 1: taken before
   std::vector<std::uint8_t> elsewhere_;  ///< per marker: 1: its position is not known any more
   std::vector<std::uint8_t> astray_;     ///< per marker: 1: it was away before it was not taken
-  std::vector<Outlier> pending_, outliers_;
-  std::vector<std::int64_t> since_;  ///< per marker: its position is its own since that frame
-  std::vector<std::uint8_t> out_;    ///< per marker: 1: not taken in this frame
+  std::vector<std::int64_t> since_;      ///< per marker: its position is its own since that frame
+  std::vector<std::uint8_t> out_;        ///< per marker: 1: not taken in this frame
   std::int64_t direction_ = 1, hold_ = 0, blind_ = 0, disturbed_ = 0;
   std::int64_t away_ = 0;      ///< frames in a row in which a marker was not seen or not taken
   std::int64_t unfitted_ = 0;  ///< quiet ones of them since the last fit
@@ -485,33 +480,5 @@ void FrameJudge::forget() { impl_->forget(); }
 const std::vector<std::uint8_t>& FrameJudge::out() const { return impl_->out(); }
 const Eigen::Matrix3Xd& FrameJudge::expected() const { return impl_->expected(); }
 const Eigen::VectorXd& FrameJudge::x() const { return impl_->x(); }
-
-bool Outlier::clearly_wrong() const {
-  return from_model_m > kClearlyFarther * expected_from_model_m &&
-         from_model_m > expected_from_model_m + kLeastFarther_m;
-}
-
-std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
-                                   const data::Trajectories& markers, const SolvedFrames& solved,
-                                   StepScale& scale, std::int64_t sound, std::int64_t last) {
-  const Eigen::Index M = problem.model.marker_count();
-  FrameJudge judge(problem, options, markers.time.rate_hz, scale);
-  Eigen::Matrix3Xd y(3, M);
-  Eigen::VectorXd seen(M);
-  const auto frame = [&](std::int64_t f) {
-    problem.observe(markers, f, y, seen);
-    return JudgedFrame{.index = f,
-                       .y = &y,
-                       .seen = &seen,
-                       .state = solved.states.col(f).data(),
-                       .position = solved.positions.data() + 3 * f * M};
-  };
-  const std::int64_t direction = last >= sound ? 1 : -1, before = sound - direction;
-  Eigen::VectorXd state_before;
-  if (before >= 0 && before < problem.frames) state_before = solved.states.col(before);
-  judge.begin(frame(sound), state_before.size() > 0 ? &state_before : nullptr, direction);
-  for (std::int64_t f = sound; f != last;) judge.judge(frame(f += direction));
-  return judge.finish();
-}
 
 }  // namespace kinemark::motion::internal

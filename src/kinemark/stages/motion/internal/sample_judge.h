@@ -9,28 +9,11 @@
 #include <memory>
 #include <vector>
 
-#include "kinemark/data/trajectories.h"
 #include "kinemark/stages/motion/internal/expected_pose_fit.h"
-#include "kinemark/stages/motion/internal/frame_walk.h"
+#include "kinemark/stages/motion/internal/outlier_account.h"
 #include "kinemark/stages/motion/internal/step_scale.h"
 
 namespace kinemark::motion::internal {
-
-/// A stretch of samples of one marker that do not fit what came before. Both ends belong to it.
-struct Outlier {
-  int marker = 0;
-  std::int64_t first_frame = 0, last_frame = 0;  ///< first <= last, whatever the direction
-  double distance = 0.0;                         ///< largest, in standard deviations
-  double length_m = 0.0;                         ///< largest distance from where the marker was expected
-  bool returned = true;  ///< the marker came back to where it was expected; false: it never did
-  /// From the model's marker, m: where it was, and where it was expected, the farthest.
-  double from_model_m = 0.0, expected_from_model_m = 0.0;
-  /// What gave it away: its path, a value held digit by digit, a coordinate that is exactly 0.
-  enum class Why : std::uint8_t { path, held, zero } why = Why::path;
-  /// So much farther from the model's marker than expected that it cannot merely have a new position.
-  [[nodiscard]] bool clearly_wrong() const;
-  int partner = -1;  ///< the marker in whose position it was while that one was in its own, or -1
-};
 
 /// A frame to be judged. What it points to must live until it was.
 struct JudgedFrame {
@@ -69,16 +52,5 @@ class FrameJudge {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Judge the frames from `sound`, whose samples are believed, to `last` (included; last < sound: backwards).
-/// So is the speed that led to it: the frame before must be sound too, where there is one.
-///
-/// @param solved  the pose of each frame, all its samples believed, and the positions of its markers
-/// @param scale   its growth is learnt when it is first needed
-/// @return        in the order in which they end
-[[nodiscard]] std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
-                                                 const data::Trajectories& markers,
-                                                 const SolvedFrames& solved, StepScale& scale,
-                                                 std::int64_t sound, std::int64_t last);
 
 }  // namespace kinemark::motion::internal

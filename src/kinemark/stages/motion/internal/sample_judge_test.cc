@@ -9,6 +9,7 @@
 #include <functional>
 #include <set>
 
+#include "kinemark/stages/motion/internal/judgement.h"
 #include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion::internal {
@@ -232,17 +233,6 @@ TEST_F(SampleJudge, ItDoesNotMatterWhereTheLaboratoryIs) {
     EXPECT_EQ(there[i].last_frame, here[i].last_frame);
     EXPECT_NEAR(there[i].length_m, here[i].length_m, 2e-3);
   }
-}
-
-TEST(Outlier, IsClearlyWrongOnlyWhenMuchFartherThanExpectedByBothMeasures) {
-  const auto wrong = [](double from, double expected) {
-    return Outlier{.from_model_m = from, .expected_from_model_m = expected}.clearly_wrong();
-  };
-  EXPECT_TRUE(wrong(0.05, 0.0));
-  EXPECT_FALSE(wrong(0.009, 0.0)) << "a centimetre is little";
-  EXPECT_FALSE(wrong(0.13, 0.1)) << "half as much again is little";
-  EXPECT_TRUE(wrong(0.16, 0.1));
-  EXPECT_FALSE(wrong(0.0, 0.1)) << "it came nearer";
 }
 
 }  // namespace

@@ -14,17 +14,18 @@
 
 namespace kinemark::analysis::internal {
 
-/// A recording whose markers formulas name.
+/// A recording whose markers formulas name. A marker without a sample is none.
 class TrialMarkers {
  public:
-  explicit TrialMarkers(const data::Trajectories& markers) : markers_(markers), index_(markers.names) {}
+  explicit TrialMarkers(const data::Trajectories& markers);
   [[nodiscard]] const data::Trajectories& markers() const { return markers_; }
-  [[nodiscard]] bool has(const std::string& name) const { return index_.find(name) >= 0; }
+  [[nodiscard]] bool has(const std::string& name) const;
   [[nodiscard]] std::int64_t find(const std::string& name) const { return index_.find(name); }
 
  private:
   const data::Trajectories& markers_;
   data::NameIndex index_;
+  std::vector<bool> seen_;  // of each marker, whether any frame has it
 };
 
 /// What does not change from frame to frame.

@@ -174,6 +174,19 @@ void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Defect
   }
 }
 
+/// The path of a marker between two frames that see it, `u` of the way from `before` to `after`: with the
+/// velocities of the samples beyond them where those are seen, else with that of the line.
+Vector3d between(const Trajectories& t, std::int64_t marker, std::int64_t before, std::int64_t after,
+                 double u) {
+  const Vector3d a = t.x(before, marker), b = t.x(after, marker);
+  const auto frames = static_cast<double>(after - before);
+  Vector3d leaves = b - a, arrives = b - a;
+  if (before > 0 && t.present(before - 1, marker)) leaves = frames * (a - t.x(before - 1, marker));
+  if (after + 1 < t.frames() && t.present(after + 1, marker)) arrives = frames * (t.x(after + 1, marker) - b);
+  const double v = 1.0 - u;
+  return v * v * (1.0 + 2.0 * u) * a + u * u * (1.0 + 2.0 * v) * b + u * v * (v * leaves - u * arrives);
+}
+
 /// The marker whose path lies at x_i throughout [first, last], or -1; `distance` is the median distance, m.
 std::int64_t host_of(const Trajectories& t, std::int64_t guest, std::int64_t first, std::int64_t last,
                      double& distance) {
@@ -181,7 +194,7 @@ std::int64_t host_of(const Trajectories& t, std::int64_t guest, std::int64_t fir
   distance = HUGE_VAL;
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     if (m == guest) continue;
-    // Its path: where it is seen, else the line between the samples around.
+    // Its path: where it is seen, else between the samples around.
     std::int64_t before = first;
     std::int64_t after = last;
     while (before > 0 && !t.present(before, m)) --before;
@@ -192,8 +205,7 @@ std::int64_t host_of(const Trajectories& t, std::int64_t guest, std::int64_t fir
       if (!t.present(f, guest)) continue;
       const double u =
           after > before ? static_cast<double>(f - before) / static_cast<double>(after - before) : 0.0;
-      const Vector3d x =
-          t.present(f, m) ? Vector3d(t.x(f, m)) : Vector3d((1.0 - u) * t.x(before, m) + u * t.x(after, m));
+      const Vector3d x = t.present(f, m) ? Vector3d(t.x(f, m)) : between(t, m, before, after, u);
       distances.push_back((t.x(f, guest) - x).norm());
     }
     const double d = median_of(distances);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -157,6 +158,29 @@ TEST(Swaps, AVisitIsFoundAndMeasuredAndALongerStayIsNot) {
   Trajectories longer = testing::walker({.frames = 200});
   for (std::int64_t f = 60; f < 120; ++f) longer.x(f, 5) = longer.x(f, 2);
   EXPECT_TRUE(swaps_in(longer).empty());
+}
+
+TEST(Swaps, AVisitOfAPathThatTurnsIsFound) {
+  // Marker 2 circles: between its samples before and after the visit it is up to 59 mm beside their line.
+  for (const std::int64_t first : {60, 67, 74, 81}) {
+    Trajectories t = testing::walker({.frames = 200});
+    for (std::int64_t f = 0; f < 200; ++f) {
+      const double phase = 2.0 * M_PI * 2.0 * t.time.time_s(f);
+      t.x(f, 2) += 0.25 * Eigen::Vector3d(std::cos(phase), std::sin(phase), 0.0);
+    }
+    EXPECT_TRUE(swaps_in(t).empty());
+    for (std::int64_t f = first; f < first + 10; ++f) {
+      t.x(f, 5) = t.x(f, 2);
+      t.set_missing(f, 2);
+    }
+    const Defects found = swaps_in(t);
+    ASSERT_EQ(found.size(), 1U) << first;
+    EXPECT_EQ(found[0].kind, FindingKind::swap_within);
+    EXPECT_EQ(found[0].other_marker, 2);
+    // The same jump beside that path, to where nobody is.
+    for (std::int64_t f = first; f < first + 10; ++f) t.x(f, 5).z() += 0.1;
+    EXPECT_TRUE(swaps_in(t).empty()) << first;
+  }
 }
 
 TEST(Swaps, AJumpToWhereNobodyIsIsNoVisit) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <vector>
 
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 
@@ -37,53 +40,122 @@ Extent extent_of(const data::Trajectories& t, std::int64_t marker) {
   return e;
 }
 
-/// 1 when `b` is a thousand times `a` and in its direction, -1 for the reverse, else 0.
-int slip_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const auto alike = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-    return (p - q).norm() < 0.05 * p.norm();
-  };
-  if (alike(a, b / kThousand)) return 1;
-  if (alike(a, b * kThousand)) return -1;
-  return 0;
-}
+/// Positions of one marker where it is seen.
+class Path {
+ public:
+  Path(const data::Trajectories& t, std::int64_t marker) {
+    for (std::int64_t f = 0; f < t.frames(); ++f) {
+      if (!t.present(f, marker)) continue;
+      if (!x_.empty())
+        steps_.push_back((t.x(f, marker) - x_.back()).norm() / static_cast<double>(f - frame_.back()));
+      frame_.push_back(f);
+      x_.emplace_back(t.x(f, marker));
+    }
+  }
+  [[nodiscard]] std::size_t size() const { return x_.size(); }
+  [[nodiscard]] std::int64_t frame(std::size_t i) const { return frame_[i]; }
+
+  /// Median way of a frame among the samples [begin, end), m; 0 for fewer than two.
+  [[nodiscard]] double typical_step(std::size_t begin, std::size_t end) const {
+    if (end < begin + 2) return 0.0;
+    return median_of(std::vector<double>(steps_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         steps_.begin() + static_cast<std::ptrdiff_t>(end - 1)));
+  }
+
+  /// 1 when sample `i` is a thousand times what would follow the one before, -1 for the reverse, else 0.
+  /// Either lies in the direction of the other; or, so near the origin that a step changes the direction, it
+  /// is within some steps of it, and steps are a thousand times as long from there on. `begin` is the first
+  /// sample in the unit of the one before.
+  [[nodiscard]] int slip_at(std::size_t begin, std::size_t i) const {
+    const Eigen::Vector3d &a = x_[i - 1], &b = x_[i];
+    const double before = typical_step(std::max(begin, i - std::min(i, kSteps + 1)), i);
+    const double after = typical_step(i, std::min(size(), i + kSteps + 1));
+    const auto way = static_cast<double>(frame_[i] - frame_[i - 1]);
+    const auto follows = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q, double p_step,
+                             double q_step) {
+      const double off = (p - q).norm();
+      if (off < kSameDirection * p.norm()) return true;
+      return p_step > 0.0 && off < kSteps * way * p_step &&
+             std::abs(std::log(q_step / p_step)) < std::log(kAlike) && (a - b).norm() > kJump * way * p_step;
+    };
+    if (follows(a, b / kThousand, before, after / kThousand)) return 1;
+    if (follows(b, a / kThousand, after, before / kThousand)) return -1;
+    return 0;
+  }
+
+  /// True when a slip among the samples [begin, end) went unseen: beside the origin, where a sample is the
+  /// same in any unit, steps become a thousand times as long or short.
+  [[nodiscard]] bool hides_slip(std::size_t begin, std::size_t end) const {
+    for (std::size_t i = begin + 2; i + 2 < end; ++i) {
+      const double before = typical_step(std::max(begin, i - std::min(i, kSteps + 1)), i);
+      const double after = typical_step(i, std::min(end, i + kSteps + 1));
+      if (!(before > 0.0 && after > 0.0)) continue;
+      const double ratio = std::abs(std::log(after / before)) - std::log(kThousand);
+      if (std::abs(ratio) < std::log(kAlike) && x_[i].norm() < kSteps * std::max(before, after)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 3;
+  static constexpr double kSameDirection = 0.05;  ///< of the distance from the origin
+  static constexpr double kAlike = 5.0;           ///< steps differ by less in the same unit
+  static constexpr double kJump = 100.0;          ///< steps: no movement goes so far at once
+
+  std::vector<std::int64_t> frame_;
+  std::vector<Eigen::Vector3d> x_;
+  std::vector<double> steps_;  ///< m a frame, from each sample to the next
+};
+
+/// Samples in one unit.
+struct UnitRun {
+  std::size_t begin = 0, end = 0;
+  int power = 0;  ///< of a thousand, beside the first run
+};
 
 /// Slips with time: the part that is in another unit than most of the marker.
 void find_slips_in_time(const data::Trajectories& t, std::int64_t m, Defects& out) {
-  std::vector<std::pair<std::int64_t, int>> levels{{0, 0}};  // from frame: power of a thousand
-  std::int64_t last = -1;
-  for (std::int64_t f = 0; f < t.frames(); ++f) {
-    if (!t.present(f, m)) continue;
-    if (last >= 0)
-      if (const int slip = slip_between(t.x(last, m), t.x(f, m)); slip != 0)
-        levels.emplace_back(f, levels.back().second + slip);
-    last = f;
+  constexpr double kSameSteps = 30.0;
+  const Path path(t, m);
+  std::vector<UnitRun> runs{{0, path.size(), 0}};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const int slip = path.slip_at(runs.back().begin, i);
+    if (slip == 0) continue;
+    runs.back().end = i;
+    runs.push_back({i, path.size(), runs.back().power + slip});
   }
-  if (levels.size() == 1) return;
-  std::vector<std::pair<int, std::int64_t>> share;  // frames at each level
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const std::int64_t end = i + 1 < levels.size() ? levels[i + 1].first : t.frames();
-    const auto at = std::ranges::find(share, levels[i].second, &std::pair<int, std::int64_t>::first);
-    if (at == share.end())
-      share.emplace_back(levels[i].second, end - levels[i].first);
-    else
-      at->second += end - levels[i].first;
-  }
-  const int usual = std::ranges::max_element(share, {}, &std::pair<int, std::int64_t>::second)->first;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (levels[i].second == usual) continue;
-    const std::int64_t end = i + 1 < levels.size() ? levels[i + 1].first : t.frames();
-    const bool large = levels[i].second > usual;
+  if (runs.size() == 1 ||
+      std::ranges::any_of(runs, [&](const UnitRun& run) { return path.hides_slip(run.begin, run.end); }))
+    return;  // where one end of a slip is not known, neither are its frames
+  std::map<int, std::size_t> share;
+  for (const UnitRun& run : runs) share[run.power] += run.end - run.begin;
+  const int usual =
+      std::ranges::max_element(share, {}, [](const auto& entry) { return entry.second; })->first;
+  std::vector<double> usual_steps;
+  for (const UnitRun& run : runs)
+    if (const double step = path.typical_step(run.begin, run.end); run.power == usual && step > 0.0)
+      usual_steps.push_back(step);
+  for (const UnitRun& run : runs) {
+    if (run.power == usual) continue;
+    // In its own unit a slip moves as the other parts do; frames that do not are not those that slip.
+    const double step = path.typical_step(run.begin, run.end) * std::pow(kThousand, usual - run.power);
+    if (step > 0.0 && !usual_steps.empty() &&
+        std::abs(std::log(step / median_of(usual_steps))) > std::log(kSameSteps))
+      continue;
+    const std::int64_t first = path.frame(run.begin);
+    const std::int64_t last = run.end < path.size() ? path.frame(run.end) - 1 : t.frames() - 1;
+    const bool large = run.power > usual;
     out.push_back({.kind = FindingKind::unit_slip,
                    .marker = m,
-                   .first_frame = levels[i].first,
-                   .last_frame = end - 1,
+                   .first_frame = first,
+                   .last_frame = last,
                    .size = large ? kThousand : 1.0 / kThousand,
                    .confidence = 0.99,
                    .description = fmt::format(
                        "marker '{}' is a thousand times too {} in {}: times or divided by 1000 it "
                        "joins the frames beside",
                        t.names[static_cast<std::size_t>(m)], large ? "large" : "small",
-                       describe_frames(t.time, levels[i].first, end - 1))});
+                       describe_frames(t.time, first, last))});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "kinemark/core/random.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
@@ -75,6 +76,59 @@ TEST(UnitSlips, ASlipAcrossAGapBeginsWhereTheMarkerIsSeenAgain) {
   rescale(t, 2, 150, 199, 1000.0);
   for (std::int64_t f = 146; f < 150; ++f) t.set_missing(f, 2);
   expect_one(t, 2, 150, 199, 1000.0);
+}
+
+/// A walk with marker 3 at the origin in frame 50, where it makes 9 mm a frame.
+Trajectories through_the_origin() {
+  Trajectories t = testing::walker({.frames = 200});
+  const Eigen::Vector3d there = testing::position(3, 0.5);
+  for (std::int64_t f = 0; f < 200; ++f)
+    for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) -= there;
+  return t;
+}
+
+TEST(UnitSlips, NearTheOriginStepsTellWhereASlipBegins) {
+  const Trajectories right = through_the_origin();
+  for (std::int64_t begin = 45; begin <= 56; ++begin) {
+    if (begin == 50 || begin == 51) continue;  // a sample beside the slip is at the origin itself
+    for (const double factor : {1000.0, 0.001}) {
+      Trajectories first = right, last = right;
+      rescale(first, 3, begin, begin + 60, factor);
+      expect_one(first, 3, begin, begin + 60, factor);
+      rescale(last, 3, begin - 40, begin - 1, factor);
+      expect_one(last, 3, begin - 40, begin - 1, factor);
+    }
+  }
+}
+
+TEST(UnitSlips, WhereOneEndIsNotFoundNoOtherFramesAreNamed) {
+  // A sample beside the slip is at the origin itself, the same in any unit.
+  for (const double factor : {1000.0, 0.001}) {
+    for (const std::int64_t length : {20, 60}) {  // less than half of the recording
+      for (const std::int64_t begin : {50, 51}) {
+        Trajectories t = through_the_origin();
+        t.x(50, 3).setZero();
+        rescale(t, 3, begin, begin + length, factor);
+        for (const Defect& found : slips_in(t)) {
+          EXPECT_LE(std::abs(found.first_frame - begin), 1) << factor << " " << length;
+          EXPECT_EQ(found.last_frame, begin + length);
+        }
+      }
+    }
+  }
+}
+
+TEST(UnitSlips, NearTheOriginAJumpIsNoSlip) {
+  // A spike, a visit of another marker's path, a return after a gap: not another unit.
+  for (const double away : {0.05, 0.3, 1.0, 3.0, 8.0}) {
+    Trajectories spike = through_the_origin(), visit = spike, moved = spike;
+    spike.x(51, 3).y() += away;
+    EXPECT_TRUE(slips_in(spike).empty()) << away;
+    for (std::int64_t f = 52; f < 90; ++f) visit.x(f, 3) = visit.x(f, 6);
+    EXPECT_TRUE(slips_in(visit).empty());
+    for (std::int64_t f = 51; f < 200; ++f) moved.x(f, 3).x() += away;
+    EXPECT_TRUE(slips_in(moved).empty()) << away;
+  }
 }
 
 TEST(UnitSlips, AStretchOfAllMarkersIsOneSlipOfTheRecording) {
