@@ -61,28 +61,32 @@ std::optional<GaitEvent> read_event(const data::Event& event) {
 
 FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& time) {
   FileEvents out;
-  std::vector<GaitEvent> read;
-  for (const auto& event : events)
-    if (const auto one = read_event(event)) read.push_back(*one);
-  std::ranges::stable_sort(read, {}, &GaitEvent::time_s);
+  const auto name_of = [](const GaitEvent& event) {
+    return fmt::format("the file's event {} {} at {:.3f} s", data::to_string(event.side),
+                       data::to_string(event.what), event.time_s);
+  };
   const double half = 0.5 / time.rate_hz, first = time.time_s(0) - half,
                last = time.time_s(time.frames - 1) + half;
+  std::vector<GaitEvent> read;
+  for (const auto& event : events) {
+    const auto one = read_event(event);
+    if (!one) continue;
+    if (one->time_s >= first && one->time_s <= last)
+      read.push_back(*one);
+    else
+      out.notes.push_back(fmt::format("{} lies outside the recording, {:.3f} to {:.3f} s, and is left out",
+                                      name_of(*one), time.time_s(0), time.time_s(time.frames - 1)));
+  }
+  std::ranges::stable_sort(read, {}, &GaitEvent::time_s);
   std::array<std::optional<FootEvent>, 2> before;
   for (const auto& event : read) {
-    const auto name = fmt::format("the file's event {} {} at {:.3f} s", data::to_string(event.side),
-                                  data::to_string(event.what), event.time_s);
-    if (!(event.time_s >= first && event.time_s <= last)) {
-      out.notes.push_back(fmt::format("{} lies outside the recording, {:.3f} to {:.3f} s, and is left out",
-                                      name, time.time_s(0), time.time_s(time.frames - 1)));
-      continue;
-    }
     auto& same_side = before[data::index_of(event.side)];
     // A file may have one kind alone; where it has both, they take turns.
     const bool turns = std::ranges::any_of(
         read, [&](const auto& other) { return other.side == event.side && other.what != event.what; });
     if (turns && same_side == event.what) {
       out.notes.push_back(
-          fmt::format("{} follows another of its kind, with no {} between, and is left out", name,
+          fmt::format("{} follows another of its kind, with no {} between, and is left out", name_of(event),
                       data::to_string(event.what == FootEvent::strike ? FootEvent::off : FootEvent::strike)));
       continue;
     }

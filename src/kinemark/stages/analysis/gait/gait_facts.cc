@@ -29,9 +29,10 @@ double first_between(const std::vector<double>& times, double after, double befo
 
 Footprint print_of(const GaitPaths& paths, const FootPaths& foot, double strike_s, double stance_s,
                    const Eigen::RowVector2d& ground) {
+  if (!foot.present() || !std::isfinite(strike_s + stance_s)) return {};
   const auto frame = [&](double t) { return std::llround((t - paths.start_s) * paths.rate_hz); };
   const auto first = frame(strike_s + kPrintFrom * stance_s), last = frame(strike_s + kPrintTo * stance_s);
-  if (!foot.present() || !std::isfinite(stance_s) || first < 0 || last >= paths.frames()) return {};
+  if (first < 0 || last >= paths.frames()) return {};
   Vector2d sum = Vector2d::Zero();
   double squares = 0.0;
   const Vector2d about = foot.heel.row(first).leftCols<2>().transpose();
