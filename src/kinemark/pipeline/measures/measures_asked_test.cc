@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/measures_asked.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+AskedMeasures asked_for(std::vector<std::string> measures) {
+  MeasuresJob job;
+  job.measures = std::move(measures);
+  return asked_measures(job).value();
+}
+
+TEST(AskedMeasures, OfNothingAreAllThatApply) {
+  const auto asked = asked_for({});
+  EXPECT_TRUE(asked.paths && asked.walking);
+  EXPECT_FALSE(asked.by_name);  // a recording without feet is none that lacks something
+  EXPECT_THAT(asked.path.measures, IsEmpty());
+  EXPECT_THAT(asked.gait.measures, IsEmpty());
+}
+
+TEST(AskedMeasures, AreSortedIntoPathsAndWalking) {
+  const auto asked = asked_for({"cadence", "path_length", "step_width", "peak_speed"});
+  EXPECT_TRUE(asked.paths && asked.walking && asked.by_name);
+  EXPECT_THAT(asked.path.measures, ElementsAre("path_length", "peak_speed"));
+  EXPECT_THAT(asked.gait.measures, ElementsAre("cadence", "step_width"));
+}
+
+TEST(AskedMeasures, OfOneKindLeaveTheOtherAlone) {
+  const auto path = asked_for({"path_length"});
+  EXPECT_TRUE(path.paths);
+  EXPECT_FALSE(path.walking || path.by_name);
+  const auto walking = asked_for({"stride_time"});
+  EXPECT_FALSE(walking.paths);
+  EXPECT_TRUE(walking.walking && walking.by_name);
+}
+
+TEST(AskedMeasures, AllOfWalkingIsMoreThanOneOfIt) {
+  for (const auto& measures : {std::vector<std::string>{"gait"}, {"gait", "cadence"}, {"cadence", "gait"}}) {
+    const auto asked = asked_for(measures);
+    EXPECT_TRUE(asked.walking && asked.by_name);
+    EXPECT_FALSE(asked.paths);
+    EXPECT_THAT(asked.gait.measures, IsEmpty());
+  }
+}
+
+TEST(AskedMeasures, EventsThatAreToBeWrittenAskForWalking) {
+  MeasuresJob job;
+  job.measures = {"path_length"};
+  job.gait.write_events = "events.csv";
+  const auto asked = asked_measures(job);
+  ASSERT_TRUE(asked);
+  EXPECT_TRUE(asked->paths && asked->walking && asked->by_name);
+}
+
+TEST(AskedMeasures, BothKindsHaveTheIntervalsOfTheJob) {
+  MeasuresJob job;
+  job.refits = 199, job.noise_sd_m = 0.002, job.level = 0.9, job.seed = 17, job.threads = 3;
+  const auto asked = asked_measures(job).value();
+  const auto expect_those_of_the_job = [&](const auto& options) {
+    EXPECT_EQ(options.refits, 199);
+    EXPECT_EQ(options.noise_sd_m, 0.002);
+    EXPECT_EQ(options.level, 0.9);
+    EXPECT_EQ(options.seed, 17u);
+    EXPECT_EQ(options.threads, 3);
+  };
+  expect_those_of_the_job(asked.path);
+  expect_those_of_the_job(asked.gait);
+  EXPECT_FALSE(asked.path.curves);
+  job.report = "page.html";
+  EXPECT_TRUE(asked_measures(job)->path.curves);
+}
+
+TEST(AskedMeasures, RefuseWhatIsNone) {
+  MeasuresJob job;
+  job.measures = {"path_length", "cadense"};
+  const auto unknown = asked_measures(job);
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code, Code::usage);
+  EXPECT_THAT(unknown.error().message, StartsWith("there is no measure 'cadense' (nearest: cadence"));
+  EXPECT_THAT(unknown.error().message, ::testing::EndsWith("; --list shows them all"));
+  job.measures = {"cadence"};
+  job.refits = 12;
+  EXPECT_EQ(asked_measures(job).error().message, "12 refits; need 0 (no intervals) or at least 39");
+  job.refits = 0;
+  job.gait.events = "plate";
+  EXPECT_EQ(asked_measures(job).error().code, Code::usage);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
