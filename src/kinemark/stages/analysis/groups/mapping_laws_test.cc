@@ -52,7 +52,7 @@ TEST(MappingLaws, UnitAndOriginOfTheCurvesDoNotMatter) {
   }
 }
 
-TEST(MappingLaws, GroupsThatChangePlacesChangeTheSignAlone) {
+TEST(MappingLaws, ExchangedGroupsChangeTheSignAlone) {
   const auto groups = two(32, 1.5);
   const Groups other{groups[1], groups[0]};
   for (const Design design : {Design::two_sample, Design::paired}) {
