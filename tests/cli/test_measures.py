@@ -62,7 +62,7 @@ class Measures(CommandTest):
         self.assertEqual(again.status, 4, again.err)
         wrong = self.run_in("analyze", self.file, "--figures", self.folder / "more", "--figure-formats", "pdf")
         self.assertEqual(wrong.status, 2)
-        self.assertIn("'pdf' is none of svg, png", wrong.err)
+        self.assertIn("'pdf' is none of svg and png", wrong.err)
         self.assertFalse((self.folder / "more").exists())
 
     def test_figures_have_the_same_bytes_whatever_the_threads(self):

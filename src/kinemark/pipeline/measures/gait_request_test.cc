@@ -21,7 +21,7 @@ analysis::Gait two_events() {
                  {Side::right, FootEvent::off, 1.4, kNaN, data::EventSource::file, "the file"}};
   return gait;
 }
-const TimeBase kTime{.rate_hz = 100.0, .t0_s = 0.4, .frames = 400, .first_number = 41};
+const TimeBase kWalkTime{.rate_hz = 100.0, .t0_s = 0.4, .frames = 400, .first_number = 41};
 
 TEST(GaitRequest, RefusesWhatIsNone) {
   EXPECT_TRUE(GaitRequest{}.check());
@@ -43,7 +43,7 @@ TEST(GaitOptions, ReadsRoles) {
 }
 
 TEST(EventsCsv, HasOneRowEach) {
-  EXPECT_EQ(events_csv(two_events(), kTime, "walk.c3d"),
+  EXPECT_EQ(events_csv(two_events(), kWalkTime, "walk.c3d"),
             "file,context,label,time_s,frame,sd_s,source,method\n"
             "walk.c3d,Left,Foot Strike,1.250000,126,0.006000,plate,\"plate 1, east\"\n"
             "walk.c3d,Right,Foot Off,1.400000,141,,file,the file\n");
@@ -51,7 +51,7 @@ TEST(EventsCsv, HasOneRowEach) {
 
 TEST(WithEvents, ReplacesEventsOfFeetAlone) {
   data::Trial trial;
-  trial.markers.time = kTime;
+  trial.markers.time = kWalkTime;
   trial.events = {{"jump", "Left", 1.0}, {"Foot Strike", "Left", 1.2}, {"RTO", "", 9.0}};
   const auto out = with_events(trial, two_events());
   ASSERT_EQ(out.events.size(), 3u);
@@ -73,7 +73,7 @@ TEST(GaitJson, HasNullWhereNothingIsKnown) {
 
 TEST(GaitCurves, AreCutByTheCyclesOfTheirSide) {
   data::Trial trial;
-  trial.markers.time = kTime;
+  trial.markers.time = kWalkTime;
   trial.channels = {.names = {"LKneeAngles", "PelvisAngles", "LKneeForce"},
                     .kinds = {data::ChannelKind::angle, data::ChannelKind::angle, data::ChannelKind::force},
                     .units = {"deg", "deg", "N"},

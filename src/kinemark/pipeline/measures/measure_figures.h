@@ -24,8 +24,8 @@ struct NamedFigure {
 /// periodic movement the cycles over each other with their mean.
 [[nodiscard]] std::vector<NamedFigure> measure_figures(const analysis::PathCurves& curves);
 
-/// Formats that figures are written in, for people: "svg, png".
-inline constexpr std::string_view kFigureFormats = "svg, png";
+/// Formats that figures are written in, for people.
+inline constexpr std::string_view kFigureFormats = "svg and png";
 
 /// "svg", "png" or both with a comma between; empty: all that this program can write. Code::usage for others;
 /// Code::not_supported for png in a program without Cairo.

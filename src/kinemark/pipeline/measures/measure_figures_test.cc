@@ -89,7 +89,8 @@ TEST(MeasureFigures, CyclesAreLaidOverEachOther) {
 
 TEST(MeasureFigures, FormatsAreThoseThatThereAre) {
   EXPECT_EQ(*parse_figure_formats("svg"), (std::vector<std::string>{"svg"}));
-  EXPECT_EQ(parse_figure_formats("svg,pdf").error().message, "--figure-formats: 'pdf' is none of svg, png");
+  EXPECT_EQ(parse_figure_formats("svg,pdf").error().message,
+            "--figure-formats: 'pdf' is none of svg and png");
   EXPECT_THAT(*parse_figure_formats(""), ::testing::Contains("svg"));
   EXPECT_THAT(*figure_file({.title = "t", .panels = {{}}}, "svg"), ::testing::StartsWith("<svg"));
 }

@@ -39,8 +39,9 @@ class CurveSpread {
   explicit CurveSpread(const PathSamples& pilot);
   /// One refit of the same stretch.
   void add(const PathSamples& refit);
-  /// Standard deviations about the refits' mean of speed and tangential acceleration; empty below two refits.
+  /// Standard deviation of the speed about the refits' mean, n, m/s; empty below two refits.
   [[nodiscard]] Eigen::VectorXd speed_sd() const { return deviation(speed_sum_, speed_squares_); }
+  /// The same of the tangential acceleration, m/s^2.
   [[nodiscard]] Eigen::VectorXd acceleration_sd() const {
     return deviation(acceleration_sum_, acceleration_squares_);
   }
