@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
 namespace kinemark::pipeline {
@@ -70,10 +71,11 @@ TEST(MeasuresText, RoundsToWhatTheIntervalSupports) {
 
 TEST(MeasureList, HasALineForEachWithFormulaAndSource) {
   const std::string text = measure_list();
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), analysis::path_definitions().size());
+  const auto all = analysis::path_definitions().size() + analysis::gait_definitions().size();
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), all);
   EXPECT_NE(text.find("sum of |x[i+1] - x[i]|"), std::string::npos);
   EXPECT_NE(text.find("(Poizner, Wooten & Salot 1986)"), std::string::npos);
-  EXPECT_EQ(measure_list_json().size(), analysis::path_definitions().size());
+  EXPECT_EQ(measure_list_json().size(), all);
 }
 
 }  // namespace
