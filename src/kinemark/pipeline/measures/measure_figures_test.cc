@@ -15,7 +15,6 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 // A circle of 100 mm, three times in three seconds.
 analysis::PathCurves wheel() {

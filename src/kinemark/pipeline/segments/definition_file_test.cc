@@ -54,7 +54,7 @@ quantity = "length"
 formula = "z(LANK)"
 )toml";
 
-std::string trouble(std::string text) {
+std::string trouble(const std::string& text) {
   const auto read = parse_definition(text, "d.toml");
   return read ? "" : read.error().message;
 }

@@ -34,7 +34,7 @@ inline data::CycleCurves random_curves(Random& random, std::int64_t count, doubl
 }
 
 /// Curves of one value each: what textbooks work out by hand.
-inline data::CycleCurves numbers(std::vector<double> values) {
+inline data::CycleCurves numbers(const std::vector<double>& values) {
   data::CycleCurves curves{.id = "number", .subject = "group", .points = 2};
   for (const double value : values) {
     curves.cycles.push_back(std::to_string(curves.cycles.size()));
