@@ -32,7 +32,7 @@ class LiveServiceThread : public ::testing::Test {
         std::move(feed));
   }
 
-  Response ask(Request request) {
+  Response ask(const Request& request) {
     std::optional<Response> answer;
     service_->handle(request, [&answer](Response response) { answer = std::move(response); });
     return answer.value();

@@ -28,11 +28,11 @@ constexpr std::array<OfTrial, 3> kOfTrial = {{{"/trial/", "", Target::trial_page
 
 /// A number without a sign and without a zero in front; 0 for anything else.
 std::uint32_t number_of(std::string_view digits) {
-  const char* const last = digits.data() + digits.size();
+  if (digits.empty() || digits.front() == '0') return 0;
+  const char *const first = &digits.front(), *const last = first + digits.size();
   std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), last, number);
-  const bool whole = !digits.empty() && digits.front() != '0' && error == std::errc() && end == last;
-  return whole ? number : 0;
+  const auto [end, error] = std::from_chars(first, last, number);
+  return error == std::errc() && end == last ? number : 0;
 }
 
 }  // namespace

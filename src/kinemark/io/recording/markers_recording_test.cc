@@ -98,7 +98,7 @@ TEST_F(MarkersRecording, ARecordingMayHaveNoFrameYet) {
 }
 
 TEST_F(MarkersRecording, ALayoutMustMakeSense) {
-  const auto refused = [this](MarkersLayout layout) {
+  const auto refused = [this](const MarkersLayout& layout) {
     const auto made = MarkersWriter::create(path_, layout);
     EXPECT_FALSE(made);
     return made ? std::string() : made.error().message;
@@ -115,7 +115,7 @@ TEST_F(MarkersRecording, ALayoutMustMakeSense) {
 }
 
 /// A recording with this channel and one message of these bytes.
-Result<data::Trial> with_channel(const std::filesystem::path& path, RecordingChannel channel,
+Result<data::Trial> with_channel(const std::filesystem::path& path, const RecordingChannel& channel,
                                  std::size_t bytes, std::uint32_t sequence = 0) {
   auto out = RecordingWriter::create(path, {.force = true}).value();
   (void)out.add_channel(channel).value();
