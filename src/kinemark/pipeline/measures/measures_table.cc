@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/measures/measures_table.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
