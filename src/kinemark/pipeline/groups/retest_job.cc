@@ -146,7 +146,7 @@ Result<RetestOutcome> run_retest(const RetestJob& job) {
   for (const auto& measure : collected) {
     auto tested = analysis::reliability(repeated(measure), job.level);
     if (tested)
-      outcome.measures.push_back({measure.name, measure.unit, std::move(*tested)});
+      outcome.measures.push_back({measure.name, measure.unit, *tested});
     else if (tested.error().code == Code::usage)
       return std::unexpected(tested.error());
     else
