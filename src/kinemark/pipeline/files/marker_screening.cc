@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -100,6 +101,19 @@ Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules
   for (const Step step : rules.made_first ? kMadeFirst : kAsRecorded)
     if (auto s = step(trial, rules, out); !s) return std::unexpected(s.error());
   return out;
+}
+
+Status leave_out_defects(data::Trial& trial, bool keep_defects, std::vector<std::string>& warnings) {
+  constexpr std::size_t kListed = 5;
+  const auto screening = screen_markers(
+      trial, {.recorder_made = RecorderMade::mark, .find_defects = !keep_defects, .reject_defects = true});
+  if (!screening) return std::unexpected(screening.error());
+  const auto& sure = screening->sure;
+  for (std::size_t i = 0; i < std::min(sure.size(), kListed); ++i)
+    warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));
+  if (sure.size() > kListed)
+    warnings.push_back(fmt::format("Left out: {} more defects like these.", sure.size() - kListed));
+  return {};
 }
 
 }  // namespace kinemark::pipeline

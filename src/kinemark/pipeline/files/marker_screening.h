@@ -60,4 +60,9 @@ struct Screening {
 /// trajectory::screen(), detect_upsampling() and keep_real_samples().
 [[nodiscard]] Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules);
 
+/// For what counts measured samples alone: marks what the recorder made, rejects what screening is sure of
+/// unless `keep_defects`, and adds what was left out to the warnings: five sentences, then how many more.
+[[nodiscard]] Status leave_out_defects(data::Trial& trial, bool keep_defects,
+                                       std::vector<std::string>& warnings);
+
 }  // namespace kinemark::pipeline

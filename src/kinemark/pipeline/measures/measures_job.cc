@@ -27,27 +27,10 @@
 namespace kinemark::pipeline {
 namespace {
 
-constexpr std::size_t kDefectsListed = 5;
-
 Status check_output(const std::filesystem::path& output) {
   const auto ending = ending_of(output);
   if (output.empty() || ending == ".csv" || ending == ".json") return {};
   return fail(Code::usage, fmt::format("{}: measures are written as .csv or .json", output.string()));
-}
-
-// What the recorder made is no sample, what screening is sure of neither.
-Status screen_trial(const MeasuresJob& job, data::Trial& trial, MeasuresOutcome& outcome) {
-  const auto screening = screen_markers(
-      trial,
-      {.recorder_made = RecorderMade::mark, .find_defects = !job.keep_defects, .reject_defects = true});
-  if (!screening) return std::unexpected(screening.error());
-  const auto& sure = screening->sure;
-  for (std::size_t i = 0; i < std::min(sure.size(), kDefectsListed); ++i)
-    outcome.warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));
-  if (sure.size() > kDefectsListed)
-    outcome.warnings.push_back(
-        fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsListed));
-  return {};
 }
 
 Result<std::vector<data::Region>> regions_of(const MeasuresJob& job, const data::Trial& trial,
@@ -77,7 +60,8 @@ Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& t
   if (!taken) return std::unexpected(taken.error());
   std::ranges::move(taken->notes, std::back_inserter(outcome.warnings));
   if (auto s = take_selection(job.selection, trial); !s) return std::unexpected(s.error());
-  if (auto s = screen_trial(job, trial, outcome); !s) return std::unexpected(s.error());
+  if (auto s = leave_out_defects(trial, job.keep_defects, outcome.warnings); !s)
+    return std::unexpected(s.error());
   return regions_of(job, trial, std::move(taken->regions));
 }
 

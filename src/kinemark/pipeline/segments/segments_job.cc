@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kDefectsListed = 5;
-
 /// All that is read.
 struct Files {
   data::Trial recording;
@@ -35,20 +33,6 @@ struct Files {
   bool static_is_recording = false;
   std::map<std::string, std::unique_ptr<data::Trial>> trials;
 };
-
-Status screen(const SegmentsJob& job, data::Trial& trial, SegmentsOutcome& outcome) {
-  const auto screening = screen_markers(
-      trial,
-      {.recorder_made = RecorderMade::mark, .find_defects = !job.keep_defects, .reject_defects = true});
-  if (!screening) return std::unexpected(screening.error());
-  const auto& sure = screening->sure;
-  for (std::size_t i = 0; i < std::min(sure.size(), kDefectsListed); ++i)
-    outcome.warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));
-  if (sure.size() > kDefectsListed)
-    outcome.warnings.push_back(
-        fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsListed));
-  return {};
-}
 
 Result<data::Trial> read_trial(const SegmentsJob& job, const fs::path& path, SegmentsOutcome& outcome) {
   auto input = read_marker_input({.path = path,
@@ -62,7 +46,8 @@ Result<data::Trial> read_trial(const SegmentsJob& job, const fs::path& path, Seg
   input->trial.warnings.clear();
   // The recording is screened when its part is taken.
   if (path != job.input)
-    if (auto s = screen(job, input->trial, outcome); !s) return fail_at(path.string(), s.error());
+    if (auto s = leave_out_defects(input->trial, job.keep_defects, outcome.warnings); !s)
+      return fail_at(path.string(), s.error());
   return std::move(input->trial);
 }
 
@@ -78,7 +63,8 @@ Result<Files> read_files(const SegmentsJob& job, SegmentsOutcome& outcome) {
   out.recording = std::move(*recording);
   if (auto s = take_selection(job.selection, out.recording); !s)
     return fail_at(job.input.string(), s.error());
-  if (auto s = screen(job, out.recording, outcome); !s) return fail_at(job.input.string(), s.error());
+  if (auto s = leave_out_defects(out.recording, job.keep_defects, outcome.warnings); !s)
+    return fail_at(job.input.string(), s.error());
   out.static_is_recording = !job.static_trial.empty() && same_file(job.static_trial, job.input);
   if (!job.static_trial.empty() && !out.static_is_recording) {
     auto trial = read_trial(job, job.static_trial, outcome);
