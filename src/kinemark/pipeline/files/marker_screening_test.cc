@@ -138,6 +138,24 @@ TEST(ScreenMarkers, MadeFirstFindsDefectsInWhatIsLeft) {
   EXPECT_THAT(made_first.sure, IsEmpty());
 }
 
+TEST(LeaveOutDefects, FiveAreSaidAndHowManyMore) {
+  std::vector<std::string> warnings;
+  auto clean = recording();
+  ASSERT_TRUE(leave_out_defects(clean, false, warnings));
+  EXPECT_THAT(warnings, IsEmpty());
+  auto spoilt = recording();
+  for (std::int64_t k = 0; k < 8; ++k) spoilt.markers.x(40 + 40 * k, k % 3)[0] += 0.3;
+  auto kept = spoilt;
+  ASSERT_TRUE(leave_out_defects(kept, true, warnings));
+  EXPECT_THAT(warnings, IsEmpty());
+  EXPECT_EQ(count(kept, SampleState::rejected), 0);
+  ASSERT_TRUE(leave_out_defects(spoilt, false, warnings));
+  ASSERT_EQ(warnings.size(), 6u);
+  EXPECT_THAT(warnings[0], ::testing::StartsWith("Left out: "));
+  EXPECT_EQ(warnings[5], "Left out: 3 more defects like these.");
+  EXPECT_EQ(count(spoilt, SampleState::rejected), 8);
+}
+
 TEST(ScreenMarkers, AnInvalidTrialIsOneSentence) {
   auto trial = recording();
   trial.markers.state.pop_back();
