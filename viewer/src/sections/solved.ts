@@ -22,7 +22,7 @@ const isBusy = (state: AnglesState | null): boolean => state?.state === "waiting
 export function changeWords(c: CoordinateChange): string {
   const size = c.unit === "deg" ? `${number(Math.abs(c.largest), 2)} deg` : `${number(1e3 * Math.abs(c.largest), 1)} mm`;
   return [
-    c.largest === 0 ? "" : `${size} ${c.largest > 0 ? "more" : "less"} at most`,
+    c.largest === 0 ? "" : `at most ${size} ${c.largest > 0 ? "more" : "less"}`,
     c.beyond === 0 ? "" : `beyond two standard deviations in ${number(c.beyond)} of ${plural(c.shared, "frame")}`,
     c.came === 0 ? "" : `determined in ${plural(c.came, "more frame")}`,
     c.went === 0 ? "" : `no longer determined in ${plural(c.went, "frame")}`,
@@ -49,7 +49,7 @@ export class SolvedAngles {
   readonly #stop: HTMLButtonElement;
   readonly #other = el("select", { id: "solved-over", change: () => void this.#chose() });
   readonly #otherBox = el("label", { class: "pick", for: "solved-over" }, el("span", {}, "dashed over them"), this.#other);
-  readonly #report = el("a", { class: "plain", target: "_blank", rel: "noopener" }, "Report of these angles");
+  readonly #report = el("a", { class: "jump plain", target: "_blank", rel: "noopener" }, "Report of these angles");
   readonly #bar = el("progress", { max: 1, "aria-label": "Frames solved" });
   readonly #words = el("p", { class: "edit-said", role: "status", id: "solved-said" });
   readonly #facts = el("p", { class: "facts", id: "solved-facts" });
@@ -196,13 +196,14 @@ export class SolvedAngles {
     const { node, start } = compare(now, this.#view, over);
     this.curves.replaceChildren(node);
     this.#start = start;
+    const beyond = changes.filter((c) => c.beyond > 0).length;
     const rows = changes.slice(0, mostListed).map((c) => el("li", {}, Number.isNaN(c.time) ? el("b", {}, c.name) : this.#jump(c), ` ${changeWords(c)}`));
     this.#changes.replaceChildren(
       ...(other === null || which === null
         ? []
         : changes.length === 0
           ? [el("p", { class: "facts" }, `No coordinate differs from the solution ${this.#nameOf(which)}.`)]
-          : [el("p", { class: "facts" }, `${plural(changes.length, "coordinate")} differ${changes.length === 1 ? "s" : ""} from the solution ${this.#nameOf(which)}${changes.length > mostListed ? `; the ${mostListed} that differ most:` : ":"}`), el("ul", { class: "changes" }, ...rows)]),
+          : [el("p", { class: "facts" }, `${plural(changes.length, "coordinate")} differ${changes.length === 1 ? "s" : ""} from the solution ${this.#nameOf(which)}, ${beyond === 0 ? "none" : number(beyond)} by more than two standard deviations${changes.length > mostListed ? `; the ${mostListed} that differ most:` : ":"}`), el("ul", { class: "changes" }, ...rows)]),
     );
   }
 

@@ -29,7 +29,7 @@ describe("coordinateChanges", () => {
     expect(more).toEqual([]);
     expect(change).toMatchObject({ name: now.summary.coordinates[0]!.name, time: now.time[40], beyond: 1, came: 0, went: 0 });
     expect(change!.largest).toBeCloseTo(3 * sd![40]!, 3);
-    expect(changeWords(change!)).toMatch(/more at most; beyond two standard deviations in 1 of/);
+    expect(changeWords(change!)).toMatch(/^at most [\d.]+ deg more; beyond two standard deviations in 1 of/);
   });
   it("counts what is determined now and what is no longer", () => {
     const [now, old] = [decode(simulated()), decode(simulated())];
