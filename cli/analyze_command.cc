@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/measures_options.h"
+#include "cli/segments_options.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/motion/analysis_job.h"
@@ -21,6 +22,7 @@ namespace {
 struct AnalyzeArguments {
   pipeline::AnalysisJob job;
   MeasuresArguments measures;
+  pipeline::SegmentsJob segments;
   std::vector<std::string> points;
   bool no_error_bars = false;
 };
@@ -70,6 +72,14 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
 }
 
 int run_command(const CommonOptions& common, AnalyzeArguments& arguments) {
+  if (!arguments.segments.definition.empty()) {
+    auto& selection = arguments.measures.job.selection;
+    selection.first_time_s = arguments.job.first_time_s;
+    selection.last_time_s = arguments.job.last_time_s;
+    arguments.segments.input = arguments.job.motion;
+    arguments.segments.output = arguments.job.output;
+    return run_segments_command(common, arguments.segments, arguments.measures);
+  }
   if (is_of_markers(arguments)) {
     auto& job = arguments.measures.job;
     job.input = arguments.job.motion;
@@ -138,7 +148,9 @@ void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Of a recording of markers: shape, timing and smoothness of each path, freed of the bias of noise, "
       "with 95 % "
-      "intervals\n(docs/stages/measures.md); --list tells what there is.\nOf a motion: writes into the "
+      "intervals\n(docs/stages/measures.md); --list tells what there is.\nWith --segments: joint centres and "
+      "angles by a definition "
+      "(docs/stages/segments.md).\nOf a motion: writes into the "
       "folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
       "NAME_BodyKinematics_pos,\n_vel, _acc_global.sto (mass centres, body-fixed X-Y-Z angles), "
       "NAME_PointKinematics_POINT_pos, _vel, _acc.sto,\nNAME_inverse_dynamics.sto, beside each its standard "
@@ -146,6 +158,7 @@ void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
   const auto arguments = std::make_shared<AnalyzeArguments>();
   add_options(*command, *arguments);
   add_measures_options(*command, arguments->measures);
+  add_segments_options(*command, arguments->segments);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }

@@ -37,6 +37,7 @@ void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run
 void add_simulate_rig(CLI::App& simulate, const CommonOptions& common, Run& run);
 void add_ik(CLI::App& app, const CommonOptions& common, Run& run);
 void add_analyze(CLI::App& app, const CommonOptions& common, Run& run);
+void add_groups(CLI::App& app, const CommonOptions& common, Run& run);
 void add_track(CLI::App& app, const CommonOptions& common, Run& run);
 void add_joints(CLI::App& app, const CommonOptions& common, Run& run);
 void add_recover(CLI::App& app, const CommonOptions& common, Run& run);

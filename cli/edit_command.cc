@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <utility>
@@ -52,16 +50,6 @@ struct EditArguments {
   bool list = false;
 };
 
-/// "2026-11-24T09:30:00Z".
-std::string time_now() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  if (::gmtime_r(&now, &utc) == nullptr) return {};
-  std::array<char, 32> text{};
-  const auto n = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return {text.data(), n};
-}
-
 /// What was asked for, apart from when. Nothing: to look.
 Status read_edit(EditArguments& arguments) {
   std::vector<data::Edit> edits;
@@ -92,7 +80,7 @@ Status read_edit(EditArguments& arguments) {
   edit.method = arguments.method;
   edit.context = arguments.context;
   edit.author = arguments.author;
-  edit.made = time_now();
+  edit.made = pipeline::time_of_edit();
   arguments.job.edit = std::move(edit);
   return {};
 }

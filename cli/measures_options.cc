@@ -3,6 +3,7 @@
 #include "cli/measures_options.h"
 
 #include "cli/console.h"
+#include "cli/gait_options.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 
@@ -14,7 +15,8 @@ void print_measures(const CommonOptions& common, const pipeline::MeasuresOutcome
   if (common.json)
     print_result(pipeline::json_text(pipeline::measures_outcome_json(outcome)) + "\n");
   else if (outcome.written.empty())
-    print_result(pipeline::measures_text(outcome.measures));
+    print_result((outcome.gait ? pipeline::events_text(*outcome.gait) + "\n" : "") +
+                 pipeline::measures_text(outcome.measures));
   say_written(common, outcome);
 }
 
@@ -65,12 +67,26 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->capture_default_str()
       ->group(what);
   command
+      .add_option("--figures", job.figures,
+                  "Folder for figures of each path: in its plane, speed and acceleration, cycles")
+      ->type_name("FOLDER")
+      ->group("Output");
+  command
+      .add_option("--figure-formats", job.figure_formats,
+                  "svg, png or both with a comma between; what this program can write when absent")
+      ->type_name("NAME")
+      ->group("Output");
+  command.add_option("--report", job.report, "Page to write as well, .html: figures and the table")
+      ->type_name("FILE")
+      ->group("Output");
+  command
       .add_option("--edits", job.edits,
                   "Journal of edits to apply first; 'beside': the one beside the recording")
       ->type_name("FILE")
       ->group(what);
   command.add_flag("--keep-defects", job.keep_defects, "Measure spikes, swaps and stuck samples too")
       ->group(what);
+  add_gait_options(command, job.gait);
 }
 
 int run_measures_command(const CommonOptions& common, MeasuresArguments& arguments) {

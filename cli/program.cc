@@ -68,6 +68,7 @@ void add_everything(CLI::App& app, CommonOptions& common, Run& run) {
   add_ik(app, common, run);
   add_track(app, common, run);
   add_analyze(app, common, run);
+  add_groups(app, common, run);
   add_report(app, common, run);
   add_serve(app, common, run);
   add_run(app, common, run);

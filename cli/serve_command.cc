@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/edit_job.h"
+#include "kinemark/pipeline/live/live_source.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
 #include "server/http_server.h"
+#include "server/live_service.h"
 #include "server/secret.h"
 #include "server/trial_page.h"
 #include "server/trial_row.h"
@@ -25,7 +30,23 @@ struct ServeArguments {
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;
   bool no_open = false;
+  std::filesystem::path model, record;  ///< of a live source
+
+  /// The live source that was given, if one was.
+  [[nodiscard]] bool is_live() const {
+    return std::ranges::any_of(given,
+                               [](const auto& one) { return pipeline::names_live_source(one.string()); });
+  }
 };
+
+/// A live source is served alone, and only it has a model and a recording.
+Status check_together(const ServeArguments& arguments) {
+  if (arguments.is_live() && arguments.given.size() > 1)
+    return fail(Code::usage, "a live source is served alone; give it without other files and sources");
+  if (!arguments.is_live() && !(arguments.model.empty() && arguments.record.empty()))
+    return fail(Code::usage, "--model and --record are for a live source (sim:... or replay:FILE)");
+  return {};
+}
 
 Result<server::Keys> make_keys(const ServeArguments& arguments, std::uint16_t port) {
   server::Keys keys{.hosts = server::own_hosts(arguments.bind, port),
@@ -38,14 +59,53 @@ Result<server::Keys> make_keys(const ServeArguments& arguments, std::uint16_t po
   return keys;
 }
 
+/// A live source before its first frame.
+struct LiveParts {
+  std::string page, nonce;
+  server::LiveFeedOptions feed;
+};
+
+Result<std::unique_ptr<LiveParts>> open_source(const CommonOptions& common, const ServeArguments& arguments) {
+  auto source = pipeline::open_live_source(arguments.given.front().string(), arguments.model, common.seed);
+  if (!source) return std::unexpected(source.error());
+  auto nonce = server::new_secret();
+  if (!nonce) return std::unexpected(nonce.error());
+  auto parts = std::make_unique<LiveParts>();
+  parts->page = pipeline::live_page(*source, arguments.record);
+  parts->nonce = std::move(*nonce);
+  parts->feed = {.source = std::move(*source),
+                 .record = arguments.record,
+                 .force = common.force,
+                 .clock = std::make_shared<server::SteadyClock>(),
+                 .say = [&common](std::string_view line) { say(common, line); }};
+  return parts;
+}
+
+int serve_live(server::HttpServer& http, server::Keys keys, LiveParts& parts,
+               std::unique_ptr<server::LiveFeed> feed) {
+  server::LiveService service(std::move(keys), std::move(parts.page), parts.nonce, std::move(feed));
+  http.run([&service](const server::Request& request, const server::Reply& reply) {
+    service.handle(request, reply);
+  });
+  return 0;
+}
+
 /// Until a signal ends the program (watch_signals()), or an error comes.
 int serve(const CommonOptions& common, const ServeArguments& arguments) {
   if (const auto s = server::check_bind_address(arguments.bind); !s) return report_error(s.error());
-  if (const auto s = server::check_given(arguments.given); !s) return report_error(s.error());
+  if (const auto s = check_together(arguments); !s) return report_error(s.error());
+  const bool live = arguments.is_live();
+  if (const auto s = live ? Status() : server::check_given(arguments.given); !s)
+    return report_error(s.error());
+  auto source = live ? open_source(common, arguments) : Result<std::unique_ptr<LiveParts>>(nullptr);
+  if (!source) return report_error(source.error());
   const auto http = server::HttpServer::listen(arguments.bind, arguments.port);
   if (!http) return report_error(http.error());
   auto keys = make_keys(arguments, (*http)->port());
   if (!keys) return report_error(keys.error());
+  auto feed = live ? server::LiveFeed::create(std::move((*source)->feed))
+                   : Result<std::unique_ptr<server::LiveFeed>>(nullptr);
+  if (!feed) return report_error(feed.error());
   const bool opens = !arguments.no_open && server::has_desktop();
   if (!opens) keys->opening.clear();
   const auto address = [host = keys->hosts.front()](const std::string& token) {
@@ -56,10 +116,12 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
   say(common, "this address, with its token, lets in whoever has it; Ctrl-C ends the server");
   if (opens && !server::open_browser(address(keys->opening)))
     say(common, "note: no browser could be opened; open the address by hand");
+  if (live) return serve_live(**http, std::move(*keys), **source, std::move(*feed));
   server::TrialService service({.given = arguments.given,
                                 .keys = std::move(*keys),
                                 .make_page = server::make_trial_page,
-                                .describe = server::describe_trial});
+                                .describe = server::describe_trial,
+                                .edits = {.time_now = pipeline::time_of_edit}});
   (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
     service.handle(request, reply);
   });
@@ -77,8 +139,12 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option(
           "FILE", arguments->given,
           ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
-          "at again when the page is reloaded")
+          "at again when the page is reloaded; or a live source: sim:walk, replay:FILE")
       ->required();
+  command->add_option("-m,--model", arguments->model,
+                      "Body model, .osim, whose angles are shown live; a simulation has its own");
+  command->add_option("--record", arguments->record,
+                      "Recording to write, .mcap: every frame of a live source");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

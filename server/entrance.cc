@@ -22,7 +22,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// What reads and changes nothing.
+/// What reads and changes nothing, whatever its target.
 bool only_reads(const Request& request) {
   return (request.method == "GET" || request.method == "HEAD") && !request.upgrade;
 }
@@ -109,9 +109,11 @@ std::optional<Response> Entrance::ask(const Request& request) {
     response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"kinemark\"");
     return response;
   }
-  if (!only_reads(request) && request.method != "GET") {
-    auto response = sentence_page(405, "This server only shows; it takes GET and HEAD.");
-    response.headers.emplace_back("Allow", "GET, HEAD");
+  // Whether a target takes POST is said by who answers it.
+  const bool posts = request.method == "POST" && !request.upgrade;
+  if (!only_reads(request) && request.method != "GET" && !posts) {
+    auto response = sentence_page(405, "This server takes GET, HEAD and, for edits, POST.");
+    response.headers.emplace_back("Allow", "GET, HEAD, POST");
     return response;
   }
   return std::nullopt;

@@ -86,7 +86,7 @@ TEST_F(AskEntrance, AnythingButReadingNeedsOurOrigin) {
       EXPECT_EQ(status(request), 403) << method << " from " << origin;
     }
     request.origin = kOrigin;
-    EXPECT_EQ(status(request), 405) << method << ": there is nothing to change";
+    EXPECT_EQ(status(request), std::string(method) == "POST" ? 0 : 405) << method;
   }
 }
 

@@ -19,6 +19,8 @@
 #include <utility>
 #include <variant>
 
+#include "server/web_socket.h"
+
 namespace kinemark::server {
 namespace {
 
@@ -54,15 +56,17 @@ std::optional<std::string> joined(const http::fields& fields, http::field name) 
   return value;
 }
 
-Request request_of(const http::request<http::string_body>& message) {
-  return {.method = std::string(view(message.method_string())),
-          .target = std::string(view(message.target())),
-          .host = joined(message, http::field::host),
-          .origin = joined(message, http::field::origin),
-          .cookie = joined(message, http::field::cookie).value_or(""),
-          .authorization = joined(message, http::field::authorization).value_or(""),
-          .upgrade =
-              beast::websocket::is_upgrade(message) || message.find(http::field::upgrade) != message.end()};
+Request request_of(http::request<http::string_body>&& message) {
+  return {
+      .method = std::string(view(message.method_string())),
+      .target = std::string(view(message.target())),
+      .host = joined(message, http::field::host),
+      .origin = joined(message, http::field::origin),
+      .cookie = joined(message, http::field::cookie).value_or(""),
+      .authorization = joined(message, http::field::authorization).value_or(""),
+      .upgrade = beast::websocket::is_upgrade(message) || message.find(http::field::upgrade) != message.end(),
+      .type = joined(message, http::field::content_type).value_or(""),
+      .body = std::move(message.body())};
 }
 
 /// Status for a request that cannot be read; 0: nobody waits for a response.
@@ -97,6 +101,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Close at once; what is under way ends with errors.
   void close() {
     leave();
+    if (const auto socket = socket_.lock()) return socket->close();
     stream_.close();
   }
 
@@ -122,14 +127,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (const int status = status_of(error); status != 0) return refuse(status);
       return close();
     }
-    const auto& message = parser_->get();
+    auto& message = parser_->get();
     keep_alive_ = message.keep_alive();
     only_header_ = message.method() == http::verb::head;
     if (message.count(http::field::host) > 1) return refuse(400);
     stream_.expires_never();
     // Refusals come at once, so who waits here is let in: no crowd of strangers may push it out.
     if (list_ == &books_.strangers) move_to(books_.waiting);
-    books_.handler(request_of(message), [self = shared_from_this()](Response response) {
+    books_.handler(request_of(std::move(message)), [self = shared_from_this()](Response response) {
       asio::post(self->stream_.get_executor(),
                  [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
     });
@@ -152,6 +157,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       admit();
     else
       move_to(books_.strangers);
+    if (response.socket) return upgrade(std::move(response.socket));
     keep_alive_ = keep_alive_ && response.admitted;
     body_ = std::move(response.body);
     const std::string_view text = body_ ? std::string_view(*body_) : std::string_view();
@@ -164,6 +170,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
     message.body() = {text.data(), text.size()};
     fill(message, response, text.size());
     send(message);
+  }
+
+  /// From here on the connection is a WebSocket's, which keeps its place in the books.
+  void upgrade(std::shared_ptr<SocketPeer> peer) {
+    stream_.expires_never();
+    socket_ = open_web_socket(stream_.release_socket(), parser_->get(), std::move(peer), books_.limits,
+                              [self = shared_from_this()] { self->leave(); });
   }
 
   template <class Message>
@@ -213,6 +226,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::request_parser<http::string_body>> parser_;
   std::variant<std::monostate, Whole, HeaderOnly> message_;
   std::shared_ptr<const std::string> body_;
+  std::weak_ptr<WebSocket> socket_;
   std::array<char, 4096> rest_{};
   std::size_t drained_ = 0;
   bool keep_alive_ = false, only_header_ = false;

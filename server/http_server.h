@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// HTTP/1.1 on one port: sockets, limits and timeouts. Who may ask what is not its matter. Its source is the
-// one that includes Boost.Beast.
+// HTTP/1.1 on one port: sockets, limits and timeouts. Who may ask what is not its matter. Its source and
+// web_socket.cc are those that include Boost.Beast.
 #pragma once
 
 #include <chrono>
@@ -29,6 +29,8 @@ struct HttpLimits {
   std::chrono::milliseconds idle{60'000};      ///< for the next one to arrive, of who is admitted
   std::chrono::milliseconds response{60'000};  ///< for a response to be taken
   std::chrono::milliseconds farewell{1'000};   ///< for the end of a connection that was refused
+  std::size_t message_bytes = 64;              ///< of what comes over a WebSocket: beyond, it ends (1009)
+  std::chrono::milliseconds silence{30'000};   ///< of a WebSocket whose other side answers no ping
 };
 
 /// Called for each request, on the server's thread: must return soon.

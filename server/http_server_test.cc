@@ -3,72 +3,21 @@
 #include "server/http_server.h"
 
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "server/testing/client.h"
+
 namespace kinemark::server {
 namespace {
 
+using testing::Client;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-/// A client's socket.
-class Client {
- public:
-  explicit Client(std::uint16_t port) : fd_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    connected_ = ::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-    const timeval patience{.tv_sec = 60, .tv_usec = 0};
-    ::setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-  }
-  Client(Client&& other) noexcept : fd_(std::exchange(other.fd_, -1)), connected_(other.connected_) {}
-  Client& operator=(Client&&) = delete;
-  ~Client() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] bool connected() const { return connected_; }
-  void send(const std::string& text) const { (void)::send(fd_, text.data(), text.size(), MSG_NOSIGNAL); }
-  void end_sending() const { ::shutdown(fd_, SHUT_WR); }
-  /// All until the server closes the connection.
-  [[nodiscard]] std::string read_all() const {
-    std::string text;
-    while (read_some(text)) continue;
-    return text;
-  }
-  /// A response whose length is told, without closing.
-  [[nodiscard]] std::string read_one() const {
-    std::string text;
-    while (text.find("\r\n\r\n") == std::string::npos)
-      if (!read_some(text)) return text;
-    const auto body = text.find("\r\n\r\n") + 4;
-    const auto at = text.find("Content-Length: ");
-    const auto length = at == std::string::npos ? 0 : std::stoul(text.substr(at + 16));
-    while (text.size() < body + length)
-      if (!read_some(text)) return text;
-    return text;
-  }
-
- private:
-  bool read_some(std::string& text) const {
-    std::array<char, 4096> buffer{};
-    const auto n = ::recv(fd_, buffer.data(), buffer.size(), 0);
-    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
-    return n > 0;
-  }
-  int fd_;
-  bool connected_ = false;
-};
 
 std::string get(const std::string& target, const std::string& more = "") {
   return "GET " + target + " HTTP/1.1\r\nHost: x\r\n" + more + "\r\n";
@@ -88,7 +37,7 @@ class HttpThread : public ::testing::Test {
         response.body = std::make_shared<const std::string>(
             request.method + "|" + request.target + "|" + request.host.value_or("none") + "|" +
             request.origin.value_or("none") + "|" + request.cookie + "|" + request.authorization + "|" +
-            (request.upgrade ? "upgrade" : "plain"));
+            (request.upgrade ? "upgrade" : "plain") + request.type + request.body);
         if (request.target == "/friend/large")
           response.body = std::make_shared<const std::string>(8UL << 20, 'x');
         if (request.target == "/friend/later") {
@@ -128,6 +77,19 @@ TEST_F(HttpThread, UnderstandsWhatDecides) {
   EXPECT_THAT(ask("GET / HTTP/1.0\r\n\r\n"), ::testing::EndsWith("GET|/|none|none|||plain"));
   EXPECT_THAT(ask(get("/", "Origin: http://a\r\nOrigin: http://b\r\nCookie: c=1\r\nCookie: c=2\r\n")),
               HasSubstr("|http://a, http://b|c=1; c=2|"));
+}
+
+TEST_F(HttpThread, BodiesAreAsTheyWereSent) {
+  start();
+  const std::string body("{\"a\":\"\xc3\xa4\0\r\n\r\n\"}", 15);
+  EXPECT_THAT(ask("POST /x HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Type: application/json\r\n"
+                  "Content-Length: " +
+                  std::to_string(body.size()) + "\r\n\r\n" + body),
+              ::testing::EndsWith("POST|/x|x|none|||plainapplication/json" + body));
+  EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Type: a\r\n"
+                  "Content-Type: b\r\nContent-Length: 1\r\n\r\n1"),
+              ::testing::EndsWith("plaina, b1"))
+      << "two types are none of them";
 }
 
 TEST_F(HttpThread, TwoHostsAreNone) {
@@ -198,7 +160,7 @@ TEST_F(HttpThread, WhatIsTooLongIsRefusedWithItsStatus) {
 
 TEST_F(HttpThread, WhatIsNoHttpIsRefused) {
   start();
-  for (const std::string& text :
+  for (const char* const text :
        {"\x16\x03\x01\x02\x01\x01\xfc\x03\x03 TLS\r\n\r\n", "GET\r\n\r\n", "GET / FTP/1.1\r\n\r\n",
         "GET / HTTP/1.1\r\nHost\r\n\r\n", "GET / HTTP/1.1\r\n: x\r\n\r\n",
         "GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",

@@ -13,6 +13,8 @@
 
 namespace kinemark::server {
 
+class SocketPeer;
+
 /// The parts of an HTTP request that decide something. A header that was sent twice is joined with ", ", and
 /// so is never taken for the value of one.
 struct Request {
@@ -23,6 +25,8 @@ struct Request {
   std::string cookie;                 ///< of the header; empty without
   std::string authorization;          ///< of the header; empty without
   bool upgrade = false;               ///< asks for a WebSocket
+  std::string type;                   ///< of the body, as the header says; empty without
+  std::string body;                   ///< as sent; empty without
 };
 
 /// An HTTP response; what all of them carry (length, date) is added where it is sent.
@@ -31,7 +35,8 @@ struct Response {
   std::string type = "text/html; charset=utf-8";             ///< of the body
   std::shared_ptr<const std::string> body;                   ///< empty: none
   std::vector<std::pair<std::string, std::string>> headers;  ///< names and values
-  bool admitted = false;  ///< who asked knows the secret: the connection is kept
+  bool admitted = false;               ///< who asked knows the secret: the connection is kept
+  std::shared_ptr<SocketPeer> socket;  ///< whom a request for a WebSocket gets, in place of all that; or none
 };
 
 /// To be called once, from any thread.

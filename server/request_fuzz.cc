@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as the headers and the target of a request: nobody is let in who does not hold a secret, and no
-// target leads anywhere but to the few that there are.
+// Any bytes as the headers, the target and the body of a request: nobody is let in who does not hold a
+// secret, no target leads anywhere but to the few that there are, and an operation that is taken can stand in
+// a journal.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemark/io/edits/edit_line.h"
+#include "server/edit_request.h"
 #include "server/entrance.h"
 #include "server/routes.h"
 
@@ -18,7 +21,8 @@ namespace {
 constexpr std::string_view kToken = "11111111111111111111111111111111";
 constexpr std::string_view kSession = "33333333333333333333333333333333";
 
-/// Lines: method, target, host, origin ("-": none), cookie, authorization.
+/// Lines: method, target, host, origin ("-": none), cookie, authorization; the rest is the body where it
+/// begins as an object, else it stands for asking for a WebSocket.
 kinemark::server::Request parse(std::string_view text) {
   std::vector<std::string> lines;
   for (int i = 0; i < 6; ++i) {
@@ -31,7 +35,8 @@ kinemark::server::Request parse(std::string_view text) {
                                     .host = lines[2],
                                     .cookie = lines[4],
                                     .authorization = lines[5],
-                                    .upgrade = !text.empty()};
+                                    .upgrade = !text.empty() && text.front() != '{',
+                                    .body = std::string(text)};
   if (lines[3] != "-") request.origin = lines[3];
   return request;
 }
@@ -52,16 +57,27 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto response = entrance.ask(request);
   const bool has_secret = holds(request.cookie, kSession) || holds(request.authorization, kToken);
   if (!response && !has_secret) std::abort();
-  if (!response && request.method != "GET" && request.method != "HEAD") std::abort();
+  if (!response && request.method != "GET" && request.method != "HEAD" && request.method != "POST")
+    std::abort();
+  if (!response && request.method == "POST" && !request.origin) std::abort();
   if (!response && request.upgrade && request.method != "GET") std::abort();
   if (!response && request.upgrade && !request.origin) std::abort();
   if (response && response->status == 303 && request.target != "/?token=" + std::string(kToken)) std::abort();
   if (response && response->status != 303 && response->admitted) std::abort();
   if (response && response->body && response->body->find("<script") != std::string::npos) std::abort();
   const Route route = find_route(request.target);
-  if (route.target == Target::trial_page && request.target != "/trial/" + std::to_string(route.number))
+  const auto number = std::to_string(route.number);
+  if (route.target == Target::trial_page && request.target != "/trial/" + number) std::abort();
+  if (route.target == Target::trial_edits && request.target != "/api/trial/" + number + "/edits")
     std::abort();
-  if (route.target != Target::trial_page && route.number != 0) std::abort();
+  if (route.target == Target::trial_data && request.target != "/api/trial/" + number + "/data") std::abort();
+  const bool of_trial = route.target == Target::trial_page || route.target == Target::trial_edits ||
+                        route.target == Target::trial_data;
+  if (of_trial != (route.number != 0)) std::abort();
   if (route.target != Target::none && request.target.find("..") != std::string::npos) std::abort();
+  if (const auto asked = parse_edit_request(request.body)) {
+    const auto again = kinemark::io::parse_edit(kinemark::io::format_edit(asked->edit));
+    if (!again || !again->same_as(asked->edit)) std::abort();
+  }
   return 0;
 }

@@ -16,19 +16,34 @@ constexpr std::array<std::pair<std::string_view, Target>, 5> kTargets = {{{"/", 
                                                                           {"/style.css", Target::style},
                                                                           {"/list.css", Target::list_style},
                                                                           {"/list.js", Target::list_script}}};
-constexpr std::string_view kTrial = "/trial/";
+
+/// Targets of a trial: what stands before its number and behind it.
+struct OfTrial {
+  std::string_view before, behind;
+  Target target;
+};
+constexpr std::array<OfTrial, 3> kOfTrial = {{{"/trial/", "", Target::trial_page},
+                                              {"/api/trial/", "/edits", Target::trial_edits},
+                                              {"/api/trial/", "/data", Target::trial_data}}};
+
+/// A number without a sign and without a zero in front; 0 for anything else.
+std::uint32_t number_of(std::string_view digits) {
+  const char* const last = digits.data() + digits.size();
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), last, number);
+  const bool whole = !digits.empty() && digits.front() != '0' && error == std::errc() && end == last;
+  return whole ? number : 0;
+}
 
 }  // namespace
 
 Route find_route(std::string_view target) {
-  if (target.starts_with(kTrial)) {
-    const auto digits = target.substr(kTrial.size());
-    const char* const first = digits.data();
-    const char* const last = first + digits.size();
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(first, last, number);
-    const bool whole = !digits.empty() && digits.front() != '0' && error == std::errc() && end == last;
-    return whole ? Route{Target::trial_page, number} : Route{};
+  for (const auto& [before, behind, of_trial] : kOfTrial) {
+    if (target.size() < before.size() + behind.size() || !target.starts_with(before) ||
+        !target.ends_with(behind))
+      continue;
+    const auto digits = target.substr(before.size(), target.size() - before.size() - behind.size());
+    if (const auto number = number_of(digits); number > 0) return {of_trial, number};
   }
   const auto* const found = std::ranges::find(kTargets, target, &std::pair<std::string_view, Target>::first);
   return found == kTargets.end() ? Route{} : Route{found->second};

@@ -13,6 +13,8 @@ enum class Target : std::uint8_t {
   list_page,    ///< /
   list_json,    ///< /api/trials
   trial_page,   ///< /trial/N
+  trial_edits,  ///< /api/trial/N/edits
+  trial_data,   ///< /api/trial/N/data
   style,        ///< /style.css
   list_style,   ///< /list.css
   list_script,  ///< /list.js

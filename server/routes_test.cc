@@ -25,6 +25,18 @@ TEST(Routes, OfTrialsHaveANumber) {
   }
 }
 
+TEST(Routes, OfEditsStandBehindTheNumber) {
+  EXPECT_EQ(find_route("/api/trial/12/edits").target, Target::trial_edits);
+  EXPECT_EQ(find_route("/api/trial/12/edits").number, 12U);
+  EXPECT_EQ(find_route("/api/trial/7/data").target, Target::trial_data);
+  EXPECT_EQ(find_route("/api/trial/7/data").number, 7U);
+  for (const char* target :
+       {"/api/trial/", "/api/trial/1", "/api/trial//edits", "/api/trial/edits", "/api/trial/0/edits",
+        "/api/trial/01/data", "/api/trial/1/edits/", "/api/trial/1/edits?x", "/api/trial/../edits",
+        "/api/trial/1/2/edits", "/trial/1/edits", "/api/trial/1/Edits", "/api/trial/+1/edits"})
+    EXPECT_EQ(find_route(target).target, Target::none) << target;
+}
+
 TEST(Routes, NumbersAreSpeltInOneWay) {
   for (const char* target :
        {"/trial/", "/trial", "/trial/0", "/trial/01", "/trial/-1", "/trial/+1", "/trial/1.0", "/trial/ 1",

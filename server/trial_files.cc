@@ -56,7 +56,7 @@ bool is_companion(const fs::path& file, const std::vector<fs::path>& all) {
 
 Stamps stamps_of(const fs::path& trial) {
   Stamps stamps{stamp_of(trial)};
-  for (const char* suffix : {"_report.json", "_sd.sto", "_marker_errors.sto"})
+  for (const char* suffix : {"_report.json", "_sd.sto", "_marker_errors.sto", "_edits.jsonl"})
     stamps.push_back(stamp_of(pipeline::beside(trial, suffix)));
   return stamps;
 }

@@ -27,8 +27,8 @@ struct Stamp {
   friend bool operator==(const Stamp&, const Stamp&) = default;
 };
 
-/// Of a trial's file, and of those that 'kinemark ik' writes beside one; nothing for a file that is not
-/// there.
+/// Of a trial's file, of those that 'kinemark ik' writes beside one, and of its edits; nothing for a file
+/// that is not there.
 using Stamps = std::vector<std::optional<Stamp>>;
 
 /// @return  at least one, the first being that of `trial` itself

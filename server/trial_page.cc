@@ -13,6 +13,7 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/motion/edited_page.h"
 #include "kinemark/pipeline/motion/report_job.h"
 #include "server/list_page.h"
 #include "server/secret.h"
@@ -67,13 +68,12 @@ std::string warnings_section(const std::vector<std::string>& warnings) {
   return text + "</ul>\n</section>\n";
 }
 
-/// The page that `kinemark report` makes of it.
-Result<Page> report_page(const std::filesystem::path& path) {
-  auto html = pipeline::page_of(path);
+/// A page of viewer/, behind a policy of its own.
+Result<Page> report_page(Result<std::string> html, bool asks) {
   if (!html) return std::unexpected(html.error());
   const auto nonce = new_secret();
   if (!nonce) return std::unexpected(nonce.error());
-  return shielded(std::move(*html), *nonce);
+  return shielded(std::move(*html), *nonce, asks);
 }
 
 }  // namespace
@@ -105,26 +105,31 @@ std::string facts_page(const pipeline::InfoOutcome& info) {
   return text + lists + "</main>\n" + page_foot();
 }
 
-Page shielded(std::string html, std::string_view nonce) {
+Page shielded(std::string html, std::string_view nonce, bool asks) {
   constexpr std::string_view kStyle = "<style", kScript = "<script type=\"module\"";
+  constexpr std::string_view kNothing = "content=\"default-src 'none'; ", kAsks = "connect-src 'self'; ";
   const std::string attribute = fmt::format(" nonce=\"{}\"", nonce);
   if (const auto at = html.rfind(kScript); at != std::string::npos)
     html.insert(at + std::string_view("<script").size(), attribute);
   if (const auto at = html.find(kStyle); at != std::string::npos) html.insert(at + kStyle.size(), attribute);
+  // A file by itself may ask nobody: its own policy is the first thing in it.
+  if (const auto at = html.find(kNothing); asks && at != std::string::npos)
+    html.insert(at + kNothing.size(), kAsks);
   return {.html = std::make_shared<const std::string>(std::move(html)),
-          .policy = fmt::format("default-src 'none'; script-src 'nonce-{0}'; style-src 'nonce-{0}'; "
+          .policy = fmt::format("default-src 'none'; {1}script-src 'nonce-{0}'; style-src 'nonce-{0}'; "
                                 "img-src data: blob:; media-src blob:; worker-src blob:; base-uri 'none'; "
                                 "form-action 'none'; frame-ancestors 'none'",
-                                nonce)};
+                                nonce, asks ? kAsks : "")};
 }
 
 Result<Page> make_trial_page(const std::filesystem::path& path) {
-  if (is_solved(path)) return report_page(path);
+  if (is_solved(path)) return report_page(pipeline::page_of(path), false);
   pipeline::InfoJob job;
   job.file = path;
   const auto info = pipeline::run_info(job);
   if (!info) return std::unexpected(info.error());
-  if (std::holds_alternative<pipeline::MarkerFileFacts>(info->facts)) return report_page(path);
+  if (std::holds_alternative<pipeline::MarkerFileFacts>(info->facts))
+    return report_page(pipeline::edited_page(path), true);
   return Page{std::make_shared<const std::string>(facts_page(*info)), std::string(kOwnPolicy)};
 }
 

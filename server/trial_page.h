@@ -12,8 +12,8 @@
 
 namespace kinemark::server {
 
-/// The page of a trial: the report of a solved one, else what the file holds. O(file). Fails as the readers
-/// of its files.
+/// The page of a trial: the report of a solved one, of markers their recording, which can be edited there,
+/// else what the file holds. O(file). Fails as the readers of its files.
 [[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path);
 
 /// What 'kinemark info' knows of a file, as a page. All names are text.
@@ -22,6 +22,7 @@ namespace kinemark::server {
 /// A self-contained report page with a policy under which its own style sheet and script run and nothing
 /// else. The first style sheet and the last script are its own: data stand before the script.
 /// @param nonce  unpredictable, of new_secret()
-[[nodiscard]] Page shielded(std::string html, std::string_view nonce);
+/// @param asks   it may ask this server for more
+[[nodiscard]] Page shielded(std::string html, std::string_view nonce, bool asks = false);
 
 }  // namespace kinemark::server

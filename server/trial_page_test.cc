@@ -26,6 +26,16 @@ TEST_F(PageOfTrial, OfMarkersIsTheirReportWithANonce) {
   EXPECT_THAT(*page.html, HasSubstr("<script nonce=\""));
 }
 
+TEST_F(PageOfTrial, OfMarkersMayAskThisServerAndNobodyElse) {
+  const auto page = make_trial_page(at("in/markers.c3d")).value();
+  EXPECT_THAT(page.policy, HasSubstr("default-src 'none'; connect-src 'self'; script-src 'nonce-"));
+  EXPECT_THAT(*page.html, HasSubstr("content=\"default-src 'none'; connect-src 'self'; script-src 'sha256-"));
+  EXPECT_THAT(*page.html, HasSubstr("\"editing\":{\"journal\":\"markers_edits.jsonl\""));
+  const auto file = pipeline::page_of(at("in/markers.c3d")).value();
+  EXPECT_THAT(file, Not(HasSubstr("connect-src 'self'")));
+  EXPECT_THAT(file, Not(HasSubstr("\"editing\":")));
+}
+
 TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
   ASSERT_TRUE(pipeline::run_ik(job("Q.mot")));
   const auto page = make_trial_page(at("Q.mot")).value();
@@ -35,6 +45,7 @@ TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
   EXPECT_EQ(page.html->size(),
             plain.size() + 2 * std::string(R"( nonce="00112233445566778899aabbccddeeff")").size());
   EXPECT_THAT(page.policy, Not(HasSubstr("unsafe")));
+  EXPECT_THAT(page.policy, Not(HasSubstr("connect-src")));
   EXPECT_NE(page.policy, make_trial_page(at("Q.mot"))->policy) << "another nonce for another page";
 }
 

@@ -92,6 +92,7 @@ TrialService::TrialService(ServiceOptions options)
       entrance_(options_.keys),
       files_(options_.given),
       shelf_(options_.most_page_bytes),
+      edits_(options_.edits),
       list_worker_(kMostRequests),
       row_worker_(kMostRows),
       page_worker_(kMostRequests) {}
@@ -103,6 +104,11 @@ void TrialService::handle(const Request& request, const Reply& reply) {
     return;
   }
   const Route route = request.upgrade ? Route{} : find_route(request.target);
+  if (request.method == "POST" && route.target != Target::trial_edits && route.target != Target::none) {
+    auto response = sentence_page(405, "This is only shown; edits are what POST is for.");
+    response.headers.emplace_back("Allow", "GET, HEAD");
+    return send(std::move(response), reply);
+  }
   switch (route.target) {
     case Target::list_page:
     case Target::list_json: {
@@ -112,6 +118,11 @@ void TrialService::handle(const Request& request, const Reply& reply) {
     }
     case Target::trial_page:
       if (!list_worker_.post([this, n = route.number, reply] { send_trial(n, reply); })) send_busy(reply);
+      return;
+    case Target::trial_edits:
+    case Target::trial_data:
+      if (!list_worker_.post([this, request, route, reply] { send_edits(request, route, reply); }))
+        send_busy(reply);
       return;
     case Target::style:
       return send_text(style_css(), "text/css; charset=utf-8", reply);
@@ -165,18 +176,31 @@ void TrialService::read_row(const TrialFile& trial) {
   rows_.insert_or_assign(trial.number, Described{std::move(stamps), std::move(row)});
 }
 
-void TrialService::send_trial(std::uint32_t number, const Reply& reply) {
+std::optional<TrialFile> TrialService::find_trial(std::uint32_t number) {
   auto path = files_.path_of(number);
   if (!path) {
     (void)files_.list();  // a number from before the server was started again
     path = files_.path_of(number);
   }
-  if (!path) return send_sentence(404, "Not found", "There is no trial of that number; see the list.", reply);
-  const auto stamps = stamps_of(*path);
-  if (is_gone(stamps)) return send_sentence(404, name_of(*path), gone_sentence(*path), reply);
+  if (!path) return std::nullopt;
+  return TrialFile{number, std::move(*path)};
+}
+
+void TrialService::send_trial(std::uint32_t number, const Reply& reply) {
+  const auto trial = find_trial(number);
+  if (!trial)
+    return send_sentence(404, "Not found", "There is no trial of that number; see the list.", reply);
+  const auto stamps = stamps_of(trial->path);
+  if (is_gone(stamps)) return send_sentence(404, name_of(trial->path), gone_sentence(trial->path), reply);
   if (const auto page = shelf_.find(number, stamps)) return send_page(*page, reply);
-  if (!page_worker_.post([this, trial = TrialFile{number, *path}, reply] { make_page(trial, reply); }))
-    send_busy(reply);
+  if (!page_worker_.post([this, trial = *trial, reply] { make_page(trial, reply); })) send_busy(reply);
+}
+
+void TrialService::send_edits(const Request& request, const Route& route, const Reply& reply) {
+  const auto trial = find_trial(route.number);
+  if (!trial || is_gone(stamps_of(trial->path)))
+    return send_sentence(404, "Not found", "There is no trial of that number; see the list.", reply);
+  if (!edits_.handle(request, *trial, route.target == Target::trial_data, reply)) send_busy(reply);
 }
 
 void TrialService::make_page(const TrialFile& trial, const Reply& reply) {

@@ -7,13 +7,16 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "server/edit_service.h"
 #include "server/entrance.h"
 #include "server/message.h"
 #include "server/page_shelf.h"
+#include "server/routes.h"
 #include "server/trial_files.h"
 #include "server/trial_row.h"
 #include "server/worker.h"
@@ -27,6 +30,7 @@ struct ServiceOptions {
   std::function<Result<Page>(const std::filesystem::path&)> make_page;  ///< as make_trial_page()
   std::function<TrialRow(const std::filesystem::path&)> describe;       ///< as describe_trial()
   std::size_t most_page_bytes = 256UL << 20;                            ///< of pages that are kept
+  EditServiceOptions edits;                                             ///< of recordings
 };
 
 /// A request in, a response out. Files are read on threads of their own: one for the list, one for what the
@@ -42,6 +46,8 @@ class TrialService {
  private:
   void send_list(bool as_json, const Reply& reply);
   void send_trial(std::uint32_t number, const Reply& reply);
+  void send_edits(const Request& request, const Route& route, const Reply& reply);
+  [[nodiscard]] std::optional<TrialFile> find_trial(std::uint32_t number);
   void make_page(const TrialFile& trial, const Reply& reply);
   [[nodiscard]] TrialRow row_of(const TrialFile& trial);
   void read_row(const TrialFile& trial);
@@ -55,6 +61,7 @@ class TrialService {
   Entrance entrance_;
   TrialFiles files_;
   PageShelf shelf_;
+  EditService edits_;
   std::mutex mutex_;  ///< of rows_ and being_read_
   std::map<std::uint32_t, Described> rows_;
   std::set<std::uint32_t> being_read_;

@@ -233,6 +233,40 @@ TEST_F(TrialServiceThread, WhatThereIsNotIs404) {
   }
 }
 
+TEST_F(TrialServiceThread, OnlyEditsAreChanged) {
+  const auto post = [&](const std::string& target) {
+    std::promise<Response> promise;
+    service_->handle({.method = "POST",
+                      .target = target,
+                      .host = "127.0.0.1:1",
+                      .origin = "http://127.0.0.1:1",
+                      .cookie = "c=s",
+                      .type = "application/json",
+                      .body = "{}"},
+                     [&](Response response) { promise.set_value(std::move(response)); });
+    return promise.get_future().get();
+  };
+  for (const char* target : {"/", "/trial/1", "/api/trials", "/api/trial/1/data", "/style.css"}) {
+    const auto response = post(target);
+    EXPECT_EQ(response.status, 405) << target;
+    EXPECT_EQ(header(response, "Allow"), "GET, HEAD");
+  }
+  (void)trials();
+  EXPECT_EQ(post("/nothing").status, 404);
+  EXPECT_EQ(post("/api/trial/9/edits").status, 404);
+  const auto response = post("/api/trial/1/edits");
+  EXPECT_EQ(response.status, 422) << "a.trc holds three letters";
+  EXPECT_EQ(header(response, "X-Content-Type-Options"), "nosniff");
+  EXPECT_EQ(get("/api/trial/1/edits").status, 422);
+}
+
+TEST_F(TrialServiceThread, APageIsMadeAnewWhenItsEditsChange) {
+  EXPECT_EQ(get("/trial/1").status, 200);
+  write("a_edits.jsonl", "");
+  EXPECT_EQ(get("/trial/1").status, 200);
+  EXPECT_EQ(made_, 2);
+}
+
 TEST_F(TrialServiceThread, StylesAndScriptAreOfTheProgram) {
   const auto style = get("/style.css"), list = get("/list.css"), script = get("/list.js");
   EXPECT_THAT(*style.body, HasSubstr("--accent"));

@@ -4,83 +4,27 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/html_text.h"
+#include "kinemark/stages/report/figures/plot_axis.h"
 
 namespace kinemark::studies {
 namespace {
 
+using report::PlotAxis;
+
 constexpr double kWidth = 640.0, kHeight = 400.0, kLeft = 64.0, kRight = 16.0, kTop = 30.0, kBottom = 46.0,
                  kLegendLine = 14.0;
-
-/// A range of one axis and where it lies on the picture.
-struct Axis {
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-  double from = 0.0, to = 1.0;  // pixels of low and high
-  bool logarithmic = false;     // low and high are logarithms to the base 10
-
-  [[nodiscard]] bool shows(double v) const { return std::isfinite(v) && (!logarithmic || v > 0.0); }
-  void include(double v) {
-    if (!shows(v)) return;
-    if (logarithmic) v = std::log10(v);
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  void settle() {
-    if (!(low <= high)) low = 0.0, high = 1.0;
-    const double margin = high > low ? 0.04 * (high - low) : 0.5;
-    low -= margin;
-    high += margin;
-  }
-  [[nodiscard]] double at(double v) const {
-    return from + ((logarithmic ? std::log10(v) : v) - low) / (high - low) * (to - from);
-  }
-  /// 1, 2 or 5 times a power of ten, so that about six ticks fit.
-  [[nodiscard]] double tick() const {
-    const double raw = (high - low) / 6.0, power = std::pow(10.0, std::floor(std::log10(raw)));
-    for (const double m : {1.0, 2.0, 5.0})
-      if (m * power >= raw) return m * power;
-    return 10.0 * power;
-  }
-  /// Where grid lines go.
-  [[nodiscard]] std::vector<double> ticks() const {
-    std::vector<double> out;
-    if (!logarithmic) {
-      for (double step = tick(), v = std::ceil(low / step) * step; v <= high; v += step)
-        out.push_back(std::abs(v) < 1e-9 * step ? 0.0 : v);
-      return out;
-    }
-    for (double power = std::floor(low); power <= high; power += 1.0)
-      for (const double m : {1.0, 2.0, 5.0}) {
-        const double v = std::log10(m) + power;
-        if (v >= low && v <= high) out.push_back(m * std::pow(10.0, power));
-      }
-    return out;
-  }
-};
-
-/// Widen the axis that shows fewer units per pixel.
-void make_equal(Axis& x, Axis& y) {
-  const double x_scale = (x.high - x.low) / std::abs(x.to - x.from),
-               y_scale = (y.high - y.low) / std::abs(y.to - y.from);
-  Axis& narrow = x_scale < y_scale ? x : y;
-  const double half = 0.5 * std::max(x_scale, y_scale) * std::abs(narrow.to - narrow.from),
-               middle = 0.5 * (narrow.low + narrow.high);
-  narrow.low = middle - half;
-  narrow.high = middle + half;
-}
 
 std::string text(double x, double y, const char* anchor, const std::string& label) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
                      html_text(label));
 }
 
-std::string ticks(const Axis& x, const Axis& y) {
+std::string ticks(const PlotAxis& x, const PlotAxis& y) {
   std::string out;
   const auto name = [](double v) { return fmt::format("{:.6g}", v); };
   for (const double v : x.ticks())
@@ -120,7 +64,7 @@ std::string SvgPlot::svg() const {
     legend.push_back(position);
     position.x() += width;
   }
-  Axis x{.from = kLeft, .to = kWidth - kRight}, y{.from = kHeight - kBottom, .to = position.y() + 12.0};
+  PlotAxis x{.from = kLeft, .to = kWidth - kRight}, y{.from = kHeight - kBottom, .to = position.y() + 12.0};
   y.logarithmic = log_y_;
   const auto include = [&](const Eigen::VectorXd& xs, const Eigen::VectorXd& ys) {
     for (Eigen::Index i = 0; i < xs.size(); ++i)

@@ -156,7 +156,7 @@ const std::vector<Row> kRows{
     {"plane_sd", kDiscrete, "discrete", 93, 100, false},
     {"submovements", kDiscrete, "discrete", 97, 100, false},
     {"extent_long", kCyclic, "cyclic", 85, 100, false},
-    {"extent_thick", kCyclic, "cyclic", 85, 100, false},
+    {"extent_thick", kCyclic, "cyclic", 95, 100, true},
     {"box_length", kCyclic, "cyclic", 85, 100, false},
     {"box_height", kCyclic, "cyclic", 95, 100, true},
     {"movement_path", kDiscrete, "discrete", 80, 100, false},

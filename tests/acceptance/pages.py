@@ -61,6 +61,15 @@ def appearance():
     row(len([line for line in lines if line.startswith("ok ")]) >= 8, "pages of every kind were judged", ">= 8", str(len(lines)))
 
 
+def live():
+    said, _ = node("live_run.ts")
+    lines = [line for line in said.splitlines() if line.startswith(("ok ", "FAILED "))]
+    for line in lines:
+        verdict, _, rest = line.partition(" ")
+        row(verdict == "ok", f"live source: {rest.strip().split(':')[0]}", "as a person sees it", verdict if verdict == "ok" else rest[-300:])
+    row(len(lines) == 7, "a live source was looked at", "7 checks", str(len(lines)))
+
+
 def speed():
     said, _ = node("speed_run.ts")
     rows = [line for line in said.splitlines() if " | " in line]
@@ -99,6 +108,7 @@ def main():
         else:
             sizes(Path(name))
             appearance()
+            live()
             speed()
     return 1 if failed else 0
 

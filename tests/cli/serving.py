@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`kinemark serve` as a process, and raw sockets to it; for test_serve.py and tests/acceptance/serve.py."""
 
+import json
 import re
 import signal
 import socket
@@ -89,6 +90,19 @@ class Server:
         all_headers.update({name.replace("_", "-"): value for name, value in headers.items()})
         lines = [f"{method} {target} HTTP/1.1", *(f"{name}: {value}" for name, value in all_headers.items() if value is not None)]
         return self.raw("\r\n".join(lines).encode("latin-1") + b"\r\n\r\n" + body)
+
+    def json(self, what, trial=1):
+        """(status, value) of /api/trial/N/edits or data."""
+        status, _, body = self.request(f"/api/trial/{trial}/{what}")
+        return status, json.loads(body) if body else None
+
+    def edit(self, expected, edit, trial=1):
+        """(status, answer) of one operation, on as many as are expected to be there. OSError where no answer comes."""
+        body = json.dumps({"expected": expected, "edit": edit}).encode()
+        status, _, text = self.request(f"/api/trial/{trial}/edits", method="POST", body=body, Origin=f"http://{self.name}", Content_Type="application/json")
+        if status == 0:
+            raise ConnectionResetError("the server gave no answer")
+        return status, json.loads(text)
 
     def exchanged(self):
         """The cookie that the token is exchanged for, once."""

@@ -50,6 +50,29 @@ class Measures(CommandTest):
         self.assertIn("not distinguishable from 0", result.out)
         self.assertNotIn("Onset", result.out)
 
+    def test_figures_and_a_page_are_written(self):
+        figures, page = self.folder / "figures", self.folder / "wheel.html"
+        result = self.run_in("analyze", self.file, "--refits", "39", "--figures", figures, "--report", page)
+        self.assertEqual(result.status, 0, result.err)
+        self.assertEqual({p.stem for p in figures.iterdir()}, {"P_path", "P_speed", "P_cycles"})
+        self.assertIn("best-fit plane", (figures / "P_path.svg").read_text(encoding="utf-8"))
+        self.assertTrue((figures / "P_speed.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn('"kind":"measures"', page.read_text(encoding="utf-8"))
+        again = self.run_in("analyze", self.file, "--refits", "39", "--figures", figures)
+        self.assertEqual(again.status, 4, again.err)
+        wrong = self.run_in("analyze", self.file, "--figures", self.folder / "more", "--figure-formats", "pdf")
+        self.assertEqual(wrong.status, 2)
+        self.assertIn("'pdf' is none of svg, png", wrong.err)
+        self.assertFalse((self.folder / "more").exists())
+
+    def test_figures_have_the_same_bytes_whatever_the_threads(self):
+        for threads in ("1", "2"):
+            result = self.run_in("analyze", self.file, "--refits", "39", "--figures", self.folder / threads, "--figure-formats", "svg",
+                                 "--threads", threads)
+            self.assertEqual(result.status, 0, result.err)
+        for path in (self.folder / "1").iterdir():
+            self.assertEqual(path.read_bytes(), (self.folder / "2" / path.name).read_bytes())
+
     def test_json_and_table_hold_the_same(self):
         table = self.folder / "wheel.csv"
         result = self.run_in("analyze", self.file, "--refits", "39", "-o", table, "--json")

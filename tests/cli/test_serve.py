@@ -292,6 +292,51 @@ class Started(ServeTest):
         self.assertEqual(ran.status, 4)
         self.assertIn("standard output", ran.err)
 
+    def test_edits_are_saved_beside_the_recording(self):
+        recording = self.write("walk.trc", self.trc.read_bytes())
+        original = recording.read_bytes()
+        server = self.serve(recording)
+        status, state = server.json("edits")
+        self.assertEqual((status, state["edits"], state["journal"]), (200, [], "walk_edits.jsonl"))
+        label = json.loads(run("info", recording, "--json", cwd=self.folder).out)["labels"][0]
+        page = server.request("/trial/1")[2]
+        status, state = server.edit(0, {"do": "relabel", "marker": label, "to": HOSTILE})
+        self.assertEqual((status, state["undo"], state["edits"][0]["to"]), (200, 1, HOSTILE))
+        self.assertRegex(state["edits"][0]["made"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        changed = server.request("/trial/1")[2]
+        self.assertNotEqual(changed, page)
+        self.assertEqual(json.loads(report_data(changed))["summary"]["markers"][0]["name"], HOSTILE)
+        self.assertNotIn("<img src=x", changed)
+        self.assertEqual(server.json("data")[1]["scene"]["names"][0], HOSTILE)
+        listed = json.loads(run("edit", recording, "--list", "--json", cwd=self.folder).out)
+        self.assertEqual(listed["digest"], state["digest"])
+        self.assertEqual(run("edit", recording, "--undo", 1, cwd=self.folder).status, 0)
+        status, answer = server.edit(1, {"do": "undo"})
+        self.assertEqual((status, len(answer["editing"]["edits"])), (409, 2))
+        self.assertIn("Somebody else has edited this recording: 2 operations are there and not 1", answer["error"])
+        status, answer = server.edit(2, {"do": "cut", "marker": "NOSE"})
+        self.assertEqual(status, 422)
+        self.assertIn("'NOSE'", answer["error"])
+        self.assertEqual(recording.read_bytes(), original)
+        self.assertEqual(server.end(signal.SIGKILL)[0], -signal.SIGKILL)
+        self.assertEqual(listing(self.folder), ["walk.trc", "walk_edits.jsonl"])
+
+    def test_what_is_no_recording_of_markers_has_no_edits(self):
+        server = self.serve(self.study / "q.mot", self.write("bad.trc", b"nothing"))
+        for trial in (1, 2):
+            status, answer = server.json("edits", trial)
+            self.assertEqual(status, 422)
+            self.assertTrue(answer["error"])
+        self.assertNotIn("\"editing\":", server.request("/trial/1")[2])
+
+    def test_a_journal_that_is_damaged_is_a_sentence_on_the_page(self):
+        recording = self.write("walk.trc", self.trc.read_bytes())
+        self.write("walk_edits.jsonl", b"nonsense\n")
+        server = self.serve(recording)
+        data = json.loads(report_data(server.request("/trial/1")[2]))
+        self.assertIn("walk_edits.jsonl: line 1", data["editing"]["refused"])
+        self.assertEqual(server.edit(0, {"do": "undo"})[0], 422)
+
     def test_kill_9_leaves_nothing_behind(self):
         self.write("b.trc", self.trc.read_bytes())
         before = listing(self.folder)

@@ -5,32 +5,46 @@ import "./style.css";
 import type { CleanPageData } from "./clean_types.ts";
 import { inflateAll } from "./curves.ts";
 import { el } from "./dom.ts";
+import { baseOf, Channel } from "./editing/channel.ts";
 import { cleanPage } from "./pages/clean.ts";
 import type { MarkersPageData } from "./markers_types.ts";
 import type { Content } from "./pages/content.ts";
+import { EditedPage } from "./pages/edited.ts";
 import { ikPage } from "./pages/ik.ts";
+import type { LivePageData } from "./live/types.ts";
+import { livePage } from "./pages/live.ts";
 import { markersPage } from "./pages/markers.ts";
 import { resultPage } from "./pages/result.ts";
 import type { ResultPageData } from "./result_types.ts";
 import type { PageData } from "./types.ts";
 
-type AnyPage = PageData | CleanPageData | MarkersPageData | ResultPageData;
+type AnyPage = PageData | CleanPageData | MarkersPageData | ResultPageData | LivePageData;
 
 const isClean = (data: AnyPage): data is CleanPageData => data.summary.schema === "kinemark.clean_report";
 const isResult = (data: AnyPage): data is ResultPageData => data.summary.schema === "kinemark.result_report";
+const isLive = (data: AnyPage): data is LivePageData => data.summary.schema === "kinemark.live";
 const isMarkers = (data: AnyPage): data is MarkersPageData => data.summary.schema === "kinemark.markers_report";
 
 async function show(page: HTMLElement, data: AnyPage): Promise<void> {
   if ("series" in data) await inflateAll(data.series);
   document.title = `${data.summary.trial} · kinemark report`;
-  const content: Content = isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
+  const base = baseOf(location.pathname);
+  if (isMarkers(data) && data.editing !== undefined && !("refused" in data.editing) && base !== null) {
+    await new EditedPage(new Channel(base), data.editing, (content) => put(page, content, `kinemark ${data.summary.version} shows the recording with its edits, and talks to nobody but the program on this machine.`)).draw(data);
+    return;
+  }
+  const foot = isLive(data) ? `kinemark ${data.summary.version}. This page talks with its own server alone.` : `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`;
+  put(page, isLive(data) ? livePage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data), foot);
+}
+
+function put(page: HTMLElement, content: Content, foot: string): void {
   const [section, words] = content.skip;
-  page.append(
+  page.replaceChildren(
     el("a", { class: "skip", href: `#${section}` }, words),
     content.header,
     content.bar,
     el("main", {}, ...content.sections),
-    el("footer", {}, `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`),
+    el("footer", {}, foot),
   );
   content.start();
   document.documentElement.dataset["ready"] = "yes";

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { StateCounts } from "./clean_types.ts";
+import type { Editing } from "./editing/types.ts";
 import type { PackedScene } from "./scene/types.ts";
 import type { Finding, InputFile } from "./types.ts";
 
@@ -41,4 +42,6 @@ export interface RecordedMarker {
 export interface MarkersPageData {
   summary: MarkersSummary;
   scene: PackedScene;
+  /** Of a page of `kinemark serve` alone. */
+  editing?: Editing;
 }

@@ -15,7 +15,7 @@ export interface FindingGroup {
 export interface ResultSummary {
   schema: string;
   schema_version: number;
-  kind: "joints" | "scale" | "calibrate" | "reconstruct" | "study";
+  kind: "joints" | "scale" | "calibrate" | "reconstruct" | "study" | "measures";
   trial: string;
   verdict: "good" | "attention";
   version: string;
@@ -109,6 +109,30 @@ export interface ReconstructResult {
   frames: number;
   leds: { name: string; frames: number; located: number; occluded: number; saturated: number; inconsistent: number; near_edge: number; chi2_per_dof?: Known; cutoff_hz?: Known; rejected?: number }[];
   precision: (import("./plots/heat_map.ts").Cells | null)[];
+}
+
+/** Measures of paths, as `analyze -o OUT.json` has them, and their figures. */
+export interface MeasuresResult {
+  markers: number;
+  regions: number;
+  level: number;
+  refits: number;
+  most_not_measured: number;
+  measures: {
+    measure: string;
+    subject: string;
+    region?: string;
+    title: string;
+    /** Value, interval and unit in words. */
+    shown: string;
+    value: Known;
+    unit: string;
+    interval: { kind: string; low: Known; high: Known; level: number; approximate: boolean };
+    share_not_measured: Known;
+    method: string;
+    remark?: string;
+  }[];
+  figures: { name: string; caption: string; body: string }[];
 }
 
 export interface StudyResult {

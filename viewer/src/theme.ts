@@ -108,14 +108,23 @@ let printing = false;
 
 export const palette = (): Palette => (prefersDark.matches && !printing ? dark : light);
 
+let drawn = new AbortController();
+
+/** What was drawn is gone from the page: nothing of it is drawn again. */
+export function forgetDrawn(): void {
+  drawn.abort();
+  drawn = new AbortController();
+}
+
 /** Paper is white whatever the screen is. */
 export function onThemeChange(redraw: () => void): void {
-  prefersDark.addEventListener("change", redraw);
+  const { signal } = drawn;
+  prefersDark.addEventListener("change", redraw, { signal });
   for (const [event, value] of [["beforeprint", true], ["afterprint", false]] as const) {
     window.addEventListener(event, () => {
       printing = value;
       redraw();
-    });
+    }, { signal });
   }
 }
 

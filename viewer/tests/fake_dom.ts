@@ -103,7 +103,7 @@ export class FakeElement extends FakeNode {
     return this.all((e) => (e.getAttribute("class") ?? "").split(" ").includes(name));
   }
   /** What an event does here and further up. */
-  fire(type: string, at: { offsetX?: number; offsetY?: number } = {}): void {
+  fire(type: string, at: { offsetX?: number; offsetY?: number; shiftKey?: boolean } = {}): void {
     const event: FakeEvent = { type, ...at, stopPropagation: () => (event.stopped = true) };
     for (let e: FakeElement | null = this; e !== null && !event.stopped; e = e.parent) {
       for (const [listened, listener] of e.listeners) if (listened === type) listener(event);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // Made-up results of every kind that a result page shows.
-import type { CalibrateResult, JointsResult, ReconstructResult, ResultPageData, ResultSummary, ScaleResult, StudyResult } from "../src/result_types.ts";
+import type { MeasuresResult, CalibrateResult, JointsResult, ReconstructResult, ResultPageData, ResultSummary, ScaleResult, StudyResult } from "../src/result_types.ts";
 import type { PackedScene } from "../src/scene/types.ts";
 import { hostile } from "./simulated.ts";
 import { deflated, pack, simulatedMarkers } from "./simulated_markers.ts";
@@ -101,6 +101,22 @@ const study: StudyResult = {
   ],
 };
 
+const measured = (measure: string, title: string, shown: string, value: number | null, more: Partial<MeasuresResult["measures"][number]> = {}): MeasuresResult["measures"][number] => ({
+  measure, title, shown, value, subject: "RFIN", unit: "mm", interval: { kind: value === null ? "none" : "two-sided", low: value, high: value, level: 0.95, approximate: false }, share_not_measured: 0.02, method: "refits, 99, seed 1", ...more,
+});
+
+const measures: MeasuresResult = {
+  markers: 2, regions: 2, level: 0.95, refits: 99, most_not_measured: 0.125,
+  measures: [
+    measured("path_length", "Path length", "1340.1 [1339.0 to 1341.2] mm", 1340.1, { region: "reach" }),
+    measured("box_long", `Box ${hostile}`, "340 [about 339 to 342] mm", 340, { subject: `LFIN ${hostile}`, interval: { kind: "two-sided", low: 339, high: 342, level: 0.95, approximate: true } }),
+    measured("onset", "Onset", "not determined", null, { remark: "it moves from the first sample on", share_not_measured: null }),
+  ],
+  figures: [
+    { name: "RFIN_path", caption: `RFIN: path ${hostile}`, body: '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 400" width="640" height="400"><rect width="640" height="400" fill="#ffffff"/><path d="M40 300L620 60" stroke="#0072b2" fill="none" onclick="alert(1)"/><text x="60" y="40" font-size="14">time (s)</text></svg>' },
+  ],
+};
+
 /** Pages of results, by kind. */
 export const simulatedResults = (): Record<ResultSummary["kind"], ResultPageData> => ({
   joints: { summary: summaryOf("joints", { clock }), result: joints, scene: sceneOfJoints() },
@@ -108,4 +124,5 @@ export const simulatedResults = (): Record<ResultSummary["kind"], ResultPageData
   calibrate: { summary: summaryOf("calibrate", { clock }), result: calibrate, scene: { ...simulatedMarkers(frames).scene, cameras: [cameraAt("A", -0.5), cameraAt("B", 0.5), cameraAt("B", 0.52, true)] } },
   reconstruct: { summary: summaryOf("reconstruct", { clock }), result: reconstruct, scene: { ...simulatedMarkers(frames).scene, cameras: [cameraAt("A", -0.5), cameraAt("B", 0.5)] } },
   study: { summary: summaryOf("study"), result: study, scene: null },
+  measures: { summary: summaryOf("measures"), result: measures, scene: null },
 });

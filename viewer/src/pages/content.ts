@@ -10,4 +10,6 @@ export interface Content {
   sections: HTMLElement[];
   /** Called once all of it is on the page: plots take the width of their boxes. */
   start: () => void;
+  /** Called when something else takes its place. */
+  stop?: () => void;
 }

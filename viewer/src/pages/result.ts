@@ -3,6 +3,7 @@
 import type { ResultPageData } from "../result_types.ts";
 import type { Content } from "./content.ts";
 import { jointsPage } from "./joints.ts";
+import { measuresPage } from "./measures.ts";
 import { calibratePage, reconstructPage } from "./rig.ts";
 import { scalePage } from "./scale.ts";
 import { studyPage } from "./study.ts";
@@ -17,6 +18,7 @@ export async function resultPage(data: ResultPageData): Promise<Content> {
     calibrate: calibratePage,
     reconstruct: reconstructPage,
     study: studyPage,
+    measures: measuresPage,
   };
   const page = pages[kind];
   if (page === undefined) throw new Error(`this page knows no result of the kind ${String(kind)}`);

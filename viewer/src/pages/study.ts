@@ -52,7 +52,7 @@ export function studyPage({ summary, result }: ResultPageData<StudyResult>): Con
     bar: linkBar([["attention", "Attention"], ["figures", "Figures"], ["table", "Table"], ["settings", "Run"]]),
     sections: [
       resultFindings(summary, bounded.length === 0 ? "Nothing was asked." : "Nothing. Every bound is met."),
-      section("figures", "Figures", "", el("div", { class: "study-figures" }, ...result.figures.map(figure))),
+      section("figures", "Figures", "", el("div", { class: "study-figures" }, ...result.figures.map(drawnFigure))),
       section("table", "The paper beside ours", `${result.columns}.`, table("Quantities", columns, result.rows)),
       resultRun(summary, [["Seeds", seedText(result.seeds)]]),
     ],
@@ -60,7 +60,8 @@ export function studyPage({ summary, result }: ResultPageData<StudyResult>): Con
   };
 }
 
-function figure({ caption, body }: StudyResult["figures"][number]): HTMLElement {
+/** A drawing of the command's, to be saved. */
+export function drawnFigure({ caption, body }: { caption: string; body: string }): HTMLElement {
   const parts = foreign(body);
   const drawing = parts.find((p): p is SVGElement => p instanceof SVGElement);
   if (drawing === undefined) return el("figure", { class: "plot drawn" }, el("figcaption", {}, caption), ...parts);

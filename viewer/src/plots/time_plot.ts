@@ -44,6 +44,7 @@ export class TimePlot {
       labelFont: "12px system-ui, sans-serif",
       ...extra,
     });
+    let choosing = false;
     const config: uPlot.Options = {
       width: this.#width(),
       height: options.height,
@@ -70,14 +71,14 @@ export class TimePlot {
       bands: (options.bands ?? []).map((b) => ({ series: b.series, fill: b.fill })),
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
       hooks: {
-        drawClear: [(u) => this.#drawHatched(u, options.hatched())],
+        drawClear: [(u) => this.#drawHatched(u, options.hatched()), (u) => this.#drawStretch(u)],
         draw: [(u) => this.#drawFocus(u), (u) => this.#drawLevels(u, options.levels?.() ?? [])],
         setSelect: [
           (u) => {
             if (u.select.width < 3) return;
             const range = [u.posToVal(u.select.left, "x"), u.posToVal(u.select.left + u.select.width, "x")] as const;
             u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-            view.set({ range });
+            view.set(choosing ? { stretch: range } : { range });
           },
         ],
         setCursor: [
@@ -96,7 +97,10 @@ export class TimePlot {
     this.plot.root.setAttribute("aria-label", options.label);
     this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
     let pressed = 0;
-    this.plot.over.addEventListener("mousedown", (e) => (pressed = e.offsetX));
+    this.plot.over.addEventListener("mousedown", (e) => {
+      pressed = e.offsetX;
+      choosing = view.editable && e.shiftKey;
+    });
     this.plot.over.addEventListener("click", (e) => {
       // A drag, which zooms, ends in a click too.
       if (Math.abs(e.offsetX - pressed) < 3) view.set({ focus: this.plot.posToVal(e.offsetX, "x") });
@@ -197,6 +201,19 @@ export class TimePlot {
       ctx.globalAlpha = Math.min(1, Math.max(0.3, right - left));
       if (right > left) ctx.fillRect(left, bbox.top, Math.max(1, right - left), bbox.height);
     }
+    ctx.restore();
+  }
+
+  /** What is to be edited. */
+  #drawStretch(u: uPlot): void {
+    if (this.#view.stretch === null) return;
+    const { ctx, bbox } = u;
+    const inside = (time: number): number => Math.min(bbox.left + bbox.width, Math.max(bbox.left, u.valToPos(time, "x", true)));
+    const [left, right] = this.#view.stretch.map(inside) as [number, number];
+    ctx.save();
+    ctx.fillStyle = palette().focus;
+    ctx.globalAlpha = 0.14;
+    ctx.fillRect(left, bbox.top, Math.max(1, right - left), bbox.height);
     ctx.restore();
   }
 

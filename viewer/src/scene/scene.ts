@@ -81,6 +81,8 @@ export interface Scene {
   bodies: Bodies | null;
   skeleton: Joints | null;
   cameras: CameraPlace[];
+  /** Smallest and largest coordinates where they are known beforehand, m. */
+  extent?: [low: Vec, high: Vec];
 }
 
 /** What a scene has to know of its recording. */
@@ -189,6 +191,7 @@ export function pointAt(scene: Pick<Scene, "points" | "frameStep" | "rateHz" | "
 
 /** Smallest and largest coordinates of what is there; about `share` of the samples on each side are left out. */
 export function bounds(scene: Scene, share = 0.005): [low: Vec, high: Vec] {
+  if (scene.extent !== undefined) return scene.extent;
   const { points, markers, names } = scene;
   const stride = Math.max(1, Math.floor((points * names.length) / 60_000));
   const low: Vec = [0, 0, 0];

@@ -129,7 +129,9 @@ export class SpaceView {
     this.#reach = Math.max(0.2, length(sub(high, low)));
   }
 
-  resize(width: number, height: number, ratio = Math.min(2, Math.max(1, window.devicePixelRatio))): void {
+  /** Of the canvas, in CSS pixels; `share`: of the screen's pixels along each side. */
+  resize(width: number, height: number, share = 1): void {
+    const ratio = share * Math.min(2, Math.max(1, window.devicePixelRatio));
     this.#width = width;
     this.#height = height;
     this.#renderer.setPixelRatio(ratio);
@@ -172,8 +174,10 @@ export class SpaceView {
     this.#renderer.clippingPlanes = [new ClipPlane(new Vector3(...forward), -depth)];
   }
 
+  /** Give back what a browser has few of. */
   dispose(): void {
     this.#renderer.dispose();
+    this.#renderer.getContext().getExtension("WEBGL_lose_context")?.loseContext();
   }
 
   #cameraOf(camera: Camera, pose: Pose): PerspectiveCamera | OrthographicCamera {

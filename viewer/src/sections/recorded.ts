@@ -66,6 +66,9 @@ export function recordedCurves(scene: Scene, view: View): Part {
     let hatched: [number, number][] = [];
     const made = [1, 2, 3] as const;
     const nothing: Line = Array.from(scene.time, () => null);
+    const { before } = scene;
+    const recorded = (m: number, axis: number): Line =>
+      before === null ? nothing : Array.from(scene.time, (_, p) => (isThere(before, points, m, p) ? 1e3 * before.x[(3 * m + axis) * points + p]! : null));
     const plots = boxes.map(
       (box, k) =>
         new TimePlot(box, view, {
@@ -74,6 +77,7 @@ export function recordedCurves(scene: Scene, view: View): Part {
           series: [
             { stroke: (dense) => (dense ? palette().dense : palette().line), width: 1.6 },
             ...made.map((code) => ({ stroke: () => palette().states[code], width: 2.6, hidden: true })),
+            { stroke: () => palette().second, width: before === null ? 0 : 1.4, hidden: true, dash: [5, 4] },
           ],
           unit: () => `${axisNames[k]} (mm)`,
           hatched: () => hatched,
@@ -90,7 +94,7 @@ export function recordedCurves(scene: Scene, view: View): Part {
         hatched = stretches(codes, firstAbsent).map(([from, to]) => [scene.time[from]! - half, scene.time[to - 1]! + half]);
         plots.forEach((plot, k) => {
           const line = Array.from(scene.time, (_, p) => (isThere(scene.markers, points, m, p) ? value(m, k, p) : null));
-          plot.setData([scene.time, line, ...made.map((code) => (codes.includes(code) ? partWithCode(line, codes, code) : nothing))]);
+          plot.setData([scene.time, line, ...made.map((code) => (codes.includes(code) ? partWithCode(line, codes, code) : nothing)), recorded(m, k)]);
         });
       }
       read();
@@ -116,6 +120,7 @@ export function recordedCurves(scene: Scene, view: View): Part {
       { class: "keys" },
       el("span", { class: "key" }, "measured"),
       ...[1, 2, 3].flatMap((code) => (scene.markers.states.includes(code) ? [el("span", { class: `key made-${code}` }, stateWords[code as 1])] : [])),
+      ...(scene.before === null ? [] : [el("span", { class: "key recorded" }, "as recorded, before the edits")]),
     ),
     readout,
     ...boxes,

@@ -8,6 +8,7 @@ import { facing } from "../scene/facing.ts";
 import { canFilm, film } from "../scene/film.ts";
 import { floorHeight } from "../scene/floor.ts";
 import { glbOf } from "../scene/glb.ts";
+import { Pace, pause_ms } from "../scene/pace.ts";
 import { planeOf, type Plane } from "../scene/plane.ts";
 import { at, bounds, isEverThere, isThere, pointAt, type Scene } from "../scene/scene.ts";
 import { statePaths } from "../scene/shapes.ts";
@@ -29,6 +30,10 @@ export interface SpaceOptions {
   others: { legend: string; switch: string } | null;
   /** A sentence above the picture. */
   lead?: string;
+  /** Where to look from, kept while what is drawn is drawn anew. */
+  kept?: { camera: Camera | null };
+  /** The last point is now, and the points before it change: nothing to play, nothing to save but the picture. Tells which markers were seen so far. */
+  live?: { seen: readonly boolean[] };
 }
 
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4] as const;
@@ -39,9 +44,9 @@ const axisWords = (up: Vec): string => {
 };
 
 /** The recording in space, on the instant that all plots share. */
-export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void } {
+export function space(scene: Scene, view: View, options: SpaceOptions): { node: HTMLElement; start: () => void; stop: () => void } {
   const M = scene.names.length;
-  const everThere = scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
+  const everThere = options.live?.seen ?? scene.names.map((_, m) => isEverThere(scene.markers, scene.points, m));
   const lines = sticks(scene);
   const ahead = facing(scene);
   const canvas = el("canvas", { class: "space-canvas", tabindex: 0, role: "img", "aria-label": "Markers in space. Drag to turn, shift and drag to move, wheel to come nearer." });
@@ -87,6 +92,9 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let hover = -1;
   let picture: SpaceView | null = null;
   let pending = false;
+  let fineness = 1;
+  let resting: ReturnType<typeof setTimeout> | undefined;
+  const pace = new Pace();
   camera = firstCamera();
 
   function firstCamera(): Camera {
@@ -133,8 +141,24 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     pending = true;
     requestAnimationFrame(() => {
       pending = false;
+      // What people save is as fine as it can be.
+      refine(filming === null ? pace.next(performance.now()) : 1);
       draw();
+      clearTimeout(resting);
+      if (fineness < 1) resting = setTimeout(drawFinely, pause_ms);
     });
+  }
+
+  /** So many pixels along each side, of those that the screen has. */
+  function refine(share: number): void {
+    if (share === fineness || picture === null) return;
+    fineness = share;
+    picture.resize(frame.clientWidth, frame.clientHeight, share);
+  }
+
+  function drawFinely(): void {
+    refine(1);
+    draw();
   }
 
   function draw(): void {
@@ -310,6 +334,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     const views: Record<string, StandardView> = { "1": "front", "2": "side", "3": "top", "4": "corner" };
     const wanted = views[key];
     if (wanted !== undefined) seeFrom(wanted);
+    else if (options.live !== undefined && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(key)) return false;
     else if (key === " ") setPlaying(!playing);
     else if (key === "ArrowLeft" || key === "ArrowRight") goTo(point + (key === "ArrowLeft" ? -1 : 1) * (shift ? 10 : 1));
     else if (key === "Home" || key === "End") goTo(key === "Home" ? 0 : scene.points - 1);
@@ -336,7 +361,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     }
     const fit = (): void => {
       if (frame.clientWidth === 0) return;
-      picture?.resize(frame.clientWidth, frame.clientHeight);
+      picture?.resize(frame.clientWidth, frame.clientHeight, fineness);
       draw();
     };
     new ResizeObserver(fit).observe(frame);
@@ -355,13 +380,21 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       setPlaying(false);
       goTo(Number(slider.value));
     });
-    camera = firstCamera();
+    camera = options.kept?.camera ?? firstCamera();
     fit();
     tell();
   }
 
+  function stop(): void {
+    setPlaying(false);
+    clearTimeout(resting);
+    if (options.kept !== undefined) options.kept.camera = camera;
+    picture?.dispose();
+    picture = null;
+  }
+
   async function savePicture(): Promise<void> {
-    draw();
+    drawFinely();
     const ratio = canvas.width / Math.max(1, canvas.clientWidth);
     const copy = el("canvas", { width: canvas.width, height: canvas.height });
     const pen = copy.getContext("2d")!;
@@ -435,7 +468,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     "space",
     "Space",
     options.lead ?? "",
-    scene.frameStep === 1
+    scene.frameStep === 1 || options.live !== undefined
       ? null
       : el("p", { class: "thinned" }, `Long recording: space and curves show every ${number(scene.frameStep)}${scene.frameStep === 2 ? "nd" : scene.frameStep === 3 ? "rd" : "th"} frame as it is (${number(scene.rateHz / scene.frameStep, 2)} Hz). The map of gaps and all numbers come from all frames.`),
     el(
@@ -455,14 +488,14 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       scene.skeleton === null ? null : choice("95 % regions", [["0", "none"], ["1", "true size"], ["3", "3 ×"], ["10", "10 ×"]], "1", (v) => { regions = Number(v); redraw(); }),
       scene.bodies === null ? null : toggle("Bodies", true, (on) => { bodies = on; redraw(); }),
       scene.cameras.length === 0 ? null : toggle("Rays", true, (on) => { rays = on; redraw(); }),
-      planeButton,
+      options.live !== undefined ? null : planeButton,
       el("label", { class: "pick" }, el("span", {}, "Cut"), cutSlider),
       el("button", { type: "button", click: () => void savePicture() }, "Save picture"),
-      el("button", { type: "button", title: "Save the animation for Blender and others", click: () => saveGlb() }, "Save GLB"),
-      canFilm() ? filmButton : null,
+      options.live !== undefined ? null : el("button", { type: "button", title: "Save the animation for Blender and others", click: () => saveGlb() }, "Save GLB"),
+      canFilm() && options.live === undefined ? filmButton : null,
     ),
     frame,
-    el(
+    options.live !== undefined ? null : el(
       "div",
       { class: "transport" },
       play,
@@ -483,7 +516,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       ),
       options.others === null ? null : el("li", {}, svg("svg", { viewBox: "0 0 20 20", class: "mark mark-other hollow", "aria-hidden": "true" }, svg("path", { d: statePaths[4]!.d })) as unknown as HTMLElement, options.others.legend),
     ),
-    el("p", { class: "facts" }, `${facts.join("; ")}. Click into the picture: space plays, arrows step, 1 to 4 are views, + and − come nearer, 0 starts over.`),
+    el("p", { class: "facts" }, `${facts.join("; ")}. Click into the picture: ${options.live !== undefined ? "" : "space plays, arrows step, "}1 to 4 are views, + and − come nearer, 0 starts over.`),
   );
-  return { node, start };
+  return { node, start, stop };
 }

@@ -16,8 +16,19 @@ export interface Opened {
 /** Something that must be true of an opened page; it throws when it is not. */
 export type Check = (opened: Opened) => Promise<void>;
 
-/** Open a file in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
-export async function open(file: string, colorScheme: "light" | "dark" = "light", webGl = true): Promise<Opened> {
+/** Open a file, or an address, in a browser of its own with an empty profile. KINEMARK_CHROMIUM names another browser. */
+export function open(file: string, colorScheme: "light" | "dark" = "light", webGl = true): Promise<Opened> {
+  if (file.startsWith("http:")) return openAddress(file, (asked) => new URL(asked).host === new URL(file).host, colorScheme, webGl);
+  const url = pathToFileURL(file).href;
+  return openAddress(url, (asked) => asked.split("#")[0] === url, colorScheme, webGl);
+}
+
+/**
+ * Open an address likewise, and wait until its page is ready.
+ * @param may   what the page may ask for; anything else is a complaint
+ * @param then  where to go once the address was opened, which need not be a page of ours
+ */
+export async function openAddress(url: string, may: (asked: string) => boolean, colorScheme: "light" | "dark" = "light", webGl = true, then = url): Promise<Opened> {
   const profile = mkdtempSync(join(tmpdir(), "kinemark-viewer-"));
   const context = await chromium.launchPersistentContext(profile, {
     executablePath: process.env["KINEMARK_CHROMIUM"] ?? "/usr/bin/chromium",
@@ -35,10 +46,9 @@ export async function open(file: string, colorScheme: "light" | "dark" = "light"
     ],
   });
   const page = context.pages()[0] ?? (await context.newPage());
-  const url = pathToFileURL(file).href;
   const complaints: string[] = [];
   page.on("request", (r) => {
-    if (r.url().split("#")[0] !== url) complaints.push(`asked for ${r.url().slice(0, 200)}`);
+    if (!may(r.url())) complaints.push(`asked for ${r.url().slice(0, 200)}`);
   });
   page.on("console", (m) => {
     if (m.type() === "error" || m.type() === "warning") complaints.push(`console: ${m.text()}`);
@@ -57,6 +67,7 @@ export async function open(file: string, colorScheme: "light" | "dark" = "light"
     });
   }
   await page.goto(url);
+  if (then !== url) await page.goto(then);
   await page.waitForFunction(() => document.documentElement.dataset["ready"] !== undefined);
   await settle(page);
   return {

@@ -18,7 +18,7 @@ interface Violation {
 }
 
 /** What axe has against the page as it is shown now. */
-async function violations(page: Page): Promise<string[]> {
+export async function violations(page: Page): Promise<string[]> {
   await page.evaluate(axe);
   const found = await page.evaluate(async () => {
     const run = (globalThis as unknown as { axe: { run: (root: Document, options: object) => Promise<{ violations: Violation[] }> } }).axe;
@@ -28,7 +28,7 @@ async function violations(page: Page): Promise<string[]> {
 }
 
 /** Elements that reach out of the page, or out of a box that does not scroll. */
-const clipped = (page: Page): Promise<string[]> =>
+export const clipped = (page: Page): Promise<string[]> =>
   page.evaluate(() => {
     const width = document.documentElement.clientWidth;
     const out: string[] = [];

@@ -58,6 +58,27 @@ describe("TimePlot", () => {
     plot.hook("setSelect");
     expect(view.range[1]).toBeCloseTo(5);
   });
+  it("chooses what shall be edited with Shift, where that can be done, and zooms otherwise", () => {
+    const { view, plot } = make();
+    plot.over.fire("mousedown", { offsetX: 200, shiftKey: true });
+    plot.select = { left: 200, width: 300 };
+    plot.hook("setSelect");
+    expect(view.stretch).toBeNull();
+    expect(view.range[0]).toBeCloseTo(2);
+    view.set({ range: [0, 10] });
+    view.editable = true;
+    plot.over.fire("mousedown", { offsetX: 200, shiftKey: true });
+    plot.select = { left: 200, width: 300 };
+    plot.hook("setSelect");
+    expect(view.stretch![0]).toBeCloseTo(2);
+    expect(view.stretch![1]).toBeCloseTo(5);
+    expect(view.range).toEqual([0, 10]);
+    plot.over.fire("mousedown", { offsetX: 200, shiftKey: false });
+    plot.select = { left: 400, width: 100 };
+    plot.hook("setSelect");
+    expect(view.range[0]).toBeCloseTo(4);
+    expect(view.stretch![0]).toBeCloseTo(2);
+  });
   it("shows everything after a double click", () => {
     const { view, plot } = make();
     view.set({ range: [2, 3], focus: 2.5 });

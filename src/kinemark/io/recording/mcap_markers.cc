@@ -5,11 +5,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,7 @@
 #include "kinemark/io/recording/internal/foxglove_json.h"
 #include "kinemark/io/recording/internal/mcap.h"
 #include "kinemark/io/recording/internal/mcap_walk.h"
+#include "kinemark/io/recording/markers_recording.h"
 #include "kinemark/io/sample_clock.h"
 
 namespace kinemark::io {
@@ -26,6 +30,7 @@ namespace {
 
 using internal::TimedPosition;
 
+constexpr std::size_t kHeaderBytes = 512;  // in which a header's profile stands
 constexpr std::size_t kNamesInMessage = 5;
 constexpr std::size_t kMostPerSample = 64;  // samples of all points and frames, to one that is there
 constexpr std::size_t kSamplesAlways = 1'000'000;
@@ -149,8 +154,8 @@ Result<data::Trial> assemble(const ByteSource& source) {
   if (!found) return std::unexpected(found.error());
   if (found->file.profile == internal::kProfile)
     return fail(Code::not_supported,
-                "is a recording of kinemark, which holds counts of detectors and no positions of markers; "
-                "kinemark reconstruct makes them");
+                "is a recording of kinemark; its markers are read from a file alone, and of counts kinemark "
+                "reconstruct makes them");
   const std::vector<std::string> unread(found->unread.begin(), found->unread.end());
   if (found->positions.empty())
     return fail(Code::not_supported,
@@ -195,7 +200,15 @@ Result<data::Trial> read_mcap_markers(const ByteSource& source) {
 Result<data::Trial> read_mcap_markers(const std::filesystem::path& path) {
   auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
-  return read_mcap_markers(FileSource(std::move(*file)));
+  auto source = std::make_unique<FileSource>(std::move(*file));
+  std::array<std::byte, kHeaderBytes> begin{};
+  const auto there = source->read_at(0, begin);
+  if (!there) return std::unexpected(there.error());
+  const std::string_view text(reinterpret_cast<const char*>(begin.data()), *there);
+  if (!is_mcap(text) || is_mcap_of_others(text)) return read_mcap_markers(*source);
+  auto reader = RecordingReader::open(std::move(source), {.skip_damage = true});
+  if (!reader) return std::unexpected(reader.error());
+  return read_markers_recording(std::move(*reader));
 }
 
 }  // namespace kinemark::io

@@ -24,12 +24,13 @@ namespace kinemark::io {
 /// (find_clock()); those of others belong to the nearest frame. The first frame is at 0 s; frames without a
 /// sample are missing. Of points in several coordinate frames those of the frame with most points are read.
 /// What was left out stands among the warnings. A file that ends within a record is read up to there, with a
-/// warning. Code::not_supported for a recording of ours and for a file without such messages;
+/// warning. A recording of ours is read as
+/// read_markers_recording(). Code::not_supported for a file without such messages;
 /// Code::bad_input, with the byte or the topic, for one that is damaged; Code::io when it cannot be read.
 /// Memory: the largest chunk, of at most 64 MiB when unpacked, and what the samples need.
 [[nodiscard]] Result<data::Trial> read_mcap_markers(const std::filesystem::path& path);
 
-/// The same from any bytes.
+/// The same from any bytes; Code::not_supported for a recording of ours.
 [[nodiscard]] Result<data::Trial> read_mcap_markers(const ByteSource& source);
 
 }  // namespace kinemark::io

@@ -9,7 +9,6 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -26,6 +25,33 @@ Result<data::EditedRecording> identify_recording(const fs::path& recording) {
   if (!hash) return std::unexpected(hash.error());
   return data::EditedRecording{
       .name = to_utf8(recording.filename().string()), .bytes = hash->bytes, .hash = std::move(hash->hex)};
+}
+
+Result<io::EditsRead> read_edits_of(const fs::path& journal, const data::EditedRecording& recording,
+                                    bool force) {
+  std::error_code absent;
+  if (!fs::exists(journal, absent)) {
+    io::EditsRead none;
+    none.list.recording = recording;
+    return none;
+  }
+  auto read = io::read_edits(journal);
+  if (!read) return std::unexpected(read.error());
+  if (force) return read;
+  if (auto s = io::check_recording(journal, read->list.recording, recording); !s)
+    return std::unexpected(s.error());
+  return read;
+}
+
+Result<data::EditList> append_edit(const fs::path& journal, const data::EditedRecording& recording,
+                                   std::size_t before, data::Edit edit, bool force) {
+  auto open = io::EditJournal::open(journal, recording, force);
+  if (!open) return std::unexpected(open.error());
+  if (open->list().edits.size() != before)
+    return fail(Code::io,
+                fmt::format("{}: another program edited it meanwhile; try again", journal.string()));
+  if (auto s = open->append(std::move(edit)); !s) return std::unexpected(s.error());
+  return open->list();
 }
 
 Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial) {

@@ -15,6 +15,7 @@
 #include "kinemark/data/edit.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/io/edits/edit_journal.h"
 
 namespace kinemark::pipeline {
 
@@ -26,6 +27,17 @@ inline constexpr const char* kEditsBeside = "beside";
 
 /// The recording's name, size and checksum, as journals hold them. Fails as hash_file().
 [[nodiscard]] Result<data::EditedRecording> identify_recording(const std::filesystem::path& recording);
+
+/// The journal as it is now; without one, no edit of `recording`. Fails as io::read_edits(), and unless
+/// `force` as io::check_recording().
+[[nodiscard]] Result<io::EditsRead> read_edits_of(const std::filesystem::path& journal,
+                                                  const data::EditedRecording& recording, bool force = false);
+
+/// Append an edit that was tried on `before` operations, and return all. It is on the disk then. Code::io
+/// when the journal holds another number by now; fails as io::EditJournal.
+[[nodiscard]] Result<data::EditList> append_edit(const std::filesystem::path& journal,
+                                                 const data::EditedRecording& recording, std::size_t before,
+                                                 data::Edit edit, bool force = false);
 
 /// Edits to apply to a recording as it was read.
 struct EditsSource {

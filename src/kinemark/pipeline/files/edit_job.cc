@@ -5,13 +5,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
-#include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/edit_input.h"
@@ -21,7 +22,6 @@
 namespace kinemark::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using data::EditKind;
 
 constexpr double kSlack = 1e-6;  // frames: what times lose in decimal digits
@@ -90,23 +90,6 @@ Status place_edit(const EditJob& job, const data::Trial& trial, data::Edit& edit
   return {};
 }
 
-/// The journal as it is, if there is one.
-Result<io::EditsRead> read_journal(const EditJob& job, const data::EditedRecording& recording,
-                                   const fs::path& path) {
-  std::error_code absent;
-  if (!fs::exists(path, absent)) {
-    io::EditsRead none;
-    none.list.recording = recording;
-    return none;
-  }
-  auto read = io::read_edits(path);
-  if (!read) return std::unexpected(read.error());
-  if (job.force) return read;
-  if (auto s = io::check_recording(path, read->list.recording, recording); !s)
-    return std::unexpected(s.error());
-  return read;
-}
-
 }  // namespace
 
 Result<EditOutcome> run_edit(const EditJob& job) {
@@ -114,7 +97,7 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   outcome.journal = job.edits.empty() ? edits_of(job.input) : job.edits;
   const auto recording = identify_recording(job.input);
   if (!recording) return std::unexpected(recording.error());
-  auto read = read_journal(job, *recording, outcome.journal);
+  auto read = read_edits_of(outcome.journal, *recording, job.force);
   if (!read) return std::unexpected(read.error());
   auto input = read_marker_input({.path = job.input, .rate_hz = job.rate_hz});
   if (!input) return std::unexpected(input.error());
@@ -139,17 +122,22 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   // Tried: now it is made.
   auto edit = std::move(outcome.list.edits.back());
   const auto before = outcome.list.edits.size() - 1;
-  auto journal = io::EditJournal::open(outcome.journal, *recording, job.force);
-  if (!journal) return std::unexpected(journal.error());
-  if (journal->list().edits.size() != before)
-    return fail(Code::io,
-                fmt::format("{}: another program edited it meanwhile; try again", outcome.journal.string()));
-  if (auto s = journal->append(std::move(edit)); !s) return std::unexpected(s.error());
-  outcome.list = journal->list();
+  auto list = append_edit(outcome.journal, *recording, before, std::move(edit), job.force);
+  if (!list) return std::unexpected(list.error());
+  outcome.list = std::move(*list);
   in_force = outcome.list.edits_in_force();
   if (in_force) outcome.in_force = std::move(*in_force);
   outcome.written = {outcome.journal};
   return outcome;
+}
+
+std::string time_of_edit() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  if (::gmtime_r(&now, &utc) == nullptr) return {};
+  std::array<char, 32> text{};
+  const auto n = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return {text.data(), n};
 }
 
 nlohmann::ordered_json edit_json(const EditOutcome& outcome) {

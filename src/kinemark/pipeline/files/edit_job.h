@@ -40,6 +40,9 @@ struct EditOutcome : JobOutcome {
 /// read_marker_input(), take_edits() and io::EditJournal; Code::usage for ends that are no frame and no time.
 [[nodiscard]] Result<EditOutcome> run_edit(const EditJob& job);
 
+/// The time, for Edit::made: "2026-11-24T09:30:00Z".
+[[nodiscard]] std::string time_of_edit();
+
 /// The outcome for programs: {"journal", "digest", "edits": [{..., "in_force", "words"}], "regions", "undo",
 /// "redo"}.
 [[nodiscard]] nlohmann::ordered_json edit_json(const EditOutcome& outcome);

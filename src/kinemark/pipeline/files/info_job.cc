@@ -8,6 +8,7 @@
 
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
+#include "kinemark/io/recording/markers_recording.h"
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
@@ -114,13 +115,14 @@ Result<CountsFacts> describe_counts(const std::filesystem::path& path) {
                      .labels = counts.leds};
 }
 
-/// Of an MCAP file of another program what of it is markers.
+/// Of an MCAP file of another program, and of a recording of markers, what of it is markers.
 Status describe_recording(const InfoJob& job, InfoOutcome& out) {
   const auto begin = io::read_begin(job.file);
   if (!begin) return std::unexpected(begin.error());
   if (io::is_mcap_of_others(*begin)) return describe_markers(job, out);
   auto survey = io::survey_recording(job.file);
   if (!survey) return std::unexpected(survey.error());
+  if (std::ranges::any_of(survey->channels, io::carries_markers)) return describe_markers(job, out);
   RecordingFacts facts{.end = survey->end, .bytes = survey->bytes, .messages = survey->messages};
   for (const auto& channel : survey->channels) facts.channels.push_back(channel.topic);
   for (const auto& metadata : survey->metadata) facts.metadata.push_back(metadata.name);

@@ -5,14 +5,22 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <set>
 #include <utility>
 
+#include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/measures/gait_cycles.h"
+#include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/pipeline/measures/measures_asked.h"
+#include "kinemark/pipeline/measures/measures_page.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 
@@ -73,22 +81,138 @@ Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& t
   return regions_of(job, trial, std::move(taken->regions));
 }
 
+// Names of files that are told apart by more than the case of their letters.
+void make_unique(std::vector<NamedFigure>& figures) {
+  std::set<std::string> seen;
+  for (auto& figure : figures) {
+    std::string name = figure.name;
+    const auto is_new = [&seen](std::string text) {
+      std::ranges::transform(text, text.begin(),
+                             [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return seen.insert(std::move(text)).second;
+    };
+    for (int number = 2; !is_new(name); ++number) name = fmt::format("{}_{}", figure.name, number);
+    figure.name = std::move(name);
+  }
+}
+
+Status write_figures(const MeasuresJob& job, const std::vector<std::string>& formats,
+                     const std::vector<NamedFigure>& figures, MeasuresOutcome& outcome) {
+  std::vector<std::string> names;
+  std::vector<ResultFile> files;
+  for (const auto& figure : figures)
+    for (const auto& format : formats) {
+      names.push_back(figure.name + "." + format);
+      files.push_back(
+          {.target = job.figures / names.back(),
+           .write = [&figure, format](const std::filesystem::path& staged, const std::string&) -> Status {
+             const auto content = figure_file(figure.figure, format);
+             if (!content) return std::unexpected(content.error());
+             return io::write_text(staged, *content, false);
+           }});
+    }
+  auto staging = Staging::create_in(job.figures, names, job.force, {job.input, job.edits});
+  if (!staging) return std::unexpected(staging.error());
+  auto written = write_results(*staging, files, {}, "the figures");
+  if (!written) return std::unexpected(written.error());
+  std::ranges::move(*written, std::back_inserter(outcome.written));
+  return {};
+}
+
+// The table and `files` with it, the figures, the page: what of them is asked for.
+Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats,
+                 const std::vector<analysis::PathCurves>& curves, std::vector<ResultFile> files,
+                 Staging& staging, PageFile& page, MeasuresOutcome& outcome) {
+  std::vector<NamedFigure> figures;
+  for (const auto& one : curves) std::ranges::move(measure_figures(one), std::back_inserter(figures));
+  make_unique(figures);
+  if (!job.output.empty())
+    files.push_back(
+        ending_of(job.output) == ".csv"
+            ? text_file(job.output,
+                        [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
+            : json_file(job.output, [&] { return measures_outcome_json(outcome); }));
+  if (!files.empty()) {
+    auto written = write_results(staging, files, {}, "the measures");
+    if (!written) return std::unexpected(written.error());
+    outcome.written = std::move(*written);
+  }
+  if (!job.figures.empty())
+    if (auto s = write_figures(job, formats, figures, outcome); !s) return s;
+  if (page.wanted()) return page.write(measures_page(job, outcome, figures), outcome);
+  return {};
+}
+
+// Walking, then paths; what fails is reported where something else is measured.
+Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+                   std::vector<analysis::PathCurves>& curves, MeasuresOutcome& outcome) {
+  const bool events_needed = !job.gait.write_events.empty() || !job.gait.write_cycles.empty();
+  if (asked.walking) {
+    auto gait = measure_gait(job.input, trial, asked.gait);
+    if (gait) {
+      std::ranges::copy(gait->notes, std::back_inserter(outcome.warnings));
+      outcome.measures = gait->measures;
+      outcome.gait = std::move(*gait);
+    } else if (asked.by_name && (!asked.paths || events_needed || gait.error().code == Code::usage)) {
+      return std::unexpected(gait.error());
+    } else if (asked.by_name) {
+      outcome.warnings.push_back("Walking is not measured: " + gait.error().message);
+    }
+  }
+  if (!asked.paths) return {};
+  auto measured = analysis::measure_paths(trial.markers, asked.path);
+  if (!measured) return std::unexpected(measured.error());
+  if (measured->measures.empty() && outcome.measures.empty())
+    return fail(Code::bad_input,
+                fmt::format("nothing can be measured: {}",
+                            measured->warnings.empty() ? "no measure applies" : measured->warnings.front()));
+  curves = std::move(measured->curves);
+  std::ranges::move(measured->measures, std::back_inserter(outcome.measures));
+  std::ranges::move(measured->warnings, std::back_inserter(outcome.warnings));
+  return {};
+}
+
+// Tables of events and cycles, or the recording with its events.
+struct GaitFiles {
+  std::optional<data::Trial> recorded;
+  std::vector<data::CycleCurves> curves;
+};
+
+Result<std::vector<ResultFile>> gait_files(const MeasuresJob& job, const data::Trial& trial,
+                                           const MeasuresOutcome& outcome, GaitFiles& of) {
+  std::vector<ResultFile> out;
+  const auto name = job.input.filename().string();
+  if (of.recorded && outcome.gait) {
+    of.recorded = with_events(std::move(*of.recorded), *outcome.gait);
+    out.push_back(marker_file(job.gait.write_events, *of.recorded));
+  } else if (!job.gait.write_events.empty()) {
+    out.push_back(text_file(job.gait.write_events,
+                            [&, name] { return events_csv(*outcome.gait, trial.markers.time, name); }));
+  }
+  if (job.gait.write_cycles.empty()) return out;
+  auto cut = gait_curves(trial, outcome.gait->cycles, job.gait.angles);
+  if (!cut) return std::unexpected(cut.error());
+  of.curves = std::move(*cut);
+  out.push_back(text_file(job.gait.write_cycles, [&, name] { return curves_csv(of.curves, name); }));
+  return out;
+}
+
 }  // namespace
 
 Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
   if (auto s = check_output(job.output); !s) return std::unexpected(s.error());
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
-  analysis::PathMeasureOptions options{.measures = job.measures,
-                                       .refits = job.refits,
-                                       .noise_sd_m = job.noise_sd_m,
-                                       .level = job.level,
-                                       .seed = job.seed,
-                                       .threads = job.threads};
-  if (auto s = options.check(); !s) return std::unexpected(s.error());
-  auto staging =
-      Staging::create(job.output.empty() ? std::vector<std::filesystem::path>{} : std::vector{job.output},
-                      job.force, {job.input, job.edits});
+  auto asked = asked_measures(job);
+  if (!asked) return std::unexpected(asked.error());
+  const auto formats = parse_figure_formats(job.figure_formats);
+  if (!formats) return std::unexpected(formats.error());
+  std::vector<std::filesystem::path> targets;
+  for (const auto& path : {job.output, job.gait.write_events, job.gait.write_cycles})
+    if (!path.empty()) targets.push_back(path);
+  auto staging = Staging::create(targets, job.force, {job.input, job.edits, job.gait.angles});
   if (!staging) return std::unexpected(staging.error());
+  auto page = PageFile::begin(job.report, {job.input, job.edits, job.output}, job.force);
+  if (!page) return std::unexpected(page.error());
   auto input =
       read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .needs_samples = true, .record = true});
   if (!input) return std::unexpected(input.error());
@@ -96,26 +220,18 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
   outcome.input = std::move(input->file);
   outcome.warnings = std::move(input->trial.warnings);
   const std::string name = job.input.string();
-  auto regions = prepare(job, input->trial, outcome);
+  auto& trial = input->trial;
+  GaitFiles gait;
+  if (ending_of(job.gait.write_events) == ".c3d") gait.recorded = trial;
+  auto regions = prepare(job, trial, outcome);
   if (!regions) return fail_at(name, regions.error());
-  options.regions = std::move(*regions);
-  auto measured = analysis::measure_paths(input->trial.markers, options);
-  if (!measured) return fail_at(name, measured.error());
-  if (measured->measures.empty())
-    return fail(Code::bad_input,
-                fmt::format("{}: nothing can be measured: {}", name,
-                            measured->warnings.empty() ? "no measure applies" : measured->warnings.front()));
-  outcome.measures = std::move(measured->measures);
-  std::ranges::move(measured->warnings, std::back_inserter(outcome.warnings));
-  if (job.output.empty()) return outcome;
-  const bool csv = ending_of(job.output) == ".csv";
-  const auto file =
-      csv ? text_file(job.output,
-                      [&] { return measures_csv(outcome.measures, job.input.filename().string()); })
-          : json_file(job.output, [&] { return measures_outcome_json(outcome); });
-  auto written = write_results(*staging, {file}, {}, "the measures");
-  if (!written) return std::unexpected(written.error());
-  outcome.written = std::move(*written);
+  asked->path.regions = asked->gait.regions = std::move(*regions);
+  std::vector<analysis::PathCurves> curves;
+  if (auto s = measure_all(job, *asked, trial, curves, outcome); !s) return fail_at(name, s.error());
+  auto files = gait_files(job, trial, outcome, gait);
+  if (!files) return fail_at(name, files.error());
+  if (auto s = write_all(job, *formats, curves, std::move(*files), *staging, *page, outcome); !s)
+    return std::unexpected(s.error());
   return outcome;
 }
 
@@ -125,6 +241,7 @@ nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {
                   {"bytes", outcome.input.bytes},
                   {outcome.input.hash_kind, outcome.input.hash}};
   out["measures"] = measures_json(outcome.measures);
+  if (outcome.gait) out["gait"] = gait_json(*outcome.gait);
   out["written"] = nlohmann::ordered_json::array();
   for (const auto& path : outcome.written) out["written"].push_back(path.string());
   out["warnings"] = outcome.warnings;

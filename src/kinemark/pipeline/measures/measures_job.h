@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/measures/gait_request.h"
 
 namespace kinemark::pipeline {
 
@@ -23,31 +25,40 @@ struct MeasuresJob : JobSettings {
   std::filesystem::path
       edits;            ///< journal, applied first; "beside": the one beside the recording, if there is one
   Selection selection;  ///< which markers, which frames
-  std::vector<std::string> measures;  ///< ids; empty: those that apply to each movement
-  std::vector<std::string> regions;   ///< parse_region(); beside those of the journal
-  std::vector<std::string> between;   ///< labels of events: regions_between()
-  std::filesystem::path output;       ///< .csv or .json
-  std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
-  double noise_sd_m = 0.0;            ///< per axis; 0: found from the samples
-  double level = 0.95;                ///< of the intervals
-  bool keep_defects = false;          ///< measure what screening calls spikes, swaps, stuck too
+  /// ids, of paths and of walking ("gait": all of these); empty: those that apply to each movement
+  std::vector<std::string> measures;
+  std::vector<std::string> regions;  ///< parse_region(); beside those of the journal
+  std::vector<std::string> between;  ///< labels of events: regions_between()
+  std::filesystem::path output;      ///< .csv or .json
+  std::filesystem::path figures;     ///< folder for figures; empty: none are written
+  std::string figure_formats;        ///< as parse_figure_formats(); empty: all that this program can write
+  std::filesystem::path report;      ///< page to write as well, .html
+  std::int64_t refits = 99;          ///< behind each interval; 0: no intervals
+  double noise_sd_m = 0.0;           ///< per axis; 0: found from the samples
+  double level = 0.95;               ///< of the intervals
+  bool keep_defects = false;         ///< measure what screening calls spikes, swaps, stuck too
+  GaitRequest gait;                  ///< walking
 };
 
 /// Warnings: what was left out, and markers that could not be measured.
 struct MeasuresOutcome : JobOutcome {
   data::InputFile input;                ///< the recording
-  std::vector<data::Measure> measures;  ///< markers in the recording's order, their regions, their measures
+  std::vector<data::Measure> measures;  ///< of walking, then markers in the recording's order, their regions
+  std::optional<analysis::Gait> gait;   ///< walking, where it was asked for or is there
 };
 
-/// Read, screen, measure, write. Samples that the recorder made, that were filled or that screening rejects
-/// are not measured; nothing is written where nothing can be measured. Progress counts nothing.
+/// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are
+/// asked for, where feet that step are found. Samples that the recorder made, that were filled or that
+/// screening rejects are not measured; nothing is written where nothing can be measured. Progress counts
+/// nothing.
 ///
-/// Code::usage as analysis::PathMeasureOptions::check(), parse_region() and for another ending than .csv and
-/// .json; Code::bad_input as the readers, take_selection(), regions_between() and analysis::measure_paths(),
-/// and where no marker can be measured.
+/// Code::usage as analysis::PathMeasureOptions::check(), parse_region(), parse_figure_formats() and for
+/// another ending than .csv and .json; Code::bad_input as the readers, take_selection(), regions_between()
+/// and analysis::measure_paths(), and where no marker can be measured.
 [[nodiscard]] Result<MeasuresOutcome> run_measures(const MeasuresJob& job);
 
-/// "input", "measures" (measures_json()), "written", "warnings".
+/// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "written",
+/// "warnings".
 [[nodiscard]] nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome);
 
 }  // namespace kinemark::pipeline

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "kinemark/pipeline/files/table_cell.h"
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
 namespace kinemark::pipeline {
@@ -17,21 +20,16 @@ using Json = nlohmann::ordered_json;
 const data::MeasureDefinition* definition_of(std::string_view id) {
   for (const auto& definition : analysis::path_definitions())
     if (definition.what.id == id) return &definition.what;
-  return nullptr;
+  const auto* of_walking = analysis::find_gait_definition(id);
+  return of_walking != nullptr ? &of_walking->what : nullptr;
 }
 
-std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-// As RFC 4180 has it.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
+// All, in the order in which they are shown.
+std::vector<data::MeasureDefinition> all_definitions() {
+  std::vector<data::MeasureDefinition> out;
+  for (const auto& definition : analysis::path_definitions()) out.push_back(definition.what);
+  for (const auto& definition : analysis::gait_definitions()) out.push_back(definition.what);
+  return out;
 }
 
 // As many digits as the interval's width supports, two of it, and four significant ones without.
@@ -87,13 +85,14 @@ std::string measures_csv(std::span<const data::Measure> measures, const std::str
       "uncorrected,share_not_measured,method,remark\n";
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
-    const auto shown = [&unit](double si) { return cell(unit.per_si * si); };
-    out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", quoted(file), quoted(m.subject),
-        quoted(m.context), quoted(m.region), m.cycle < 0 ? "" : fmt::to_string(m.cycle), cell(m.start_s),
-        cell(m.end_s), m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
-        m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
-        shown(m.sd), shown(m.uncorrected), cell(m.share_not_measured), quoted(m.method), quoted(m.remark));
+    const auto shown = [&unit](double si) { return table_cell(unit.per_si * si); };
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", table_cell(file),
+                       table_cell(m.subject), table_cell(m.context), table_cell(m.region),
+                       m.cycle < 0 ? "" : fmt::to_string(m.cycle), table_cell(m.start_s), table_cell(m.end_s),
+                       m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
+                       m.interval.level, data::to_string(m.interval.kind),
+                       m.interval.approximate ? "yes" : "no", shown(m.sd), shown(m.uncorrected),
+                       table_cell(m.share_not_measured), table_cell(m.method), table_cell(m.remark));
   }
   return out;
 }
@@ -102,13 +101,13 @@ nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
   Json out = Json::array();
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
-    const auto shown = [&unit](double si) { return number(unit.per_si * si); };
+    const auto shown = [&unit](double si) { return json_number(unit.per_si * si); };
     Json one{{"measure", m.id}, {"subject", m.subject}};
     if (!m.context.empty()) one["context"] = m.context;
     if (!m.region.empty()) one["region"] = m.region;
     if (m.cycle >= 0) one["cycle"] = m.cycle;
-    one["start_s"] = number(m.start_s);
-    one["end_s"] = number(m.end_s);
+    one["start_s"] = json_number(m.start_s);
+    one["end_s"] = json_number(m.end_s);
     one["value"] = shown(m.value);
     one["unit"] = unit.name;
     one["interval"] = {{"kind", data::to_string(m.interval.kind)},
@@ -118,12 +117,23 @@ nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
                        {"approximate", m.interval.approximate}};
     one["sd"] = shown(m.sd);
     one["uncorrected"] = shown(m.uncorrected);
-    one["share_not_measured"] = number(m.share_not_measured);
+    one["share_not_measured"] = json_number(m.share_not_measured);
     one["method"] = m.method;
     if (!m.remark.empty()) one["remark"] = m.remark;
     out.push_back(std::move(one));
   }
   return out;
+}
+
+std::string shown_value(const data::Measure& measure) { return value_text(measure); }
+
+std::string title_of_measure(const std::string& id) {
+  const auto* definition = definition_of(id);
+  return definition ? std::string(definition->title) : id;
+}
+
+std::string title_of_measure(const data::Measure& measure) {
+  return title_of_measure(measure.id) + (measure.context.empty() ? "" : ", " + measure.context);
 }
 
 std::string measures_text(std::span<const data::Measure> measures) {
@@ -132,22 +142,20 @@ std::string measures_text(std::span<const data::Measure> measures) {
     const auto& m = measures[i];
     const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region;
     if (!same)
-      out += fmt::format("{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject,
-                         m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
-                         m.share_not_measured > 0.0
-                             ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
-                             : "");
-    const auto* definition = definition_of(m.id);
-    out += fmt::format("  {:<40} {}{}\n", definition ? definition->title : std::string_view(m.id),
-                       value_text(m), m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
+      out += fmt::format(
+          "{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject.empty() ? "Walking" : m.subject,
+          m.region.empty() ? "" : fmt::format(", {}", m.region), m.start_s, m.end_s,
+          m.share_not_measured > 0.0 ? fmt::format(", {:.1f} % not measured", 100.0 * m.share_not_measured)
+                                     : "");
+    out += fmt::format("  {:<40} {}{}\n", title_of_measure(m), shown_value(m),
+                       m.remark.empty() ? "" : fmt::format("  ({})", m.remark));
   }
   return out;
 }
 
 std::string measure_list() {
   std::string out;
-  for (const auto& definition : analysis::path_definitions()) {
-    const auto& what = definition.what;
+  for (const auto& what : all_definitions()) {
     const auto unit = data::shown_unit(what.quantity).name;
     out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
                        unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
@@ -157,8 +165,7 @@ std::string measure_list() {
 
 nlohmann::ordered_json measure_list_json() {
   Json out = Json::array();
-  for (const auto& definition : analysis::path_definitions()) {
-    const auto& what = definition.what;
+  for (const auto& what : all_definitions()) {
     out.push_back({{"measure", what.id},
                    {"group", what.group},
                    {"title", what.title},

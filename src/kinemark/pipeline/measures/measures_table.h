@@ -24,6 +24,13 @@ namespace kinemark::pipeline {
 /// known of it.
 [[nodiscard]] std::string measures_text(std::span<const data::Measure> measures);
 
+/// "340.12 [339.70 to 340.55] mm": the value with its interval and unit.
+[[nodiscard]] std::string shown_value(const data::Measure& measure);
+/// What the definition calls it, "Path length"; the id where there is none.
+[[nodiscard]] std::string title_of_measure(const std::string& id);
+/// The same with its side: "Stride time, Left".
+[[nodiscard]] std::string title_of_measure(const data::Measure& measure);
+
 /// What each measure of a path is, one line each: id, what it is, unit, formula, source.
 [[nodiscard]] std::string measure_list();
 /// The same as a list of objects.

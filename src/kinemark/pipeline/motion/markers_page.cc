@@ -90,6 +90,14 @@ Vertical vertical_without_model(const std::filesystem::path& path, const data::T
   return {Vector3d::UnitZ(), ""};
 }
 
+MarkersPageParts markers_page_parts(const std::filesystem::path& path, const data::Trial& recorded,
+                                    const data::Trial& trial) {
+  MarkersPageParts parts;
+  parts.forces = plate_forces(path, trial, parts.remarks);
+  parts.vertical = vertical_without_model(path, recorded);
+  return parts;
+}
+
 Result<std::string> markers_page(const std::filesystem::path& path, const MarkersPageOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   auto input = read_marker_input({.path = path,
@@ -103,14 +111,14 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
                                .command_line = options.command_line,
                                .recording = &input->trial,
                                .rate_known = input->rate_known,
-                               .inputs = {input->file}};
-  const data::Wrenches forces = plate_forces(path, input->trial, report.warnings);
-  if (!forces.items.empty()) report.forces = &forces;
-  if (options.up.empty() || options.up == "auto") {
-    auto vertical = vertical_without_model(path, input->trial);
-    report.up = vertical.up;
-    report.up_from = std::move(vertical.from);
-  } else {
+                               .inputs = {input->file},
+                               .editing = options.editing};
+  const auto parts = markers_page_parts(path, input->trial, input->trial);
+  report.warnings = parts.remarks;
+  if (!parts.forces.items.empty()) report.forces = &parts.forces;
+  report.up = parts.vertical.up;
+  report.up_from = parts.vertical.from;
+  if (!options.up.empty() && options.up != "auto") {
     report.up = parse_axis(options.up).value();
     report.up_from = "--up";
   }

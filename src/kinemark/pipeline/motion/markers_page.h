@@ -3,10 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/data/wrenches.h"
 #include "kinemark/pipeline/files/vertical.h"
 
 namespace kinemark::pipeline {
@@ -17,6 +20,7 @@ struct MarkersPageOptions {
   std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
   std::string up;                       ///< axis that points up, "z"; empty or "auto": the one that is found
   std::string command_line;             ///< as typed, for the record
+  nlohmann::ordered_json editing;       ///< as report::MarkersReport::editing
 
   [[nodiscard]] Status check() const;  ///< The rate is not negative, the axis is understood: Code::usage.
 };
@@ -25,6 +29,18 @@ struct MarkersPageOptions {
 /// along which the markers reach farthest in most frames, when they reach over 0.8 m there and 1.2 times as
 /// far as along the others; else z, and `from` is empty.
 [[nodiscard]] Vertical vertical_without_model(const std::filesystem::path& path, const data::Trial& trial);
+
+/// What a page of a recording shows around its samples.
+struct MarkersPageParts {
+  data::Wrenches forces;             ///< of the plates, on the markers' clock
+  Vertical vertical;                 ///< up
+  std::vector<std::string> remarks;  ///< why no forces are shown
+};
+
+/// Forces of plates on the clock of `trial`, which was read from `path` and maybe edited since, and which way
+/// is up in `recorded`, what was read. Forces that cannot be read are a remark.
+[[nodiscard]] MarkersPageParts markers_page_parts(const std::filesystem::path& path,
+                                                  const data::Trial& recorded, const data::Trial& trial);
 
 /// HTML of a marker file as it is: any that read_marker_input() reads, decided by its content. Forces of
 /// plates that cannot be read are a remark on the page. Fails as the reader.

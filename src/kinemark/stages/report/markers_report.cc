@@ -208,11 +208,14 @@ std::vector<NoticeGroup> markers_notices(const MarkersReport& report) {
 Json markers_report_json(const MarkersReport& report, const SceneOptions& options) {
   check(report.recording != nullptr, "a report needs a recording");
   const Scene scene{.markers = &report.recording->markers,
+                    .before = report.before,
                     .forces = report.forces,
                     .plates = report.recording->force_plates,
                     .up = report.up,
                     .up_from = report.up_from};
-  return {{"summary", summary_of(report)}, {"scene", scene_json(scene, options)}};
+  Json json{{"summary", summary_of(report)}, {"scene", scene_json(scene, options)}};
+  if (!report.editing.is_null()) json["editing"] = report.editing;
+  return json;
 }
 
 std::string markers_report_html(const MarkersReport& report, const SceneOptions& options) {

@@ -26,6 +26,9 @@ struct MarkersReport {
   std::string up_from;                            ///< as Scene::up_from
   std::vector<InputFile> inputs;                  ///< files that were read
   std::vector<std::string> warnings;              ///< one sentence each, besides those of the recording
+  const data::Trajectories* before = nullptr;     ///< as it was recorded, on the same markers and frames;
+                                                  ///< nullptr: as it is
+  nlohmann::ordered_json editing;  ///< state of the edits, where the page can change them; null
 };
 
 /// What stands out in a recording, the serious first: markers never seen, markers partly missing, samples

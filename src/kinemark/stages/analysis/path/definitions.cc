@@ -91,7 +91,7 @@ const std::array kDefinitions{
                     "largest - smallest coordinate", kDefinition},
                    Applies::always,
                    Pivot::plain,
-                   Weakness::approximate,
+                   Weakness::upper_alone,
                    [](const PathFacts& f) { return side_along(f, 2); }},
     PathDefinition{{"box_length", "shape", Quantity::length, "Longest side of the smallest box",
                     "rectangles of least area across each axis in turn", "Freeman & Shapira 1975"},

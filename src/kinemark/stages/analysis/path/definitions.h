@@ -30,7 +30,7 @@ enum class Weakness : std::uint8_t {
   lengthened_at_rest,       ///< a path's noise at rest adds up: at most, where part of the stretch is at rest
   extreme_of_constant,      ///< the largest of a speed that hardly changes: at most then
   needs_change,             ///< says nothing of a speed that hardly changes
-  upper_alone,              ///< the lower end fails: the least side of a box
+  upper_alone,              ///< the lower end fails: the least side of a box, which may have none
   upper_alone_if_discrete,  ///< likewise for discrete movements: a start has jerk that no filter passes
   approximate,              ///< covers less than its level in simulated movements
   approximate_if_discrete   ///< likewise for discrete movements alone

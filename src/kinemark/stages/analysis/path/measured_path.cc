@@ -155,8 +155,27 @@ struct MeasuredPath::Refits {
   }
 };
 
-std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(
-    const data::Region& region) const {
+PathCurves MeasuredPath::curves_of(const PathSamples& path, const PathFrame& frame, const Stretch& stretch,
+                                   const CurveSpread& spread) const {
+  const double rate = recording_.rate_hz;
+  PathCurves out{.subject = name_,
+                 .rate_hz = rate,
+                 .start_s = frame.start_s,
+                 .cut_off_hz = recording_.choice.half_power * rate * kLessSmooth,
+                 .along = along_axes(path.x, principal_axes(path.x)),
+                 .speed = speed_of(path),
+                 .acceleration = tangential_acceleration(path),
+                 .speed_sd = spread.speed_sd(),
+                 .acceleration_sd = spread.acceleration_sd()};
+  const auto first = recording_.seen.begin() + stretch.first;
+  out.measured.assign(first, first + stretch.count);
+  if (frame.discrete) out.window = movement_window(out.speed, rate);
+  if (frame.periodic) out.cycles = cycle_starts(path.x, frame.cycle_axis, rate);
+  return out;
+}
+
+std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(const data::Region& region,
+                                                                             PathCurves* curves) const {
   const Stretch stretch = stretch_of(region);
   if (stretch.count < kLeastStretch)
     return std::unexpected(fmt::format("{} frames without the edges of {:g} ms; need {} at least",
@@ -187,8 +206,10 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(
   if (raw_too) refits.raw = values_of(raw);
   const std::size_t count = refits.definitions.size();
   refits.by_less.resize(count), refits.by_least.resize(count), refits.by_raw.resize(count);
+  CurveSpread spread(pilot_part);
   for_each_refit(recording_, pilot, options_.refits, options_.seed, stream,
                  [&](std::int64_t number, const SeriesMatrix& less, const SeriesMatrix& least) {
+                   if (curves != nullptr) spread.add(part(less));
                    const auto a = values_of(less), b = values_of(least);
                    const auto c = raw_too ? values_of(with_noise(raw, recording_.seen, recording_.noise_sd_m,
                                                                  options_.seed, stream, number))
@@ -201,6 +222,11 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(
                      if (raw_too) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
                    }
                  });
+
+  if (curves != nullptr) {
+    *curves = curves_of(part(less_), frame, stretch, spread);
+    curves->region = region.name;
+  }
 
   const StretchSummary summary{.subject = name_,
                                .region = region.name,

@@ -26,8 +26,9 @@ class MeasuredPath {
                                                                        const PathMeasureOptions& options);
 
   /// The measures of a stretch, in the order of path_definitions(). Fails where the stretch is too short.
+  /// @param curves  what they are taken of, where not null
   [[nodiscard]] std::expected<std::vector<data::Measure>, std::string> measure(
-      const data::Region& region) const;
+      const data::Region& region, PathCurves* curves = nullptr) const;
 
   [[nodiscard]] const std::string& name() const { return name_; }        ///< of the marker
   [[nodiscard]] const std::string& warning() const { return warning_; }  ///< on the noise; may be empty
@@ -39,6 +40,9 @@ class MeasuredPath {
     double longest_gap_s = 0.0;         // in it
   };
   struct Refits;
+
+  [[nodiscard]] PathCurves curves_of(const PathSamples& path, const PathFrame& frame, const Stretch& stretch,
+                                     const CurveSpread& spread) const;
 
   [[nodiscard]] Stretch stretch_of(const data::Region& region) const;
   [[nodiscard]] bool below_noise(const Stretch& stretch) const;

@@ -54,7 +54,8 @@ PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t mark
   const std::vector<data::Region> whole{
       {.first_frame = markers.time.number(0), .last_frame = markers.time.number(markers.frames() - 1)}};
   for (const auto& region : options.regions.empty() ? whole : options.regions) {
-    auto measures = path->measure(region);
+    PathCurves curves;
+    auto measures = path->measure(region, options.curves ? &curves : nullptr);
     if (!measures) {
       out.warnings.push_back(fmt::format(
           "{}{}: {}", path->name(), region.name.empty() ? "" : fmt::format(" in region '{}'", region.name),
@@ -62,6 +63,7 @@ PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t mark
       continue;
     }
     std::ranges::move(*measures, std::back_inserter(out.measures));
+    if (options.curves) out.curves.push_back(std::move(curves));
   }
   return out;
 }
@@ -102,6 +104,7 @@ Result<PathMeasures> measure_paths(const data::Trajectories& markers, const Path
   PathMeasures out;
   for (auto& one : each) {
     std::ranges::move(one.measures, std::back_inserter(out.measures));
+    std::ranges::move(one.curves, std::back_inserter(out.curves));
     std::ranges::move(one.warnings, std::back_inserter(out.warnings));
   }
   return out;

@@ -11,6 +11,7 @@
 #include "kinemark/data/edit.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/analysis/path/path_curves.h"
 
 namespace kinemark::analysis {
 
@@ -23,6 +24,7 @@ struct PathMeasureOptions {
   double level = 0.95;       ///< of the intervals, above 0.5 and below 1
   std::uint64_t seed = 1;    ///< of the refits
   int threads = 1;           ///< 0: all cores; any number gives the same bits
+  bool curves = false;       ///< keep what the measures are taken of, for figures
 
   /// Ranges as above, ids that exist (the nearest ones are told); Code::usage.
   [[nodiscard]] Status check() const;
@@ -32,6 +34,7 @@ struct PathMeasureOptions {
 struct PathMeasures {
   std::vector<data::Measure>
       measures;                       ///< markers in the recording's order, their regions, their definitions
+  std::vector<PathCurves> curves;     ///< of each marker and region, where asked for
   std::vector<std::string> warnings;  ///< markers and regions that could not be measured, and noise that
                                       ///< disagrees with what was stated, a sentence each
 };

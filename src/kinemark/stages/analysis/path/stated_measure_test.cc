@@ -154,6 +154,7 @@ TEST_F(StatedMeasure, ValuesThatDependOnTheSmoothingSaySo) {
 
 TEST_F(StatedMeasure, OnlyTheUpperEndWhereTheLowerFails) {
   EXPECT_EQ(tell("box_height", 1.0, 0.1, 0.1).interval.kind, data::IntervalKind::at_most);
+  EXPECT_EQ(tell("extent_thick", 1.0, 0.1, 0.1).interval.kind, data::IntervalKind::at_most);
   EXPECT_EQ(tell("ldlj", -5.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
   frame_.discrete = true;
   const auto m = tell("ldlj", -5.0, 0.0, 0.1);
@@ -162,7 +163,7 @@ TEST_F(StatedMeasure, OnlyTheUpperEndWhereTheLowerFails) {
 }
 
 TEST_F(StatedMeasure, SizesAreNotBelowZero) {
-  const auto m = tell("extent_thick", 0.1, 0.3, 0.05);
+  const auto m = tell("extent_wide", 0.1, 0.3, 0.05);
   EXPECT_EQ(m.value, 0.0);
   EXPECT_EQ(m.interval.low, 0.0);
   EXPECT_LT(tell("ldlj", -5.0, 0.1, 0.4).value, -5.0);

@@ -96,13 +96,18 @@ Eigen::Vector3d detrended_axis(const SeriesMatrix& x) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
 }
 
-Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
+std::vector<double> cycle_starts(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
   const SeriesMatrix along = x * axis;
   const Eigen::VectorXd z = without_trend(along);
   std::vector<double> crossings;
   for (std::int64_t i = 0; i + 1 < z.size(); ++i)
     if (z[i] < 0.0 && z[i + 1] >= 0.0)
       crossings.push_back((static_cast<double>(i) - z[i] / (z[i + 1] - z[i])) / rate_hz);
+  return crossings;
+}
+
+Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
+  const auto crossings = cycle_starts(x, axis, rate_hz);
   std::vector<double> lengths;
   for (std::size_t i = 1; i < crossings.size(); ++i) lengths.push_back(crossings[i] - crossings[i - 1]);
   if (lengths.size() > 1) {

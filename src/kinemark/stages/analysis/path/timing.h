@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/analysis/path/path_samples.h"
@@ -43,6 +44,10 @@ struct Cycles {
   double sd_s = kNaN;      ///< between cycles; NaN: fewer than three crossings
   std::int64_t count = 0;  ///< whole cycles
 };
+/// Upward crossings of zero of the positions along an axis, freed of their straight trend, s from the first
+/// sample.
+[[nodiscard]] std::vector<double> cycle_starts(const SeriesMatrix& x, const Eigen::Vector3d& axis,
+                                               double rate_hz);
 /// Upward crossings of zero of the positions along an axis, freed of their straight trend; crossings nearer
 /// to the one before than 0.4 of the median cycle are noise and do not count.
 [[nodiscard]] Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz);

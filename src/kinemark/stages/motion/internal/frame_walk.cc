@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -18,6 +19,7 @@ using data::FrameStatus;
 
 constexpr int kRetryStarts = 6;     // poses tried on a frame whose cost jumps
 constexpr double kSameCost = 1e-6;  // of the cost: a pose that is better by less is as good
+constexpr double kSameCost_m2 = 1e-12;
 constexpr double kMuchWorse = 2.0;  // times the cost: for a pose that goes on from its neighbour's
 constexpr double kSamePose = 1e-4;  // rad or m
 constexpr double kFarPose = 0.5;    // rad or m: no body moves so far in a frame
@@ -102,10 +104,37 @@ bool FrameWalk::walk(const data::Trajectories& markers, std::int64_t first, std:
       steady = 0;
       solver_.square_cost(y_, weight_, f, x_);  // residuals of the pose that was kept
     }
+    unwind(before_, f);
     usual_cost = usual_cost < 0.0 ? outcome.cost : 0.95 * usual_cost + 0.05 * outcome.cost;
     store(f, outcome.converged, solved);
   }
   return true;
+}
+
+// A hinge that a bad sample had turned comes back the shorter way round, which may end a whole turn away.
+void FrameWalk::unwind(const Eigen::VectorXd& near, std::int64_t f) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (const auto& c : problem_.model.coordinates()) {
+    if (c.speed_idx < 0) continue;
+    const double turns = std::round((x_[c.state_idx] - near[c.state_idx]) / kTurn);
+    if (turns == 0.0) continue;
+    const double wound = x_[c.state_idx], unwound = wound - turns * kTurn;
+    if (unwound < problem_.lower[c.speed_idx] || unwound > problem_.upper[c.speed_idx]) continue;
+    const double cost = solver_.square_cost(y_, weight_, f, x_);
+    x_[c.state_idx] = unwound;
+    // Not every coordinate is a hinge: the pose must stay as it is.
+    if (solver_.square_cost(y_, weight_, f, x_) > (1.0 + kSameCost) * cost + kSameCost_m2) {
+      x_[c.state_idx] = wound;
+      solver_.square_cost(y_, weight_, f, x_);
+    }
+  }
+}
+
+double FrameWalk::marker_cost() const {
+  double sum = 0.0;
+  for (Eigen::Index m = 0; m < weight_.size(); ++m)
+    sum += weight_[m] * solver_.residual().col(m).squaredNorm();
+  return sum / weight_.sum();
 }
 
 void FrameWalk::store(std::int64_t f, bool converged, SolvedFrames& solved) {
@@ -113,7 +142,6 @@ void FrameWalk::store(std::int64_t f, bool converged, SolvedFrames& solved) {
   const auto& w = solver_.workspace();
   const auto M = weight_.size();
   solved.states.col(f) = x_;
-  double sum = 0.0;
   for (Eigen::Index m = 0; m < M; ++m) {
     const auto i = at((f * M + m) * 3);
     const Eigen::Vector3d error =
@@ -129,19 +157,19 @@ void FrameWalk::store(std::int64_t f, bool converged, SolvedFrames& solved) {
         solved.positions[i + at(axis)] =
             weight_[m] > 0.0 ? static_cast<float>(position[axis]) : std::numeric_limits<float>::quiet_NaN();
     }
-    if (weight_[m] > 0.0) sum += weight_[m] * error.squaredNorm();
   }
   const bool seen = (weight_.array() > 0.0).any();
   solved.status[at(f)] = !seen       ? FrameStatus::no_markers
                          : converged ? FrameStatus::converged
                                      : FrameStatus::not_converged;
   solved.loop_gap_m[at(f)] = seen ? solver_.loop_gap() : 0.0;
-  solved.cost[at(f)] = seen ? sum / weight_.sum() : 0.0;
+  solved.cost[at(f)] = seen ? marker_cost() : 0.0;
 }
 
 void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector<std::uint8_t>& concerned,
                             SolvedFrames& solved) {
   const std::int64_t F = problem_.frames;
+  if (concerned[at(solved.first)]) start_again(markers, concerned, solved);
   for (std::int64_t from = 0; from < F; ++from) {
     if (!concerned[at(from)]) continue;
     std::int64_t to = from;
@@ -149,12 +177,13 @@ void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector
     // As the recording was walked over: away from the frame that was solved first.
     const bool holds_first = from <= solved.first && solved.first <= to;
     if (holds_first) {
-      solve_stretch(markers, solved.first, to, solved.states.col(solved.first), true, solved);
-      solve_stretch(markers, solved.first, from, solved.states.col(solved.first), false, solved);
+      const Eigen::VectorXd first = solved.states.col(solved.first);
+      solve_stretch(markers, solved.first, to, first, solved);
+      solve_stretch(markers, solved.first, from, first, solved);
     } else if (from > solved.first) {
-      solve_stretch(markers, from, to, solved.states.col(from - 1), false, solved);
+      solve_stretch(markers, from, to, solved.states.col(from - 1), solved);
     } else {
-      solve_stretch(markers, to, from, solved.states.col(to + 1), false, solved);
+      solve_stretch(markers, to, from, solved.states.col(to + 1), solved);
     }
     if (to >= solved.first) follow(markers, to, 1, solved);
     if (from <= solved.first) follow(markers, from, -1, solved);
@@ -163,8 +192,24 @@ void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector
   solved.iterations = solver_.iterations();
 }
 
+void FrameWalk::start_again(const data::Trajectories& markers, const std::vector<std::uint8_t>& concerned,
+                            SolvedFrames& solved) {
+  solved.first = find_first(markers);
+  const std::int64_t f = solved.first;
+  problem_.observe(markers, f, y_, weight_);
+  if (!(weight_.array() > 0.0).any()) return;
+  x_ = problem_.model.default_state();
+  const auto outcome = find_start(problem_, options_, solver_, y_, weight_, f, options_.starts, x_);
+  solver_.square_cost(y_, weight_, f, x_);
+  model::difference(problem_.model, x_, solved.states.col(f), move_);
+  const bool as_good = marker_cost() <= (1.0 + kSameCost) * solved.cost[at(f)] + kSameCost_m2;
+  if (!concerned[at(f)] && (!as_good || move_.cwiseAbs().maxCoeff() < kSamePose)) return;
+  store(f, outcome.converged, solved);
+  for (const int direction : {1, -1}) follow(markers, f, direction, solved);
+}
+
 void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t from, std::int64_t to,
-                              const Eigen::VectorXd& start, bool many_starts, SolvedFrames& solved) {
+                              const Eigen::VectorXd& start, SolvedFrames& solved) {
   const int direction = to >= from ? 1 : -1;
   Eigen::VectorXd near = start;
   for (std::int64_t f = from; f != to + direction; f += direction) {
@@ -176,19 +221,18 @@ void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t fr
     }
     x_ = near;
     auto outcome = solver_.solve(y_, weight_, f, x_);
-    if (many_starts || !outcome.converged) {
+    if (!outcome.converged) {
       retry_ = near;
-      const auto second = find_start(problem_, options_, solver_, y_, weight_, f,
-                                     many_starts ? options_.starts : kRetryStarts, retry_);
+      const auto second = find_start(problem_, options_, solver_, y_, weight_, f, kRetryStarts, retry_);
       if (second.cost < (1.0 - kSameCost) * outcome.cost) {
         x_ = retry_;
         outcome = second;
       }
     }
+    unwind(near, f);
     solver_.square_cost(y_, weight_, f, x_);
     store(f, outcome.converged, solved);
     near = x_;
-    many_starts = false;
   }
 }
 
@@ -205,10 +249,7 @@ void FrameWalk::follow(const data::Trajectories& markers, std::int64_t from, int
     model::difference(problem_.model, x_, solved.states.col(f), move_);
     if (move_.cwiseAbs().maxCoeff() < kSamePose) return;
     solver_.square_cost(y_, weight_, f, x_);
-    double cost = 0.0;
-    for (Eigen::Index m = 0; m < weight_.size(); ++m)
-      cost += weight_[m] * solver_.residual().col(m).squaredNorm();
-    if (!(cost / weight_.sum() <= kMuchWorse * solved.cost[at(f)] + 1e-12)) return;
+    if (!(marker_cost() <= kMuchWorse * solved.cost[at(f)] + kSameCost_m2)) return;
     store(f, outcome.converged, solved);
   }
 }

@@ -60,11 +60,19 @@ class FrameWalk {
   [[nodiscard]] std::int64_t find_first(const data::Trajectories& markers) const;
   bool walk(const data::Trajectories& markers, std::int64_t first, std::int64_t end, int direction,
             SolvedFrames& solved);
+  /// Begin anew, from no known pose, where bad samples had spoilt the frame that was solved first: what
+  /// followed from it may lie whole turns away.
+  void start_again(const data::Trajectories& markers, const std::vector<std::uint8_t>& concerned,
+                   SolvedFrames& solved);
   /// Solve frames from one end of a stretch to the other.
   void solve_stretch(const data::Trajectories& markers, std::int64_t from, std::int64_t to,
-                     const Eigen::VectorXd& start, bool many_starts, SolvedFrames& solved);
+                     const Eigen::VectorXd& start, SolvedFrames& solved);
   /// Solve the frames behind `from` again as long as that finds another pose that is not much worse.
   void follow(const data::Trajectories& markers, std::int64_t from, int direction, SolvedFrames& solved);
+  /// Take from x_ the whole turns by which hinges lie away from `near`, where the pose stays the same.
+  void unwind(const Eigen::VectorXd& near, std::int64_t f);
+  /// Weighted mean of the squared residuals of the pose last visited, m^2.
+  [[nodiscard]] double marker_cost() const;
   void store(std::int64_t f, bool converged, SolvedFrames& solved);
 
   const Problem& problem_;

@@ -123,6 +123,21 @@ TEST(FrameWalk, ABodyThatWasLostForASecondIsFoundAgain) {
   for (std::int64_t f = 160; f < 200; ++f) EXPECT_LT(w.off(f, w.solved.states.col(f)), 1e-4) << f;
 }
 
+TEST(FrameWalk, NoBadSampleWindsAHinge) {
+  // Frames so spoilt that random starts are tried, and joints that nothing keeps from going round.
+  for (int i = 0; i < 60; ++i) {
+    Walked w(8, 0.0, {.limits = false});
+    std::swap(w.markers.x(4, 7 * i % 14)[0], w.markers.x(4, 5 * i % 14)[0]);
+    for (const int m : {4, 5, 6, 7})
+      w.markers.x(4, m) +=
+          0.2 * (i / 7 % 9) * Vector3d(std::cos(0.7 * i * m), std::sin(0.43 * i * m), std::sin(0.32 * i * m));
+    w.run(false);
+    for (std::int64_t f = 1; f < 8; ++f)
+      EXPECT_LT(w.apart(w.solved.states.col(f - 1), w.solved.states.col(f)), 3.1416)
+          << "WIND" << i << ' ' << f;
+  }
+}
+
 TEST(FrameWalk, SolvesAgainOnlyWhatIsConcerned) {
   Walked w(30, 0.001);
   w.run();
@@ -154,6 +169,29 @@ TEST(FrameWalk, SolvesTheFirstFrameAgainFromManyStarts) {
   ASSERT_GT(w.off(0, w.solved.states.col(0)), 0.02) << "the frame was spoilt";
   w.walk->solve_again(testing_body::record(w.body, 12), w.only({0}), w.solved);
   for (std::int64_t f = 0; f < 12; ++f) EXPECT_LT(w.off(f, w.solved.states.col(f)), 1e-5) << f;
+}
+
+TEST(FrameWalk, ABadFirstFrameLeavesNoWholeTurnBehind) {
+  Walked w(30);
+  w.run();
+  const SolvedFrames right = w.solved;
+  // The first frame was spoilt and the elbow began one turn away: every other frame followed it there.
+  VectorXd turn = VectorXd::Zero(w.problem.model.speed_count());
+  turn[w.problem.speed_of(9)] = 6.283185307179586;
+  for (std::int64_t f = 0; f < 30; ++f) {
+    VectorXd x = w.solved.states.col(f);
+    model::integrate(w.problem.model, x, turn);
+    w.solved.states.col(f) = x;
+  }
+  for (const bool a_marker_is_gone : {false, true}) {
+    SolvedFrames solved = w.solved;
+    auto kept = w.markers;
+    if (a_marker_is_gone) kept.set_missing(0, 5);
+    w.walk->solve_again(kept, w.only({0}), solved);
+    EXPECT_EQ(solved.first, a_marker_is_gone ? 1 : 0);
+    for (std::int64_t f = 0; f < 30; ++f)
+      EXPECT_LT(w.apart(right.states.col(f), solved.states.col(f)), 1e-5) << f;
+  }
 }
 
 TEST(FrameWalk, FramesThatFollowedAWrongPoseFollowTheRightOne) {

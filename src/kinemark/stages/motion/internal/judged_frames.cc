@@ -83,7 +83,6 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
     data::Trajectories counted = markers;
     const auto concerned = leave_out(problem, judged.rejected, counted, any);
     StepScale scale(problem, judged.solved);
-    scale.learn_growth();
     judged.filled = fill_rejected(problem, *judged.kept, concerned, scale, judged.solved);
     walk.solve_filled(*judged.kept, *judged.filled, concerned, judged.solved);
     judged.solved.iterations = walk.iterations();

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 #include "kinemark/core/index.h"
 
@@ -15,9 +15,11 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr std::int64_t kHeldFrames = 3;   // equal values in a row: noise never repeats itself that often
-constexpr double kHeldTravel_m = 2e-3;    // what the body must have moved meanwhile
+constexpr double kHeldTravel_m = 0.5e-3;  // what the body must have moved meanwhile
+constexpr double kHeldGrid = 4.0;         // and so many times the last digit that the recording keeps
 constexpr double kZeroStep_m = 5e-3;      // what a coordinate of 0 must lie away from its neighbours
 constexpr std::int64_t kSoundBeside = 2;  // frames on each side of a sound one
+constexpr double kOneSided = 20.0;        // standard deviations: what did not come back must be as far
 constexpr std::int64_t kFewFrames = 3;    // at an end of the recording: too short to be a new position
 
 /// Where the model has the marker, by the pose with all samples.
@@ -26,6 +28,17 @@ Eigen::Vector3d modelled(const Problem& problem, const data::Trajectories& marke
   const Eigen::Index M = problem.model.marker_count();
   const Eigen::Map<const Eigen::Vector3d> error(solved.marker_error.data() + 3 * (f * M + m));
   return markers.x(problem.first_frame + f, problem.data_marker[at(m)]) - error;
+}
+
+/// The last digit that a marker's coordinates keep: their smallest step but none, m.
+double find_digit(const Problem& problem, const data::Trajectories& markers, int d) {
+  double digit = std::numeric_limits<double>::infinity();
+  for (std::int64_t g = problem.first_frame + 1; g < problem.first_frame + problem.frames; ++g) {
+    if (!markers.present(g, d) || !markers.present(g - 1, d)) continue;
+    for (const double step : (markers.x(g, d) - markers.x(g - 1, d)).cwiseAbs())
+      if (step > 0.0) digit = std::min(digit, step);
+  }
+  return digit;
 }
 
 void find_held(const Problem& problem, const data::Trajectories& markers, const SolvedFrames& solved,
@@ -66,7 +79,7 @@ void find_held(const Problem& problem, const data::Trajectories& markers, const 
         else if (first >= 2 && markers.present(g - 1, d))
           travel = std::max(travel,
                             static_cast<double>(run[at(m)]) * (markers.x(g, d) - markers.x(g - 1, d)).norm());
-        if (travel > kHeldTravel_m)
+        if (travel > kHeldTravel_m && travel > kHeldGrid * find_digit(problem, markers, d))
           out.push_back({.marker = static_cast<int>(m),
                          .first_frame = first,
                          .last_frame = f - 1,
@@ -103,21 +116,29 @@ void find_zero_coordinates(const Problem& problem, const data::Trajectories& mar
   }
 }
 
-/// A frame whose samples may be believed: the cheapest stretch of frames that see nearly all markers.
+/// A frame whose samples may be believed: the cheapest stretch of frames that see nearly all markers, and
+/// where there is one, the same in each. Where a marker comes or goes the pose jumps, and with it the speed.
 std::int64_t find_sound_frame(const Problem& problem, const data::Trajectories& markers,
                               const SolvedFrames& solved) {
   const std::int64_t F = problem.frames;
-  std::vector<int> seen(at(F), 0);
+  std::vector<int> seen(at(F), 0), changes(at(F), 0);  // in number; from the frame before
   for (std::int64_t f = 0; f < F; ++f)
-    for (const int d : problem.data_marker) seen[at(f)] += markers.present(problem.first_frame + f, d);
+    for (const int d : problem.data_marker) {
+      const bool present = markers.present(problem.first_frame + f, d);
+      seen[at(f)] += present;
+      changes[at(f)] += f > 0 && present != markers.present(problem.first_frame + f - 1, d);
+    }
   const int best = *std::ranges::max_element(seen);
   std::int64_t found = 0;
-  double cheapest = std::numeric_limits<double>::infinity();
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  auto cheapest = std::pair(true, kNone);  // whether the markers change, what the dearest frame costs
   for (std::int64_t f = 0; f < F; ++f) {
-    double dearest = 0.0;
-    for (auto g = std::max<std::int64_t>(0, f - kSoundBeside); g <= std::min(F - 1, f + kSoundBeside); ++g) {
+    auto dearest = std::pair(false, 0.0);
+    const std::int64_t from = std::max<std::int64_t>(0, f - kSoundBeside);
+    for (auto g = from; g <= std::min(F - 1, f + kSoundBeside); ++g) {
       const bool good = 20 * seen[at(g)] >= 19 * best && solved.status[at(g)] == data::FrameStatus::converged;
-      dearest = std::max(dearest, good ? solved.cost[at(g)] : std::numeric_limits<double>::infinity());
+      dearest.first = dearest.first || !good || (g > from && changes[at(g)] > 0);
+      dearest.second = std::max(dearest.second, good ? solved.cost[at(g)] : kNone);
     }
     if (dearest < cheapest) {
       cheapest = dearest;
@@ -147,7 +168,9 @@ Judgement judge_recording(const Problem& problem, const IkOptions& options, cons
       const std::int64_t frames = outlier.last_frame - outlier.first_frame + 1;
       const bool to_the_end = outlier.last_frame == last || outlier.first_frame == 0;
       // What came back is bad; what did not may have a new position now, unless the model says no.
-      const bool bad = outlier.returned || outlier.clearly_wrong() || (to_the_end && frames <= kFewFrames);
+      const bool bad =
+          outlier.returned ||
+          (outlier.distance > kOneSided && (outlier.clearly_wrong() || (to_the_end && frames <= kFewFrames)));
       (bad ? judgement.bad : judgement.doubtful).push_back(outlier);
     }
   return judgement;

@@ -61,7 +61,7 @@ double share_of(const Beside& beside, std::int64_t f) {
 }  // namespace
 
 data::Trajectories fill_rejected(const Problem& problem, const data::Trajectories& kept,
-                                 const std::vector<std::uint8_t>& concerned, const StepScale& scale,
+                                 const std::vector<std::uint8_t>& concerned, StepScale& scale,
                                  SolvedFrames& solved) {
   const auto& model = problem.model;
   const int M = model.marker_count();

@@ -19,7 +19,7 @@ namespace kinemark::motion::internal {
 /// @param concerned  F, not 0 for the frames with such samples; their states become the poses found
 /// @return           the recording with those samples, in the state model_filled
 [[nodiscard]] data::Trajectories fill_rejected(const Problem& problem, const data::Trajectories& kept,
-                                               const std::vector<std::uint8_t>& concerned,
-                                               const StepScale& scale, SolvedFrames& solved);
+                                               const std::vector<std::uint8_t>& concerned, StepScale& scale,
+                                               SolvedFrames& solved);
 
 }  // namespace kinemark::motion::internal

@@ -18,6 +18,7 @@ namespace {
 // Distances in standard deviations of a sample from what all others expect of it.
 constexpr double kBound = 14.0;         // beyond it a sample is not taken: clean recordings stay below 13.1
 constexpr double kBack = 6.0;           // a sample that was not taken comes back when it is nearer than that
+constexpr double kLeap = 0.1;           // or by so much of its last distance: it leapt back
 constexpr double kQuick = 7.0;          // a frame in which nothing moves by more needs no fit
 constexpr double kRare = 1.6;           // and by so many times what the body does in one frame of sixteen
 constexpr double kMostOpen = 0.25;      // rad^2 or m^2: nothing is vaguer
@@ -37,7 +38,7 @@ class FrameJudge::Impl {
       : problem_(problem), scale_(scale), options_(options), M_(problem.model.marker_count()) {
     const int n = problem.model.speed_count();
     y_.setZero(3, M_);
-    for (auto* v : {&seen_, &used_}) v->setZero(M_);
+    for (auto* v : {&seen_, &used_, &last_}) v->setZero(M_);
     for (auto* v : {&move_, &difference_}) v->setZero(n);
     expected_.position.setZero(3, M_);
     expected_.position_sd.setZero(M_);
@@ -154,7 +155,6 @@ class FrameJudge::Impl {
       return;
     }
     if (!fit_) {
-      scale_.learn_growth();
       fit_.emplace(problem_);
       solver_.emplace(problem_, options_);
     }
@@ -165,7 +165,8 @@ class FrameJudge::Impl {
       take_over();
       return;
     }
-    for (Eigen::Index m = 0; m < M_; ++m) expected_.bound[m] = open_[at(m)] >= 0 ? kBack : kBound;
+    for (Eigen::Index m = 0; m < M_; ++m)
+      expected_.bound[m] = open_[at(m)] >= 0 ? std::clamp(kLeap * last_[m], kBack, kBound) : kBound;
     fit_->solve(expected_, y_, seen_);
     settle(f);
   }
@@ -408,7 +409,8 @@ class FrameJudge::Impl {
     Outlier& outlier = pending_[at(open)];
     outlier.first_frame = std::min(outlier.first_frame, f);
     outlier.last_frame = std::max(outlier.last_frame, f);
-    outlier.distance = std::max(outlier.distance, fit_->distance()[m]);
+    last_[m] = fit_->distance()[m];
+    outlier.distance = std::max(outlier.distance, last_[m]);
     outlier.length_m = std::max(outlier.length_m, fit_->length()[m]);
     if (const int partner = exchanged_with(m); partner >= 0) outlier.partner = partner;
     // The pose was found without this marker: how far is it from the model's, and where it was expected?
@@ -453,6 +455,7 @@ class FrameJudge::Impl {
   Eigen::Index M_;
   Eigen::Matrix3Xd y_, world_, sound_position_, whole_position_;
   Eigen::VectorXd seen_, used_, x_, move_, difference_, sound_x_, weight_, joint_;
+  Eigen::VectorXd last_;                    ///< M: distance when it was last not taken
   Eigen::VectorXd open_now_, open_before_;  ///< nv: variance that the last two frames left open
   Expectation expected_;
   std::vector<std::int64_t> open_;       ///< per marker: index into pending_, or -1

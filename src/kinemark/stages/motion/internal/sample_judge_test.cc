@@ -85,6 +85,22 @@ TEST_F(SampleJudge, OnlyTheFramesAskedForAreJudged) {
   EXPECT_FALSE(cut[0].returned) << "nobody saw it come back";
 }
 
+TEST_F(SampleJudge, AMarkerThatLeaptBackNeedNotComeAsNearAsOneThatCrept) {
+  // Another marker is wrong all the while, so that the frame as a whole does not speak for this one.
+  move(12, 40, 50, {0.1, 0.1, 0.1});
+  // Behind it lies some millimetres beside where it was: a sample that was good before would be taken there.
+  move(2, 41, kJudgedFrames - 1, {0.0, 0.006, 0.0});
+  const Vector3d there = markers.x(40, 2);
+  const auto last_frame_of_the_marker = [&](const Vector3d& by) {
+    markers.x(40, 2) = there + by;
+    const auto found = judge();
+    EXPECT_EQ(found.size(), 2U);
+    return found.front().marker == 2 ? found.front().last_frame : found.back().last_frame;
+  };
+  EXPECT_EQ(last_frame_of_the_marker({0.3, 0.4, -0.3}), 40);
+  EXPECT_GT(last_frame_of_the_marker({0.0, 0.02, 0.0}), 41);
+}
+
 TEST_F(SampleJudge, SeveralMarkersAtOnceAreEachNamed) {
   const std::set<std::int64_t> spoilt{1, 4, 9, 12};
   for (const std::int64_t m : spoilt) move(m, 30, 31, Vector3d(0.1, -0.06, 0.05) * (m % 2 ? 1.0 : -1.0));

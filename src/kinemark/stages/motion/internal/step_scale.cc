@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/model/state.h"
@@ -41,8 +40,8 @@ Tails tails_of(std::vector<double>& values) {
     return values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   };
   const auto rare = rank(kRareShare), usual = rank(kShare);
-  std::nth_element(values.begin(), rare, values.end());
-  std::nth_element(values.begin(), usual, rare);
+  std::nth_element(values.begin(), usual, values.end());
+  std::nth_element(usual, rare, values.end());
   return {.usual = *usual, .rare = *rare};
 }
 
@@ -88,9 +87,9 @@ void StepScale::find_usual() {
   for (std::int64_t f = 0; f < problem_.frames; ++f) usual_[at(f)] = solved_.cost[at(f)] <= most;
 }
 
-double StepScale::position_sd_after(Eigen::Index marker, std::int64_t frames) const {
-  check(!growth_.empty(), "learn_growth() comes first");
+double StepScale::position_sd_after(Eigen::Index marker, std::int64_t frames) {
   if (frames <= 1) return position[marker];
+  learn_growth();
   std::size_t i = 0;
   while (i + 1 < growth_.size() && (std::int64_t{1} << i) < frames) ++i;
   return std::min(position[marker] * growth_[i], std::max(spread[marker], 2.0 * position[marker]));

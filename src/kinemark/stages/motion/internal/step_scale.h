@@ -24,11 +24,11 @@ class StepScale {
   Eigen::VectorXd rare;      ///< nv, rad or m: what it differs by in one frame of sixteen
   Eigen::VectorXd stride;    ///< nv, rad or m: of a step itself
 
-  /// Learn how steps grow with the number of frames. Takes as long as all the rest, and only recordings with
-  /// something unusual need it: to be called before position_sd_after(). A second call does nothing.
+  /// Learn how steps grow with the number of frames. Takes as long as all the rest, and only recordings in
+  /// which a marker was away need it: position_sd_after() does it then. A second call does nothing.
   void learn_growth();
-  /// Standard deviation per axis of the step of a position over so many frames, m. After learn_growth().
-  [[nodiscard]] double position_sd_after(Eigen::Index marker, std::int64_t frames) const;
+  /// Standard deviation per axis of the step of a position over so many frames, m.
+  [[nodiscard]] double position_sd_after(Eigen::Index marker, std::int64_t frames);
 
  private:
   void find_usual();

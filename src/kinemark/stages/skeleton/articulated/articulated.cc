@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
@@ -35,6 +36,7 @@ using Eigen::Vector3d;
 constexpr double kRobustDof =
     30.0;  // of Student's t: lowers weights beyond some five SDs, costs nothing below
 constexpr double kMm = 1e3;
+constexpr std::size_t kSegmentsNamed = 8;
 
 /// Everything that is known on the direction, in the chain's order of segments and joints.
 struct Work {
@@ -295,6 +297,15 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
           fmt::format("marker '{}' moves on its segment by {:.1f} mm beside a noise of {:.1f} mm",
                       name(loose.marker), kMm * loose.rms_m, kMm * w.fit.noise_sd_m));
   }
+  std::vector<std::string> two;
+  for (int s = 0; s < w.fit.chain.segments(); ++s)
+    if (w.fit.chain.kind[at(s)] == data::SegmentKind::line && w.fit.chain.layout.markers_of(s).size() == 2)
+      two.push_back("'" + w.layout.segments[at(w.tree.segment_order[at(s)])].name + "'");
+  if (!two.empty())
+    warnings.push_back(
+        fmt::format("joints are taken to lie on the line through the two markers of {}: how far off "
+                    "it they are is not in the error bars",
+                    join_names(two, kSegmentsNamed)));
   for (std::size_t j = 0; j < w.continuity.prior.size() && w.options.continuity; ++j)
     if (w.continuity.path[j].position.empty())
       warnings.push_back(

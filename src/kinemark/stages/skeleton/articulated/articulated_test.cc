@@ -20,9 +20,11 @@ using data::CentreState;
 using data::SegmentKind;
 using testing::AllOf;
 using testing::Contains;
+using testing::Each;
 using testing::Gt;
 using testing::HasSubstr;
 using testing::Lt;
+using testing::Not;
 using testing_limbs::Limb;
 using testing_limbs::LimbOptions;
 using testing_limbs::make_limb;
@@ -98,6 +100,18 @@ TEST(FitArticulated, LinesNeedTwoMarkersOfOneSegment) {
   }
   EXPECT_LE(fit.joints[0].determined, two);
   EXPECT_LT(rms(limb, fit.skeleton, CentreState::determined, CentreState::determined), 0.0035);
+}
+
+TEST(FitArticulated, SaysWhatTwoMarkersLeaveOpen) {
+  Limb limb = make_limb({.frames = 60, .segments = 3, .stagger_m = 0.02, .seed = 4});
+  ArticulatedOptions options;
+  options.continuity = false;
+  const auto whole = fit_articulated(limb.markers, limb.layout, options).value();
+  EXPECT_THAT(whole.skeleton.warnings, Each(Not(HasSubstr("on the line through"))));
+  limb.layout.segments[1].markers.pop_back();
+  const auto two = fit_articulated(limb.markers, limb.layout, options).value();
+  EXPECT_THAT(two.skeleton.warnings, Contains(HasSubstr("on the line through the two markers of '" +
+                                                        limb.layout.segments[1].name + "':")));
 }
 
 TEST(FitArticulated, ContinuityAnswersEveryFrame) {

@@ -21,10 +21,10 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();  // a trial 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFirm = 50.0;  // information beyond which a rotation's integral is Gaussian
 constexpr double kLineBonusOfFrame = 0.5;
-constexpr double kLineBonus = 15.0;  // nats that another kind must be better than a line
-constexpr double kPlaneBonus = 3.0;  // nats that a solid must be better than a plane
-constexpr double kSurelyLine = 2.5;  // deviates of across_line()
-constexpr double kSurelyWide = 60.0;
+constexpr double kLineBonus = 15.0;   // nats that another kind must be better than a line
+constexpr double kPlaneBonus = 3.0;   // nats that a solid must be better than a plane
+constexpr double kSurelyLine = 2.5;   // deviates of across_line()
+constexpr double kSurelyWide = 60.0;  // and of across_plane()
 constexpr int kFrames = 400;
 constexpr int kFirstLook = 3, kSecondLook = 8;  // steps of a fit after which it may be given up
 constexpr double kGainsLeft = 100.0;            // a fit gains no more than so many times its last step
@@ -102,9 +102,13 @@ double log_evidence(const Chain& chain, const ChainSamples& samples, const Posed
   return evidence - 0.5 * free * std::log(std::max(3.0 * seen, 1.0));
 }
 
-double across_line(const ChainSamples& samples, std::span<const int> markers, double sigma_m) {
+namespace {
+
+// How far markers leave a line (2 dimensions) or a plane (1), as a standard normal deviate.
+double off_shape(const ChainSamples& samples, std::span<const int> markers, double sigma_m, int dimensions) {
   const auto n = static_cast<double>(markers.size());
-  if (markers.size() < 3) return 0.0;
+  const double free = dimensions * (n - 4.0 + dimensions);
+  if (!(free > 0.0)) return 0.0;
   double squares = 0.0;
   double dof = 0.0;
   for (std::int64_t f = 0; f < samples.frames; ++f) {
@@ -118,11 +122,21 @@ double across_line(const ChainSamples& samples, std::span<const int> markers, do
       scatter += d * d.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(scatter, Eigen::EigenvaluesOnly);
-    squares += std::max(eigen.eigenvalues()[0], 0.0) + std::max(eigen.eigenvalues()[1], 0.0);
-    dof += 2.0 * (n - 2.0);
+    for (int i = 0; i < dimensions; ++i) squares += std::max(eigen.eigenvalues()[i], 0.0);
+    dof += free;
   }
-  if (dof < 6.0 * (n - 2.0)) return 0.0;
+  if (dof < 3.0 * free) return 0.0;
   return (squares / (sigma_m * sigma_m) - dof) / std::sqrt(2.0 * dof);
+}
+
+}  // namespace
+
+double across_line(const ChainSamples& samples, std::span<const int> markers, double sigma_m) {
+  return off_shape(samples, markers, sigma_m, 2);
+}
+
+double across_plane(const ChainSamples& samples, std::span<const int> markers, double sigma_m) {
+  return off_shape(samples, markers, sigma_m, 1);
 }
 
 Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const ChainLayout& layout,
@@ -142,13 +156,19 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
   Trial trial{.samples = samples, .layout = layout, .frames = {}, .sigma_m = sigma_m, .threads = threads};
   auto& frames = trial.frames;
   {
-    const auto start = start_geometry(samples, layout, general, sigma_m);
-    std::vector<SegmentKind> lines(segments, SegmentKind::line);
+    auto start = start_geometry(samples, layout, general, sigma_m);
     if (!start) {
-      // Too few markers on one segment for anything but lines.
-      const auto straight = start_geometry(samples, layout, lines, sigma_m);
-      if (!straight) return std::unexpected(start.error());
-      return lines;
+      // Segments that carry too few markers for anything but a line are lines; where that is not enough, all.
+      for (int s = 0; s < segments; ++s) {
+        if (layout.markers_of(s).size() > 2) continue;
+        general[s] = SegmentKind::line;
+        allowed[s] = {SegmentKind::line};
+      }
+      const Error why = start.error();
+      start = start_geometry(samples, layout, general, sigma_m);
+      std::vector<SegmentKind> lines(segments, SegmentKind::line);
+      if (!start && !start_geometry(samples, layout, lines, sigma_m)) return std::unexpected(why);
+      if (!start) return lines;
     }
     frames = first_frames(samples, *start);
     std::vector<std::int64_t> some;
@@ -166,7 +186,9 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
     if (markers.size() >= 2 && general[s] != SegmentKind::line && across < kSurelyWide) {
       allowed[s].push_back(SegmentKind::line);
     }
-    if (general[s] == SegmentKind::solid && across > kSurelyLine) allowed[s].push_back(SegmentKind::plane);
+    if (general[s] == SegmentKind::solid && across > kSurelyLine &&
+        across_plane(samples, markers, trial.sigma_m) < kSurelyWide)
+      allowed[s].push_back(SegmentKind::plane);
     open = open || allowed[s].size() > 1;
   }
   if (!open) return general;

@@ -23,6 +23,9 @@ namespace kinemark::skeleton::articulated {
 /// than three frames or three markers.
 [[nodiscard]] double across_line(const ChainSamples& samples, std::span<const int> markers, double sigma_m);
 
+/// As across_line(): how far a segment's markers leave a plane. 0 below four markers.
+[[nodiscard]] double across_plane(const ChainSamples& samples, std::span<const int> markers, double sigma_m);
+
 /// Kind of every segment. A line is taken unless another kind is better by some tens of nats: its error is
 /// the smaller one where the two are near. `sigma_m` 0: estimated with all segments solid.
 /// `stopped` (empty: never) is asked before every trial; true ends the work with Code::cancelled. Any number

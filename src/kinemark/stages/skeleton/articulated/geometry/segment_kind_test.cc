@@ -23,6 +23,7 @@ using testing_limbs::hide;
 using testing_limbs::make_random_chain;
 using testing_limbs::move_lab;
 using testing_limbs::RandomChain;
+using testing_limbs::redraw;
 using testing_limbs::true_poses;
 
 TEST(ChooseKinds, FindsLinesPlanesAndSolids) {
@@ -58,6 +59,26 @@ TEST(AcrossLine, IsANormalDeviateForALine) {
   EXPECT_LT(std::abs(across_line(line.samples, std::vector<int>{0, 1, 2}, 0.001)), 3.0);
   EXPECT_GT(across_line(solid.samples, std::vector<int>{0, 1, 2}, 0.001), 50.0);
   EXPECT_EQ(across_line(line.samples, std::vector<int>{0, 1}, 0.001), 0.0);
+}
+
+// Two markers between two joints are a line; what is beside them keeps its kind.
+TEST(ChooseKinds, TwoMarkersAreALineAndTheirNeighboursAreNot) {
+  RandomChain limb = make_random_chain({.segments = 3, .markers_per_segment = 4, .frames = 120});
+  for (const int k : {4, 5}) limb.chain.marker.col(k).head<2>().setZero();
+  redraw(limb, 0.001, 4);
+  ChainSamples ten{.frames = 120, .markers = 10, .x = {}};
+  for (int f = 0; f < 120; ++f) {
+    const double* x = limb.samples.frame(f);
+    ten.x.insert(ten.x.end(), x, x + 18);
+    ten.x.insert(ten.x.end(), x + 24, x + 36);
+  }
+  const ChainLayout layout{.parent = {0, 1}, .segment_of_marker = {0, 0, 0, 0, 1, 1, 2, 2, 2, 2}};
+  const auto chosen = choose_kinds(ten, layout, 0.0);
+  ASSERT_TRUE(chosen.has_value()) << chosen.error().message;
+  EXPECT_THAT(*chosen, ElementsAre(SegmentKind::solid, SegmentKind::line, SegmentKind::solid));
+  const auto fit = fit_chain(ten, layout);
+  ASSERT_TRUE(fit.has_value()) << fit.error().message;
+  EXPECT_NEAR(fit->noise_sd_m, 0.001, 0.0001);
 }
 
 TEST(ChooseKinds, StopsWhenAsked) {
@@ -97,6 +118,16 @@ TEST(LogEvidence, DoesNotChangeWithTheLab) {
   move_lab(limb, math::exp_so3({0.3, -0.9, 1.4}), {1.0, -2.0, 0.5});
   frames = true_poses(limb);
   EXPECT_NEAR(log_evidence(limb.chain, limb.samples, frames, 0.001), before, 1e-5);
+}
+
+TEST(AcrossPlane, IsANormalDeviateForAPlane) {
+  const std::vector<int> four{0, 1, 2, 3}, three{0, 1, 2};
+  const RandomChain plane =
+      make_random_chain({.markers_per_segment = 4, .frames = 300, .kind = SegmentKind::plane});
+  const RandomChain solid = make_random_chain({.markers_per_segment = 4, .frames = 300});
+  EXPECT_LT(std::abs(across_plane(plane.samples, four, 0.001)), 3.0);
+  EXPECT_GT(across_plane(solid.samples, four, 0.001), 60.0);
+  EXPECT_EQ(across_plane(solid.samples, three, 0.001), 0.0) << "three lie in a plane";
 }
 
 TEST(AcrossLine, WantsThreeFramesThatShowAllMarkers) {

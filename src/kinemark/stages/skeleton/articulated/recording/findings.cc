@@ -230,6 +230,13 @@ std::vector<SwappedMarkers> find_swapped_markers(const FittedChain& fit, const C
                                                  const RecordingPass& pass) {
   std::map<std::pair<int, int>, SwappedMarkers> found;
   ChainSolver solver(fit);
+  PoseSolver nearby(fit.chain);
+  ChainPose pose;
+  const auto cost_near = [&](const double* markers, const ChainPose& near) {
+    pose = near;
+    nearby.set(markers, fit.marker_weight);
+    return nearby.refine(pose);
+  };
   ChainFrame frame;
   const int K = samples.markers;
   std::vector<double> x(at(3 * K));
@@ -242,11 +249,13 @@ std::vector<SwappedMarkers> find_swapped_markers(const FittedChain& fit, const C
     if (frame.mode_count == 0) continue;
     const std::vector<bool> far = far_off(fit, samples, f, frame);
     const ChainPose near = frame.modes.front().pose;  // two names hardly move it
+    const double as_named = cost_near(samples.frame(f), near);
     for (int a = 0; a < K; ++a)
       for (int b = a + 1; b < K; ++b) {
         if (!far[at(a)] && !far[at(b)]) continue;
         std::copy_n(samples.frame(f), 3 * K, x.begin());
         std::swap_ranges(x.begin() + 3 * a, x.begin() + 3 * a + 3, x.begin() + 3 * b);
+        if (!(cost_near(x.data(), near) < as_named)) continue;
         solver.solve(x.data(), &near, frame);
         if (frame.mode_count == 0) continue;
         const double cost = frame.modes.front().cost;

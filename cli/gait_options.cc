@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/gait_options.h"
+
+namespace kinemark::cli {
+
+void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
+  const char* what = "Walking";
+  command
+      .add_option("--events", request.events,
+                  "Whose foot strikes and leavings: best (plates, else markers), plates, kinematics, file")
+      ->type_name("WHOSE")
+      ->capture_default_str()
+      ->group(what);
+  command
+      .add_option(
+          "--gait-marker", request.markers,
+          "A marker under a name of its own: left_heel=L_FCC (left_, right_: heel, toe, ankle; sacrum); or a "
+          ".toml of such lines. Repeatable.")
+      ->type_name("ROLE=NAME")
+      ->allow_extra_args(false)
+      ->group(what);
+  command
+      .add_option("--write-events", request.write_events,
+                  "Foot strikes and leavings: .csv, or .c3d, the recording with these events")
+      ->type_name("FILE")
+      ->group(what);
+  command
+      .add_option(
+          "--write-cycles", request.write_cycles,
+          "Angles over each cycle and their mean, 0 to 100 %, .csv: of the recording's own, or of --angles")
+      ->type_name("FILE")
+      ->group(what);
+  command
+      .add_option("--angles", request.angles,
+                  "Motion whose coordinates are cut into cycles, .mot or .sto; Q_sd.sto beside it counts too")
+      ->type_name("FILE")
+      ->group(what);
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/segments_options.h"
+
+#include <fmt/core.h>
+
+#include <iterator>
+
+#include "cli/console.h"
+#include "kinemark/core/counted.h"
+#include "kinemark/pipeline/files/json_text.h"
+
+namespace kinemark::cli {
+namespace {
+
+void print_segments(const CommonOptions& common, const pipeline::SegmentsOutcome& outcome) {
+  for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
+  const auto& motion = outcome.motion;
+  say(common,
+      fmt::format("{}: {}, {} and {} in {}.", outcome.title, counted(std::ssize(motion.angles), "angle"),
+                  counted(std::ssize(motion.values), "value"), counted(motion.points.markers(), "point"),
+                  counted(motion.time.frames, "frame")));
+  for (const auto& [name, found] : outcome.cross_talk)
+    if (!found.suspicious()) say(common, found.sentence(name));
+  say_written(common, outcome);
+  if (common.json) print_result(pipeline::json_text(pipeline::segments_outcome_json(outcome)) + "\n");
+}
+
+}  // namespace
+
+void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job) {
+  auto* segments =
+      command
+          .add_option(
+              "--segments", job.definition,
+              "Segment frames, joint centres and angles instead, by a definition: pig (Plug-in Gait), "
+              "isb-shoulder, or a .toml")
+          ->type_name("NAME|FILE");
+  auto* still = command
+                    .add_option("--static", job.static_trial,
+                                "Static trial of the subject; the recording itself: it is its own")
+                    ->type_name("FILE");
+  auto* vsk =
+      command.add_option("--vsk", job.vsk, "Measures of the subject, a Vicon .vsk")->type_name("FILE");
+  auto* subject = command
+                      .add_option("--subject", job.subject,
+                                  "A measure of the subject: LLegLength=920; mm, deg, kg. Repeatable.")
+                      ->type_name("NAME=VALUE")
+                      ->allow_extra_args(false);
+  auto* trial = command
+                    .add_option("--trial", job.trials,
+                                "A trial in which landmarks of the definition were shown. Repeatable.")
+                    ->type_name("NAME=FILE")
+                    ->allow_extra_args(false);
+  auto* up =
+      command.add_option("--up", job.up, "Axis against gravity: x, y, z, -x, -y, -z; found when absent")
+          ->type_name("AXIS");
+  for (auto* option : {segments, still, vsk, subject, trial, up}) option->group("Segments of markers");
+  for (auto* option : {still, vsk, subject, trial, up}) option->needs(segments);
+  for (const char* other :
+       {"--model", "--forces", "--setup", "--measures", "--region", "--between", "--edits", "--list"})
+    segments->excludes(command.get_option(other));
+}
+
+int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job,
+                         const MeasuresArguments& measures) {
+  job.rate_hz = measures.job.rate_hz;
+  job.selection = measures.job.selection;
+  job.keep_defects = measures.job.keep_defects;
+  job.noise_sd_m = 1e-3 * measures.noise_mm;
+  return run_job(common, "files", job, pipeline::run_segments, print_segments);
+}
+
+}  // namespace kinemark::cli

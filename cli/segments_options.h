@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.h"
+#include "cli/measures_options.h"
+#include "kinemark/pipeline/segments/segments_job.h"
+
+namespace kinemark::cli {
+
+/// The options of `analyze --segments`, in a group of their own.
+void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job);
+
+/// Compute; the exit status. What segments share with measures (noise, rate, markers) is in `measures`.
+[[nodiscard]] int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job,
+                                       const MeasuresArguments& measures);
+
+}  // namespace kinemark::cli

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Frames from a source to recording, model and viewers, by a clock that never waits.
+#include "server/live_feed.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "kinemark/io/recording/mcap_markers.h"
+#include "server/testing/fake_clock.h"
+#include "support/scratch.h"
+
+namespace kinemark::server {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Markers "A" and "B"; A moves by 1 mm a frame, B is missing in each third frame.
+pipeline::LiveSource source_of(std::int64_t frames) {
+  pipeline::LiveSource out{.name = "test", .title = "Test"};
+  out.markers =
+      data::Trajectories::all_missing({"A", "B"}, {.rate_hz = 240.0, .t0_s = 0.0, .frames = frames});
+  for (std::int64_t f = 0; f < frames; ++f)
+    for (std::int64_t m = 0; m < 2; ++m) {
+      if (m == 1 && f % 3 == 2) continue;
+      out.markers.x(f, m) = Eigen::Vector3d(1e-3 * static_cast<double>(f), static_cast<double>(m), 1.0);
+      out.markers.state[out.markers.index(f, m)] = data::SampleState::measured;
+    }
+  return out;
+}
+
+class LiveFeedThread : public ::testing::Test {
+ protected:
+  [[nodiscard]] LiveFeedOptions options(pipeline::LiveSource source) {
+    return {.source = std::move(source), .clock = clock_, .say = [this](std::string_view line) {
+              const std::scoped_lock lock(mutex_);
+              said_.emplace_back(line);
+            }};
+  }
+
+  std::shared_ptr<testing::FakeClock> clock_ = std::make_shared<testing::FakeClock>();
+  std::mutex mutex_;
+  std::vector<std::string> said_;
+  testing_support::ScratchFolder scratch_;
+};
+
+TEST_F(LiveFeedThread, EveryFrameIsRecordedAsItIs) {
+  auto given = options(source_of(3000));
+  given.record = scratch_ / "live.mcap";
+  const auto expected = given.source.markers;
+  const auto feed = LiveFeed::create(std::move(given)).value();
+  feed->start();
+  feed->wait();
+  EXPECT_EQ(feed->state().frames, 3000);
+  EXPECT_EQ(feed->state().recorded, 3000);
+  EXPECT_TRUE(feed->state().ended);
+  const auto trial = io::read_mcap_markers(scratch_ / "live.mcap").value();
+  EXPECT_THAT(trial.warnings, IsEmpty());
+  ASSERT_EQ(trial.markers.names, expected.names);
+  ASSERT_EQ(trial.markers.frames(), 3000);
+  EXPECT_EQ(trial.markers.time.rate_hz, 240.0);
+  EXPECT_EQ(trial.markers.state, expected.state);
+  for (std::int64_t f = 0; f < 3000; ++f) {
+    EXPECT_EQ(trial.markers.x(f, 0), expected.x(f, 0));
+    EXPECT_EQ(trial.markers.present(f, 1), f % 3 != 2);
+  }
+  EXPECT_THAT(said_, ElementsAre(HasSubstr("the source has ended after 3000 frames; 3000 recorded in ")));
+}
+
+TEST_F(LiveFeedThread, AViewerThatTakesNothingHoldsNobodyBack) {
+  auto given = options(source_of(1000));
+  given.limits = {.waiting = 10, .under_way = 5};
+  const auto feed = LiveFeed::create(std::move(given)).value();
+  const auto idle = feed->add_viewer();
+  feed->start();
+  feed->wait();
+  EXPECT_EQ(feed->state().frames, 1000);
+  EXPECT_EQ(idle->state().dropped, 990);
+  std::int64_t taken = 0;
+  while (idle->next() != nullptr) ++taken;
+  EXPECT_EQ(taken, 5) << "no more are under way";
+}
+
+TEST_F(LiveFeedThread, ThoseThatComeLateHearThatItHasEnded) {
+  const auto feed = LiveFeed::create(options(source_of(5))).value();
+  feed->start();
+  feed->wait();
+  const auto late = feed->add_viewer();
+  EXPECT_EQ(late->next(), nullptr);
+  ASSERT_TRUE(late->end());
+  EXPECT_EQ(late->end()->reason, "the source has ended after 5 frames");
+}
+
+TEST_F(LiveFeedThread, ViewersAreNotWithoutNumber) {
+  auto given = options(source_of(5));
+  given.most_viewers = 2;
+  const auto feed = LiveFeed::create(std::move(given)).value();
+  const auto first = feed->add_viewer();
+  auto second = feed->add_viewer();
+  EXPECT_NE(second, nullptr);
+  EXPECT_EQ(feed->add_viewer(), nullptr);
+  second.reset();
+  const auto third = feed->add_viewer();
+  EXPECT_NE(third, nullptr) << "the place of one that went";
+  first->closed();
+  EXPECT_NE(feed->add_viewer(), nullptr);
+}
+
+TEST_F(LiveFeedThread, ARecordingThatIsThereStays) {
+  auto given = options(source_of(5));
+  given.record = scratch_ / "live.mcap";
+  auto again = given;
+  (void)LiveFeed::create(std::move(given)).value();
+  const auto second = LiveFeed::create(again);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Code::io);
+  again.force = true;
+  EXPECT_TRUE(LiveFeed::create(std::move(again)));
+}
+
+TEST_F(LiveFeedThread, EndsInTheMiddleWithWhatHasCome) {
+  auto given = options(source_of(100'000));
+  given.record = scratch_ / "live.mcap";
+  auto feed = LiveFeed::create(std::move(given)).value();
+  const auto viewer = feed->add_viewer();
+  feed->start();
+  while (feed->state().recorded == 0) std::this_thread::yield();
+  feed.reset();
+  const auto trial = io::read_mcap_markers(scratch_ / "live.mcap").value();
+  EXPECT_THAT(trial.warnings, IsEmpty()) << "it was closed";
+  EXPECT_GT(trial.markers.frames(), 0);
+  double taken = 0.0;
+  while (viewer->next() != nullptr) ++taken;
+  EXPECT_FALSE(viewer->end()) << "it has not drawn what came";
+  EXPECT_TRUE(viewer->heard({reinterpret_cast<const char*>(&taken), sizeof(taken)}));
+  EXPECT_TRUE(viewer->end());
+}
+
+TEST_F(LiveFeedThread, AQueueGivesInOrderAndCountsWhatItDrops) {
+  LiveQueue queue(2);
+  for (int f = 0; f < 5; ++f) queue.push(f);
+  EXPECT_EQ(queue.dropped(), 3);
+  queue.finish();
+  EXPECT_EQ(queue.pop(), 3);
+  EXPECT_EQ(queue.pop(), 4);
+  EXPECT_EQ(queue.pop(), std::nullopt);
+  LiveQueue all(0);
+  for (int f = 0; f < 5000; ++f) all.push(f);
+  EXPECT_EQ(all.dropped(), 0);
+  EXPECT_EQ(all.pop(), 0);
+}
+
+TEST_F(LiveFeedThread, TheSteadyClockWakesWhenItIsStopped) {
+  SteadyClock clock;
+  EXPECT_TRUE(clock.sleep_until(clock.now_s()));
+  std::thread sleeper([&clock] { EXPECT_FALSE(clock.sleep_until(clock.now_s() + 1e6)); });
+  clock.stop();
+  sleeper.join();
+}
+
+}  // namespace
+}  // namespace kinemark::server

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/live_service.h"
+
+#include <utility>
+
+#include "kinemark/pipeline/files/json_text.h"
+#include "server/list_page.h"
+#include "server/trial_page.h"
+
+namespace kinemark::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Response sentence(int status, std::string_view title, std::string_view what) {
+  Response response{.status = status, .body = std::make_shared<const std::string>(error_page(title, what))};
+  response.headers = {{"Content-Security-Policy", std::string(kOwnPolicy)}};
+  return response;
+}
+
+/// The policy of a page that may also talk with this server.
+std::string with_socket(const std::string& policy, const std::vector<std::string>& hosts) {
+  std::string out = policy + "; connect-src 'self'";
+  for (const auto& host : hosts) out += " ws://" + host;
+  return out;
+}
+
+}  // namespace
+
+std::string live_state_json(const LiveState& state) {
+  Json viewers = Json::array();
+  for (const auto& v : state.viewers)
+    viewers.push_back(
+        {{"sent", v.sent},
+         {"dropped", v.dropped},
+         {"dropped_angles", v.dropped_angles},
+         {"to_socket_ms", {{"p50", v.half_ms}, {"p99", v.most_ms}, {"longest", v.longest_ms}}}});
+  return pipeline::json_text({{"frames", state.frames},
+                              {"of_frames", state.of_frames},
+                              {"ended", state.ended},
+                              {"recorded", state.recorded},
+                              {"unsolved", state.unsolved},
+                              {"viewers", viewers}}) +
+         "\n";
+}
+
+LiveService::LiveService(Keys keys, std::string page, std::string_view nonce, std::unique_ptr<LiveFeed> feed)
+    : entrance_(keys), page_(shielded(std::move(page), nonce)), feed_(std::move(feed)) {
+  page_.policy = with_socket(page_.policy, keys.hosts);
+  feed_->start();
+}
+
+void LiveService::handle(const Request& request, const Reply& reply) {
+  auto response = entrance_.ask(request);
+  if (!response) {
+    response = answer(request);
+    response->admitted = true;
+  }
+  add_safe_headers(*response);
+  reply(std::move(*response));
+}
+
+Response LiveService::answer(const Request& request) {
+  if (request.upgrade && request.target == "/live/socket") return open_socket();
+  if (!request.upgrade && request.target == "/")
+    return {.body = page_.html, .headers = {{"Content-Security-Policy", page_.policy}}};
+  if (!request.upgrade && request.target == "/api/live")
+    return {.type = "application/json",
+            .body = std::make_shared<const std::string>(live_state_json(feed_->state()))};
+  return sentence(404, "Not found", "There is no such page; / shows the live source.");
+}
+
+Response LiveService::open_socket() {
+  auto viewer = feed_->add_viewer();
+  if (!viewer) {
+    auto response = sentence(503, "Busy", "Too many view this source at once; close another page.");
+    response.headers.emplace_back("Retry-After", "1");
+    return response;
+  }
+  return {.socket = std::move(viewer)};
+}
+
+}  // namespace kinemark::server

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/live_clock.h"
+#include "server/live_message.h"
+#include "server/socket_peer.h"
+
+namespace kinemark::server {
+
+/// What one viewer can hold back.
+struct LiveLimits {
+  std::size_t waiting = 32;    ///< messages that wait for it: beyond, the oldest is dropped and counted
+  std::size_t under_way = 64;  ///< messages that were sent and not yet drawn: beyond, none is sent
+  double ahead_s = 0.3;        ///< none is sent either while one that was given so long ago is not drawn
+};
+
+/// How often each duration occurred, in steps of 50 us up to 100 ms; all that is longer is one.
+class Durations {
+ public:
+  void add(double duration_s);  ///< one more
+  [[nodiscard]] double share_ms(
+      double share) const;  ///< ms within which that share was, rounded up; 0 of none
+  [[nodiscard]] double longest_ms() const { return 1e3 * longest_s_; }  ///< 0 of none
+  [[nodiscard]] std::int64_t count() const { return count_; }           ///< how many
+
+ private:
+  static constexpr double kStep_s = 50e-6;
+  std::array<std::uint32_t, 2001> bins_{};
+  std::int64_t count_ = 0;
+  double longest_s_ = 0.0;
+};
+
+/// How a viewer fares.
+struct LiveViewerState {
+  std::int64_t sent = 0;            ///< messages that are with the system
+  std::int64_t dropped = 0;         ///< frames of markers that it did not get
+  std::int64_t dropped_angles = 0;  ///< frames of angles that it did not get
+  /// From when a frame of markers is due until the system has it: 50 %, 99 %, all.
+  double half_ms = 0.0, most_ms = 0.0, longest_ms = 0.0;
+};
+
+/// One viewer of a live source: messages wait here until its connection takes them. Who is slow loses the
+/// oldest ones, and holds nobody else back. Threads may call at once.
+class LiveViewer final : public SocketPeer {
+ public:
+  LiveViewer(const LiveLimits& limits, std::shared_ptr<LiveClock> clock);
+
+  /// A message, of which this viewer gets its own head. Never waits.
+  void offer(std::shared_ptr<const std::string> message, LiveKind kind, double due_s);
+  /// No more messages come; when all are drawn the connection ends with that sentence.
+  void finish(std::string sentence);
+  [[nodiscard]] bool gone() const;              ///< whether its connection is over
+  [[nodiscard]] LiveViewerState state() const;  ///< how it fares
+
+  void opened(std::function<void()> wake) override;
+  [[nodiscard]] std::shared_ptr<const std::string> next() override;
+  void sent() override;
+  [[nodiscard]] std::optional<SocketEnd> end() override;
+  [[nodiscard]] bool heard(std::string_view bytes) override;
+  void closed() override;
+
+ private:
+  struct Waiting {
+    std::shared_ptr<const std::string> message;
+    LiveKind kind;
+    double due_s;
+  };
+  /// A message that was given to the connection and is not drawn; due_s is NaN of what is no frame of
+  /// markers.
+  struct UnderWay {
+    double due_s, given_s;
+  };
+  void drop_oldest();
+  [[nodiscard]] bool is_behind() const;
+
+  LiveLimits limits_;
+  std::shared_ptr<LiveClock> clock_;
+  mutable std::mutex mutex_;
+  std::function<void()> wake_;
+  std::deque<Waiting> waiting_;
+  std::deque<UnderWay> under_way_;
+  double saying_due_s_ = 0.0;
+  std::uint64_t drawn_ = 0;
+  std::int64_t sent_ = 0;
+  std::array<std::uint32_t, 4> dropped_{};  ///< by kind
+  float answer_s_;
+  Durations to_socket_;
+  std::optional<std::string> finished_;
+  bool gone_ = false;
+};
+
+}  // namespace kinemark::server

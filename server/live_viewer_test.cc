@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/live_viewer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "server/testing/fake_clock.h"
+
+namespace kinemark::server {
+namespace {
+
+std::string count_bytes(double count) {
+  std::string text(8, '\0');
+  std::memcpy(text.data(), &count, 8);
+  return text;
+}
+
+double frame_of(const std::string& message) {
+  double frame = 0.0;
+  std::memcpy(&frame, message.data() + 8, 8);
+  return frame;
+}
+
+std::uint32_t dropped_of(const std::string& message) {
+  std::uint32_t dropped = 0;
+  std::memcpy(&dropped, message.data() + 4, 4);
+  return dropped;
+}
+
+float answer_of(const std::string& message) {
+  float answer_s = 0.0F;
+  std::memcpy(&answer_s, message.data() + 32, 4);
+  return answer_s;
+}
+
+class LiveViewerTest : public ::testing::Test {
+ protected:
+  /// Frame f of no markers, due now.
+  void offer(std::int64_t f, LiveKind kind = LiveKind::markers) {
+    const double now_s = clock_->now_s();
+    auto message = markers_message(f, 0.0, now_s, {}, {});
+    message[0] = static_cast<char>(kind);
+    viewer_.offer(std::make_shared<const std::string>(std::move(message)), kind, now_s);
+  }
+  /// All that it takes now: numbers of frames.
+  std::vector<double> take() {
+    std::vector<double> frames;
+    while (const auto message = viewer_.next()) {
+      viewer_.sent();
+      frames.push_back(frame_of(*message));
+      last_ = *message;
+    }
+    return frames;
+  }
+
+  std::shared_ptr<testing::FakeClock> clock_ = std::make_shared<testing::FakeClock>();
+  LiveViewer viewer_{{.waiting = 3, .under_way = 4}, clock_};
+  std::string last_;
+};
+
+TEST_F(LiveViewerTest, FramesComeInOrder) {
+  EXPECT_EQ(viewer_.next(), nullptr);
+  offer(0);
+  offer(1);
+  EXPECT_EQ(take(), (std::vector<double>{0, 1}));
+  EXPECT_EQ(viewer_.state().sent, 2);
+  EXPECT_EQ(viewer_.state().dropped, 0);
+}
+
+TEST_F(LiveViewerTest, WhoIsSlowLosesTheOldestAndIsSaidHowMany) {
+  for (int f = 0; f < 10; ++f) offer(f);
+  EXPECT_EQ(take(), (std::vector<double>{7, 8, 9}));
+  EXPECT_EQ(dropped_of(last_), 7U);
+  EXPECT_EQ(viewer_.state().dropped, 7);
+}
+
+TEST_F(LiveViewerTest, DropsAreCountedByKind) {
+  offer(0);
+  offer(0, LiveKind::angles);
+  for (int f = 1; f < 4; ++f) offer(f);
+  EXPECT_EQ(viewer_.state().dropped, 1);
+  EXPECT_EQ(viewer_.state().dropped_angles, 1);
+}
+
+TEST_F(LiveViewerTest, WhatPeopleShouldKnowIsNotDropped) {
+  offer(-1, LiveKind::sentence);
+  for (int f = 0; f < 10; ++f) offer(f);
+  EXPECT_EQ(take(), (std::vector<double>{-1, 8, 9}));
+}
+
+TEST_F(LiveViewerTest, NoMoreIsUnderWayThanWasAgreed) {
+  for (int f = 0; f < 3; ++f) offer(f);
+  (void)take();
+  for (int f = 3; f < 6; ++f) offer(f);
+  EXPECT_EQ(take(), (std::vector<double>{3})) << "four are under way";
+  EXPECT_TRUE(viewer_.heard(count_bytes(2)));
+  EXPECT_EQ(take(), (std::vector<double>{4, 5}));
+  EXPECT_EQ(viewer_.state().dropped, 0);
+}
+
+TEST_F(LiveViewerTest, WhoDrawsLateGetsNothingAheadOfThat) {
+  offer(0);
+  (void)take();
+  clock_->pass(0.31);
+  offer(1);
+  EXPECT_EQ(viewer_.next(), nullptr) << "frame 0 is not drawn for long";
+  for (int f = 2; f < 6; ++f) offer(f);
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
+  EXPECT_EQ(take(), (std::vector<double>{3, 4, 5})) << "the newest, not those that were there first";
+  EXPECT_EQ(viewer_.state().dropped, 2);
+}
+
+TEST_F(LiveViewerTest, AnglesThatComeLateByDesignAreNoDelay) {
+  offer(0, LiveKind::angles);
+  clock_->pass(0.25);
+  (void)take();
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
+  EXPECT_EQ(viewer_.state().longest_ms, 0.0);
+  offer(1);
+  clock_->pass(0.125);
+  (void)take();
+  EXPECT_TRUE(std::isnan(answer_of(last_)));
+  EXPECT_EQ(viewer_.state().longest_ms, 125.0);
+}
+
+TEST_F(LiveViewerTest, HowLongItTookUntilDrawnStandsInTheNextMessage) {
+  offer(0);
+  (void)take();
+  EXPECT_TRUE(std::isnan(answer_of(last_)));
+  clock_->pass(0.25);
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
+  offer(1);
+  (void)take();
+  EXPECT_EQ(answer_of(last_), 0.25F);
+}
+
+TEST_F(LiveViewerTest, WhatCannotHaveBeenDrawnIsNotUnderstood) {
+  offer(0);
+  offer(1);
+  (void)take();
+  EXPECT_FALSE(viewer_.heard(count_bytes(3)));
+  EXPECT_FALSE(viewer_.heard("nonsense but 8"));
+  EXPECT_TRUE(viewer_.heard(count_bytes(2)));
+  EXPECT_TRUE(viewer_.heard(count_bytes(2))) << "nothing new";
+  EXPECT_FALSE(viewer_.heard(count_bytes(1))) << "less than before";
+}
+
+TEST_F(LiveViewerTest, EndsWhenAllIsDrawn) {
+  offer(0);
+  viewer_.finish("the source has ended after 1 frame");
+  viewer_.finish("and again");
+  offer(1);
+  EXPECT_FALSE(viewer_.end());
+  EXPECT_EQ(take(), (std::vector<double>{0})) << "nothing comes after the end";
+  EXPECT_FALSE(viewer_.end()) << "it is not drawn yet";
+  EXPECT_TRUE(viewer_.heard(count_bytes(1)));
+  ASSERT_TRUE(viewer_.end());
+  EXPECT_EQ(viewer_.end()->code, 1000);
+  EXPECT_EQ(viewer_.end()->reason, "the source has ended after 1 frame");
+}
+
+TEST_F(LiveViewerTest, AReasonFitsIntoACloseFrame) {
+  viewer_.finish(std::string(500, 'x'));
+  EXPECT_EQ(viewer_.end()->reason.size(), 120U);
+}
+
+TEST_F(LiveViewerTest, IsWokenForEachMessageUntilItIsGone) {
+  int woken = 0;
+  viewer_.opened([&woken] { ++woken; });
+  offer(0);
+  offer(1);
+  EXPECT_EQ(woken, 2);
+  viewer_.closed();
+  EXPECT_TRUE(viewer_.gone());
+  offer(2);
+  EXPECT_EQ(woken, 2);
+  EXPECT_EQ(viewer_.next(), nullptr);
+}
+
+TEST(Durations, SharesAreFoundToAStep) {
+  Durations durations;
+  EXPECT_EQ(durations.share_ms(0.99), 0.0);
+  for (int i = 1; i <= 100; ++i) durations.add(1e-3 * i / 10.0);  // 0.1 to 10 ms
+  EXPECT_NEAR(durations.share_ms(0.5), 5.0, 0.1);
+  EXPECT_NEAR(durations.share_ms(0.99), 9.9, 0.1);
+  EXPECT_NEAR(durations.longest_ms(), 10.0, 1e-9);
+  EXPECT_GE(durations.share_ms(0.99), 9.9 - 1e-9) << "never less than it was";
+}
+
+TEST(Durations, WhatIsLongerThanTheyReachIsTheLongest) {
+  Durations durations;
+  durations.add(3.0);
+  durations.add(-1.0);
+  EXPECT_EQ(durations.count(), 2);
+  EXPECT_NEAR(durations.share_ms(1.0), 3000.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace kinemark::server

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/live/live_source.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/text.h"
+#include "kinemark/core/utf8.h"
+#include "kinemark/core/version.h"
+#include "kinemark/io/number.h"
+#include "kinemark/io/rate.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/model_input.h"
+#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/motion/markers_page.h"
+#include "kinemark/pipeline/simulate/human_model.h"
+#include "kinemark/stages/report/live_report.h"
+#include "kinemark/stages/simulation/subject.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSim = "sim:";
+constexpr std::string_view kReplay = "replay:";
+constexpr std::int64_t kMostSimulatedFrames = 200'000;
+
+/// A setting of a source: its name, its value, and the range that the value must lie in.
+struct Setting {
+  std::string_view name;
+  double value, low, high;
+};
+
+/// Put "name=value&name=value" into the settings.
+Status take_settings(std::string_view source, std::string_view text, std::vector<Setting>& settings) {
+  std::vector<std::string> known;
+  for (const auto& s : settings) known.emplace_back(s.name);
+  while (!text.empty()) {
+    const auto end = std::min(text.find('&'), text.size());
+    const auto one = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto equals = std::min(one.find('='), one.size());
+    const auto setting = std::ranges::find(settings, one.substr(0, equals), &Setting::name);
+    if (setting == settings.end())
+      return fail(Code::usage, fmt::format("{}: '{}' is no setting of it; those are {}", source,
+                                           one.substr(0, equals), join(known)));
+    const auto value = io::parse_number(one.substr(std::min(equals + 1, one.size())));
+    if (!value || !(*value >= setting->low && *value <= setting->high))
+      return fail(Code::usage, fmt::format("{}: {} must be a number from {:g} to {:g}", source, setting->name,
+                                           setting->low, setting->high));
+    setting->value = *value;
+  }
+  return {};
+}
+
+Result<std::shared_ptr<const model::Model>> read_model(const fs::path& path) {
+  auto input = read_model_input(path);
+  if (!input) return std::unexpected(input.error());
+  return std::make_shared<const model::Model>(std::move(input->model));
+}
+
+Result<std::shared_ptr<const model::Model>> own_human() {
+  auto description = human_model();
+  if (!description) return std::unexpected(description.error());
+  auto model = model::Model::compile(*description);
+  if (!model) return std::unexpected(model.error());
+  return std::make_shared<const model::Model>(std::move(*model));
+}
+
+Result<LiveSource> open_simulation(std::string_view argument, const fs::path& model_file,
+                                   std::uint64_t seed) {
+  const auto text = argument.substr(kSim.size());
+  const auto question = std::min(text.find('?'), text.size());
+  const auto name = question == 0 ? std::string_view("walk") : text.substr(0, question);
+  const auto motion = simulation::parse_motion_kind(name);
+  if (!motion) return fail_at(std::string(argument), motion.error());
+  std::vector<Setting> settings{{"rate", 240.0, 1.0, 1000.0},
+                                {"seconds", 60.0, 0.1, 3600.0},
+                                {"noise", 1.0, 0.0, 100.0},
+                                {"missing", 0.0, 0.0, 0.9}};
+  if (auto s = take_settings(argument, text.substr(std::min(question + 1, text.size())), settings); !s)
+    return std::unexpected(s.error());
+  const simulation::SubjectOptions options{.motion = *motion,
+                                           .duration_s = settings[1].value,
+                                           .rate_hz = settings[0].value,
+                                           .seed = seed,
+                                           .noise_sd_m = 1e-3 * settings[2].value,
+                                           .dropout_random = settings[3].value};
+  if (options.frames() > kMostSimulatedFrames)
+    return fail(Code::usage, fmt::format("{}: would be {} frames; need at most {}", argument,
+                                         options.frames(), kMostSimulatedFrames));
+  LiveSource out{.name = std::string(argument), .title = fmt::format("Simulated subject, {}", name)};
+  auto model = model_file.empty() ? own_human() : read_model(model_file);
+  if (!model) return std::unexpected(model.error());
+  out.model = std::move(*model);
+  auto subject = simulation::simulate_subject(*out.model, options);
+  if (!subject) return fail_at(std::string(argument), subject.error());
+  out.markers = std::move(subject->markers);
+  if (const auto up = up_of(*out.model)) {
+    out.up = *up;
+    out.up_from = "the model's gravity";
+  }
+  return out;
+}
+
+Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_file) {
+  auto file = argument.substr(kReplay.size());
+  std::vector<Setting> settings{{"rate", 0.0, 0.001, 10'000.0}};
+  std::error_code ignored;
+  if (const auto question = file.rfind('?');
+      question != std::string_view::npos && !fs::exists(file, ignored)) {
+    if (auto s = take_settings(argument, file.substr(question + 1), settings); !s)
+      return std::unexpected(s.error());
+    file = file.substr(0, question);
+  }
+  if (file.empty()) return fail(Code::usage, "replay: names no file; need replay:FILE");
+  const fs::path path(file);
+  const double rate_hz = settings[0].value;
+  auto input = read_marker_input(
+      {.path = path, .rate_hz = rate_hz, .rate = RateRule::where_needed, .needs_samples = true});
+  if (!input) return std::unexpected(input.error());
+  LiveSource out{.name = std::string(argument), .title = printable(path.filename().string(), 200)};
+  if (!model_file.empty()) {
+    auto model = read_model(model_file);
+    if (!model) return std::unexpected(model.error());
+    out.model = std::move(*model);
+  }
+  const auto found = out.model ? find_vertical(path, input->trial, *out.model) : std::nullopt;
+  const auto vertical = found ? *found : vertical_without_model(path, input->trial);
+  out.up = vertical.up;
+  out.up_from = vertical.from;
+  out.markers = std::move(input->trial.markers);
+  if (rate_hz > 0.0) out.markers.time.rate_hz = rate_hz;
+  return out;
+}
+
+/// Smallest and largest coordinates of all samples; nothing without any.
+std::optional<std::array<Eigen::Vector3d, 2>> extent_of(const data::Trajectories& markers) {
+  std::optional<std::array<Eigen::Vector3d, 2>> out;
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) {
+      if (!markers.present(f, m)) continue;
+      const Eigen::Vector3d x = markers.x(f, m);
+      if (!out) out = {x, x};
+      (*out)[0] = (*out)[0].cwiseMin(x);
+      (*out)[1] = (*out)[1].cwiseMax(x);
+    }
+  return out;
+}
+
+}  // namespace
+
+bool names_live_source(std::string_view argument) {
+  return argument.starts_with(kSim) || argument.starts_with(kReplay);
+}
+
+Result<LiveSource> open_live_source(std::string_view argument, const fs::path& model, std::uint64_t seed) {
+  if (argument.starts_with(kSim)) return open_simulation(argument, model, seed);
+  if (argument.starts_with(kReplay)) return open_replay(argument, model);
+  return fail(Code::usage,
+              fmt::format("{}: is no live source; need sim:MOTION or replay:FILE", printable(argument, 200)));
+}
+
+std::string live_page(const LiveSource& source, const fs::path& recording) {
+  report::LiveReport report{.title = source.title,
+                            .source = source.name,
+                            .version = std::string(kVersion),
+                            .recording = recording.filename().string(),
+                            .rate_hz = source.markers.time.rate_hz,
+                            .markers = source.markers.names,
+                            .up = source.up,
+                            .up_from = source.up_from,
+                            .extent_m = extent_of(source.markers)};
+  if (source.model)
+    for (const auto& coordinate : source.model->description().coordinates)
+      report.coordinates.push_back({.name = coordinate.name, .is_rotation = coordinate.is_rotation});
+  return report::live_report_html(report);
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+
+namespace kinemark::pipeline {
+
+/// Frames that are there in the order in which they come, and what is known of them before the first.
+struct LiveSource {
+  std::string name;                               ///< as given: "sim:walk?seconds=30"
+  std::string title;                              ///< for a heading: "Simulated walk", "trial.c3d"
+  data::Trajectories markers;                     ///< time.rate_hz frames come in a second
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< away from the floor, length 1
+  std::string up_from;                            ///< who says so; empty: nobody
+  std::shared_ptr<const model::Model> model;      ///< whose angles are wanted; may be absent
+};
+
+/// Whether an argument names a source and no file: it begins with "sim:" or "replay:".
+[[nodiscard]] bool names_live_source(std::string_view argument);
+
+/// Open a source.
+///
+/// "sim:MOTION?rate=HZ&seconds=S&noise=MM&missing=SHARE": a simulated subject, MOTION as parse_motion_kind(),
+/// "walk" when empty; 240 Hz, 60 s, 1 mm and 0 unless told. Its model is kinemark's human, or the one given.
+/// "replay:FILE?rate=HZ": a marker file; it comes at its own rate, or at the one told. What follows the last
+/// '?' are settings, unless that file is there.
+///
+/// @param model  .osim whose angles are wanted; empty: that of the simulation, none of a replay
+/// Code::usage for a source that is none, a setting that is none or out of range (200,000 frames at most are
+/// simulated); else fails as the reader of the file and of the model.
+[[nodiscard]] Result<LiveSource> open_live_source(std::string_view argument,
+                                                  const std::filesystem::path& model = {},
+                                                  std::uint64_t seed = 1);
+
+/// The page of a source, without a frame: `kinemark.live` of the viewer, which asks for a WebSocket at
+/// "/live/socket". @param recording  where frames are kept; empty: nowhere
+[[nodiscard]] std::string live_page(const LiveSource& source, const std::filesystem::path& recording);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Walking as a part of the job of measures.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/stages/analysis/gait/gait.h"
+
+namespace kinemark::pipeline {
+
+/// What is asked about walking. Paths that are empty are not used.
+struct GaitRequest {
+  std::string events = "best";         ///< whose: "best", "plates", "kinematics", "file"
+  std::vector<std::string> markers;    ///< ROLE=NAME, or a .toml of lines like role = "NAME"
+  std::filesystem::path write_events;  ///< .csv, or .c3d: the recording with these events of feet
+  std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written
+  std::filesystem::path write_cycles;  ///< .csv: curves over the cycle
+
+  /// Whether walking is asked about by more than being there.
+  [[nodiscard]] bool wanted() const {
+    return events != "best" || !markers.empty() || !write_events.empty() || !write_cycles.empty();
+  }
+  /// Names and endings: Code::usage.
+  [[nodiscard]] Status check() const;
+};
+
+/// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.
+[[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request);
+
+/// Walking in a trial: its markers as they are, the plates of its file where that is a .c3d, its events.
+/// Code::bad_input as analysis::analyze_gait().
+[[nodiscard]] Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,
+                                                  const analysis::GaitOptions& options);
+
+/// The events, one a row: file, context, label, time_s, frame (number in the file, of the nearest), sd_s,
+/// source, method. RFC 4180.
+[[nodiscard]] std::string events_csv(const analysis::Gait& gait, const TimeBase& time,
+                                     const std::string& file);
+
+/// The trial with these events of feet instead of its own; events of other kinds stay.
+[[nodiscard]] data::Trial with_events(data::Trial trial, const analysis::Gait& gait);
+
+/// "treadmill", "belt_speed" (mm/s; null over ground), "events".
+[[nodiscard]] nlohmann::ordered_json gait_json(const analysis::Gait& gait);
+
+/// For people: each event with its SD and source.
+[[nodiscard]] std::string events_text(const analysis::Gait& gait);
+
+}  // namespace kinemark::pipeline

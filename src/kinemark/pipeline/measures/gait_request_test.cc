@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/gait_request.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "kinemark/pipeline/measures/gait_cycles.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using data::FootEvent;
+using data::Side;
+
+analysis::Gait two_events() {
+  analysis::Gait gait;
+  gait.events = {{Side::left, FootEvent::strike, 1.25, 0.006, data::EventSource::plate, "plate 1, east"},
+                 {Side::right, FootEvent::off, 1.4, kNaN, data::EventSource::file, "the file"}};
+  return gait;
+}
+const TimeBase kTime{.rate_hz = 100.0, .t0_s = 0.4, .frames = 400, .first_number = 41};
+
+TEST(GaitRequest, RefusesWhatIsNone) {
+  EXPECT_TRUE(GaitRequest{}.check());
+  EXPECT_FALSE(GaitRequest{}.wanted());
+  EXPECT_EQ(GaitRequest{.events = "plate"}.check().error().code, Code::usage);
+  EXPECT_EQ(GaitRequest{.write_events = "a.xlsx"}.check().error().message,
+            "a.xlsx: events are written as .csv or .c3d");
+  EXPECT_FALSE(GaitRequest{.write_cycles = "a.c3d"}.check());
+  EXPECT_FALSE(GaitRequest{.angles = "Q.mot"}.check());
+}
+
+TEST(GaitOptions, ReadsRoles) {
+  const auto options = gait_options({.events = "file", .markers = {"left_heel=A=B"}});
+  ASSERT_TRUE(options);
+  EXPECT_EQ(options->choice, analysis::EventChoice::file);
+  EXPECT_EQ(options->markers, (std::vector<analysis::MarkerRole>{{"left_heel", "A=B"}}));
+  EXPECT_EQ(gait_options({.markers = {"LHEE"}}).error().code, Code::usage);
+  EXPECT_FALSE(gait_options({.markers = {"nowhere.toml"}}));
+}
+
+TEST(EventsCsv, HasOneRowEach) {
+  EXPECT_EQ(events_csv(two_events(), kTime, "walk.c3d"),
+            "file,context,label,time_s,frame,sd_s,source,method\n"
+            "walk.c3d,Left,Foot Strike,1.250000,126,0.006000,plate,\"plate 1, east\"\n"
+            "walk.c3d,Right,Foot Off,1.400000,141,,file,the file\n");
+}
+
+TEST(WithEvents, ReplacesEventsOfFeetAlone) {
+  data::Trial trial;
+  trial.markers.time = kTime;
+  trial.events = {{"jump", "Left", 1.0}, {"Foot Strike", "Left", 1.2}, {"RTO", "", 9.0}};
+  const auto out = with_events(trial, two_events());
+  ASSERT_EQ(out.events.size(), 3u);
+  EXPECT_EQ(out.events[0].label, "jump");
+  EXPECT_EQ(out.events[1].label, "Foot Strike");
+  EXPECT_EQ(out.events[1].time_s, 1.25);
+  EXPECT_EQ(out.events[2].context, "Right");
+}
+
+TEST(GaitJson, HasNullWhereNothingIsKnown) {
+  auto gait = two_events();
+  auto json = gait_json(gait);
+  EXPECT_TRUE(json["belt_speed"].is_null());
+  EXPECT_TRUE(json["events"][1]["sd_s"].is_null());
+  gait.treadmill = true, gait.belt_speed_m_per_s = 1.25;
+  EXPECT_EQ(gait_json(gait)["belt_speed"], 1250.0);
+  EXPECT_NE(events_text(gait).find("Left  Foot Strike    1.250 +- 0.006 s  plate 1"), std::string::npos);
+}
+
+TEST(GaitCurves, AreCutByTheCyclesOfTheirSide) {
+  data::Trial trial;
+  trial.markers.time = kTime;
+  trial.channels = {.names = {"LKneeAngles", "PelvisAngles", "LKneeForce"},
+                    .kinds = {data::ChannelKind::angle, data::ChannelKind::angle, data::ChannelKind::force},
+                    .units = {"deg", "deg", "N"},
+                    .rate_hz = 100.0,
+                    .frames = 400,
+                    .values = Array<double>(400 * 9, 10.0)};
+  const std::vector<analysis::GaitCycle> cycles{{.side = Side::left, .start_s = 1.0, .end_s = 2.0},
+                                                {.side = Side::right, .start_s = 1.5, .end_s = 2.5}};
+  const auto curves = gait_curves(trial, cycles, {});
+  ASSERT_TRUE(curves);
+  ASSERT_EQ(curves->size(), 9u);  // three components: left knee by one foot, pelvis by two
+  EXPECT_EQ((*curves)[0].id, "LKneeAngles x");
+  const auto csv = curves_csv({(*curves)[0]}, "walk.c3d");
+  EXPECT_NE(csv.find("walk.c3d,LKneeAngles x,Left,1,50,10,,deg\n"), std::string::npos);
+  EXPECT_NE(csv.find("walk.c3d,LKneeAngles x,Left,mean,100,10,,deg\n"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 * 101);
+  EXPECT_FALSE(gait_curves(trial, {}, {}));
+  trial.channels = {};
+  EXPECT_NE(gait_curves(trial, cycles, {}).error().message.find("--angles"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

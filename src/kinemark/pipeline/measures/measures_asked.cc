@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/measures_asked.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/nearest_name.h"
+#include "kinemark/core/text.h"
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
+#include "kinemark/stages/analysis/path/definitions.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+bool is_path_measure(const std::string& id) {
+  return std::ranges::any_of(analysis::path_definitions(), [&](const auto& d) { return d.what.id == id; });
+}
+
+Status unknown_measure(const std::string& id) {
+  std::vector<std::string> known{"gait"};
+  for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::gait_definitions()) known.emplace_back(definition.what.id);
+  const auto nearest = nearest_names(id, known);
+  return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
+                                       nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+}
+
+}  // namespace
+
+Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
+  auto gait = gait_options(job.gait);
+  if (!gait) return std::unexpected(gait.error());
+  AskedMeasures out{.path = {.refits = job.refits,
+                             .noise_sd_m = job.noise_sd_m,
+                             .level = job.level,
+                             .seed = job.seed,
+                             .threads = job.threads,
+                             .curves = !job.figures.empty() || !job.report.empty()},
+                    .gait = std::move(*gait)};
+  bool all_of_walking = false;
+  for (const auto& id : job.measures) {
+    if (id == "gait")
+      all_of_walking = true;
+    else if (analysis::find_gait_definition(id) != nullptr)
+      out.gait.measures.push_back(id);
+    else if (is_path_measure(id))
+      out.path.measures.push_back(id);
+    else if (auto s = unknown_measure(id); !s)
+      return std::unexpected(s.error());
+  }
+  out.by_name = all_of_walking || !out.gait.measures.empty() || job.gait.wanted();
+  out.paths = job.measures.empty() || !out.path.measures.empty();
+  out.walking = out.by_name || job.measures.empty();
+  if (all_of_walking) out.gait.measures.clear();
+  out.gait.refits = job.refits;
+  out.gait.noise_sd_m = job.noise_sd_m;
+  out.gait.level = job.level;
+  out.gait.seed = job.seed;
+  out.gait.threads = job.threads;
+  if (auto s = out.path.check(); !s) return std::unexpected(s.error());
+  return out;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Which of the measures that are asked for are of paths, and which of walking.
+#pragma once
+
+#include "kinemark/core/result.h"
+#include "kinemark/pipeline/measures/measures_job.h"
+#include "kinemark/stages/analysis/gait/gait.h"
+#include "kinemark/stages/analysis/path/path_measures.h"
+
+namespace kinemark::pipeline {
+
+/// What a job asks of paths and of walking.
+struct AskedMeasures {
+  analysis::PathMeasureOptions path;  ///< without regions
+  analysis::GaitOptions gait;         ///< without regions
+  bool paths = true;                  ///< whether paths are measured
+  bool walking = true;                ///< whether walking is measured, where there is any
+  bool by_name = false;               ///< walking is asked for: what it lacks has to be said
+};
+
+/// Code::usage for a measure that does not exist, with the nearest names, and as gait_options() and
+/// analysis::PathMeasureOptions::check().
+[[nodiscard]] Result<AskedMeasures> asked_measures(const MeasuresJob& job);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/edited_page.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/version.h"
+#include "kinemark/pipeline/motion/markers_page.h"
+#include "kinemark/stages/report/markers_report.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMillimetres = 1e3;
+
+Json changes_json(const std::vector<trajectory::MarkerChange>& changes) {
+  Json out = Json::array();
+  for (const auto& change : changes)
+    out.push_back({{"marker", change.marker},
+                   {"moved", change.moved},
+                   {"came", change.came},
+                   {"went", change.went},
+                   {"restated", change.restated},
+                   {"largest_mm", kMillimetres * change.largest_m},
+                   {"first", change.first_frame},
+                   {"last", change.last_frame}});
+  return out;
+}
+
+/// What a report of the session holds, and what it refers to.
+struct EditedReport {
+  explicit EditedReport(const EditSession& session)
+      : parts(markers_page_parts(session.recorded().file.path, session.recorded().trial, session.now())) {
+    report = {.trial = std::filesystem::path(session.recorded().file.path).filename().string(),
+              .version = std::string(kVersion),
+              .recording = &session.now(),
+              .up = parts.vertical.up,
+              .up_from = parts.vertical.from,
+              .inputs = {session.recorded().file},
+              .warnings = parts.remarks,
+              .editing = editing_json(session)};
+    if (!parts.forces.items.empty()) report.forces = &parts.forces;
+    if (session.outcome().in_force.empty()) return;
+    before = trajectory::aligned_to(session.recorded().trial, session.now());
+    report.before = &before;
+  }
+  EditedReport(const EditedReport&) = delete;
+  EditedReport& operator=(const EditedReport&) = delete;
+
+  MarkersPageParts parts;
+  data::Trajectories before;
+  report::MarkersReport report;
+};
+
+}  // namespace
+
+Json editing_json(const EditSession& session) {
+  const auto outcome = session.outcome();
+  Json json = edit_json(outcome);
+  json["journal"] = outcome.journal.filename().string();
+  json["changes"] = {{"last", changes_json(session.last_changes())},
+                     {"all", changes_json(session.all_changes())}};
+  return json;
+}
+
+Json edited_page_json(const EditSession& session) {
+  return report::markers_report_json(EditedReport(session).report);
+}
+
+Result<std::string> edited_page(const std::filesystem::path& recording) {
+  const auto session = EditSession::open(recording);
+  if (session) return report::markers_report_html(EditedReport(*session).report);
+  return markers_page(recording, {.editing = {{"refused", session.error().message}}});
+}
+
+}  // namespace kinemark::pipeline

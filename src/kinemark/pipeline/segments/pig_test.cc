@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The shipped conventional gait model on a leg whose axes are known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+
+#include "kinemark/pipeline/segments/definition_file.h"
+#include "kinemark/stages/analysis/segments/segment_motion.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kLeg = 0.92, kKnee = 0.102, kAnkle = 0.07, kMarker = 0.014, kAsis = 0.24, kWand = 0.25;
+
+// The left hip by Davis' regression, written out, in a pelvis whose axes are the laboratory's.
+Vector3d left_hip(const Vector3d& pelvis) {
+  const double depth = 0.115 * kLeg - 0.0153, trochanter = 0.1288 * kLeg - 0.04856 + 0.5 * kMarker;
+  return pelvis + Vector3d(depth * std::cos(0.5) * std::sin(0.314) - trochanter * std::cos(0.314),
+                           0.5 * kAsis - depth * std::sin(0.5),
+                           -depth * std::cos(0.5) * std::cos(0.314) - trochanter * std::sin(0.314));
+}
+
+// Left leg with a knee that flexes about its axis by `flexion` in each frame; the thigh's wand is turned off
+// that axis by kWand. With a knee alignment device, or with the marker at the knee.
+data::Trajectories leg(const std::vector<double>& flexion, bool device) {
+  auto out = data::Trajectories::all_missing({"LASI", "RASI", "LPSI", "RPSI", "LTHI", "LKNE", "LTIB", "LANK",
+                                              "LHEE", "LTOE", "LKAX", "LKD1", "LKD2"},
+                                             {.rate_hz = 100.0, .frames = std::ssize(flexion)});
+  for (std::int64_t f = 0; f < out.frames(); ++f) {
+    const Vector3d pelvis(0.1, 0.2, 1.0), x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+    const Vector3d hip = left_hip(pelvis), knee = hip - 0.4 * z;
+    const Matrix3d shank = Eigen::AngleAxisd(flexion[static_cast<std::size_t>(f)], y).toRotationMatrix();
+    const Vector3d ankle = knee - 0.4 * shank.col(2), marker = knee + 0.5 * (kKnee + kMarker) * y;
+    const Vector3d wand = Eigen::AngleAxisd(kWand, z) * y;
+    std::map<std::string, Vector3d> at{{"LASI", pelvis + 0.5 * kAsis * y},
+                                       {"RASI", pelvis - 0.5 * kAsis * y},
+                                       {"LPSI", pelvis + 0.05 * y - 0.15 * x},
+                                       {"RPSI", pelvis - 0.05 * y - 0.15 * x},
+                                       {"LTHI", knee + 0.2 * z + 0.12 * wand},
+                                       {"LTIB", knee - 0.2 * shank.col(2) + 0.09 * y},
+                                       {"LANK", ankle + 0.5 * (kAnkle + kMarker) * y},
+                                       {"LHEE", ankle + shank * Vector3d(-0.06, 0.0, -0.05)},
+                                       {"LTOE", ankle + shank * Vector3d(0.15, 0.02, -0.05)}};
+    if (device)
+      at.insert({{"LKAX", marker + 0.1 * y},
+                 {"LKD1", marker + 0.1 * (x + z).normalized()},
+                 {"LKD2", marker + 0.1 * (x - z).normalized()}});
+    else
+      at["LKNE"] = marker;
+    for (const auto& [name, position] : at) {
+      const auto m = out.find(name);
+      out.x(f, m) = position;
+      out.state[out.index(f, m)] = data::SampleState::measured;
+    }
+  }
+  return out;
+}
+
+analysis::SegmentMotion computed(const data::Trajectories& markers, const data::Trajectories* still) {
+  const auto definition = find_definition("pig");
+  EXPECT_TRUE(definition);
+  auto motion = analysis::compute_segments(*definition, {.markers = &markers,
+                                                         .static_trial = still,
+                                                         .given = {{"LLegLength", kLeg, "test"},
+                                                                   {"RLegLength", kLeg, "test"},
+                                                                   {"LKneeWidth", kKnee, "test"},
+                                                                   {"LAnkleWidth", kAnkle, "test"}}});
+  EXPECT_TRUE(motion) << motion.error().message;
+  return std::move(*motion);
+}
+
+const analysis::SegmentSeries& angle(const analysis::SegmentMotion& motion, const std::string& name) {
+  for (const auto& series : motion.angles)
+    if (series.name == name) return series;
+  ADD_FAILURE() << name;
+  return motion.angles.front();
+}
+
+double parameter(const analysis::SegmentMotion& motion, const std::string& name) {
+  for (const auto& used : motion.parameters)
+    if (used.name == name) return used.value;
+  return std::nan("");
+}
+
+const std::vector<double> kFlexion{0.0, 0.3, 0.6, 0.9};
+
+TEST(ConventionalGaitModel, HasItsHipByTheRegression) {
+  const auto walk = leg(kFlexion, false);
+  const auto motion = computed(walk, nullptr);
+  EXPECT_LT((motion.points.x(0, motion.points.find("LHJC")) - left_hip({0.1, 0.2, 1.0})).norm(), 1e-9);
+  EXPECT_EQ(motion.points.find("RKJC"), -1) << "the right leg has no markers";
+}
+
+TEST(ConventionalGaitModel, FindsTheKneesAxisWithAnAlignmentDevice) {
+  const auto still = leg({0.0, 0.0}, true), walk = leg(kFlexion, false);
+  const auto motion = computed(walk, &still);
+  EXPECT_NEAR(parameter(motion, "LThighRotation"), -kWand, 1e-9);
+  const auto& knee = angle(motion, "LKneeAngles");
+  for (std::size_t f = 0; f < kFlexion.size(); ++f) {
+    EXPECT_NEAR(knee.value[3 * f], kFlexion[f], 1e-9);
+    EXPECT_NEAR(knee.value[3 * f + 1], 0.0, 1e-9);
+  }
+  EXPECT_LT(
+      (motion.points.x(0, motion.points.find("LKJC")) - (left_hip({0.1, 0.2, 1.0}) - Vector3d(0, 0, 0.4)))
+          .norm(),
+      1e-9);
+}
+
+TEST(ConventionalGaitModel, SeesAWrongAxisWithoutIt) {
+  const auto still = leg({0.0, 0.0}, false), walk = leg(kFlexion, false);
+  const auto motion = computed(walk, &still);
+  EXPECT_EQ(parameter(motion, "LThighRotation"), 0.0);
+  EXPECT_GT(std::abs(angle(motion, "LKneeAngles").value[3 * 3 + 1]), 0.1);
+}
+
+TEST(ConventionalGaitModel, HasAFlatFootInTheStaticTrial) {
+  const auto still = leg({0.0, 0.0}, false), walk = leg(kFlexion, false);
+  const auto standing = computed(still, &still), moving = computed(still, &walk);
+  EXPECT_NEAR(angle(standing, "LAnkleAngles").value[0], 0.0, 1e-9) << "foot and shank are perpendicular";
+  EXPECT_TRUE(std::isnan(parameter(computed(walk, nullptr), "LStaticPlantFlex")));
+  EXPECT_TRUE(std::isfinite(parameter(moving, "LStaticPlantFlex")));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/segments/segment_tables.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <numbers>
+#include <set>
+
+#include "kinemark/io/number.h"
+#include "kinemark/pipeline/segments/subject_values.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using analysis::SegmentMotion;
+using analysis::SegmentSeries;
+using analysis::SubjectQuantity;
+
+void for_each_series(const SegmentMotion& motion, const std::function<void(const SegmentSeries&)>& take) {
+  for (const auto& series : motion.angles) take(series);
+  for (const auto& series : motion.values) take(series);
+}
+
+std::string column(const SegmentSeries& series, std::size_t k) {
+  return series.labels.empty() ? series.name : series.name + "_" + series.labels[k];
+}
+
+// Tables are in degrees and metres.
+double per_si(const SegmentSeries& series) {
+  return series.quantity == SubjectQuantity::angle ? 180.0 / std::numbers::pi : 1.0;
+}
+
+data::Table table_of(const SegmentMotion& motion, std::string name,
+                     const Array<double> SegmentSeries::* what) {
+  data::Table table{.name = std::move(name), .in_degrees = true};
+  const auto frames = motion.time.frames;
+  for (std::int64_t f = 0; f < frames; ++f) table.time_s.push_back(motion.time.time_s(f));
+  for_each_series(motion, [&](const SegmentSeries& series) {
+    for (std::size_t k = 0; k < series.size(); ++k) table.columns.push_back(column(series, k));
+  });
+  for (std::int64_t f = 0; f < frames; ++f)
+    for_each_series(motion, [&](const SegmentSeries& series) {
+      for (std::size_t k = 0; k < series.size(); ++k)
+        table.values.push_back((series.*what)[static_cast<std::size_t>(f) * series.size() + k] *
+                               per_si(series));
+    });
+  return table;
+}
+
+std::string_view table_unit(const SegmentSeries& series) {
+  if (series.quantity == SubjectQuantity::length) return "m";
+  return shown_unit(series.quantity);
+}
+
+data::ChannelKind kind_of(const SegmentSeries& series) {
+  return series.quantity == SubjectQuantity::angle ? data::ChannelKind::angle : data::ChannelKind::scalar;
+}
+
+}  // namespace
+
+data::Table angles_table(const SegmentMotion& motion) {
+  return table_of(motion, "angles", &SegmentSeries::value);
+}
+
+data::Table angle_deviations_table(const SegmentMotion& motion) {
+  return table_of(motion, "angles_sd", &SegmentSeries::sd);
+}
+
+std::string angles_csv(const SegmentMotion& motion) {
+  std::string out = "time_s,name,component,value,sd,unit,state\n";
+  const auto cell = [](double x) { return std::isfinite(x) ? io::format_number(x) : std::string(); };
+  for_each_series(motion, [&](const SegmentSeries& series) {
+    for (std::int64_t f = 0; f < motion.time.frames; ++f)
+      for (std::size_t k = 0; k < series.size(); ++k) {
+        const auto i = static_cast<std::size_t>(f) * series.size() + k;
+        out += fmt::format("{},{},{},{},{},{},{}\n", io::format_number(motion.time.time_s(f)), series.name,
+                           series.labels.empty() ? "" : series.labels[k],
+                           cell(series.value[i] * per_si(series)), cell(series.sd[i] * per_si(series)),
+                           table_unit(series), data::to_string(series.state[static_cast<std::size_t>(f)]));
+      }
+  });
+  return out;
+}
+
+data::Trial points_trial(const SegmentMotion& motion, const data::Trial& recording) {
+  data::Trial out;
+  out.source = recording.source;
+  out.format = recording.format;
+  out.units_in_file = recording.units_in_file;
+  out.first_frame = recording.first_frame;
+  out.markers = motion.points;
+  for (std::int64_t f = 0; f < motion.points.frames(); ++f)
+    for (std::int64_t m = 0; m < motion.points.markers(); ++m)
+      if (motion.points.present(f, m)) out.markers.set_method(f, m, "segments");
+  return out;
+}
+
+data::Trial trial_with(const SegmentMotion& motion, data::Trial recording) {
+  auto& channels = recording.channels;
+  const auto frames = static_cast<std::size_t>(motion.time.frames);
+  std::set<std::string> ours(motion.points.names.begin(), motion.points.names.end());
+  for_each_series(motion, [&](const SegmentSeries& series) { ours.insert(series.name); });
+  // Channels that stay, then ours.
+  data::Channels made{.rate_hz = motion.time.rate_hz, .frames = motion.time.frames};
+  std::vector<std::size_t> kept;
+  if (channels.frames == motion.time.frames)
+    for (std::size_t c = 0; c < channels.names.size(); ++c)
+      if (!ours.contains(channels.names[c])) kept.push_back(c);
+  for (const auto c : kept) {
+    made.names.push_back(channels.names[c]);
+    made.kinds.push_back(channels.kinds[c]);
+    made.units.push_back(channels.units[c]);
+  }
+  for_each_series(motion, [&](const SegmentSeries& series) {
+    made.names.push_back(series.name);
+    made.kinds.push_back(kind_of(series));
+    made.units.emplace_back(table_unit(series));
+  });
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (const auto c : kept)
+      for (std::size_t k = 0; k < 3; ++k)
+        made.values.push_back(channels.values[(f * channels.names.size() + c) * 3 + k]);
+    for_each_series(motion, [&](const SegmentSeries& series) {
+      for (std::size_t k = 0; k < 3; ++k)
+        made.values.push_back(k < series.size() ? series.value[f * series.size() + k] * per_si(series) : 0.0);
+      // A point whose first component is missing is missing.
+      if (!std::isfinite(made.values[made.values.size() - 3]))
+        for (std::size_t k = 1; k < 3; ++k) made.values[made.values.size() - k] = kNaN;
+    });
+  }
+  channels = std::move(made);
+
+  const auto& points = motion.points;
+  const data::Trajectories old = recording.markers;
+  std::vector<std::int64_t> markers;
+  std::vector<std::string> names;
+  for (std::int64_t m = 0; m < old.markers(); ++m)
+    if (!ours.contains(old.names[static_cast<std::size_t>(m)])) {
+      markers.push_back(m);
+      names.push_back(old.names[static_cast<std::size_t>(m)]);
+    }
+  names.insert(names.end(), points.names.begin(), points.names.end());
+  auto all = data::Trajectories::all_missing(std::move(names), motion.time);
+  for (std::int64_t f = 0; f < motion.time.frames; ++f) {
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      const auto m = static_cast<std::int64_t>(i);
+      all.state[all.index(f, m)] = old.state[old.index(f, markers[i])];
+      all.x(f, m) = old.x(f, markers[i]);
+    }
+    for (std::int64_t p = 0; p < points.markers(); ++p) {
+      const auto m = std::ssize(markers) + p;
+      all.state[all.index(f, m)] = points.state[points.index(f, p)];
+      all.x(f, m) = points.x(f, p);
+    }
+  }
+  recording.markers = std::move(all);
+  recording.residual_m.clear();
+  recording.camera_mask.clear();
+  return recording;
+}
+
+nlohmann::ordered_json parameters_json(const SegmentMotion& motion) {
+  auto out = nlohmann::ordered_json::array();
+  for (const auto& p : motion.parameters)
+    out.push_back({{"name", p.name},
+                   {"value", p.value / per_shown(p.quantity)},
+                   {"unit", shown_unit(p.quantity)},
+                   {"sd", p.sd > 0.0 ? nlohmann::ordered_json(p.sd / per_shown(p.quantity))
+                                     : nlohmann::ordered_json(nullptr)},
+                   {"from", p.from}});
+  return out;
+}
+
+nlohmann::ordered_json series_json(const SegmentMotion& motion) {
+  auto out = nlohmann::ordered_json::array();
+  for_each_series(motion, [&](const SegmentSeries& series) {
+    nlohmann::ordered_json one{
+        {"name", series.name}, {"components", series.labels}, {"unit", table_unit(series)}};
+    for (const auto state :
+         {data::SampleState::measured, data::SampleState::interpolated, data::SampleState::missing})
+      one[std::string(data::to_string(state))] = std::ranges::count(series.state, state);
+    one["sd"] = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      double squares = 0.0;
+      std::int64_t seen = 0;
+      for (std::size_t i = k; i < series.sd.size(); i += series.size())
+        if (std::isfinite(series.sd[i])) {
+          squares += series.sd[i] * series.sd[i];
+          ++seen;
+        }
+      one["sd"].push_back(
+          seen > 0 ? nlohmann::ordered_json(std::sqrt(squares / static_cast<double>(seen)) * per_si(series))
+                   : nlohmann::ordered_json(nullptr));
+    }
+    out.push_back(std::move(one));
+  });
+  return out;
+}
+
+}  // namespace kinemark::pipeline

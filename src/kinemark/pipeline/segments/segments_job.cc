@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/segments/segments_job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <system_error>
+
+#include "kinemark/io/vsk/vsk.h"
+#include "kinemark/pipeline/files/file_set.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/segments/definition_file.h"
+#include "kinemark/pipeline/segments/segment_tables.h"
+#include "kinemark/pipeline/segments/subject_values.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDefectsListed = 5;
+
+/// All that is read.
+struct Files {
+  data::Trial recording;
+  std::unique_ptr<data::Trial> static_trial;  // null: none, or the recording
+  bool static_is_recording = false;
+  std::map<std::string, std::unique_ptr<data::Trial>> trials;
+};
+
+Status screen(const SegmentsJob& job, data::Trial& trial, SegmentsOutcome& outcome) {
+  const auto screening = screen_markers(
+      trial,
+      {.recorder_made = RecorderMade::mark, .find_defects = !job.keep_defects, .reject_defects = true});
+  if (!screening) return std::unexpected(screening.error());
+  const auto& sure = screening->sure;
+  for (std::size_t i = 0; i < std::min(sure.size(), kDefectsListed); ++i)
+    outcome.warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));
+  if (sure.size() > kDefectsListed)
+    outcome.warnings.push_back(
+        fmt::format("Left out: {} more defects like these.", sure.size() - kDefectsListed));
+  return {};
+}
+
+Result<data::Trial> read_trial(const SegmentsJob& job, const fs::path& path, SegmentsOutcome& outcome) {
+  auto input = read_marker_input({.path = path,
+                                  .rate_hz = job.rate_hz,
+                                  .rate = RateRule::where_needed,
+                                  .needs_samples = true,
+                                  .record = true});
+  if (!input) return std::unexpected(input.error());
+  outcome.inputs.push_back(std::move(input->file));
+  std::ranges::move(input->trial.warnings, std::back_inserter(outcome.warnings));
+  input->trial.warnings.clear();
+  // The recording is screened when its part is taken.
+  if (path != job.input)
+    if (auto s = screen(job, input->trial, outcome); !s) return fail_at(path.string(), s.error());
+  return std::move(input->trial);
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
+Result<Files> read_files(const SegmentsJob& job, SegmentsOutcome& outcome) {
+  Files out;
+  auto recording = read_trial(job, job.input, outcome);
+  if (!recording) return std::unexpected(recording.error());
+  out.recording = std::move(*recording);
+  if (auto s = take_selection(job.selection, out.recording); !s)
+    return fail_at(job.input.string(), s.error());
+  if (auto s = screen(job, out.recording, outcome); !s) return fail_at(job.input.string(), s.error());
+  out.static_is_recording = !job.static_trial.empty() && same_file(job.static_trial, job.input);
+  if (!job.static_trial.empty() && !out.static_is_recording) {
+    auto trial = read_trial(job, job.static_trial, outcome);
+    if (!trial) return std::unexpected(trial.error());
+    out.static_trial = std::make_unique<data::Trial>(std::move(*trial));
+  }
+  for (const auto& text : job.trials) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      return fail(Code::usage, fmt::format("'{}' is not NAME=FILE", text));
+    auto trial = read_trial(job, text.substr(equals + 1), outcome);
+    if (!trial) return std::unexpected(trial.error());
+    out.trials[text.substr(0, equals)] = std::make_unique<data::Trial>(std::move(*trial));
+  }
+  return out;
+}
+
+Result<Eigen::Vector3d> up_of(const SegmentsJob& job, const data::Trial& trial) {
+  if (job.up.empty()) {
+    if (const auto plates = vertical_of_plates(trial)) return plates->up;
+    if (const auto screen_up = vertical_of_screen(job.input)) return screen_up->up;
+    return Eigen::Vector3d::UnitZ();
+  }
+  const std::string_view axis = job.up.front() == '-' ? std::string_view(job.up).substr(1) : job.up;
+  if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z')
+    return fail(Code::usage, fmt::format("up is '{}'; expected x, y, z, -x, -y or -z", job.up));
+  return Eigen::Vector3d(Eigen::Vector3d::Unit(axis[0] - 'x') * (job.up.front() == '-' ? -1.0 : 1.0));
+}
+
+Status find_values(const SegmentsJob& job, const analysis::SegmentDefinition& definition, const Files& files,
+                   analysis::SegmentInput& input, SegmentsOutcome& outcome) {
+  for (const auto& text : job.subject) {
+    auto value = parse_subject_value(text, definition);
+    if (!value) return std::unexpected(value.error());
+    input.given.push_back(std::move(*value));
+  }
+  if (!job.vsk.empty()) {
+    const auto vsk = io::read_vsk(job.vsk);
+    if (!vsk) return std::unexpected(vsk.error());
+    outcome.inputs.push_back({.role = "subject", .path = job.vsk.string()});
+    input.known = subject_values(*vsk, job.vsk.filename().string());
+  }
+  std::ranges::move(subject_values(files.recording, definition), std::back_inserter(input.known));
+  if (files.static_trial)
+    std::ranges::move(subject_values(*files.static_trial, definition), std::back_inserter(input.known));
+  return {};
+}
+
+void find_cross_talk(const analysis::SegmentDefinition& definition, SegmentsOutcome& outcome) {
+  for (const auto& series : outcome.motion.angles) {
+    const auto a =
+        std::ranges::find(definition.angles, series.name, &analysis::SegmentDefinition::Angle::name);
+    if (a == definition.angles.end() || !a->cross_talk) continue;
+    const auto found = analysis::find_cross_talk(series);
+    if (!found) continue;
+    outcome.cross_talk.emplace_back(series.name, *found);
+    if (found->suspicious()) outcome.warnings.push_back(found->sentence(series.name));
+  }
+}
+
+Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& outcome) {
+  auto staging = Staging::create_in(
+      job.output,
+      {"angles.mot", "angles_sd.sto", "angles.csv", "centres.csv", "segments.c3d", "segments.json"},
+      job.force, {job.input, job.static_trial, job.vsk});
+  if (!staging) return std::unexpected(staging.error());
+  const auto& motion = outcome.motion;
+  const data::Trial points = points_trial(motion, files.recording);
+  const data::Trial whole = trial_with(motion, files.recording);
+  const auto& targets = staging->targets();
+  std::vector<ResultFile> made{table_file(targets[0], [&] { return angles_table(motion); }),
+                               table_file(targets[1], [&] { return angle_deviations_table(motion); }),
+                               text_file(targets[2], [&] { return angles_csv(motion); }),
+                               marker_file(targets[3], points),
+                               marker_file(targets[4], whole),
+                               json_file(targets[5], [&] { return segments_outcome_json(outcome); })};
+  SetDigest digest;
+  digest.add("segments").add(outcome.inputs).add(angles_csv(motion));
+  auto written = write_results(*staging, made, job.progress, "the segments", digest.hex());
+  if (!written) return std::unexpected(written.error());
+  outcome.written = std::move(*written);
+  return {};
+}
+
+}  // namespace
+
+Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
+  if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
+  const auto definition = find_definition(job.definition);
+  if (!definition) return std::unexpected(definition.error());
+  SegmentsOutcome outcome;
+  outcome.title = definition->title.empty() ? job.definition : definition->title;
+  const auto files = read_files(job, outcome);
+  if (!files) return std::unexpected(files.error());
+  const auto up = up_of(job, files->recording);
+  if (!up) return std::unexpected(up.error());
+  analysis::SegmentInput input{.markers = &files->recording.markers};
+  if (files->static_is_recording) input.static_trial = input.markers;
+  if (files->static_trial) input.static_trial = &files->static_trial->markers;
+  for (const auto& [name, trial] : files->trials) input.trials[name] = &trial->markers;
+  if (auto s = find_values(job, *definition, *files, input, outcome); !s) return std::unexpected(s.error());
+  auto motion = analysis::compute_segments(*definition, input,
+                                           {.noise_sd_m = job.noise_sd_m, .up = *up, .threads = job.threads});
+  if (!motion) return fail_at(job.input.string(), motion.error());
+  outcome.motion = std::move(*motion);
+  std::ranges::copy(outcome.motion.warnings, std::back_inserter(outcome.warnings));
+  find_cross_talk(*definition, outcome);
+  if (job.output.empty()) return outcome;
+  if (auto s = write_all(job, *files, outcome); !s) return std::unexpected(s.error());
+  return outcome;
+}
+
+nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
+  nlohmann::ordered_json out;
+  out["definition"] = outcome.title;
+  out["inputs"] = nlohmann::ordered_json::array();
+  for (const auto& input : outcome.inputs) {
+    nlohmann::ordered_json one{{"path", input.path}};
+    if (!input.hash.empty()) {
+      one["bytes"] = input.bytes;
+      one[input.hash_kind] = input.hash;
+    }
+    out["inputs"].push_back(std::move(one));
+  }
+  out["parameters"] = parameters_json(outcome.motion);
+  out["angles"] = series_json(outcome.motion);
+  out["cross_talk"] = nlohmann::ordered_json::array();
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  for (const auto& [name, found] : outcome.cross_talk)
+    out["cross_talk"].push_back({{"name", name},
+                                 {"correlation", found.correlation},
+                                 {"varus_deg", found.carried_rad / kDegree},
+                                 {"flexion_deg", found.flexion_rad / kDegree},
+                                 {"suspicious", found.suspicious()},
+                                 {"sentence", found.sentence(name)}});
+  out["written"] = nlohmann::ordered_json::array();
+  for (const auto& path : outcome.written) out["written"].push_back(path.string());
+  out["warnings"] = outcome.warnings;
+  return out;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Segments and joint angles of a recording by a definition: files in, files out.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/selection.h"
+#include "kinemark/stages/analysis/segments/cross_talk.h"
+#include "kinemark/stages/analysis/segments/segment_motion.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark analyze --segments` is asked to do. Paths that are empty are not used.
+struct SegmentsJob : JobSettings {
+  std::filesystem::path input;         ///< marker file
+  double rate_hz = 0.0;                ///< for a file that tells none; 0: not given
+  Selection selection;                 ///< which markers and frames
+  std::string definition;              ///< name of a shipped one, or a .toml
+  std::filesystem::path static_trial;  ///< marker file; the recording itself: it is its own static trial
+  std::vector<std::string> trials;     ///< NAME=FILE, trials in which landmarks were shown
+  std::filesystem::path vsk;           ///< measures of the subject, .vsk
+  std::vector<std::string> subject;    ///< NAME=VALUE, mm, deg, kg
+  std::string up;                      ///< "x", "y" or "z", also "-y"; empty: found, else z
+  double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
+  bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
+  std::filesystem::path output;        ///< folder; empty: nothing is written
+};
+
+/// Warnings: what was left out or could not be computed.
+struct SegmentsOutcome : JobOutcome {
+  std::vector<data::InputFile> inputs;                                  ///< all that were read
+  std::string title;                                                    ///< of the definition
+  analysis::SegmentMotion motion;                                       ///< what it gives
+  std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
+};
+
+/// Read, screen, compute, write into the folder `output`: angles.mot and angles_sd.sto (degrees, metres),
+/// angles.csv with states, centres.csv with covariances, segments.c3d (the recording with angles and centres)
+/// and segments.json. Progress counts files.
+///
+/// Code::usage for names and numbers that make no sense; Code::bad_input as the readers and
+/// analysis::compute_segments(); Code::io as Staging.
+[[nodiscard]] Result<SegmentsOutcome> run_segments(const SegmentsJob& job);
+
+/// "definition", "inputs", "parameters", "angles", "cross_talk" (a list of "name", "correlation",
+/// "varus_deg", "flexion_deg", "suspicious", "sentence"), "written", "warnings".
+[[nodiscard]] nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome);
+
+}  // namespace kinemark::pipeline

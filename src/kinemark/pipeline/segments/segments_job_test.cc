@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/segments/segments_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <fstream>
+#include <numbers>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/text/table_file.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+constexpr std::string_view kDefinition = R"(
+title = "A knee"
+[[segment]]
+name = "thigh"
+origin = "T1"
+first = ["z", "T2 - T1"]
+second = ["x", "T3 - T1"]
+[[segment]]
+name = "shank"
+origin = "S1"
+first = ["z", "S2 - S1"]
+second = ["x", "S3 - S1"]
+[[point]]
+name = "between"
+written = true
+formula = "mean(T1, S1)"
+[[angle]]
+name = "knee"
+parent = "thigh"
+child = "shank"
+sequence = "yxz"
+components = [["flexion", "y"], ["varus", "x"], ["rotation", "z"]]
+cross_talk = true
+[[angle]]
+name = "foot"
+parent = "shank"
+child = "lab"
+sequence = "yxz"
+components = [["flexion", "y"], ["varus", "x"], ["rotation", "z"]]
+[[value]]
+name = "length"
+quantity = "length"
+formula = "distance(T1, T2)"
+)";
+
+double flexion(std::int64_t f) {
+  return 0.5 - 0.5 * std::cos(0.05 * static_cast<double>(f));
+}
+
+// A thigh that is still and a shank that flexes about an axis that is turned by `turn`; T3 is missing in
+// frame 20.
+class SegmentsJobTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(scratch_ / "knee.toml") << kDefinition;
+    write(0.0);
+    job_.input = scratch_ / "walk.c3d";
+    job_.definition = (scratch_ / "knee.toml").string();
+    job_.output = scratch_ / "out";
+    job_.keep_defects = true;
+  }
+  void write(double turn) {
+    data::Trial trial;
+    trial.markers = data::Trajectories::all_missing({"T1", "T2", "T3", "S1", "S2", "S3"},
+                                                    {.rate_hz = 100.0, .frames = 150});
+    const Eigen::Matrix3d seen = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    for (std::int64_t f = 0; f < 150; ++f) {
+      const Eigen::Matrix3d r = seen.transpose() *
+                                Eigen::AngleAxisd(flexion(f), Eigen::Vector3d::UnitY()).toRotationMatrix() *
+                                seen;
+      const Eigen::Vector3d at(1.0, 0.5, 0.9), below(1.0, 0.5, 0.5);
+      const std::array<Eigen::Vector3d, 6> x{
+          at,    at + 0.3 * Eigen::Vector3d::UnitZ(),    at + Eigen::Vector3d(0.1, 0, 0.1),
+          below, below + r * Eigen::Vector3d(0, 0, 0.3), below + r * Eigen::Vector3d(0.1, 0, 0.1)};
+      for (std::int64_t m = 0; m < 6; ++m) {
+        trial.markers.x(f, m) = x[static_cast<std::size_t>(m)];
+        trial.markers.state[trial.markers.index(f, m)] = data::SampleState::measured;
+      }
+    }
+    trial.markers.set_missing(20, 2);
+    ASSERT_TRUE(io::write_markers(scratch_ / "walk.c3d", trial, true));
+  }
+
+  testing_support::ScratchFolder scratch_;
+  SegmentsJob job_;
+};
+
+TEST_F(SegmentsJobTest, WritesAnglesWithDeviationsAndStates) {
+  job_.noise_sd_m = 0.001;
+  const auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->title, "A knee");
+  const auto angles = io::read_table(job_.output / "angles.mot");
+  const auto sd = io::read_table(job_.output / "angles_sd.sto");
+  ASSERT_TRUE(angles && sd);
+  EXPECT_TRUE(angles->in_degrees);
+  const auto column = angles->find("knee_flexion");
+  ASSERT_GE(column, 0);
+  EXPECT_EQ(angles->columns, sd->columns);
+  EXPECT_NEAR((*angles)(75, column), flexion(75) * 180.0 / std::numbers::pi, 1e-3);
+  EXPECT_NEAR((*angles)(75, angles->find("length")), 0.3, 1e-6);
+  EXPECT_GT((*sd)(75, column), 0.1);
+  EXPECT_TRUE(std::isnan((*angles)(20, column)));
+  const auto csv = io::read_text(job_.output / "angles.csv").value();
+  EXPECT_THAT(csv, HasSubstr("time_s,name,component,value,sd,unit,state\n"));
+  EXPECT_THAT(csv, HasSubstr("0.2,knee,flexion,,,deg,missing\n"));
+  EXPECT_THAT(csv, HasSubstr("0.2,length,,0.3"));
+}
+
+TEST_F(SegmentsJobTest, WritesCentresAndTheRecordingWithAngles) {
+  const auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto centres = io::read_markers(job_.output / "centres.csv");
+  ASSERT_TRUE(centres) << centres.error().message;
+  ASSERT_EQ(centres->markers.names, std::vector<std::string>{"between"});
+  EXPECT_NEAR(centres->markers.x(3, 0).z(), 0.7, 1e-6);
+  EXPECT_FALSE(centres->markers.covariance.empty());
+  const auto whole = io::read_markers(job_.output / "segments.c3d");
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(whole->markers.names.back(), "between");
+  EXPECT_EQ(whole->markers.state[whole->markers.index(3, 6)], data::SampleState::model_filled);
+  ASSERT_THAT(whole->channels.names, Contains("knee"));
+  EXPECT_EQ(whole->channels.kinds[0], data::ChannelKind::angle);
+  EXPECT_NEAR(whole->channels.values[75 * 9], flexion(75) * 180.0 / std::numbers::pi, 1e-3);
+  EXPECT_TRUE(std::isnan(whole->channels.values[20 * 9]));
+}
+
+TEST_F(SegmentsJobTest, ReplacesItsOwnResultsOfAnEarlierRun) {
+  ASSERT_TRUE(run_segments(job_));
+  auto again = job_;
+  again.input = job_.output / "segments.c3d";
+  again.output = scratch_ / "again";
+  const auto outcome = run_segments(again);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto whole = io::read_markers(again.output / "segments.c3d");
+  EXPECT_EQ(whole->markers.markers(), 7);
+  EXPECT_EQ(whole->channels.names.size(), 3U);
+  EXPECT_FALSE(run_segments(again)) << "without --force nothing is replaced";
+}
+
+TEST_F(SegmentsJobTest, SaysCrossTalkWhereThereIs) {
+  auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome);
+  ASSERT_EQ(outcome->cross_talk.size(), 1U);
+  EXPECT_FALSE(outcome->cross_talk[0].second.suspicious());
+  EXPECT_THAT(outcome->warnings, ::testing::Not(Contains(HasSubstr("varus follows flexion"))));
+  write(0.3);
+  job_.force = true;
+  outcome = run_segments(job_);
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("knee: varus follows flexion")));
+  const auto json = segments_outcome_json(*outcome);
+  EXPECT_TRUE(json["cross_talk"][0]["suspicious"]);
+  EXPECT_EQ(json["definition"], "A knee");
+  EXPECT_EQ(json["angles"][0]["missing"], 1);
+  EXPECT_EQ(json["angles"][0]["measured"], 149);
+}
+
+TEST_F(SegmentsJobTest, NamesMarkersThatAreNotThere) {
+  job_.selection.drop = {"S3"};
+  const auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("Not computed: knee, foot; there is no marker 'S3'")));
+  EXPECT_EQ(outcome->motion.values.size(), 1U);
+  job_.definition = "pig";
+  job_.output = scratch_ / "none";
+  const auto none = run_segments(job_);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("walk.c3d: nothing can be computed"));
+  EXPECT_FALSE(std::filesystem::exists(job_.output));
+}
+
+TEST_F(SegmentsJobTest, RefusesWhatMakesNoSense) {
+  const auto refused = [&](auto change) {
+    auto job = job_;
+    change(job);
+    const auto outcome = run_segments(job);
+    EXPECT_FALSE(outcome);
+    return outcome ? std::string() : outcome.error().message;
+  };
+  EXPECT_THAT(refused([](auto& j) { j.up = "w"; }), HasSubstr("up is 'w'; expected x, y, z"));
+  EXPECT_THAT(refused([](auto& j) { j.trials = {"pointer"}; }), HasSubstr("'pointer' is not NAME=FILE"));
+  EXPECT_THAT(refused([](auto& j) { j.subject = {"x=1"}; }), HasSubstr("no parameter 'x'"));
+  EXPECT_THAT(refused([](auto& j) { j.definition = "nobody"; }), HasSubstr("no definition"));
+  EXPECT_THAT(refused([](auto& j) { j.static_trial = "nothing.c3d"; }), HasSubstr("nothing.c3d"));
+  EXPECT_THAT(refused([](auto& j) { j.noise_sd_m = -1.0; }), HasSubstr("noise"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/segments/subject_values.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <numbers>
+
+namespace kinemark::pipeline {
+namespace {
+
+using analysis::SubjectQuantity;
+using ::testing::HasSubstr;
+
+analysis::SegmentDefinition measures() {
+  analysis::SegmentDefinition d;
+  d.parameters.push_back(
+      {.name = "LLegLength", .also = {"LeftLegLength"}, .quantity = SubjectQuantity::length});
+  d.parameters.push_back({.name = "LThighRotation", .quantity = SubjectQuantity::angle});
+  d.parameters.push_back({.name = "Bodymass", .quantity = SubjectQuantity::mass});
+  return d;
+}
+
+data::ForeignParameter number(const std::string& name, float value) {
+  data::ForeignParameter out{.name = name, .type = 4, .dims = {1}};
+  for (std::size_t k = 0; k < 4; ++k)
+    out.values.push_back(static_cast<std::byte>(std::bit_cast<std::uint32_t>(value) >> (8 * k) & 0xFF));
+  return out;
+}
+
+TEST(SubjectValues, AreTypedInTheUnitsOfTheField) {
+  const auto leg = parse_subject_value("LeftLegLength=920", measures());
+  ASSERT_TRUE(leg);
+  EXPECT_EQ(leg->name, "LLegLength");
+  EXPECT_DOUBLE_EQ(leg->value, 0.92);
+  EXPECT_DOUBLE_EQ(parse_subject_value("LThighRotation=-90", measures())->value, -0.5 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(parse_subject_value("Bodymass=74.5", measures())->value, 74.5);
+}
+
+TEST(SubjectValues, OfAnotherFormAreRefused) {
+  for (const char* text : {"LLegLength", "=3", "LLegLength=", "LLegLength=long", "LLegLength=nan"})
+    EXPECT_THAT(parse_subject_value(text, measures()).error().message, HasSubstr("is not NAME=VALUE"))
+        << text;
+  const auto unknown = parse_subject_value("LLegLenght=920", measures());
+  EXPECT_EQ(unknown.error().code, Code::usage);
+  EXPECT_THAT(unknown.error().message, HasSubstr("no parameter 'LLegLenght'; it has LLegLength"));
+}
+
+TEST(SubjectValues, AreReadFromAC3dFilesProcessing) {
+  data::Trial trial;
+  trial.source = "walk.c3d";
+  trial.units_in_file = "mm";
+  auto text = number("LThighRotation", 0.0F);
+  text.type = -1;
+  trial.foreign = {{.name = "OTHER", .parameters = {number("LLegLength", 1.0F)}},
+                   {.name = "PROCESSING",
+                    .parameters = {number("LeftLegLength", 920.0F), number("Unknown", 3.0F), text,
+                                   number("LThighRotation", 0.25F)}}};
+  const auto values = subject_values(trial, measures());
+  ASSERT_EQ(values.size(), 2U);
+  EXPECT_EQ(values[0].name, "LLegLength");
+  EXPECT_NEAR(values[0].value, 0.92, 1e-12);
+  EXPECT_EQ(values[0].from, "walk.c3d");
+  EXPECT_DOUBLE_EQ(values[1].value, 0.25);
+  trial.foreign[1].parameters[0].values.pop_back();
+  EXPECT_EQ(subject_values(trial, measures()).size(), 1U);
+}
+
+TEST(SubjectValues, AreReadFromAVsk) {
+  io::Vsk vsk;
+  vsk.parameters = {{"LeftLegLength", "m", 0.94, ""}, {"LeftAsis", "m", std::nullopt, "2 * 3"}};
+  const auto values = subject_values(vsk, "Ann.vsk");
+  ASSERT_EQ(values.size(), 1U);
+  EXPECT_EQ(values[0].name, "LeftLegLength");
+  EXPECT_EQ(values[0].from, "Ann.vsk");
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

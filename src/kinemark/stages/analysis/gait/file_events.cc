@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kinemark/stages/analysis/gait/gait_events.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::FootEvent;
+using data::GaitEvent;
+using data::Side;
+
+constexpr std::array<std::string_view, 9> kStrike{
+    "footstrike", "heelstrike", "initialcontact", "strike", "footcontact", "heelcontact", "hs", "fs", "ic"};
+constexpr std::array<std::string_view, 5> kOff{"footoff", "toeoff", "off", "to", "fo"};
+
+std::string letters(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (c >= 'A' && c <= 'Z')
+      out += static_cast<char>(c - 'A' + 'a');
+    else if (c >= 'a' && c <= 'z')
+      out += c;
+  return out;
+}
+
+std::optional<FootEvent> kind_of(std::string_view label) {
+  if (std::ranges::find(kStrike, label) != kStrike.end()) return FootEvent::strike;
+  if (std::ranges::find(kOff, label) != kOff.end()) return FootEvent::off;
+  return std::nullopt;
+}
+
+std::optional<GaitEvent> read_event(const data::Event& event) {
+  const std::string label = letters(event.label), context = letters(event.context);
+  const auto of = [&](Side side, FootEvent what) {
+    return GaitEvent{.side = side,
+                     .what = what,
+                     .time_s = event.time_s,
+                     .source = data::EventSource::file,
+                     .method = "the file"};
+  };
+  if (context == "left" || context == "right") {
+    const auto what = kind_of(label);
+    return what ? std::optional(of(context == "left" ? Side::left : Side::right, *what)) : std::nullopt;
+  }
+  for (const std::string_view side : {"left", "right", "l", "r"})
+    if (label.starts_with(side))
+      if (const auto what = kind_of(std::string_view(label).substr(side.size())))
+        return of(side.front() == 'l' ? Side::left : Side::right, *what);
+  return std::nullopt;
+}
+
+}  // namespace
+
+FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& time) {
+  FileEvents out;
+  std::vector<GaitEvent> read;
+  for (const auto& event : events)
+    if (const auto one = read_event(event)) read.push_back(*one);
+  std::ranges::stable_sort(read, {}, &GaitEvent::time_s);
+  const double half = 0.5 / time.rate_hz, first = time.time_s(0) - half,
+               last = time.time_s(time.frames - 1) + half;
+  std::array<std::optional<FootEvent>, 2> before;
+  for (const auto& event : read) {
+    const auto name = fmt::format("the file's event {} {} at {:.3f} s", data::to_string(event.side),
+                                  data::to_string(event.what), event.time_s);
+    if (!(event.time_s >= first && event.time_s <= last)) {
+      out.notes.push_back(fmt::format("{} lies outside the recording, {:.3f} to {:.3f} s, and is left out",
+                                      name, time.time_s(0), time.time_s(time.frames - 1)));
+      continue;
+    }
+    auto& same_side = before[data::index_of(event.side)];
+    // A file may have one kind alone; where it has both, they take turns.
+    const bool turns = std::ranges::any_of(
+        read, [&](const auto& other) { return other.side == event.side && other.what != event.what; });
+    if (turns && same_side == event.what) {
+      out.notes.push_back(
+          fmt::format("{} follows another of its kind, with no {} between, and is left out", name,
+                      data::to_string(event.what == FootEvent::strike ? FootEvent::off : FootEvent::strike)));
+      continue;
+    }
+    same_side = event.what;
+    out.events.push_back(event);
+  }
+  return out;
+}
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/gait.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
+#include "kinemark/stages/analysis/path/pivot.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::FootEvent;
+using data::Side;
+
+constexpr double kBelt_m_per_s = 0.15;  // slower is no belt, but a foot that rolls
+
+bool is_belt(const Ground& ground) { return ground.velocity.norm() > kBelt_m_per_s; }
+
+// How the ground moves, as far as it does, with an error of its speed.
+Eigen::RowVector2d belt_of(const Ground& ground, double error_m_per_s = 0.0) {
+  if (!is_belt(ground)) return {0.0, 0.0};
+  return (1.0 + error_m_per_s / ground.velocity.norm()) * ground.velocity;
+}
+
+// Every footprint moved by its own error; one that stands in several cycles, by the same.
+void jitter(std::vector<GaitCycle>& cycles, Random& random) {
+  std::map<std::pair<Side, double>, Eigen::Vector2d> moved;
+  const auto move = [&](Side side, double strike_s, Footprint& print) {
+    const auto [found, is_new] = moved.try_emplace({side, strike_s});
+    if (is_new) {
+      const double x = random.gaussian(), y = random.gaussian();
+      found->second = print.sd * Eigen::Vector2d(x, y);
+    }
+    print.x += found->second;
+  };
+  for (auto& cycle : cycles) {
+    move(cycle.side, cycle.start_s, cycle.print);
+    move(cycle.side, cycle.end_s, cycle.next_print);
+    if (std::isfinite(cycle.other_strike_s))
+      move(data::opposite(cycle.side), cycle.other_strike_s, cycle.other_print);
+  }
+}
+
+/// One number to compute: which definition, of which stretch, of which foot.
+struct Slot {
+  const GaitDefinition* definition;
+  std::size_t region;
+  Side side;  // each_side: whose
+};
+
+class GaitMeasurement {
+ public:
+  GaitMeasurement(const GaitSmoother& smoother, const EventsFound& found, const TimeBase& time,
+                  const GaitOptions& options)
+      : smoother_(smoother), found_(found), time_(time), options_(options) {
+    regions_ = options.regions;
+    if (regions_.empty())
+      regions_.push_back({.first_frame = time.number(0), .last_frame = time.number(time.frames - 1)});
+    for (std::size_t r = 0; r < regions_.size(); ++r)
+      for (const auto& definition : gait_definitions()) {
+        const auto& asked = options.measures;
+        if (!asked.empty() && std::ranges::find(asked, definition.what.id) == asked.end()) continue;
+        slots_.push_back({&definition, r, Side::left});
+        if (definition.scope == GaitScope::each_side) slots_.push_back({&definition, r, Side::right});
+      }
+  }
+
+  void measure(Gait& out) const {
+    const auto& paths = smoother_.paths();
+    out.cycles = find_cycles(paths, found_.events, belt_of(found_.ground));
+    const auto values = values_of(out.cycles);
+    const auto refits = at(options_.refits);
+    std::vector<std::vector<double>> deviations(slots_.size(), std::vector<double>(refits));
+    std::vector<std::vector<double>> noise(found_.events.size(), std::vector<double>(refits));
+    parallel_for(options_.refits, 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = begin; k < end; ++k) {
+        const auto again = refit(k, noise);
+        for (std::size_t i = 0; i < slots_.size(); ++i)
+          deviations[i][at(k)] = slots_[i].definition->squared ? again[i] * again[i] - values[i] * values[i]
+                                                               : again[i] - values[i];
+      }
+    });
+    out.events = found_.events;
+    for (std::size_t i = 0; i < out.events.size() && refits > 0; ++i) {
+      const double squares = std::inner_product(noise[i].begin(), noise[i].end(), noise[i].begin(), 0.0);
+      out.events[i].sd_s = std::hypot(out.events[i].sd_s, std::sqrt(squares / static_cast<double>(refits)));
+    }
+    for (std::size_t i = 0; i < slots_.size(); ++i) state(slots_[i], values[i], deviations[i], out);
+  }
+
+ private:
+  std::vector<GaitCycle> cycles_in(std::span<const GaitCycle> cycles, std::size_t region) const {
+    std::vector<GaitCycle> out;
+    for (const auto& cycle : cycles)
+      if (time_.number(time_.nearest_frame(cycle.start_s)) >= regions_[region].first_frame &&
+          time_.number(time_.nearest_frame(cycle.end_s)) <= regions_[region].last_frame)
+        out.push_back(cycle);
+    return out;
+  }
+
+  std::vector<GaitCycle> cycles_of(const Slot& slot, std::span<const GaitCycle> cycles) const {
+    auto out = cycles_in(cycles, slot.region);
+    if (slot.definition->scope == GaitScope::body) return out;
+    const Side of = slot.definition->of_other ? data::opposite(slot.side) : slot.side;
+    std::erase_if(out, [of](const auto& cycle) { return cycle.side != of; });
+    return out;
+  }
+
+  std::vector<double> values_of(std::span<const GaitCycle> cycles) const {
+    std::vector<double> out;
+    for (const auto& slot : slots_) out.push_back(slot.definition->value(cycles_of(slot, cycles)));
+    return out;
+  }
+
+  // All values of a simulated recording; `noise` gets what its noise does to each event.
+  std::vector<double> refit(std::int64_t k, std::vector<std::vector<double>>& noise) const {
+    const auto paths = smoother_.with_noise(options_.seed, k);
+    const auto ground = ground_velocity(paths, found_.swings);
+    std::array<std::array<std::vector<double>, 2>, 2> again;
+    for (const Side side : data::kBothSides)
+      for (const FootEvent what : data::kFootEvents)
+        again[data::index_of(side)][data::index_of(what)] =
+            find_in_windows(paths, side, what, found_.chosen[data::index_of(what)].method,
+                            found_.swings[data::index_of(side)], ground.velocity);
+    Random random(options_.seed, mix64(0x6576656e74) ^ static_cast<std::uint64_t>(k));
+    std::array<double, 2> common{};
+    for (const FootEvent what : data::kFootEvents)
+      common[data::index_of(what)] =
+          found_.chosen[data::index_of(what)].error.offset_sd_s * random.gaussian();
+    auto events = found_.events;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      auto& event = events[i];
+      const double draw = random.gaussian();
+      if (found_.window[i] < 0) {
+        event.time_s += std::isfinite(event.sd_s) ? event.sd_s * draw : 0.0;
+        continue;
+      }
+      const auto what = data::index_of(event.what);
+      const auto& error = found_.chosen[what].error;
+      const double frame = again[data::index_of(event.side)][what][at(found_.window[i])];
+      const double moved = paths.time_s(frame) - error.offset_s - event.time_s;
+      if (std::isfinite(moved)) noise[i][at(k)] = moved;
+      event.time_s += noise[i][at(k)] + common[what] + error.event_sd_s * draw;
+    }
+    const double belt_error = found_.ground.sd * random.gaussian();
+    auto cycles =
+        find_cycles(paths, events, belt_of(is_belt(found_.ground) ? ground : found_.ground, belt_error));
+    jitter(cycles, random);
+    return values_of(cycles);
+  }
+
+  void state(const Slot& slot, double value, std::span<const double> deviations, Gait& out) const {
+    const auto& definition = *slot.definition;
+    const bool asked = !options_.measures.empty();
+    if (!std::isfinite(value) && !asked) return;
+    const auto cycles = cycles_of(slot, out.cycles);
+    data::Measure measure{
+        .id = std::string(definition.what.id),
+        .context = definition.scope == GaitScope::each_side ? std::string(data::to_string(slot.side)) : "",
+        .region = regions_[slot.region].name,
+        .quantity = definition.what.quantity,
+        .value = value};
+    if (!cycles.empty()) {
+      measure.start_s = std::ranges::min(cycles, {}, &GaitCycle::start_s).start_s;
+      measure.end_s = std::ranges::max(cycles, {}, &GaitCycle::end_s).end_s;
+    }
+    measure.interval.level = options_.level;
+    measure.method =
+        fmt::format("{} stride{}, {} refits", cycles.size(), cycles.size() == 1 ? "" : "s", options_.refits);
+    if (!std::isfinite(value)) {
+      measure.remark = cycles.empty() ? "no stride was seen from strike to strike"
+                                      : "what it needs was not seen in any stride";
+    } else if (options_.refits > 0) {
+      const auto pivoted = definition.squared ? pivot_of_square(value, deviations, options_.level)
+                                              : pivot(value, deviations, options_.level);
+      if (std::isfinite(pivoted.value)) {
+        measure.uncorrected = value;
+        measure.value = pivoted.value;
+        measure.sd = pivoted.sd;
+        measure.interval.kind = data::IntervalKind::two_sided;
+        measure.interval.low = pivoted.low;
+        measure.interval.high = pivoted.high;
+      } else {
+        measure.remark = "no interval: more than a tenth of the refits do not determine it";
+      }
+    }
+    out.measures.push_back(std::move(measure));
+  }
+
+  const GaitSmoother& smoother_;
+  const EventsFound& found_;
+  TimeBase time_;
+  const GaitOptions& options_;
+  std::vector<data::Region> regions_;
+  std::vector<Slot> slots_;
+};
+
+void note_choice(const EventsFound& found, Gait& out) {
+  std::array<int, 2> by_plate{}, by_markers{};
+  for (const auto& event : found.events) {
+    by_plate[data::index_of(event.what)] += event.source == data::EventSource::plate;
+    by_markers[data::index_of(event.what)] += event.source == data::EventSource::kinematics;
+  }
+  for (const FootEvent what : data::kFootEvents) {
+    const auto i = data::index_of(what);
+    const auto& chosen = found.chosen[i];
+    if (by_plate[i] > 0)
+      out.notes.push_back(fmt::format("{}: {} by plates", data::to_string(what), by_plate[i]));
+    if (by_markers[i] > 0)
+      out.notes.push_back(fmt::format(
+          "{}: {} by {}{}", data::to_string(what), by_markers[i], to_string(chosen.method),
+          chosen.compared > 0 ? fmt::format(", which agrees best with the plates; {:.0f} ms were taken off",
+                                            1e3 * chosen.error.offset_s)
+                              : ", as no plate decides"));
+  }
+  for (const auto& agreement : found.agreement) out.notes.push_back(sentence_of(agreement));
+}
+
+}  // namespace
+
+Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
+                          const GaitOptions& options) {
+  const auto which = find_gait_markers(markers.names, options.markers);
+  if (!which) return std::unexpected(which.error());
+  const auto smoother = GaitSmoother::create(markers, *which, options.noise_sd_m);
+  if (!smoother) return std::unexpected(smoother.error());
+  Gait out;
+  out.notes = which->notes;
+  const auto& paths = smoother->paths();
+  PlateEvents of_plates;
+  if (evidence.plates != nullptr)
+    of_plates = find_plate_events(*evidence.plates, evidence.corners, paths, smoother->upright());
+  std::ranges::move(of_plates.notes, std::back_inserter(out.notes));
+  auto of_file = events_of_file(evidence.events, markers.time);
+  std::ranges::move(of_file.notes, std::back_inserter(out.notes));
+  const auto found = find_gait_events(paths, of_plates.events, of_file.events, options.choice);
+  if (found.events.empty())
+    return fail(Code::bad_input,
+                options.choice == EventChoice::best || options.choice == EventChoice::kinematics
+                    ? std::string("no foot steps: neither swings by 0.15 m against the other")
+                    : fmt::format("there are no events of feet by {}", to_string(options.choice)));
+  out.agreement = found.agreement;
+  note_choice(found, out);
+  if (is_belt(found.ground)) {
+    out.treadmill = true;
+    out.belt_speed_m_per_s = found.ground.velocity.norm();
+    out.notes.push_back(
+        fmt::format("walking on a treadmill: the feet slide back at {:.3f} m/s while they stand",
+                    out.belt_speed_m_per_s));
+  }
+  GaitMeasurement(*smoother, found, markers.time, options).measure(out);
+  return out;
+}
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Walking in a recording: events, cycles, spatiotemporal measures, each with what it is worth.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/edit.h"
+#include "kinemark/data/gait_event.h"
+#include "kinemark/data/measure.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/data/wrenches.h"
+#include "kinemark/stages/analysis/gait/gait_events.h"
+#include "kinemark/stages/analysis/gait/gait_facts.h"
+#include "kinemark/stages/analysis/gait/gait_markers.h"
+#include "kinemark/stages/analysis/gait/plate_events.h"
+
+namespace kinemark::analysis {
+
+/// What is measured of walking, and how.
+struct GaitOptions {
+  std::vector<MarkerRole> markers;         ///< roles of gait_roles(); others by their usual names
+  EventChoice choice = EventChoice::best;  ///< whose events
+  std::vector<std::string> measures;       ///< ids of gait_definitions(); empty: all that can be told
+  std::vector<data::Region> regions;       ///< of whole cycles; empty: the whole recording
+  std::int64_t refits = 99;                ///< behind each interval: 0 (none) or at least 39
+  double noise_sd_m = 0.0;                 ///< per axis; 0: found from the samples
+  double level = 0.95;                     ///< of the intervals, above 0.5 and below 1
+  std::uint64_t seed = 1;                  ///< of the refits
+  int threads = 1;                         ///< 0: all cores; any number gives the same bits
+};
+
+/// What a recording tells of walking besides its markers.
+struct GaitEvidence {
+  const data::Wrenches* plates =
+      nullptr;                        ///< on the recording's clock, not cut off at a threshold; may be absent
+  std::vector<PlateCorners> corners;  ///< of all plates
+  std::vector<data::Event> events;    ///< the file's own
+};
+
+/// Walking.
+struct Gait {
+  std::vector<data::GaitEvent> events;  ///< ascending in time, with SDs
+  std::vector<GaitCycle> cycles;        ///< by side and time
+  std::vector<data::Measure> measures;  ///< by region, in the order of gait_definitions(), left before right
+  bool treadmill = false;               ///< the feet slide back during stance
+  double belt_speed_m_per_s = 0.0;      ///< of a treadmill
+  std::vector<Agreement> agreement;     ///< between sources, between methods
+  std::vector<std::string> notes;       ///< which markers, which methods, what was left out; a sentence each
+};
+
+/// Find events, cycles and measures of walking (docs/theory/gait.md).
+///
+/// Intervals are the pivot of refits: marker noise through the smoother, errors of the method and of plates
+/// drawn with their SDs, all measures computed again.
+///
+/// @return  Code::usage for an unknown measure (callers tell what else there is) or role; Code::bad_input as
+///          find_gait_markers() and GaitSmoother::create(), and where no foot steps.
+[[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
+                                        const GaitOptions& options);
+
+}  // namespace kinemark::analysis

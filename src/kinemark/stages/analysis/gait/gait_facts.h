@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Cycles and footprints of walking: what its measures are computed from.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/data/gait_event.h"
+#include "kinemark/stages/analysis/gait/gait_paths.h"
+
+namespace kinemark::analysis {
+
+/// Where a heel stands, on ground that does not move.
+struct Footprint {
+  Eigen::Vector2d x{kNaN, kNaN};  ///< m, horizontal; NaN where not seen
+  double sd = 0.0;                ///< m, of each coordinate: by how much the heel moves while it stands
+};
+
+/// From one strike of a foot to its next. Times on the recording's clock, s; NaN where not seen.
+struct GaitCycle {
+  data::Side side = data::Side::left;  ///< of the foot
+  double start_s = kNaN;               ///< its strike
+  double end_s = kNaN;                 ///< its next strike
+  double off_s = kNaN;                 ///< it leaves the ground
+  double other_off_s = kNaN;           ///< the other foot leaves the ground, before `other_strike_s`
+  double other_strike_s = kNaN;        ///< the other foot's strike
+  Footprint print;                     ///< of this step
+  Footprint other_print;               ///< of the other foot's step
+  Footprint next_print;                ///< of the next step of this foot
+
+  /// From print to print of this foot, m.
+  [[nodiscard]] double stride_length() const { return (next_print.x - print.x).norm(); }
+  /// Of the other foot's step, along the line between this foot's prints, m.
+  [[nodiscard]] double step_length() const;
+  /// Of the other foot's print from the line between this foot's, m; negative where the feet cross.
+  [[nodiscard]] double step_width() const;
+};
+
+/// Cycles of both feet, ascending by side and time. A cycle lasts 0.4 to 3 s, and at most 1.6 times the
+/// median: longer ones have lost a strike.
+///
+/// A footprint is the mean place of the heel from 20 to 45 % of the stance (of 60 % of the cycle, where the
+/// foot's leaving was not seen).
+/// @param events  ascending in time
+/// @param ground  how it moves, m/s; 0: over ground
+[[nodiscard]] std::vector<GaitCycle> find_cycles(const GaitPaths& paths,
+                                                 std::span<const data::GaitEvent> events,
+                                                 const Eigen::RowVector2d& ground);
+
+}  // namespace kinemark::analysis

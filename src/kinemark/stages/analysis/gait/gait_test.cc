@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/gait.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::EventSource;
+using data::FootEvent;
+using data::Side;
+using testing::KnownWalk;
+
+double value_of(const Gait& gait, std::string_view id, std::string_view context = "") {
+  for (const auto& m : gait.measures)
+    if (m.id == id && m.context == context) return m.value;
+  return kNaN;
+}
+
+Gait measured(const KnownWalk& walk, const GaitOptions& options = {.refits = 0}) {
+  return analyze_gait(walk.markers(0.0005, 3), {}, options).value();
+}
+
+TEST(Gait, MeasuresAreThoseOfTheWalker) {
+  KnownWalk walk;
+  walk.right_later = 0.51;
+  for (const bool treadmill : {false, true}) {
+    walk.treadmill = treadmill;
+    const auto gait = measured(walk);
+    EXPECT_EQ(gait.treadmill, treadmill);
+    EXPECT_NEAR(gait.belt_speed_m_per_s, treadmill ? 1.3 : 0.0, 0.005);
+    EXPECT_NEAR(value_of(gait, "gait_speed"), 1.3, 0.006);
+    EXPECT_NEAR(value_of(gait, "cadence"), 2.0 / 1.08, 0.01);
+    EXPECT_NEAR(value_of(gait, "step_width"), 0.1, 0.002);
+    EXPECT_NEAR(value_of(gait, "stride_time", "Left"), 1.08, 0.005);
+    EXPECT_NEAR(value_of(gait, "stride_length", "Right"), 1.404, 0.006);
+    EXPECT_NEAR(value_of(gait, "step_time", "Right"), 0.51 * 1.08, 0.006);
+    EXPECT_NEAR(value_of(gait, "step_time", "Left"), 0.49 * 1.08, 0.006);
+    EXPECT_NEAR(value_of(gait, "step_length", "Right"), 0.51 * 1.404, 0.006);
+    EXPECT_NEAR(value_of(gait, "stance_share", "Left"), 0.62, 0.03);
+    EXPECT_NEAR(value_of(gait, "swing_time", "Left") + value_of(gait, "stance_time", "Left"),
+                value_of(gait, "stride_time", "Left"), 1e-3);
+    EXPECT_LT(value_of(gait, "stride_time_sd", "Left"), 0.004);
+  }
+}
+
+TEST(Gait, StepsAddUpToStrides) {
+  const auto gait = measured({.right_later = 0.52});
+  for (const auto& cycle : gait.cycles) {
+    if (!std::isfinite(cycle.other_strike_s)) continue;
+    EXPECT_LT(cycle.other_off_s, cycle.other_strike_s);
+    EXPECT_LT(cycle.start_s, cycle.other_off_s);
+    EXPECT_NEAR(cycle.stride_length(), 1.404, 0.01);
+  }
+  EXPECT_NEAR(value_of(gait, "step_length", "Left") + value_of(gait, "step_length", "Right"), 1.404, 0.01);
+}
+
+TEST(Gait, IntervalsHoldTheTruthAndDoNotDependOnThreads) {
+  const KnownWalk walk;
+  const auto one = measured(walk, {.refits = 39, .seed = 5, .threads = 1}),
+             two = measured(walk, {.refits = 39, .seed = 5, .threads = 2});
+  ASSERT_EQ(one.measures.size(), two.measures.size());
+  for (std::size_t i = 0; i < one.measures.size(); ++i) {
+    EXPECT_EQ(one.measures[i].value, two.measures[i].value);
+    EXPECT_EQ(one.measures[i].interval.low, two.measures[i].interval.low);
+    EXPECT_TRUE(one.measures[i].validate());
+    EXPECT_EQ(one.measures[i].interval.kind, data::IntervalKind::two_sided) << one.measures[i].id;
+  }
+  for (const auto& m : one.measures)
+    if (m.id == "stride_time") {
+      EXPECT_LT(m.interval.low, 1.08);
+      EXPECT_GT(m.interval.high, 1.08);
+      EXPECT_LT(m.sd, 0.006);
+    }
+  // Without plates, at least half of what the two methods preferred differ by.
+  for (const auto& event : one.events) EXPECT_TRUE(event.sd_s > 0.005 && event.sd_s < 0.06) << event.sd_s;
+}
+
+TEST(Gait, PlatesReplaceAndCorrectWhatMarkersTell) {
+  const KnownWalk walk;
+  const auto markers = walk.markers(0.0003, 3);
+  const data::Wrenches plates{
+      .time = markers.time,
+      .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
+  const auto with = analyze_gait(markers, {.plates = &plates}, {.refits = 0}).value();
+  const auto without = analyze_gait(markers, {}, {.refits = 0}).value();
+  int by_plate = 0;
+  double worst_with = 0.0, worst_without = 0.0;
+  for (const auto& truth : walk.events()) {
+    for (const auto& event : with.events)
+      if (event.side == truth.side && event.what == truth.what &&
+          std::abs(event.time_s - truth.time_s) < 0.1) {
+        by_plate += event.source == EventSource::plate;
+        worst_with = std::max(worst_with, std::abs(event.time_s - truth.time_s));
+      }
+    for (const auto& event : without.events)
+      if (event.side == truth.side && event.what == truth.what && std::abs(event.time_s - truth.time_s) < 0.1)
+        worst_without = std::max(worst_without, std::abs(event.time_s - truth.time_s));
+  }
+  EXPECT_EQ(by_plate, 4);
+  EXPECT_LT(worst_with, 0.01);
+  EXPECT_GT(worst_without, worst_with);
+  const auto alone =
+      analyze_gait(markers, {.plates = &plates}, {.choice = EventChoice::plates, .refits = 0}).value();
+  EXPECT_EQ(alone.events.size(), 4u);
+}
+
+TEST(Gait, TheFilesEventsAreComparedOrTaken) {
+  const KnownWalk walk;
+  const auto markers = walk.markers(0.0003, 3);
+  GaitEvidence evidence;
+  for (const auto& event : walk.events())
+    evidence.events.push_back(
+        {std::string(data::to_string(event.what)), std::string(data::to_string(event.side)), event.time_s});
+  const auto compared = analyze_gait(markers, evidence, {.refits = 0}).value();
+  EXPECT_TRUE(std::ranges::any_of(
+      compared.agreement, [](const auto& a) { return a.what == "Foot Strike: these and the file's"; }));
+  const auto taken = analyze_gait(markers, evidence, {.choice = EventChoice::file, .refits = 0}).value();
+  EXPECT_EQ(taken.events.size(), walk.events().size());
+  EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
+}
+
+TEST(Gait, RegionsHoldWholeCycles) {
+  GaitOptions options{.measures = {"stride_time"}, .refits = 0};
+  options.regions = {{"early", 0, 300}, {"none", 400, 420}};
+  const auto gait = measured({}, options);
+  ASSERT_EQ(gait.measures.size(), 4u);
+  EXPECT_EQ(gait.measures[0].region, "early");
+  EXPECT_LE(gait.measures[0].end_s, 3.0);
+  EXPECT_TRUE(std::isnan(gait.measures[2].value));
+  EXPECT_EQ(gait.measures[2].remark, "no stride was seen from strike to strike");
+}
+
+TEST(Gait, WhoStandsHasNone) {
+  auto markers = KnownWalk{}.markers(0.0003, 3);
+  for (std::int64_t f = 1; f < markers.frames(); ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m)
+      markers.x(f, m) = markers.x(0, m) + 1e-4 * (markers.x(f, m) - markers.x(0, m));
+  const auto gait = analyze_gait(markers, {}, {.refits = 0});
+  ASSERT_FALSE(gait);
+  EXPECT_EQ(gait.error().message, "no foot steps: neither swings by 0.15 m against the other");
+}
+
+TEST(EventsOfFile, AreReadUnderTheirNames) {
+  const TimeBase time{.rate_hz = 100.0, .t0_s = 1.0, .frames = 300};
+  const std::vector<data::Event> events{{"Foot Strike", "Left", 1.5},   {"RTO", "", 1.6},
+                                        {"Foot Off", "Left", 2.1},      {"LHS", "", 2.5},
+                                        {"jump", "Left", 1.7},          {"Toe Off", "Right", 2.7},
+                                        {"Foot Strike", "General", 2.0}};
+  const auto found = events_of_file(events, time);
+  ASSERT_EQ(found.events.size(), 5u);  // no right strike is there, so that right leavings need not take turns
+  EXPECT_TRUE(found.notes.empty());
+  EXPECT_EQ(found.events[1].side, Side::right);
+  EXPECT_EQ(found.events[1].what, FootEvent::off);
+}
+
+TEST(EventsOfFile, OutsideAndInTheWrongOrderAreLeftOut) {
+  const TimeBase time{.rate_hz = 100.0, .t0_s = 1.0, .frames = 300};
+  const std::vector<data::Event> events{{"Foot Strike", "Left", 0.5},
+                                        {"Foot Strike", "Left", 1.5},
+                                        {"Foot Strike", "Left", 2.0},
+                                        {"Foot Off", "Left", 2.1}};
+  const auto found = events_of_file(events, time);
+  EXPECT_EQ(found.events.size(), 2u);
+  ASSERT_EQ(found.notes.size(), 2u);
+  EXPECT_EQ(found.notes[0],
+            "the file's event Left Foot Strike at 0.500 s lies outside the recording, 1.000 to 3.990 s, and "
+            "is left out");
+  EXPECT_NE(found.notes[1].find("follows another of its kind, with no Foot Off between"), std::string::npos);
+}
+
+TEST(GaitDefinitions, HaveNamesOfTheirOwn) {
+  for (const auto& definition : gait_definitions()) {
+    EXPECT_EQ(find_gait_definition(definition.what.id), &definition);
+    EXPECT_FALSE(definition.what.formula.empty() || definition.what.source.empty());
+    EXPECT_TRUE(std::isnan(definition.value({})) || definition.squared);
+  }
+  EXPECT_EQ(find_gait_definition("stride"), nullptr);
+}
+
+}  // namespace
+}  // namespace kinemark::analysis

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What segments and joint angles a laboratory means: names, formulas, sequences. docs/formats/segments.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/stages/analysis/segments/formula.h"
+#include "kinemark/stages/analysis/segments/rotation_angles.h"
+
+namespace kinemark::analysis {
+
+/// What a number measures; formulas are in metres, radians and kilograms.
+enum class SubjectQuantity : std::uint8_t { number, length, angle, mass };
+/// "number", "length", "angle" or "mass"; none for another word.
+[[nodiscard]] std::optional<SubjectQuantity> subject_quantity_of(std::string_view word);
+[[nodiscard]] std::string_view to_string(SubjectQuantity quantity);  ///< the same, back
+
+/// In which recordings an entry counts.
+enum class InTrial : std::uint8_t {
+  any,     ///< in all
+  fixed,   ///< in the static trial only
+  moving,  ///< in all but the static trial
+};
+
+/// Segments, points and joint angles as formulas of markers and of a subject's measures.
+///
+/// Formulas name parameters, points, segments ("pelvis.x": an axis, "pelvis.o": the origin) and, where none
+/// of these has the name, markers. Each entry may name any other; two entries may share a name where they
+/// count in different trials.
+struct SegmentDefinition {
+  /// A measure of the subject. Its value is the first there is of: one that is given; `measured`, the mean
+  /// over the static trial; one that a file of the subject holds; `formula`.
+  struct Parameter {
+    std::string name;                                    ///< in formulas
+    std::vector<std::string> also;                       ///< other names that files have for it
+    SubjectQuantity quantity = SubjectQuantity::number;  ///< what it measures
+    std::optional<Formula> measured;                     ///< of markers
+    bool measured_anywhere = false;     ///< without a static trial, over the recording itself
+    std::optional<Formula> formula;     ///< of other parameters
+    bool zero_is_unknown = false;       ///< files write 0 for what was not measured
+    std::optional<Formula> formula_sd;  ///< standard deviation of a value that is given or from a file
+  };
+  /// A point, by a formula in every frame.
+  struct Point {
+    std::string name;              ///< in formulas and results
+    Formula formula;               ///< where it is
+    InTrial trial = InTrial::any;  ///< where it counts
+    bool written = false;          ///< among the results
+  };
+  /// A point seen in another trial and carried by a segment: a landmark under a pointer, a functional centre.
+  struct Landmark {
+    std::string name;      ///< in formulas and results
+    std::string segment;   ///< that carries it, in both trials
+    Formula formula;       ///< where it is in that trial
+    std::string trial;     ///< "static", or a name that is given with a file
+    bool written = false;  ///< among the results
+  };
+  /// Axes from two directions, the first of which is kept.
+  struct Segment {
+    std::string name;      ///< in formulas
+    Formula origin;        ///< a point
+    int first = 0;         ///< axis 0, 1, 2 along first_along
+    Formula first_along;   ///< a direction
+    int second = 1;        ///< axis nearest to second_along that is perpendicular to the first
+    Formula second_along;  ///< a direction
+    std::vector<std::pair<int, Formula>> turns;  ///< about own axes, one after the other, rad
+    InTrial trial = InTrial::any;                ///< where it counts
+  };
+  /// One component of a joint's angles.
+  struct Component {
+    std::string label;        ///< "flexion"
+    int index = 0;            ///< which angle of the sequence; helical: along which axis; 0, 1, 2
+    double sign = 1.0;        ///< 1 or -1
+    double offset_rad = 0.0;  ///< added after the sign; the sum lies in [-pi, pi]
+  };
+  /// How a segment lies in another.
+  struct Angle {
+    std::string name;                 ///< "LKneeAngles"
+    std::string parent;               ///< a segment; "lab" and "progression" are there without an entry
+    std::string child;                ///< a segment
+    bool helical = false;             ///< components of the rotation vector instead of angles of a sequence
+    AngleSequence sequence{0, 1, 2};  ///< of axes
+    bool second_negative = false;     ///< of both Euler solutions that with the second angle in [-pi, 0]
+    std::array<Component, 3> components{};  ///< in the order of the results
+    bool cross_talk = false;                ///< a knee: does the second component follow the first?
+  };
+  /// A number in every frame.
+  struct Value {
+    std::string name;                                    ///< "LAbsAnkleAngle"
+    SubjectQuantity quantity = SubjectQuantity::number;  ///< what it measures
+    Formula formula;                                     ///< of anything
+  };
+
+  std::string title;                  ///< what it is, a line
+  std::vector<Parameter> parameters;  ///< in the order of the file
+  std::vector<Point> points;          ///< in the order of the file
+  std::vector<Landmark> landmarks;    ///< in the order of the file
+  std::vector<Segment> segments;      ///< in the order of the file
+  std::vector<Angle> angles;          ///< in the order of the file
+  std::vector<Value> values;          ///< in the order of the file
+  /// Whose way through the laboratory "progression" follows, a point, and the direction that counts where it
+  /// covers less than half a metre.
+  std::optional<std::pair<Formula, Formula>> progression;
+
+  /// Names are there, no two entries of a trial share one, segments of angles exist, there are 2,000 entries
+  /// at most. Code::bad_input.
+  [[nodiscard]] Status check() const;
+};
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of a source that is running: what is known before its first frame. Frames come to it later.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kinemark::report {
+
+/// A coordinate of the model that follows the source.
+struct LiveCoordinate {
+  std::string name;         ///< as in the model
+  bool is_rotation = true;  ///< shown in degrees; else in mm
+};
+
+/// A source and what is known of its laboratory.
+struct LiveReport {
+  std::string title;                              ///< for the heading
+  std::string source;                             ///< as given
+  std::string version;                            ///< of the program
+  std::string recording;                          ///< name of the file that keeps the frames; empty: none
+  double rate_hz = 0.0;                           ///< nominal
+  std::vector<std::string> markers;               ///< names, in the order in which they come
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< as Scene::up
+  std::string up_from;                            ///< as Scene::up_from
+  std::optional<std::array<Eigen::Vector3d, 2>> extent_m;  ///< smallest and largest coordinates; or not known
+  std::vector<LiveCoordinate> coordinates;                 ///< none without a model
+};
+
+/// `kinemark.live`, as README.md describes it.
+[[nodiscard]] nlohmann::ordered_json live_report_json(const LiveReport& report);
+
+/// One HTML page, which asks its own server for frames. The same report gives the same bytes.
+[[nodiscard]] std::string live_report_html(const LiveReport& report);
+
+}  // namespace kinemark::report

@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plug-in Gait by `kinemark analyze --segments pig`, beside what Vicon wrote into the same files.
+
+    segments_vicon.py
+
+Needs KINEMARK_PROGRAM and KINEMARK_TEST_DATA. Vicon's numbers are read by a reader of this script. Prints rows
+"PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
+"""
+
+import csv
+import json
+import math
+import os
+import random
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+CENTRES = {"HJC": "FEP", "KJC": "FEO", "AJC": "TIO", "SJC": "CLO", "EJC": "HUO", "WJC": "RAO"}
+SEEDS = (4101, 4102, 4103)
+failed = False
+
+
+def row(passed, check, asked, measured):
+    global failed
+    failed = failed or not passed
+    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
+
+
+def kinemark(*arguments):
+    program = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
+    result = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    if result.returncode != 0:
+        sys.exit(f"kinemark {' '.join(map(str, arguments))}: {result.stderr}")
+    return result
+
+
+def labels_of(data):
+    """POINT:LABELS of an Intel C3D file."""
+    at = 512 * (data[0] - 1) + 4
+    groups, found = {}, {}
+    while data[at]:
+        size, number = struct.unpack_from("<bb", data, at)
+        name = data[at + 2: at + 2 + abs(size)].decode("latin-1").upper()
+        offset_at = at + 2 + abs(size)
+        (offset,) = struct.unpack_from("<H", data, offset_at)
+        if number < 0:
+            groups[-number] = name
+        elif name.startswith("LABELS"):
+            kind, count = struct.unpack_from("<bB", data, offset_at + 2)
+            dims = data[offset_at + 4: offset_at + 4 + count]
+            begin = offset_at + 4 + count
+            if kind == -1 and count == 2:
+                found[number, name] = [data[begin + dims[0] * i: begin + dims[0] * (i + 1)].decode("latin-1").strip() for i in range(dims[1])]
+        if offset == 0:
+            break
+        at = offset_at + offset
+    names = []
+    for (number, name), labels in sorted(found.items(), key=lambda item: item[0][1]):
+        if groups.get(number) == "POINT":
+            names += labels
+    return names
+
+
+def read_c3d(path):
+    """Frames of each point of an Intel float C3D file: (x, y, z), or None where the residual says missing."""
+    data = path.read_bytes()
+    points, analog, first, last = struct.unpack_from("<HHHH", data, 2)
+    (start,) = struct.unpack_from("<H", data, 16)
+    labels = labels_of(data)
+    at, stride = 512 * (start - 1), 4 * (4 * points + analog)
+    out = {label: [] for label in labels[:points]}
+    for frame in range(last - first + 1):
+        for i, label in enumerate(labels[:points]):
+            x, y, z, residual = struct.unpack_from("<4f", data, at + frame * stride + 16 * i)
+            out[label].append((x, y, z) if residual >= 0 and all(map(math.isfinite, (x, y, z))) else None)
+    return out
+
+
+def read_results(folder):
+    angles, centres = {}, {}
+    with (folder / "angles.csv").open(newline="", encoding="utf-8") as file:
+        for line in csv.DictReader(file):
+            cell = [float(line[key]) if line[key] else math.nan for key in ("value", "sd")]
+            angles.setdefault(line["name"], {}).setdefault(line["component"], []).append(cell)
+    with (folder / "centres.csv").open(newline="", encoding="utf-8") as file:
+        for line in csv.DictReader(file):
+            position = tuple(1000 * float(line[key]) if line[key] else math.nan for key in ("x_m", "y_m", "z_m"))
+            centres.setdefault(line["marker"], []).append(position)
+    return angles, centres
+
+
+def turned(difference):
+    return (difference + 180) % 360 - 180
+
+
+def compare(name, angles, centres, theirs, suffix, asked):
+    """Rows of one recording; `asked` are the angles that Vicon's file must have been compared in."""
+    worst, compared, missed = (0.0, ""), 0, []
+    for angle, components in angles.items():
+        reference = theirs.get(angle + suffix)
+        if reference is None:
+            missed.append(angle)
+            continue
+        for k, (component, cells) in enumerate(components.items()):
+            for (value, _), point in zip(cells, reference, strict=True):
+                if point is not None:
+                    error = abs(turned(value - point[k])) if math.isfinite(value) else math.inf
+                    worst = max(worst, (error, f"{angle} {component}"))
+                    compared += 1
+    row(worst[0] <= 0.5 and not missed and len(angles) == asked, f"Plug-in Gait angles, {name}", f"{asked} angles, left and right, within 0.5 deg",
+        f"{len(angles)} angles, {compared} numbers, largest difference {worst[0]:.5f} deg ({worst[1]})")
+    far, number = (0.0, ""), 0
+    for centre, positions in centres.items():
+        key = CENTRES.get(centre[1:])
+        if key is None:
+            continue
+        for position, point in zip(positions, theirs[centre[0] + key], strict=True):
+            if point is not None:
+                far = max(far, (math.dist(position, point) if math.isfinite(position[0]) else math.inf, centre))
+                number += 1
+    row(far[0] <= 1 and number > 0, f"Plug-in Gait joint centres, {name}", "left and right within 1 mm",
+        f"{number} positions, largest distance {far[0]:.5f} mm ({far[1]})")
+
+
+def read_vicon_csv(path):
+    """Frames of each column of three of the first section of Vicon's text export; None where a cell is empty."""
+    lines = list(csv.reader(path.read_text(encoding="latin-1").splitlines()))
+    at = next(i for i, line in enumerate(lines) if line[:1] == ["Field #"])
+    names = {k: name for k, name in enumerate(lines[at - 1]) if name}
+    out = {name: [] for name in names.values()}
+    for line in lines[at + 1:]:
+        if not line or not line[0].strip().isdigit():
+            break
+        for k, name in names.items():
+            cells = line[k: k + 3]
+            out[name].append(tuple(map(float, cells)) if len(cells) == 3 and all(cells) else None)
+    return out
+
+
+def offsets(folder, vsk):
+    """The foot's offsets of a static trial beside those that Vicon found in it."""
+    found = {p["name"]: math.radians(p["value"]) for p in json.loads((folder / "segments.json").read_text(encoding="utf-8"))["parameters"]}
+    worst = 0.0
+    for side, word in (("L", "Left"), ("R", "Right")):
+        for offset in ("StaticPlantFlex", "StaticRotOff"):
+            theirs = float(re.search(rf'NAME="{word}{offset}"[^>]* VALUE="([^"]+)"', vsk)[1])
+            worst = max(worst, abs(math.degrees(found[side + offset] - theirs)))
+    row(worst <= 0.5, "Plug-in Gait foot offsets of a static trial, Sample_Static", "within 0.5 deg of the subject's VSK", f"largest difference {worst:.5f} deg")
+
+
+def write_trc(path, markers, rate):
+    names = list(markers)
+    frames = len(markers[names[0]])
+    lines = [f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
+             "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
+             f"{rate:g}\t{rate:g}\t{frames}\t{len(names)}\tmm\t{rate:g}\t1\t{frames}",
+             "Frame#\tTime\t" + "\t\t\t".join(names),
+             "\t\t" + "\t".join(f"X{i + 1}\tY{i + 1}\tZ{i + 1}" for i in range(len(names))), ""]
+    for f in range(frames):
+        lines.append("\t".join([str(f + 1), f"{f / rate:.6f}", *(f"{x:.6f}" for name in names for x in markers[name][f])]))
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def coverage(folder, walk, still):
+    """Noise of 1 mm on every marker of a real walk: where the angles without it lie in the stated deviations."""
+    recorded = read_c3d(walk)
+    names = [f"{side}{part}" for side in "LR" for part in ("ASI", "PSI", "THI", "KNE", "TIB", "ANK", "HEE", "TOE")]
+    clean = {name: recorded[name] for name in names}
+    arguments = ("--segments", "pig", "--static", still, "--noise", 1, "--up", "z", "--force")
+    write_trc(folder / "clean.trc", clean, 100)
+    kinemark("analyze", folder / "clean.trc", *arguments, "-o", folder / "clean")
+    truth, _ = read_results(folder / "clean")
+    for seed in SEEDS:
+        generator = random.Random(seed)
+        noisy = {name: [tuple(x + generator.gauss(0, 1) for x in point) for point in points] for name, points in clean.items()}
+        write_trc(folder / "noisy.trc", noisy, 100)
+        kinemark("analyze", folder / "noisy.trc", *arguments, "-o", folder / "noisy")
+        found, _ = read_results(folder / "noisy")
+        inside = numbers = 0
+        squares = 0.0
+        for angle, components in found.items():
+            for component, cells in components.items():
+                for (value, sd), (true, _) in zip(cells, truth[angle][component], strict=True):
+                    z = turned(value - true) / sd
+                    inside += abs(z) <= 1.959964
+                    squares += z * z
+                    numbers += 1
+        share = 100 * inside / numbers
+        row(93 <= share <= 97, f"deviations of Plug-in Gait angles, seed {seed}", "95 % intervals hold 93 to 97 % of noise of 1 mm",
+            f"{share:.1f} % of {numbers}, z RMS {math.sqrt(squares / numbers):.3f}")
+
+
+def main():
+    data = Path(os.environ.get("KINEMARK_TEST_DATA", "../shared/data"))
+    walk, still = (data / "btk-others" / f"PiG_{name}_FF.c3d" for name in ("Motion3", "Calibration3"))
+    rom = data / "pycgm-rom"
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        # The subject of pycgm-rom was processed without a level foot: the offsets in its VSK are those of such a foot alone.
+        standing = ("--static", rom / "Sample_Static.c3d", "--vsk", rom / "Sample_SM.vsk", "--subject", "FlatFoot=0")
+        for recording, more, suffix, asked in ((walk, ("--static", still), "V", 12), (still, ("--static", still), "V", 12),
+                                               (rom / "Sample_Static.c3d", standing, "", 26)):
+            out = folder / recording.stem
+            kinemark("analyze", recording, "--segments", "pig", *more, "-o", out)
+            compare(recording.stem, *read_results(out), read_c3d(recording), suffix, asked)
+        compare("Sample_Static.csv", *read_results(folder / "Sample_Static"), read_vicon_csv(rom / "Sample_Static.csv"), "", 26)
+        names = json.loads((folder / walk.stem / "segments.json").read_text(encoding="utf-8"))["angles"]
+        moments = [entry["name"] for entry in names if entry["name"].endswith("Moment")]
+        row(len(moments) == 6, "Plug-in Gait moments, PiG_Motion3_FF", "ankles, knees and hips, beside Vicon's", f"{len(moments)} of 6 computed")
+        offsets(folder / "Sample_Static", (rom / "Sample_SM.vsk").read_text(encoding="utf-8"))
+        coverage(folder, walk, still)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""kinemark analyze of walking, from outside."""
+
+import csv
+import json
+import math
+
+from support import CommandTest, real_file
+from test_measures import wobble, write_trc
+
+STRIDE_S, STRIDE_MM = 1.1, 1400.0
+
+
+def foot(t, later, y):
+    """Heel and toe, mm, of a foot that stands for 0.6 of a stride and swings for the rest."""
+    phase = (t / STRIDE_S - later) % 1.0
+    start = (t / STRIDE_S - later - phase + later) * STRIDE_MM
+    u = max(0.0, (phase - 0.6) / 0.4)
+    x = start + STRIDE_MM * u * u * (3 - 2 * u)
+    lift = 120.0 * math.sin(math.pi * u) ** 2
+    return (x, y, 40.0 + lift), (x + 200.0, y, 30.0 + lift)
+
+
+def walk(seconds=5.0, rate=100.0):
+    rows = []
+    for i in range(int(seconds * rate)):
+        t = i / rate
+        points = [*foot(t, 0.0, 50.0), *foot(t, 0.5, -50.0), (t * STRIDE_MM / STRIDE_S - 300.0, 0.0, 950.0)]
+        rows.append([tuple(v + 0.3 * wobble(i, 3 * m + a) for a, v in enumerate(p)) for m, p in enumerate(points)])
+    return rows
+
+
+NAMES = ("LHEE", "LTOE", "RHEE", "RTOE", "SACR")
+
+
+class Gait(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "walk.trc"
+        write_trc(self.file, walk(), names=NAMES)
+
+    def measures(self, *arguments):
+        result = self.run_in("analyze", *arguments, "--refits", "39", "--json")
+        self.assertEqual(result.status, 0, result.err)
+        return json.loads(result.out)
+
+    def test_measures_of_a_walk(self):
+        reported = self.measures(self.file, "--measures", "gait")
+        values = {(m["measure"], m.get("context", "")): m for m in reported["measures"]}
+        self.assertAlmostEqual(values["gait_speed", ""]["value"], STRIDE_MM / STRIDE_S, delta=13)
+        self.assertAlmostEqual(values["stride_length", "Left"]["value"], STRIDE_MM, delta=5)
+        self.assertAlmostEqual(values["stride_time", "Right"]["value"], STRIDE_S, delta=0.011)
+        self.assertAlmostEqual(values["step_width", ""]["value"], 100, delta=2)
+        interval = values["stride_time", "Left"]["interval"]
+        self.assertTrue(interval["low"] < STRIDE_S < interval["high"])
+        self.assertFalse(reported["gait"]["treadmill"])
+        self.assertTrue(all(0 < e["sd_s"] < 0.1 for e in reported["gait"]["events"]))
+
+    def test_walking_is_measured_without_being_asked_for(self):
+        result = self.run_in("analyze", self.file, "--refits", "0")
+        self.assertEqual(result.status, 0, result.err)
+        self.assertIn("Events of walking", result.out)
+        self.assertIn("Walking speed", result.out)
+        self.assertIn("Path length", result.out)
+
+    def test_measures_of_paths_alone_leave_walking_out(self):
+        reported = self.measures(self.file, "--measures", "path_length", "--select", "LHEE")
+        self.assertNotIn("gait", reported)
+
+    def test_events_are_written_and_read_back(self):
+        table, copy = self.folder / "events.csv", self.folder / "events.c3d"
+        for out in (table, copy):
+            result = self.run_in("analyze", self.file, "--measures", "gait", "--refits", "0", "--write-events", out)
+            self.assertEqual(result.status, 0, result.err)
+        with table.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        again = self.measures(copy, "--measures", "gait", "--events", "file")["gait"]["events"]
+        self.assertEqual([(r["context"], r["label"]) for r in rows], [(e["context"], e["label"]) for e in again])
+        for row, event in zip(rows, again):
+            self.assertAlmostEqual(float(row["time_s"]), event["time_s"], delta=1e-4)
+            self.assertEqual(int(row["frame"]), round(100 * float(row["time_s"])) + 1)
+
+    def test_coordinates_are_cut_into_cycles(self):
+        motion, table = self.folder / "Q.mot", self.folder / "cycles.csv"
+        lines = ["Q", "version=1", "nRows=500", "nColumns=2", "inDegrees=yes", "endheader", "time\tknee_angle_l"]
+        lines += [f"{i / 100:.2f}\t{30 + 20 * math.sin(2 * math.pi * i / 110):.6f}" for i in range(500)]
+        motion.write_text("\n".join(lines) + "\n")
+        result = self.run_in(
+            "analyze", self.file, "--measures", "gait", "--refits", "0", "--angles", motion, "--write-cycles", table
+        )
+        self.assertEqual(result.status, 0, result.err)
+        with table.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({r["curve"] for r in rows}, {"knee_angle_l"})
+        self.assertEqual({r["context"] for r in rows}, {"Left"})
+        mean = [float(r["value"]) for r in rows if r["cycle"] == "mean"]
+        self.assertEqual(len(mean), 101)
+        self.assertAlmostEqual(max(mean), 50, delta=0.5)
+        self.assertAlmostEqual(min(mean), 10, delta=0.5)
+
+    def test_markers_of_other_names(self):
+        write_trc(self.folder / "other.trc", walk(), names=("A", "B", "C", "D", "E"))
+        roles = self.folder / "feet.toml"
+        roles.write_text('left_heel = "A"\nleft_toe = "B"\nright_heel = "C"\nright_toe = "D"\nsacrum = "E"\n')
+        reported = self.measures(self.folder / "other.trc", "--measures", "cadence", "--gait-marker", roles)
+        self.assertAlmostEqual(reported["measures"][0]["value"], 120 / STRIDE_S, delta=1)
+
+    def test_what_is_wrong_is_one_sentence(self):
+        write_trc(self.folder / "no_toe.trc", [row[:1] for row in walk()], names=("LHEE",))
+        for arguments, status, words in (
+            ((self.file, "--measures", "step_lenght"), 2, "nearest: step_length"),
+            ((self.file, "--events", "plate"), 2, "there are best, plates, kinematics and file"),
+            ((self.file, "--gait-marker", "left_knee=LHEE"), 2, "no marker of walking"),
+            ((self.file, "--measures", "gait", "--gait-marker", "left_heel=LHEEL"), 3, "nearest: LHEE"),
+            ((self.file, "--measures", "gait", "--events", "plates"), 3, "no events of feet by plates"),
+            ((self.folder / "no_toe.trc", "--measures", "gait"), 3, "the left toes"),
+            ((self.file, "--write-events", self.folder / "a.txt"), 2, "events are written as .csv or .c3d"),
+            ((self.file, "--measures", "gait", "--write-cycles", self.folder / "c.csv"), 3, "need --angles"),
+        ):
+            with self.subTest(words=words):
+                result = self.run_in("analyze", *arguments, "--refits", "0")
+                self.assertEqual(result.status, status, result.err)
+                self.assertIn(words, result.err)
+                self.assertEqual(len([l for l in result.err.strip().splitlines() if not l.startswith("note")]), 1)
+
+    def test_what_fails_leaves_the_others(self):
+        write_trc(self.folder / "no_toe.trc", [row[:1] for row in walk()], names=("LHEE",))
+        result = self.run_in(
+            "analyze", self.folder / "no_toe.trc", "--measures", "gait,path_length", "--refits", "0"
+        )
+        self.assertEqual(result.status, 0, result.err)
+        self.assertIn("Walking is not measured: there is no marker", result.err)
+        self.assertIn("Path length", result.out)
+
+    def test_steps_on_real_plates(self):
+        reported = self.measures(real_file("btk-others/PiG_Motion3_FF.c3d"), "--measures", "gait")
+        events = reported["gait"]["events"]
+        self.assertEqual(sum(e["source"] == "plate" for e in events), 6)
+        values = {(m["measure"], m.get("context", "")): m["value"] for m in reported["measures"]}
+        self.assertTrue(1100 < values["gait_speed", ""] < 1350)
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main()

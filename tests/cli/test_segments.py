@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""kinemark analyze --segments, from outside."""
+
+import csv
+import json
+import math
+import unittest
+
+from support import CommandTest, real_file
+from test_measures import write_trc
+
+DEFINITION = """
+title = "An elbow"
+[[segment]]
+name = "arm"
+origin = "A1"
+first = ["z", "A2 - A1"]
+second = ["x", "A3 - A1"]
+[[segment]]
+name = "forearm"
+origin = "F1"
+first = ["z", "F2 - F1"]
+second = ["x", "F3 - F1"]
+[[angle]]
+name = "elbow"
+parent = "arm"
+child = "forearm"
+sequence = "yxz"
+components = [["flexion", "y"], ["carrying", "x"], ["pronation", "z"]]
+[[value]]
+name = "reach"
+quantity = "length"
+formula = "distance(A1, F1)"
+"""
+NAMES = ("A1", "A2", "A3", "F1", "F2", "F3")
+
+
+def flexed(i):
+    """A forearm that is flexed by i degrees."""
+    c, s = math.cos(math.radians(i)), math.sin(math.radians(i))
+    return [(0, 0, 900), (0, 0, 1200), (100, 0, 900), (0, 0, 600), (300 * s, 0, 600 + 300 * c), (100 * c, 0, 600 - 100 * s)]
+
+
+class Segments(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "elbow.trc"
+        self.definition = self.folder / "elbow.toml"
+        self.definition.write_text(DEFINITION, encoding="utf-8")
+        write_trc(self.file, [flexed(i) for i in range(100)], names=NAMES)
+
+    def analyze(self, *more, status=0):
+        result = self.run_in("analyze", self.file, "--segments", self.definition, *more)
+        self.assertEqual(result.status, status, result.err)
+        return result
+
+    def test_angles_are_those_of_the_movement(self):
+        out = self.folder / "out"
+        result = self.analyze("--noise", "1", "-o", out, "--json")
+        with (out / "angles.csv").open(newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["component"] == "flexion"]
+        self.assertEqual(len(rows), 100)
+        for i, row in enumerate(rows):
+            self.assertAlmostEqual(float(row["value"]), i, places=3)
+            self.assertGreater(float(row["sd"]), 0.1)
+            self.assertEqual((row["state"], row["unit"]), ("measured", "deg"))
+        reported = json.loads(result.out)
+        self.assertEqual([a["name"] for a in reported["angles"]], ["elbow", "reach"])
+        self.assertEqual(reported["angles"][0]["measured"], 100)
+        self.assertEqual(len(reported["written"]), 6)
+        self.assertEqual(self.run_in("info", out / "segments.c3d").status, 0)
+        self.analyze("-o", out, status=4)
+
+    def test_what_the_recording_lacks_is_one_sentence(self):
+        result = self.analyze("--drop", "F3")
+        self.assertIn("Not computed: elbow; there is no marker 'F3'", result.err)
+        self.assertIn("An elbow: 0 angles, 1 value and 0 points in 100 frames.", result.err)
+        missing = self.analyze("--drop", "A1,F1", status=3)
+        self.assertIn("nothing can be computed", missing.err)
+
+    def test_gimbal_lock_is_said(self):
+        turned = self.folder / "turned.toml"
+        turned.write_text(DEFINITION.replace("yxz", "xyz"), encoding="utf-8")
+        result = self.run_in("analyze", self.file, "--segments", turned)
+        self.assertIn("flexion is within 5 deg of gimbal lock in", result.err)
+        self.assertNotIn("gimbal", self.analyze().err)
+
+    def test_bad_input_is_a_sentence(self):
+        for arguments, status, words in (
+            (("--segments", "pigg"), 2, "'pigg' is no definition of segments; expected pig, isb-shoulder or a .toml file"),
+            (("--segments", "pig", "--subject", "LegLength"), 2, "is not NAME=VALUE"),
+            (("--segments", "pig", "--subject", "LLegLenght=3"), 2, "it has LLegLength"),
+            (("--segments", "pig", "--up", "w"), 2, "expected x, y, z"),
+            (("--static", self.file), 2, "--static"),
+            (("--segments", "pig", "--measures", "path_length"), 2, "--measures"),
+            (("--segments", self.folder / "none.toml"), 4, "none.toml"),
+            (("--segments", self.file), 3, "elbow.trc"),
+            (("--segments", "pig"), 3, "nothing can be computed"),
+        ):
+            result = self.run_in("analyze", self.file, *arguments)
+            self.assertEqual(result.status, status, result.err)
+            self.assertIn(words, result.err)
+            self.assertEqual(result.out, "")
+
+    def test_a_real_walk(self):
+        walk, still = (real_file(f"btk-others/PiG_{name}_FF.c3d") for name in ("Motion3", "Calibration3"))
+        result = self.run_in("analyze", walk, "--segments", "pig", "--static", still, "--json")
+        self.assertEqual(result.status, 0, result.err)
+        reported = json.loads(result.out)
+        offsets = {p["name"]: (p["value"], p["from"]) for p in reported["parameters"]}
+        self.assertAlmostEqual(offsets["LStaticPlantFlex"][0], math.degrees(0.15718976), places=3)
+        self.assertEqual(offsets["LStaticPlantFlex"][1], "the static trial")
+        self.assertIn("Motion3", offsets["LLegLength"][1])
+        self.assertEqual([c["name"] for c in reported["cross_talk"]], ["LKneeAngles", "RKneeAngles"])
+        self.assertIn("no marker 'C7'", result.err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import type { Channel } from "../editing/channel.ts";
+import type { EditingState } from "../editing/types.ts";
+import type { MarkersPageData } from "../markers_types.ts";
+import { EditBar } from "../sections/editing.ts";
+import { forgetDrawn } from "../theme.ts";
+import type { Content } from "./content.ts";
+import { markersPage, type Editor, type Kept } from "./markers.ts";
+
+/** How often a page that is seen asks whether somebody else has edited the recording, ms. */
+const lookEvery = 3000;
+
+/** The page of a recording that is edited where it is shown: drawn anew after each edit, the bar stays. */
+export class EditedPage {
+  readonly bar: EditBar;
+  readonly #kept: Kept = { view: null, marker: null, camera: null };
+  #content: Content | null = null;
+  #editing: EditingState;
+
+  constructor(
+    readonly channel: Channel,
+    editing: EditingState,
+    readonly put: (content: Content) => void,
+  ) {
+    this.#editing = editing;
+    this.bar = new EditBar(channel, editing, () => this.#reload());
+    const look = (): void => {
+      if (document.visibilityState === "visible") void this.bar.lookAgain();
+    };
+    setInterval(look, lookEvery);
+    document.addEventListener("visibilitychange", look);
+  }
+
+  async draw(data: MarkersPageData): Promise<void> {
+    const focused = document.activeElement;
+    const top = window.scrollY;
+    this.#content?.stop?.();
+    const editor: Editor = {
+      node: this.bar.node,
+      kept: this.#kept,
+      show: (summary, view) => this.bar.show({ summary, view }, this.#editing),
+    };
+    forgetDrawn();
+    const content = await markersPage(data, editor);
+    this.put(content);
+    this.#content = content;
+    if (top > 0) window.scrollTo(0, top);
+    if (focused instanceof HTMLElement && this.bar.node.contains(focused)) focused.focus({ preventScroll: true });
+  }
+
+  /** Why the recording could not be fetched; null when it is drawn. */
+  async #reload(): Promise<string | null> {
+    const answer = await this.channel.data();
+    if (answer.value === null) return answer.refused;
+    const { editing } = answer.value;
+    if (editing !== undefined && !("refused" in editing)) this.#editing = editing;
+    try {
+      await this.draw(answer.value);
+    } catch (error) {
+      return error instanceof Error ? error.message : String(error);
+    }
+    return null;
+  }
+}

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+import { el, section } from "../dom.ts";
+import { number, plural } from "../format.ts";
+import type { MeasuresResult, ResultPageData } from "../result_types.ts";
+import { linkBar, resultFindings, resultHeader, resultRun, table, text } from "../sections/result_parts.ts";
+import type { Column } from "../sections/table.ts";
+import type { Content } from "./content.ts";
+import { drawnFigure } from "./study.ts";
+
+type Row = MeasuresResult["measures"][number];
+
+const percent = (share: number | null): string => (share === null ? "–" : `${number(100 * share, 1)} %`);
+
+/** What a recording's movements were: what must be known, figures, the table. */
+export function measuresPage({ summary, result }: ResultPageData<MeasuresResult>): Content {
+  const known = result.measures.filter((r) => r.value !== null);
+  const covered = known.filter((r) => r.interval.kind !== "none");
+  const columns: Column<Row>[] = [
+    text("Marker", (r) => r.subject),
+    ...(result.regions > 1 ? [text<Row>("Region", (r) => r.region ?? "")] : []),
+    text("Measure", (r) => r.title),
+    { title: "Value and interval", key: (r) => r.value, cell: (r) => r.shown },
+    { title: "Not measured", numeric: true, key: (r) => r.share_not_measured, cell: (r) => percent(r.share_not_measured) },
+    text("To be known", (r) => r.remark ?? ""),
+  ];
+  const level = `${number(100 * result.level, 0)} %`;
+  return {
+    skip: ["table", "Skip to the table"],
+    header: resultHeader("measures", "Measures of paths, freed of the bias of noise", summary, [
+      [number(result.measures.length), "measures", `of ${plural(result.markers, "marker")} in ${plural(result.regions, "stretch", "stretches")}`],
+      [number(covered.length), `with an interval of ${level}`, result.refits === 0 ? "none was asked for" : `by ${number(result.refits)} refits`],
+      [number(covered.filter((r) => r.interval.approximate).length), "approximate", "cover less in some movements"],
+      [number(result.measures.length - known.length), "not determined", "the table says why"],
+      [percent(result.most_not_measured), "not measured", "where most is missing"],
+      [number(result.figures.length), "figures", "each to be saved as SVG or PNG"],
+    ]),
+    bar: linkBar([["attention", "Attention"], ["figures", "Figures"], ["table", "Table"], ["settings", "Run"]]),
+    sections: [
+      resultFindings(summary, "Nothing stands out."),
+      section("figures", "Figures", "", el("div", { class: "study-figures" }, ...result.figures.map(drawnFigure))),
+      section("table", "Measures", "", table("Measures", columns, result.measures)),
+      resultRun(summary, [["Refits", number(result.refits)], ["Level", level]]),
+    ],
+    start: () => undefined,
+  };
+}
