@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/files/edit_job.h"
+#include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/live/live_source.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
@@ -30,7 +31,8 @@ struct ServeArguments {
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;
   bool no_open = false;
-  std::filesystem::path model, record;  ///< of a live source
+  std::filesystem::path model;   ///< of a live source, or of all recordings
+  std::filesystem::path record;  ///< of a live source
 
   /// The live source that was given, if one was.
   [[nodiscard]] bool is_live() const {
@@ -39,13 +41,21 @@ struct ServeArguments {
   }
 };
 
-/// A live source is served alone, and only it has a model and a recording.
+/// A live source is served alone, and only it is recorded.
 Status check_together(const ServeArguments& arguments) {
   if (arguments.is_live() && arguments.given.size() > 1)
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
-  if (!arguments.is_live() && !(arguments.model.empty() && arguments.record.empty()))
-    return fail(Code::usage, "--model and --record are for a live source (sim:... or replay:FILE)");
+  if (!arguments.is_live() && !arguments.record.empty())
+    return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE)");
   return {};
+}
+
+/// What was given is there, and the model can be used.
+Status check_files(const ServeArguments& arguments) {
+  if (auto s = server::check_given(arguments.given); !s) return s;
+  if (arguments.model.empty()) return {};
+  const auto model = pipeline::read_model_input(arguments.model);
+  return model ? Status() : std::unexpected(model.error());
 }
 
 Result<server::Keys> make_keys(const ServeArguments& arguments, std::uint16_t port) {
@@ -95,8 +105,7 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
   if (const auto s = server::check_bind_address(arguments.bind); !s) return report_error(s.error());
   if (const auto s = check_together(arguments); !s) return report_error(s.error());
   const bool live = arguments.is_live();
-  if (const auto s = live ? Status() : server::check_given(arguments.given); !s)
-    return report_error(s.error());
+  if (const auto s = live ? Status() : check_files(arguments); !s) return report_error(s.error());
   auto source = live ? open_source(common, arguments) : Result<std::unique_ptr<LiveParts>>(nullptr);
   if (!source) return report_error(source.error());
   const auto http = server::HttpServer::listen(arguments.bind, arguments.port);
@@ -121,7 +130,10 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
                                 .keys = std::move(*keys),
                                 .make_page = server::make_trial_page,
                                 .describe = server::describe_trial,
-                                .edits = {.time_now = pipeline::time_of_edit}});
+                                .edits = {.time_now = pipeline::time_of_edit},
+                                .angles = {.model = arguments.model,
+                                           .threads = common.threads,
+                                           .seed = common.seed}});
   (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
     service.handle(request, reply);
   });
@@ -142,7 +154,8 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
           "at again when the page is reloaded; or a live source: sim:walk, replay:FILE")
       ->required();
   command->add_option("-m,--model", arguments->model,
-                      "Body model, .osim, whose angles are shown live; a simulation has its own");
+                      "Body model, .osim, of a live source (a simulation has its own), or that recordings are "
+                      "solved with after edits; without, the .osim beside a recording");
   command->add_option("--record", arguments->record,
                       "Recording to write, .mcap: every frame of a live source");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")

@@ -15,6 +15,10 @@ enum class Target : std::uint8_t {
   trial_page,   ///< /trial/N
   trial_edits,  ///< /api/trial/N/edits
   trial_data,   ///< /api/trial/N/data
+  trial_angles,     ///< /api/trial/N/angles
+  angles_now,       ///< /trial/N/angles/now
+  angles_before,    ///< /trial/N/angles/before
+  angles_recorded,  ///< /trial/N/angles/recorded
   style,        ///< /style.css
   list_style,   ///< /list.css
   list_script,  ///< /list.js
