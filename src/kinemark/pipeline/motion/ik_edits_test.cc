@@ -10,6 +10,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/convert_job.h"
+#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/edit_session.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/motion/report_job.h"

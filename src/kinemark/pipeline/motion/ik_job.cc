@@ -181,9 +181,8 @@ Result<IkOutcome> run_ik(IkJob job) {
     files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
-    files.push_back(text_file(job.report, [&] {
-      return internal::motion_page(model, outcome.summary, motion, &solved->markers);
-    }));
+    files.push_back(text_file(
+        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved->markers); }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
   return std::move(outcome);
@@ -195,21 +194,23 @@ Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
   if (!inputs) return std::unexpected(inputs.error());
   const auto& markers = inputs->trial.markers;
   if (markers.frames() * markers.markers() > most_samples)
-    return fail(Code::not_supported,
-                fmt::format("{}: {} frames of {} markers are more than is solved here; take 'kinemark ik', or "
-                            "crop the recording",
-                            job.markers.filename().string(), markers.frames(), markers.markers()));
+    return fail(
+        Code::not_supported,
+        fmt::format("{}: {} frames of {} markers are more than is solved here; take 'kinemark ik', or "
+                    "crop the recording",
+                    job.markers.filename().string(), markers.frames(), markers.markers()));
   if (auto s = apply_tasks(job, inputs->model, markers); !s) return std::unexpected(s.error());
   const auto solved = solve(job, *inputs);
   if (!solved) return std::unexpected(solved.error());
   const auto& [outcome, used] = *solved;
   const auto& motion = outcome.result.motion;
-  return IkPage{
-      .html = internal::motion_page(inputs->model, outcome.summary, motion, &used),
-      .summary = outcome.summary,
-      .set = internal::name_set(motion, outcome.summary.run),
-      .edits = inputs->edits.in_force,
-      .digest = inputs->edits.file ? inputs->edits.digest : io::digest_of({})};
+  if (job.progress && !job.progress(motion.frames(), motion.frames()))
+    return fail(Code::cancelled, "inverse kinematics was stopped");
+  return IkPage{.html = internal::motion_page(inputs->model, outcome.summary, motion, &used),
+                .summary = outcome.summary,
+                .set = internal::name_set(motion, outcome.summary.run),
+                .edits = inputs->edits.in_force,
+                .digest = inputs->edits.file ? inputs->edits.digest : io::digest_of({})};
 }
 
 }  // namespace kinemark::pipeline
