@@ -99,7 +99,8 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
         plain("Input files", ["Role", "File", "Size", "Hash"], summary.inputs.map((i) => [i.role, i.path, bytes(i.bytes), `${i.hash_kind} ${i.hash}`])),
       ),
     ],
-    start: () => [inSpace, ...parts].forEach((p) => p.start()),
+    start: () => inSpace.start(),
+    later: parts.map((p) => p.start),
     stop: () => {
       inSpace.stop();
       if (editor !== null) Object.assign(editor.kept, { view, marker: scene.names[view.marker] ?? null });
