@@ -148,9 +148,9 @@ def frame(kind, size):
     return bytes([0x80 | kind, 0xFF]) + struct.pack(">Q", size) + b"mask" + bytes(size)
 
 
-# On the WebSocket of a live source; the last of them know the secret.
+# On the WebSocket of a live source, by two attackers each; the last of them know the secret.
 SOCKET_ATTACKS = {
-    "1,000 WebSockets without a token": lambda port, _: hold_asked(port, 1000, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
+    "1,000 WebSockets without a token": lambda port, _: hold_asked(port, 500, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
     "WebSockets without a token, one after the other": lambda port, _: flood(port, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
     "WebSockets from a foreign Origin": lambda port, cookie: flood(port, upgrade(port, f"Origin: http://evil.example\r\nCookie: {cookie}\r\n")),
     "300 upgrades that send a letter at a time": lambda port, _: hold(port, 300, True, upgrade(port)[:-2] + b"X-"),
