@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/measures_options.h"
+#include "cli/motion_measures_options.h"
 #include "cli/segments_options.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/outcome_json.h"
@@ -22,6 +23,7 @@ namespace {
 struct AnalyzeArguments {
   pipeline::AnalysisJob job;
   MeasuresArguments measures;
+  MotionMeasuresArguments motion;
   pipeline::SegmentsJob segments;
   std::vector<std::string> points;
   bool no_error_bars = false;
@@ -34,6 +36,15 @@ bool is_of_markers(const AnalyzeArguments& arguments) {
   const auto ending = pipeline::ending_of(job.motion);
   return !job.motion.empty() && job.model.empty() && job.setup.empty() && ending != ".mot" &&
          ending != ".sto";
+}
+
+/// Tables of the motion go into a folder; without one, or into one file, go measures.
+bool is_measured(const AnalyzeArguments& arguments) {
+  const auto& job = arguments.job;
+  const auto ending = pipeline::ending_of(job.output);
+  if (!job.setup.empty() || !job.bodies.empty() || !arguments.points.empty()) return false;
+  return job.output.empty() || ending == ".csv" || ending == ".json" ||
+         !arguments.measures.job.measures.empty();
 }
 
 /// NAME=BODY:X,Y,Z
@@ -88,8 +99,10 @@ int run_command(const CommonOptions& common, AnalyzeArguments& arguments) {
     job.selection.last_time_s = arguments.job.last_time_s;
     return run_measures_command(common, arguments.measures);
   }
+  arguments.job.error_bars = !arguments.no_error_bars;
+  if (is_measured(arguments))
+    return run_motion_measures_command(common, arguments.job, arguments.measures.job, arguments.motion);
   auto job = arguments.job;
-  job.error_bars = !arguments.no_error_bars;
   for (const auto& text : arguments.points) {
     auto point = parse_point(text);
     if (!point) return report_error(point.error());
@@ -115,7 +128,8 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
       ->group("Input");
   command.add_option("--start", job.first_time_s, "First time to write or to measure, s")->group("Input");
   command.add_option("--end", job.last_time_s, "Last time to write or to measure, s")->group("Input");
-  command.add_option("-o,--output", job.output, "Folder for the results; of markers a table, .csv or .json")
+  command
+      .add_option("-o,--output", job.output, "Folder for the results; for measures a table, .csv or .json")
       ->type_name("PATH")
       ->group("Output");
   command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations")->group("Output");
@@ -150,14 +164,17 @@ void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
       "with 95 % "
       "intervals\n(docs/stages/measures.md); --list tells what there is.\nWith --segments: joint centres and "
       "angles by a definition "
-      "(docs/stages/segments.md).\nOf a motion: writes into the "
-      "folder, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
+      "(docs/stages/segments.md).\nOf a motion with --model: ranges, peaks, power and work of joints, "
+      "mass centre, stability, angular momentum (docs/stages/motion-measures.md).\nWith a folder: writes "
+      "into "
+      "it, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
       "NAME_BodyKinematics_pos,\n_vel, _acc_global.sto (mass centres, body-fixed X-Y-Z angles), "
       "NAME_PointKinematics_POINT_pos, _vel, _acc.sto,\nNAME_inverse_dynamics.sto, beside each its standard "
       "deviations (_sd.sto), and NAME_analysis.json. Degrees, metres, seconds, N m.");
   const auto arguments = std::make_shared<AnalyzeArguments>();
   add_options(*command, *arguments);
   add_measures_options(*command, arguments->measures);
+  add_motion_measures_options(*command, arguments->motion);
   add_segments_options(*command, arguments->segments);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });

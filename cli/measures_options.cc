@@ -3,6 +3,7 @@
 #include "cli/measures_options.h"
 
 #include "cli/console.h"
+#include "cli/emg_options.h"
 #include "cli/gait_options.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/measures/measures_table.h"
@@ -87,6 +88,7 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
   command.add_flag("--keep-defects", job.keep_defects, "Measure spikes, swaps and stuck samples too")
       ->group(what);
   add_gait_options(command, job.gait);
+  add_emg_options(command, job.emg);
 }
 
 int run_measures_command(const CommonOptions& common, MeasuresArguments& arguments) {

@@ -91,7 +91,7 @@ class AnalyzeTest(CommandTest):
     def test_what_is_wrong_is_one_sentence_and_leaves_nothing(self):
         self.refused(2, "no motion: give a .mot or .sto", "analyze", "-m", "in/model.osim", "-o", "out")
         self.refused(2, "no model: give --model", "analyze", "in/truth.mot", "-o", "out")
-        self.refused(2, "no folder for the results: give --output", *self.analyze())
+        self.refused(2, "no folder for the results: give --output", *self.analyze("--bodies", "pelvis"))
         for point in ("toe", "=calcn_r:0,0,0", "toe=:0,0,0", "toe=calcn_r:0,0", "toe=calcn_r:0,0,x", "toe=calcn_r:0,0,0,0"):
             self.refused(2, "is not NAME=BODY:X,Y,Z", *self.analyze("-o", "out", "--point", point))
         self.refused(2, "point 'toe' names body 'hoof'", *self.analyze("-o", "out", "--point", "toe=hoof:0,0,0"))

@@ -11,6 +11,7 @@
 
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
@@ -22,9 +23,15 @@ bool is_path_measure(const std::string& id) {
 }
 
 Status unknown_measure(const std::string& id) {
-  std::vector<std::string> known{"gait"};
+  if (analysis::find_body_definition(id) != nullptr)
+    return fail(
+        Code::usage,
+        fmt::format("{} is measured of a motion, not of markers; need a .mot or .sto with --model", id));
+  std::vector<std::string> known{"gait", "plates", "emg"};
   for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
   for (const auto& definition : analysis::gait_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::force_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::emg_definitions()) known.emplace_back(definition.id);
   const auto nearest = nearest_names(id, known);
   return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
                                        nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
@@ -42,10 +49,19 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
                              .threads = job.threads,
                              .curves = !job.figures.empty() || !job.report.empty()},
                     .gait = std::move(*gait)};
-  bool all_of_walking = false;
+  if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
+  bool all_of_walking = false, all_of_plates = false, all_of_emg = false;
   for (const auto& id : job.measures) {
     if (id == "gait")
       all_of_walking = true;
+    else if (id == "plates")
+      all_of_plates = true;
+    else if (id == "emg")
+      all_of_emg = true;
+    else if (analysis::find_force_definition(id) != nullptr)
+      out.plates.measures.push_back(id);
+    else if (analysis::find_emg_definition(id) != nullptr)
+      out.emg.measures.push_back(id);
     else if (analysis::find_gait_definition(id) != nullptr)
       out.gait.measures.push_back(id);
     else if (is_path_measure(id))
@@ -53,10 +69,21 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
     else if (auto s = unknown_measure(id); !s)
       return std::unexpected(s.error());
   }
-  out.by_name = all_of_walking || !out.gait.measures.empty() || job.gait.wanted();
+  out.by_name =
+      all_of_walking || !out.gait.measures.empty() || job.gait.wanted() || !job.emg.write_cycles.empty();
   out.paths = job.measures.empty() || !out.path.measures.empty();
   out.walking = out.by_name || job.measures.empty();
   if (all_of_walking) out.gait.measures.clear();
+  out.forces_by_name = all_of_plates || !out.plates.measures.empty();
+  out.forces = out.forces_by_name || job.measures.empty();
+  if (all_of_plates) out.plates.measures.clear();
+  out.muscles_by_name = all_of_emg || !out.emg.measures.empty() || job.emg.wanted();
+  out.muscles = out.muscles_by_name || job.measures.empty();
+  if (all_of_emg) out.emg.measures.clear();
+  out.plates.refits = out.emg.refits = job.refits;
+  out.plates.level = out.emg.level = job.level;
+  out.plates.seed = out.emg.seed = job.seed;
+  out.emg.threads = job.threads;
   out.gait.refits = job.refits;
   out.gait.noise_sd_m = job.noise_sd_m;
   out.gait.level = job.level;

@@ -5,6 +5,8 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/measures/measures_job.h"
+#include "kinemark/stages/analysis/emg/emg_measures.h"
+#include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 
@@ -12,11 +14,17 @@ namespace kinemark::pipeline {
 
 /// What a job asks of paths and of walking.
 struct AskedMeasures {
-  analysis::PathMeasureOptions path;  ///< without regions
-  analysis::GaitOptions gait;         ///< without regions
-  bool paths = true;                  ///< whether paths are measured
-  bool walking = true;                ///< whether walking is measured, where there is any
-  bool by_name = false;               ///< walking is asked for: what it lacks has to be said
+  analysis::PathMeasureOptions path;     ///< without regions
+  analysis::GaitOptions gait;            ///< without regions
+  analysis::ForceMeasureOptions plates;  ///< without regions and events
+  analysis::EmgOptions emg;              ///< without stretches
+  bool paths = true;                     ///< whether paths are measured
+  bool walking = true;                   ///< whether walking is measured, where there is any
+  bool by_name = false;                  ///< walking is asked for: what it lacks has to be said
+  bool forces = true;                    ///< whether plates are measured, where there are any
+  bool forces_by_name = false;           ///< plates are asked for
+  bool muscles = true;                   ///< whether EMG are measured, where there are any
+  bool muscles_by_name = false;          ///< EMG are asked for
 };
 
 /// Code::usage for a measure that does not exist, with the nearest names, and as gait_options() and

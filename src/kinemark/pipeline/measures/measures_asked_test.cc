@@ -78,6 +78,26 @@ TEST(AskedMeasures, BothKindsHaveTheIntervalsOfTheJob) {
   EXPECT_TRUE(asked_measures(job)->path.curves);
 }
 
+TEST(AskedMeasures, PlatesAndMuscles) {
+  MeasuresJob job;
+  EXPECT_TRUE(asked_measures(job)->forces && asked_measures(job)->muscles) << "where there are any";
+  EXPECT_FALSE(asked_measures(job)->forces_by_name || asked_measures(job)->muscles_by_name);
+  job.measures = {"grf_peak"};
+  auto asked = asked_measures(job).value();
+  EXPECT_TRUE(asked.forces_by_name && !asked.muscles && !asked.paths && !asked.walking);
+  EXPECT_EQ(asked.plates.measures, std::vector<std::string>{"grf_peak"});
+  job.measures = {"plates", "cop_path", "emg", "emg_rms"};
+  asked = asked_measures(job).value();
+  EXPECT_TRUE(asked.plates.measures.empty() && asked.emg.measures.empty()) << "all of them";
+  EXPECT_TRUE(asked.muscles_by_name);
+  job.measures.clear();
+  job.emg.write_cycles = "c.csv";
+  EXPECT_TRUE(asked_measures(job)->by_name) << "cycles are of walking";
+  job.measures = {"joint_range"};
+  EXPECT_THAT(asked_measures(job).error().message,
+              ::testing::HasSubstr("is measured of a motion, not of markers"));
+}
+
 TEST(AskedMeasures, RefuseWhatIsNone) {
   MeasuresJob job;
   job.measures = {"path_length", "cadense"};

@@ -127,10 +127,47 @@ Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats
   return {};
 }
 
-// Walking, then paths; what fails is reported where something else is measured.
+// Steps and standing on plates.
+Status measure_plates(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+                      MeasuresOutcome& outcome) {
+  const auto plates = plates_of(job.input, trial);
+  if (!plates) return fail(Code::bad_input, "there are no force plates whose forces can be read");
+  auto options = asked.plates;
+  options.regions = asked.path.regions;
+  if (outcome.gait) options.events = outcome.gait->events;
+  auto measured = analysis::measure_forces(*plates, options);
+  if (!measured) return std::unexpected(measured.error());
+  std::ranges::move(measured->measures, std::back_inserter(outcome.measures));
+  std::ranges::move(measured->notes, std::back_inserter(outcome.warnings));
+  return {};
+}
+
+// Electromyograms, where channels are named or known by their names.
+Status measure_muscles(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+                       MeasuresOutcome& outcome) {
+  auto measured = measure_emg_of(trial, job.emg, asked.path.regions, asked.emg);
+  if (!measured) return std::unexpected(measured.error());
+  std::ranges::copy(measured->measures, std::back_inserter(outcome.measures));
+  std::ranges::copy(measured->notes, std::back_inserter(outcome.warnings));
+  outcome.emg = std::move(*measured);
+  return {};
+}
+
+// A failure of what was asked for by name ends the job where nothing else is measured, and is told else; what
+// was not asked for is simply not there.
+Status take_failure(const Status& status, const char* what, bool by_name, bool needed,
+                    MeasuresOutcome& outcome) {
+  if (status || !by_name) return {};
+  if (needed || status.error().code == Code::usage) return status;
+  outcome.warnings.push_back(fmt::format("{} are not measured: {}", what, status.error().message));
+  return {};
+}
+
+// Walking, plates, EMG, then paths; what fails is reported where something else is measured.
 Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
                    std::vector<analysis::PathCurves>& curves, MeasuresOutcome& outcome) {
-  const bool events_needed = !job.gait.write_events.empty() || !job.gait.write_cycles.empty();
+  const bool events_needed =
+      !job.gait.write_events.empty() || !job.gait.write_cycles.empty() || !job.emg.write_cycles.empty();
   if (asked.walking) {
     auto gait = measure_gait(job.input, trial, asked.gait);
     if (gait) {
@@ -143,6 +180,19 @@ Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const dat
       outcome.warnings.push_back("Walking is not measured: " + gait.error().message);
     }
   }
+  const bool others = asked.paths || asked.by_name;
+  if (asked.forces)
+    if (auto s = take_failure(measure_plates(job, asked, trial, outcome), "Force plates",
+                              asked.forces_by_name, !others && !asked.muscles_by_name, outcome);
+        !s)
+      return s;
+  if (asked.muscles)
+    if (auto s = take_failure(
+            measure_muscles(job, asked, trial, outcome), "EMG", asked.muscles_by_name,
+            (!others && outcome.measures.empty()) || !job.emg.write.empty() || !job.emg.write_cycles.empty(),
+            outcome);
+        !s)
+      return s;
   if (!asked.paths) return {};
   auto measured = analysis::measure_paths(trial.markers, asked.path);
   if (!measured) return std::unexpected(measured.error());
@@ -173,6 +223,17 @@ Result<std::vector<ResultFile>> gait_files(const MeasuresJob& job, const data::T
     out.push_back(text_file(job.gait.write_events,
                             [&, name] { return events_csv(*outcome.gait, trial.markers.time, name); }));
   }
+  const bool per_cent = !job.emg.maximum.empty();
+  if (!job.emg.write.empty()) {
+    const auto table = [&, per_cent] { return envelope_table(trial, *outcome.emg, per_cent); };
+    out.push_back(ending_of(job.emg.write) == ".csv"
+                      ? text_file(job.emg.write, [table] { return envelope_csv(table()); })
+                      : table_file(job.emg.write, table));
+  }
+  if (!job.emg.write_cycles.empty())
+    out.push_back(text_file(job.emg.write_cycles, [&, name, per_cent] {
+      return curves_csv(envelope_cycles(trial, *outcome.emg, outcome.gait->cycles, per_cent), name);
+    }));
   if (job.gait.write_cycles.empty()) return out;
   auto cut = gait_curves(trial, outcome.gait->cycles, job.gait.angles);
   if (!cut) return std::unexpected(cut.error());
@@ -191,7 +252,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& job) {
   const auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
   std::vector<std::filesystem::path> targets;
-  for (const auto& path : {job.output, job.gait.write_events, job.gait.write_cycles})
+  for (const auto& path :
+       {job.output, job.gait.write_events, job.gait.write_cycles, job.emg.write, job.emg.write_cycles})
     if (!path.empty()) targets.push_back(path);
   auto staging = Staging::create(targets, job.force, {job.input, job.edits, job.gait.angles});
   if (!staging) return std::unexpected(staging.error());

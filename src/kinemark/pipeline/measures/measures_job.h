@@ -14,6 +14,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/measures/emg_request.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 
 namespace kinemark::pipeline {
@@ -25,7 +26,8 @@ struct MeasuresJob : JobSettings {
   std::filesystem::path
       edits;            ///< journal, applied first; "beside": the one beside the recording, if there is one
   Selection selection;  ///< which markers, which frames
-  /// ids, of paths and of walking ("gait": all of these); empty: those that apply to each movement
+  /// ids, of paths, of walking ("gait": all of these), of plates ("plates") and of EMG ("emg"); empty: those
+  /// that apply
   std::vector<std::string> measures;
   std::vector<std::string> regions;  ///< parse_region(); beside those of the journal
   std::vector<std::string> between;  ///< labels of events: regions_between()
@@ -38,13 +40,16 @@ struct MeasuresJob : JobSettings {
   double level = 0.95;               ///< of the intervals
   bool keep_defects = false;         ///< measure what screening calls spikes, swaps, stuck too
   GaitRequest gait;                  ///< walking
+  EmgRequest emg;                    ///< electromyograms
 };
 
 /// Warnings: what was left out, and markers that could not be measured.
 struct MeasuresOutcome : JobOutcome {
-  data::InputFile input;                ///< the recording
-  std::vector<data::Measure> measures;  ///< of walking, then markers in the recording's order, their regions
-  std::optional<analysis::Gait> gait;   ///< walking, where it was asked for or is there
+  data::InputFile input;  ///< the recording
+  std::vector<data::Measure>
+      measures;  ///< of walking, plates, EMG, then markers in the recording's order, their regions
+  std::optional<analysis::Gait> gait;        ///< walking, where it was asked for or is there
+  std::optional<analysis::EmgMeasures> emg;  ///< electromyograms, likewise
 };
 
 /// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are

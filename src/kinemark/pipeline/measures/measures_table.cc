@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "kinemark/pipeline/files/table_cell.h"
+#include "kinemark/stages/analysis/body/body_definitions.h"
+#include "kinemark/stages/analysis/emg/emg_measures.h"
+#include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
@@ -20,6 +23,9 @@ using Json = nlohmann::ordered_json;
 const data::MeasureDefinition* definition_of(std::string_view id) {
   for (const auto& definition : analysis::path_definitions())
     if (definition.what.id == id) return &definition.what;
+  if (const auto* of_body = analysis::find_body_definition(id)) return &of_body->what;
+  if (const auto* of_plates = analysis::find_force_definition(id)) return &of_plates->what;
+  if (const auto* of_emg = analysis::find_emg_definition(id)) return of_emg;
   const auto* of_walking = analysis::find_gait_definition(id);
   return of_walking != nullptr ? &of_walking->what : nullptr;
 }
@@ -29,6 +35,9 @@ std::vector<data::MeasureDefinition> all_definitions() {
   std::vector<data::MeasureDefinition> out;
   for (const auto& definition : analysis::path_definitions()) out.push_back(definition.what);
   for (const auto& definition : analysis::gait_definitions()) out.push_back(definition.what);
+  for (const auto& definition : analysis::force_definitions()) out.push_back(definition.what);
+  for (const auto& definition : analysis::emg_definitions()) out.push_back(definition);
+  for (const auto& definition : analysis::body_definitions()) out.push_back(definition.what);
   return out;
 }
 
@@ -140,7 +149,8 @@ std::string measures_text(std::span<const data::Measure> measures) {
   std::string out;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const auto& m = measures[i];
-    const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region;
+    const bool same = i > 0 && measures[i - 1].subject == m.subject && measures[i - 1].region == m.region &&
+                      measures[i - 1].cycle == m.cycle;
     if (!same)
       out += fmt::format(
           "{}{}{}, {:.3f} to {:.3f} s{}\n", i > 0 ? "\n" : "", m.subject.empty() ? "Walking" : m.subject,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -15,17 +16,14 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/version.h"
-#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/io/text/table_file.h"
-#include "kinemark/math/digital_filter.h"
-#include "kinemark/pipeline/files/coordinate_rows.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/motion/analysis_tables.h"
 #include "kinemark/pipeline/motion/internal/analysis_plan.h"
+#include "kinemark/pipeline/motion/rated_motion.h"
 #include "kinemark/pipeline/motion/torques.h"
 #include "kinemark/stages/motion/smoother/rates.h"
 
@@ -38,108 +36,8 @@ namespace fs = std::filesystem;
 constexpr std::array kRates{"q", "u", "dudt"};
 constexpr std::array kOrders{"pos", "vel", "acc"};
 
-/// A motion with the rates of its coordinates, and what was found out on the way.
-struct Motion {
-  data::JointMotion motion;
-  Array<std::uint8_t> is_filled;  ///< F x n
-  motion::RateErrors errors;
-};
-
-/// Deviations that lie beside the motion, when they are of it.
-Result<std::optional<data::Table>> read_deviations(const fs::path& motion, const data::Table& table,
-                                                   AnalysisOutcome& out) {
-  const fs::path path = beside(motion, "_sd.sto");
-  std::error_code unreadable;
-  if (!fs::exists(path, unreadable)) return std::nullopt;
-  auto read = io::read_table(path);
-  if (!read) return std::unexpected(read.error());
-  if (auto s = check_same_set({{motion, set_in(motion)}, {path, set_in(path)}}); !s)
-    return std::unexpected(s.error());
-  if (read->columns != table.columns || read->time_s != table.time_s)
-    return fail(Code::bad_input, fmt::format("{}: has other columns or rows than {}", path.string(),
-                                             motion.filename().string()));
-  auto record = record_input("deviations", path);
-  if (!record) return std::unexpected(record.error());
-  out.inputs.push_back(std::move(*record));
-  return std::optional(std::move(*read));
-}
-
-void set_deviations(const data::Table& table, const data::ModelDescription& model,
-                    data::JointMotion& motion) {
-  motion.q_sd.assign(motion.q.size(), kNaN);
-  for (std::int64_t c = 0; c < motion.size(); ++c) {
-    const auto column = table.find(motion.coordinates[at(c)]);
-    const double unit = column_unit(table, model, static_cast<int>(c));
-    for (std::int64_t f = 0; f < motion.frames(); ++f)
-      motion.q_sd[motion.index(f, c)] = column < 0 ? 0.0 : unit * table(f, column);
-  }
-}
-
-void low_pass(double cutoff_hz, data::JointMotion& motion) {
-  constexpr int kOrder = 3;
-  const auto sections = math::butterworth_lowpass(kOrder, cutoff_hz / motion.time.rate_hz);
-  std::vector<double> x(at(motion.frames()));
-  for (std::int64_t c = 0; c < motion.size(); ++c) {
-    for (std::int64_t f = 0; f < motion.frames(); ++f) x[at(f)] = motion.q[motion.index(f, c)];
-    math::filter_both_ways(sections, static_cast<int>(motion.frames() / 2), x);
-    for (std::int64_t f = 0; f < motion.frames(); ++f) motion.q[motion.index(f, c)] = x[at(f)];
-  }
-}
-
-/// Coupled coordinates follow those that drive them.
-void couple(const model::Model& model, Motion& read) {
-  auto& motion = read.motion;
-  for (const int c : model.coordinate_order()) {
-    const auto& coordinate = model.coordinates()[at(c)];
-    if (coordinate.source < 0) continue;
-    for (std::int64_t f = 0; f < motion.frames(); ++f) {
-      const auto to = motion.index(f, c), from = motion.index(f, coordinate.source);
-      motion.q[to] = coordinate.coupling(motion.q[from]).f;
-      read.is_filled[to] = read.is_filled[from];
-    }
-  }
-}
-
-Result<Motion> read_motion(const AnalysisPlan& plan, const model::Model& model, AnalysisOutcome& out) {
-  auto table = io::read_table(plan.motion);
-  if (!table) return std::unexpected(table.error());
-  auto record = record_input("motion", plan.motion);
-  if (!record) return std::unexpected(record.error());
-  out.inputs.push_back(std::move(*record));
-  out.warnings.insert(out.warnings.end(), table->warnings.begin(), table->warnings.end());
-  auto rows = coordinate_rows(model, *table);
-  if (!rows) return fail_at(plan.motion.string(), rows.error());
-  out.warnings.insert(out.warnings.end(), rows->notes.begin(), rows->notes.end());
-  Motion read;
-  auto& motion = read.motion;
-  motion.time = rows->time;
-  data::set_coordinates(model.description(), motion);
-  for (const auto& q : rows->q) motion.q.insert(motion.q.end(), q.begin(), q.end());
-  read.is_filled = std::move(rows->is_filled);
-  if (plan.cutoff_hz > 0.0) {
-    if (plan.cutoff_hz >= 0.5 * motion.time.rate_hz)
-      return fail(Code::usage,
-                  fmt::format("a cut-off of {:g} Hz needs more than {:g} Hz; the motion has {:g}",
-                              plan.cutoff_hz, 2.0 * plan.cutoff_hz, motion.time.rate_hz));
-    low_pass(plan.cutoff_hz, motion);
-  } else {
-    const auto deviations = read_deviations(plan.motion, *table, out);
-    if (!deviations) return std::unexpected(deviations.error());
-    if (*deviations) set_deviations(**deviations, model.description(), motion);
-  }
-  couple(model, read);
-  motion.determined.assign(motion.q.size(), 1);
-  for (std::size_t i = 0; i < motion.q.size(); ++i)
-    motion.determined[i] = read.is_filled[i] == 0 && !rows->is_assumed[i % at(motion.size())] &&
-                           (motion.q_sd.empty() || !std::isnan(motion.q_sd[i]));
-  auto errors = motion::estimate_rates(model, motion);
-  if (!errors) return fail_at(plan.motion.string(), errors.error());
-  read.errors = std::move(*errors);
-  return read;
-}
-
 /// Where the motion has no number, nor have its coordinates and torques.
-void withdraw_filled(const Motion& read, data::JointMotion& motion) {
+void withdraw_filled(const RatedMotion& read, data::JointMotion& motion) {
   for (std::int64_t f = 0; f < motion.frames(); ++f)
     for (std::int64_t c = 0; c < motion.size(); ++c) {
       if (read.is_filled[motion.index(f, c)] == 0) continue;
@@ -170,7 +68,7 @@ Eigen::Vector3d coupled_derivatives(const math::ScalarFunction& coupling, double
 }
 
 /// Standard deviation of q, qd or qdd of every coordinate; NaN where it is not determined.
-Array<double> deviations_of(const model::Model& model, const Motion& read, int order) {
+Array<double> deviations_of(const model::Model& model, const RatedMotion& read, int order) {
   const auto& motion = read.motion;
   Array<double> sd(motion.q.size(), kNaN);
   for (std::int64_t c = 0; c < motion.size(); ++c) {
@@ -194,7 +92,7 @@ Array<double> deviations_of(const model::Model& model, const Motion& read, int o
 /// The files of an analysis, and everything that they are made of.
 class Results {
  public:
-  Results(const AnalysisPlan& plan, const model::Model& model, const Motion& read, const RowRange& rows)
+  Results(const AnalysisPlan& plan, const model::Model& model, const RatedMotion& read, const RowRange& rows)
       : plan_(plan), model_(model), read_(read), rows_(rows) {}
 
   void add_kinematics() {
@@ -257,7 +155,7 @@ class Results {
 
   const AnalysisPlan& plan_;
   const model::Model& model_;
-  const Motion& read_;
+  const RatedMotion& read_;
   RowRange rows_;
   std::vector<std::string> names_;
   std::vector<data::Table> tables_;
@@ -310,7 +208,7 @@ Status add_input(const char* role, const fs::path& path, AnalysisOutcome& out) {
 }
 
 /// How rates and deviations were found, in a sentence each.
-void tell_method(const AnalysisPlan& plan, const Motion& read, AnalysisOutcome& out) {
+void tell_method(const AnalysisPlan& plan, const RatedMotion& read, AnalysisOutcome& out) {
   if (plan.cutoff_hz > 0.0) {
     out.facts.emplace_back("low-pass",
                            fmt::format("Butterworth, third order, both ways, {:g} Hz", plan.cutoff_hz));
@@ -351,8 +249,10 @@ Result<AnalysisOutcome> run_analysis(const AnalysisJob& job) {
   out.warnings = plan->notes;
   const auto model = model::Model::compile(std::move(*description));
   if (!model) return fail_at(plan->model.string(), model.error());
-  auto read = read_motion(*plan, *model, out);
+  auto read = read_rated_motion(plan->motion, *model, plan->cutoff_hz);
   if (!read) return std::unexpected(read.error());
+  std::ranges::move(read->inputs, std::back_inserter(out.inputs));
+  std::ranges::move(read->notes, std::back_inserter(out.warnings));
   const RowRange rows = rows_in(*plan, read->motion.time);
   if (rows.size() == 0)
     return fail(Code::usage, fmt::format("{}: no row lies between {:g} and {:g} s; it has {:g} to {:g} s",

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/body/body_record.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/data/gait_event.h"
+#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/motion/external_forces.h"
+#include "kinemark/stages/motion/dynamics/contacts.h"
+#include "kinemark/stages/motion/dynamics/whole_body.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr double kContact_n = 20.0;
+
+bool is_foot(const std::string& name) {
+  for (const char* part : {"calcn", "foot", "toes"})
+    if (name.find(part) != std::string::npos) return true;
+  return false;
+}
+
+/// Which side a body of the tree is of, if it is a foot.
+std::optional<data::Side> foot_side(const model::Model& model, int body) {
+  if (body < 0) return std::nullopt;
+  const auto& name = model.description().bodies[at(model.bodies()[at(body)].description_idx)].name;
+  if (!is_foot(name)) return std::nullopt;
+  const auto side = analysis::side_of_name(name);
+  if (side.empty()) return std::nullopt;
+  return side == data::to_string(data::Side::left) ? data::Side::left : data::Side::right;
+}
+
+Eigen::MatrixXd matrix_of(const Array<double>& values, std::int64_t frames, std::int64_t n) {
+  return Eigen::Map<const RowMajor>(values.data(), frames, n);
+}
+
+void put(const Eigen::MatrixXd& values, Array<double>& out) {
+  out.resize(static_cast<std::size_t>(values.size()));
+  Eigen::Map<RowMajor>(out.data(), values.rows(), values.cols()) = values;
+}
+
+/// Coordinates of joints that carry the whole body and let it travel.
+std::vector<bool> root_coordinates(const data::ModelDescription& model) {
+  std::vector<bool> out(model.coordinates.size(), false);
+  for (const auto& joint : model.joints) {
+    if (joint.parent_body_idx != data::kGround) continue;
+    bool travels = false;
+    for (const auto& axis : joint.axes) travels = travels || (!axis.is_rotation && axis.coordinate_idx >= 0);
+    for (const auto& axis : joint.axes)
+      if (travels && axis.coordinate_idx >= 0) out[at(axis.coordinate_idx)] = true;
+  }
+  return out;
+}
+
+analysis::BodyRecord record_of(const model::Model& model, const RatedMotion& read) {
+  const auto& motion = read.motion;
+  analysis::BodyRecord out{
+      .time = motion.time, .names = motion.coordinates, .is_rotation = motion.is_rotation};
+  const auto frames = motion.frames(), n = motion.size();
+  out.is_root = root_coordinates(model.description());
+  for (std::int64_t c = 0; c < n; ++c) {
+    const bool moves =
+        model.coordinates()[at(c)].source < 0 && !model.description().coordinates[at(c)].locked;
+    out.measured.push_back(moves);
+    out.driven.push_back(moves && !out.is_root[at(c)]);
+  }
+  out.q = matrix_of(motion.q, frames, n);
+  if (!motion.q_sd.empty()) out.q_sd = matrix_of(motion.q_sd, frames, n);
+  out.determined.resize(frames, n);
+  for (std::int64_t f = 0; f < frames; ++f)
+    for (std::int64_t c = 0; c < n; ++c) out.determined(f, c) = motion.determined[motion.index(f, c)] != 0;
+  if (const auto up = up_of(model)) out.up = *up;
+  if (model.gravity().norm() > 0.0) out.gravity = model.gravity().norm();
+  for (const auto& body : model.bodies()) out.mass_kg += body.mass;
+  return out;
+}
+
+/// Everything that a version of the motion is computed with.
+struct Mechanism {
+  const model::Model& model;
+  data::JointMotion shape;               // names, clock, determined
+  std::optional<data::Wrenches> forces;  // on the motion's clock
+  bool torques = false, has_mass = false;
+  std::vector<motion::BodyPoint> points;  // of both feet
+  std::vector<data::Side> sides;          // of each point
+
+  Status operator()(analysis::BodySeries& series) const {
+    data::JointMotion moved = shape;
+    put(series.q, moved.q);
+    put(series.v, moved.qd);
+    put(series.a, moved.qdd);
+    couple(moved);
+    if (torques) {
+      const auto dynamics = motion::inverse_dynamics(
+          model, moved, {.error_bars = false, .contact_force_n = kContact_n}, forces ? &*forces : nullptr);
+      if (!dynamics) return std::unexpected(dynamics.error());
+      series.tau = matrix_of(moved.tau, moved.frames(), moved.size());
+    }
+    if (!has_mass) return {};
+    auto body = motion::whole_body(model, moved, points);
+    if (!body) return std::unexpected(body.error());
+    series.centre = std::move(body->centre);
+    series.centre_velocity = std::move(body->centre_velocity);
+    series.momentum = std::move(body->momentum);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      series.outline[data::index_of(sides[p])].push_back(std::move(body->points[p]));
+    return {};
+  }
+
+ private:
+  // Coupled coordinates and their rates follow those that drive them.
+  void couple(data::JointMotion& moved) const {
+    for (const int c : model.coordinate_order()) {
+      const auto& coordinate = model.coordinates()[at(c)];
+      if (coordinate.source < 0) continue;
+      for (std::int64_t f = 0; f < moved.frames(); ++f) {
+        const auto to = moved.index(f, c), from = moved.index(f, coordinate.source);
+        const auto at_q = coordinate.coupling(moved.q[from]);
+        moved.q[to] = at_q.f;
+        moved.qd[to] = at_q.df * moved.qd[from];
+        moved.qdd[to] = at_q.df * moved.qdd[from] + at_q.ddf * moved.qd[from] * moved.qd[from];
+      }
+    }
+  }
+};
+
+/// Torques with their deviations, once: which are known, and what is to be said of them.
+Status put_torques(const RatedMotion& read, const std::filesystem::path& forces, int threads,
+                   Mechanism& mechanism, BodyInput& out, std::vector<std::filesystem::path>& files) {
+  data::JointMotion motion = read.motion;
+  const bool bars = !read.motion.q_sd.empty();
+  const auto account =
+      add_torques(mechanism.model, motion, forces,
+                  {.error_bars = bars, .contact_force_n = kContact_n, .threads = threads}, &read.errors);
+  if (!account) return std::unexpected(account.error());
+  std::ranges::copy(account->warnings, std::back_inserter(out.notes));
+  files = account->files;
+  auto& record = out.record;
+  record.torque_known.resize(motion.frames(), motion.size());
+  for (std::int64_t f = 0; f < motion.frames(); ++f)
+    for (std::int64_t c = 0; c < motion.size(); ++c) {
+      const auto i = motion.index(f, c);
+      record.torque_known(f, c) = std::isfinite(motion.tau[i]) && record.determined(f, c) &&
+                                  (motion.tau_sd.empty() || std::isfinite(motion.tau_sd[i]));
+    }
+  if (forces.empty()) return {};
+  auto external = read_external_forces(forces, motion.time, kContact_n);
+  if (!external) return std::unexpected(external.error());
+  const auto feet = motion::find_feet(mechanism.model, {});
+  if (!feet) return std::unexpected(feet.error());
+  const auto plan = motion::plan_contacts(mechanism.model, motion, external->wrenches, *feet, kContact_n);
+  if (!plan) return std::unexpected(plan.error());
+  record.contact = Eigen::MatrixX<bool>::Constant(motion.frames(), 2, false);
+  for (const auto& wrench : plan->body)
+    for (std::int64_t f = 0; f < motion.frames(); ++f)
+      if (const auto side = foot_side(mechanism.model, wrench[at(f)]))
+        record.contact(f, static_cast<Eigen::Index>(data::index_of(*side))) = true;
+  mechanism.forces = std::move(external->wrenches);
+  return {};
+}
+
+}  // namespace
+
+Result<BodyInput> body_input(const model::Model& model, const RatedMotion& read,
+                             const std::filesystem::path& forces, bool torques, int threads) {
+  BodyInput out{.record = record_of(model, read)};
+  const auto mechanism = std::make_shared<Mechanism>(Mechanism{.model = model, .shape = read.motion});
+  auto& shape = mechanism->shape;
+  for (auto* values : {&shape.q_sd, &shape.tau, &shape.tau_sd, &shape.marker_error}) values->clear();
+  mechanism->torques = torques || !forces.empty();
+  mechanism->has_mass = out.record.mass_kg > 0.0;
+  if (!mechanism->has_mass)
+    out.notes.push_back(
+        fmt::format("model '{}' has no masses: neither the mass centre nor angular momentum is "
+                    "measured",
+                    model.description().name));
+  for (const auto& marker : model.markers())
+    if (const auto side = foot_side(model, marker.body)) {
+      mechanism->points.push_back({marker.body, marker.x_in_body});
+      mechanism->sides.push_back(*side);
+    }
+  if (mechanism->points.empty() && mechanism->has_mass)
+    out.notes.emplace_back(
+        "no marker of the model is on a foot of a side (calcn_r, foot_l, toes_r): there are "
+        "no margins of stability");
+  if (mechanism->torques)
+    if (auto s = put_torques(read, forces, threads, *mechanism, out, out.files); !s)
+      return std::unexpected(s.error());
+  out.mechanics = [mechanism](analysis::BodySeries& series) { return (*mechanism)(series); };
+  return out;
+}
+
+}  // namespace kinemark::pipeline

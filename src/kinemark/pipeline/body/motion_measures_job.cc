@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/body/motion_measures_job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "kinemark/core/name_pattern.h"
+#include "kinemark/core/nearest_name.h"
+#include "kinemark/core/text.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/pipeline/body/body_record.h"
+#include "kinemark/pipeline/files/file_hash.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/measures/gait_request.h"
+#include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/stages/analysis/body/body_definitions.h"
+#include "kinemark/stages/analysis/body/body_measures.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+Status check(const MotionMeasuresJob& job) {
+  const auto ending = ending_of(job.output);
+  if (!job.output.empty() && ending != ".csv" && ending != ".json")
+    return fail(Code::usage, fmt::format("{}: measures are written as .csv or .json", job.output.string()));
+  if (job.motion.empty()) return fail(Code::usage, "no motion: give a .mot or .sto");
+  if (job.model.empty()) return fail(Code::usage, "no model: give --model");
+  if (!job.between.empty() && ending_of(job.forces) != ".c3d")
+    return fail(Code::usage, "--between of a motion takes the events of a recording; need --forces FILE.c3d");
+  if (job.first_time_s > job.last_time_s)
+    return fail(Code::usage,
+                fmt::format("{:g} to {:g} s is no range of time", job.first_time_s, job.last_time_s));
+  std::vector<std::string> known;
+  for (const auto& definition : analysis::body_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& id : job.measures)
+    if (std::ranges::find(known, id) == known.end()) {
+      const auto nearest = nearest_names(id, known);
+      return fail(Code::usage,
+                  fmt::format("there is no measure '{}' of a motion{}; --list shows them all", id,
+                              nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+    }
+  return {};
+}
+
+Status unknown_coordinate(const std::string& name, const std::vector<std::string>& names) {
+  const auto nearest = nearest_names(name, names);
+  return fail(Code::usage, fmt::format("the model has no coordinate '{}' that moves by itself{}", name,
+                                       nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+}
+
+/// Coordinates that a name or a pattern stands for, among those that are measured.
+Result<std::vector<Eigen::Index>> coordinates_of(const std::string& text,
+                                                 const analysis::BodyRecord& record) {
+  std::vector<Eigen::Index> out;
+  std::vector<std::string> names;
+  for (Eigen::Index c = 0; c < record.size(); ++c) {
+    if (!record.measured[static_cast<std::size_t>(c)]) continue;
+    names.push_back(record.names[static_cast<std::size_t>(c)]);
+    if (matches_name_pattern(text, names.back())) out.push_back(c);
+  }
+  if (!out.empty()) return out;
+  return std::unexpected(unknown_coordinate(text, names).error());
+}
+
+Status choose(const MotionMeasuresJob& job, const analysis::BodyRecord& record,
+              analysis::BodyMeasureOptions& options) {
+  for (const auto& text : job.select) {
+    const auto some = coordinates_of(text, record);
+    if (!some) return std::unexpected(some.error());
+    options.coordinates.insert(options.coordinates.end(), some->begin(), some->end());
+  }
+  for (const auto& text : job.couple) {
+    const auto comma = text.find(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == text.size())
+      return fail(Code::usage, fmt::format("'{}' is not two coordinates: hip_flexion_r,knee_angle_r", text));
+    const auto a = coordinates_of(text.substr(0, comma), record);
+    if (!a) return std::unexpected(a.error());
+    const auto b = coordinates_of(text.substr(comma + 1), record);
+    if (!b) return std::unexpected(b.error());
+    if (a->size() != 1 || b->size() != 1 || a->front() == b->front())
+      return fail(Code::usage, fmt::format("'{}' is not two coordinates, one and another", text));
+    options.pairs.emplace_back(a->front(), b->front());
+  }
+  return {};
+}
+
+analysis::BodyStretch stretch_of(const data::Region& region, const TimeBase& time) {
+  return {.name = region.name,
+          .first = region.first_frame - time.first_number,
+          .count = region.last_frame - region.first_frame + 1};
+}
+
+/// Events of the recording on the motion's clock: its own, or those of its feet where a label has none.
+Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionMeasuresOutcome& out) {
+  auto input = read_marker_input({.path = job.forces, .needs_samples = true});
+  if (!input) return std::unexpected(input.error());
+  auto& trial = input->trial;
+  const auto two = [&](const std::string& label) {
+    return std::ranges::count(trial.events, label, &data::Event::label) > 1;
+  };
+  if (!std::ranges::all_of(job.between, two)) {
+    if (auto gait = measure_gait(job.forces, trial, {.refits = 0})) {
+      trial = with_events(std::move(trial), *gait);
+      out.warnings.push_back(
+          fmt::format("the events of feet are those that were found in {}", job.forces.filename().string()));
+    }
+  }
+  return std::move(trial.events);
+}
+
+/// Stretches between events: "Foot Strike Left 2" is cycle 1 of the left.
+Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, MotionMeasuresOutcome& out,
+                  std::vector<analysis::BodyStretch>& stretches) {
+  auto events = events_of(job, out);
+  if (!events) return std::unexpected(events.error());
+  data::Trial clock;
+  clock.markers.time = time;
+  clock.events = std::move(*events);
+  for (const auto& label : job.between) {
+    const auto cycles = regions_between(label, clock);
+    if (!cycles) return fail_at(job.forces.string(), cycles.error());
+    std::size_t outside = 0;
+    for (const auto& region : *cycles) {
+      auto stretch = stretch_of(region, time);
+      const std::string rest = region.name.substr(label.size() + 1);
+      const auto space = rest.rfind(' ');
+      if (space != std::string::npos) stretch.context = rest.substr(0, space);
+      const auto number = space == std::string::npos ? rest : rest.substr(space + 1);
+      std::from_chars(number.data(), number.data() + number.size(), stretch.cycle);
+      stretch.cycle -= 1;
+      if (stretch.first < 0 || stretch.first + stretch.count > time.frames)
+        ++outside;
+      else
+        stretches.push_back(std::move(stretch));
+    }
+    if (outside == cycles->size())
+      return fail(Code::bad_input, fmt::format("{}: no stretch between events '{}' lies within the motion",
+                                               job.forces.string(), label));
+    if (outside > 0)
+      out.warnings.push_back(
+          fmt::format("{} of {} stretches between events '{}' reach beyond the motion and "
+                      "are left out",
+                      outside, cycles->size(), label));
+  }
+  return {};
+}
+
+Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob& job, const TimeBase& time,
+                                                        MotionMeasuresOutcome& out) {
+  std::vector<analysis::BodyStretch> stretches;
+  for (const auto& text : job.regions) {
+    const auto region = parse_region(text, time);
+    if (!region) return std::unexpected(region.error());
+    stretches.push_back(stretch_of(*region, time));
+    const auto& one = stretches.back();
+    if (one.first < 0 || one.count < 1 || one.first + one.count > time.frames)
+      return fail(Code::bad_input, fmt::format("region '{}' is not within the {} rows of the motion",
+                                               region->name, time.frames));
+  }
+  if (!job.between.empty())
+    if (auto s = add_cycles(job, time, out, stretches); !s) return std::unexpected(s.error());
+  if (!stretches.empty()) return stretches;
+  const auto last = static_cast<double>(time.frames - 1);
+  const double begin = std::clamp((job.first_time_s - time.t0_s) * time.rate_hz, 0.0, last),
+               end = std::clamp((job.last_time_s - time.t0_s) * time.rate_hz, 0.0, last);
+  const auto first = static_cast<std::int64_t>(std::ceil(begin - 1e-3));
+  stretches.push_back(
+      {.first = first, .count = static_cast<std::int64_t>(std::floor(end + 1e-3)) - first + 1});
+  return stretches;
+}
+
+Status add_inputs(const char* role, const std::vector<std::filesystem::path>& paths,
+                  MotionMeasuresOutcome& out) {
+  for (const auto& path : paths) {
+    auto record = record_input(role, path);
+    if (!record) return std::unexpected(record.error());
+    out.inputs.push_back(std::move(*record));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) {
+  if (auto s = check(job); !s) return std::unexpected(s.error());
+  std::vector<std::filesystem::path> targets;
+  if (!job.output.empty()) targets.push_back(job.output);
+  auto staging = Staging::create(targets, job.force, {job.motion, job.model, job.forces});
+  if (!staging) return std::unexpected(staging.error());
+  MotionMeasuresOutcome out;
+  auto description = io::read_osim(job.model);
+  if (!description) return std::unexpected(description.error());
+  if (auto s = add_inputs("model", {job.model}, out); !s) return std::unexpected(s.error());
+  const auto model = model::Model::compile(std::move(*description));
+  if (!model) return fail_at(job.model.string(), model.error());
+  auto read = read_rated_motion(job.motion, *model, job.cutoff_hz);
+  if (!read) return std::unexpected(read.error());
+  read->motion.time.first_number = 1;
+  std::ranges::move(read->inputs, std::back_inserter(out.inputs));
+  std::ranges::move(read->notes, std::back_inserter(out.warnings));
+  auto input = body_input(*model, *read, job.forces, job.torques, job.threads);
+  if (!input) return std::unexpected(input.error());
+  std::ranges::move(input->notes, std::back_inserter(out.warnings));
+  if (auto s = add_inputs("forces", input->files, out); !s) return std::unexpected(s.error());
+  analysis::BodyMeasureOptions options{.measures = job.measures,
+                                       .normalized = job.normalize,
+                                       .refits = job.refits,
+                                       .level = job.level,
+                                       .seed = job.seed,
+                                       .threads = job.threads};
+  if (job.cutoff_hz > 0.0 && job.refits > 0) {
+    options.refits = 0;
+    out.warnings.push_back(
+        fmt::format("coordinates were low-passed at {:g} Hz: what that leaves of their noise "
+                    "is not known, and there are no intervals",
+                    job.cutoff_hz));
+  }
+  if (auto s = choose(job, input->record, options); !s) return std::unexpected(s.error());
+  auto stretches = stretches_of(job, read->motion.time, out);
+  if (!stretches) return std::unexpected(stretches.error());
+  options.stretches = std::move(*stretches);
+  auto measured = analysis::measure_body(input->record, input->mechanics, options);
+  if (!measured)
+    return measured.error().code == Code::usage ? std::unexpected(measured.error())
+                                                : fail_at(job.motion.string(), measured.error());
+  out.measures = std::move(measured->measures);
+  std::ranges::move(measured->notes, std::back_inserter(out.warnings));
+  if (out.measures.empty())
+    return fail(Code::bad_input, fmt::format("{}: nothing of what is asked for can be measured; torques need "
+                                             "--forces or --torques, coupling needs --couple",
+                                             job.motion.string()));
+  if (job.output.empty()) return out;
+  const bool table = ending_of(job.output) == ".csv";
+  const auto file =
+      table
+          ? text_file(job.output, [&] { return measures_csv(out.measures, job.motion.filename().string()); })
+          : json_file(job.output, [&] { return motion_measures_json(out); });
+  auto written = write_results(*staging, {file}, {}, "the measures");
+  if (!written) return std::unexpected(written.error());
+  out.written = std::move(*written);
+  return out;
+}
+
+nlohmann::ordered_json motion_measures_json(const MotionMeasuresOutcome& outcome) {
+  nlohmann::ordered_json out;
+  out["inputs"] = nlohmann::ordered_json::array();
+  for (const auto& input : outcome.inputs)
+    out["inputs"].push_back(
+        {{"role", input.role}, {"path", input.path}, {"bytes", input.bytes}, {input.hash_kind, input.hash}});
+  out["measures"] = measures_json(outcome.measures);
+  out["written"] = nlohmann::ordered_json::array();
+  for (const auto& path : outcome.written) out["written"].push_back(path.string());
+  out["warnings"] = outcome.warnings;
+  return out;
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/body/motion_measures_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/motion/ik_job.h"
+#include "kinemark/pipeline/testing/recorded_test.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// The coordinates that a simulated subject had.
+class RunMotionMeasures : public testing::RecordedTest<IkJob> {
+ protected:
+  static MotionMeasuresJob measuring(const std::string& motion = "in/truth.mot") {
+    MotionMeasuresJob job;
+    job.motion = at(motion);
+    job.model = at("in/model.osim");
+    job.refits = 0;
+    return job;
+  }
+  static Error refused(const MotionMeasuresJob& job) {
+    const auto outcome = run_motion_measures(job);
+    return outcome ? Error{} : outcome.error();
+  }
+  static const data::Measure* find(const MotionMeasuresOutcome& outcome, const std::string& id,
+                                   const std::string& subject) {
+    const auto at = std::ranges::find_if(outcome.measures,
+                                         [&](const auto& m) { return m.id == id && m.subject == subject; });
+    return at == outcome.measures.end() ? nullptr : &*at;
+  }
+};
+
+TEST_F(RunMotionMeasures, RangesAreThoseOfTheMotion) {
+  const auto outcome = run_motion_measures(measuring());
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto table = io::read_table(at("in/truth.mot")).value();
+  const auto column = table.find("knee_angle_r");
+  const auto* range = find(*outcome, "joint_range", "knee_angle_r");
+  ASSERT_NE(range, nullptr);
+  double low = INFINITY, high = -INFINITY;
+  for (std::int64_t r = 0; r < table.rows(); ++r) {
+    const double t = table.time_s[static_cast<std::size_t>(r)];
+    if (t < range->start_s - 1e-6 || t > range->end_s + 1e-6) continue;
+    low = std::min(low, table(r, column));
+    high = std::max(high, table(r, column));
+  }
+  EXPECT_GT(range->start_s, table.time_s[3]) << "the ends are not measured";
+  EXPECT_NEAR(range->value * 180.0 / M_PI, high - low, 0.05 * (high - low));
+  EXPECT_NE(find(*outcome, "com_speed", "whole body"), nullptr);
+  EXPECT_NE(find(*outcome, "angular_momentum_peak", "whole body"), nullptr);
+  EXPECT_EQ(find(*outcome, "joint_work_net", "knee_angle_r"), nullptr) << "no torques were asked for";
+  for (const auto& m : outcome->measures) EXPECT_TRUE(m.validate()) << m.id;
+}
+
+TEST_F(RunMotionMeasures, IntervalsOfAnIkMotionAndItsFiles) {
+  ASSERT_TRUE(run_ik(IkJob(this->job("Q.mot"))));
+  auto job = measuring("Q.mot");
+  job.refits = 39;
+  job.select = {"knee_angle_r", "ankle*_r"};
+  job.couple = {"hip_flexion_r,knee_angle_r"};
+  job.measures = {"joint_range", "phase_locking"};
+  job.output = at("m.csv");
+  const auto outcome = run_motion_measures(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->measures.size(), 3u);
+  const auto& knee = outcome->measures[0];
+  EXPECT_EQ(knee.subject, "knee_angle_r");
+  EXPECT_EQ(knee.interval.kind, data::IntervalKind::two_sided) << knee.remark;
+  const auto truth = run_motion_measures(measuring());
+  const auto* exact = find(*truth, "joint_range", "knee_angle_r");
+  EXPECT_LT(std::abs(knee.value - exact->value), 4.0 * knee.sd + 0.01);
+  const auto text = io::read_text(at("m.csv")).value();
+  EXPECT_THAT(text, HasSubstr("file,subject,context,region,cycle"));
+  EXPECT_THAT(text, HasSubstr("Q.mot,hip_flexion_r and knee_angle_r,"));
+  EXPECT_EQ(outcome->inputs.size(), 3u) << "model, motion, deviations";
+  const auto json = motion_measures_json(*outcome);
+  EXPECT_EQ(json["measures"].size(), 3u);
+  EXPECT_EQ(json["inputs"][0]["role"], "model");
+}
+
+TEST_F(RunMotionMeasures, TorquesGiveWorkAndRegionsAreRows) {
+  auto job = measuring();
+  job.torques = true;
+  job.select = {"knee_angle_r"};
+  job.measures = {"joint_work_positive", "joint_moment_maximum"};
+  job.regions = {"a=11-20", "b=9-22"};
+  const auto outcome = run_motion_measures(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->measures.size(), 4u);
+  EXPECT_EQ(outcome->measures[0].region, "a");
+  EXPECT_DOUBLE_EQ(outcome->measures[0].start_s, io::read_table(at("in/truth.mot")).value().time_s[10]);
+  EXPECT_GE(outcome->measures[1].value, 0.0);
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("torques are without force plates")));
+  job.normalize = true;
+  const auto per_mass = run_motion_measures(job);
+  EXPECT_EQ(per_mass->measures[0].quantity, data::Quantity::moment_per_mass);
+  EXPECT_LT(std::abs(per_mass->measures[0].value), std::abs(outcome->measures[0].value));
+}
+
+TEST_F(RunMotionMeasures, LowPassedCoordinatesHaveNoIntervals) {
+  auto job = measuring();
+  job.refits = 39;
+  job.cutoff_hz = 6.0;
+  job.measures = {"joint_range"};
+  const auto outcome = run_motion_measures(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("low-passed at 6 Hz")));
+  EXPECT_EQ(outcome->measures[0].interval.kind, data::IntervalKind::none);
+}
+
+TEST_F(RunMotionMeasures, RefusesInOneSentence) {
+  auto job = measuring();
+  job.measures = {"joint_rang"};
+  EXPECT_THAT(refused(job).message, HasSubstr("no measure 'joint_rang' of a motion (nearest: joint_range"));
+  job = measuring();
+  job.select = {"knee_angel_r"};
+  EXPECT_THAT(refused(job).message,
+              HasSubstr("no coordinate 'knee_angel_r' that moves by itself (nearest: "));
+  EXPECT_EQ(refused(job).code, Code::usage);
+  job = measuring();
+  job.couple = {"knee_angle_r"};
+  EXPECT_THAT(refused(job).message, HasSubstr("'knee_angle_r' is not two coordinates"));
+  job.couple = {"knee_angle_r,knee_angle_r"};
+  EXPECT_THAT(refused(job).message, HasSubstr("one and another"));
+  job = measuring();
+  job.between = {"Foot Strike"};
+  EXPECT_THAT(refused(job).message, HasSubstr("need --forces FILE.c3d"));
+  job = measuring();
+  job.regions = {"a=1-99999"};
+  EXPECT_THAT(refused(job).message, HasSubstr("region 'a' is not within the"));
+  EXPECT_EQ(refused(job).code, Code::bad_input);
+  job = measuring();
+  job.output = at("m.txt");
+  EXPECT_EQ(refused(job).code, Code::usage);
+  job = measuring();
+  job.measures = {"joint_work_net"};
+  EXPECT_THAT(refused(job).message, HasSubstr("torques need --forces or --torques"));
+  job = measuring();
+  job.model.clear();
+  EXPECT_EQ(refused(job).message, "no model: give --model");
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/emg_request.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Two seconds of four channels at ten samples a frame: a plate's, two of muscles in mV, a switch.
+data::Trial muscles() {
+  data::Trial trial;
+  trial.markers.time = {.rate_hz = 100.0, .t0_s = 1.0, .frames = 200, .first_number = 101};
+  auto& analog = trial.analog;
+  analog.names = {"Fz1", "LSOL", "RSOL", "Switch"};
+  analog.units = {"V", "mV", "mV", "V"};
+  analog.rate_hz = 1000.0;
+  analog.samples = 2000;
+  Random random(1, 0);
+  for (int s = 0; s < 2000; ++s)
+    for (int c = 0; c < 4; ++c) analog.values.push_back(random.gaussian());
+  trial.force_plates.push_back({.type = 1, .channel_idx = {0}});
+  return trial;
+}
+
+std::vector<std::size_t> which(const data::Trial& trial, const EmgRequest& request = {}) {
+  return emg_channels(trial, request).value();
+}
+
+TEST(EmgRequest, ChannelsAreFoundByName) {
+  auto trial = muscles();
+  EXPECT_THAT(which(trial), ElementsAre(1, 2)) << "soleus";
+  trial.analog.names[3] = "my EMG 1";
+  EXPECT_THAT(which(trial), ElementsAre(3)) << "what is called EMG goes before what sounds like a muscle";
+  trial.analog.units[3] = "N";
+  EXPECT_THAT(which(trial), ElementsAre(1, 2)) << "a force is no EMG";
+  EXPECT_THAT(which(trial, {.channels = {"RSOL", "*SOL"}}), ElementsAre(2, 1));
+  EXPECT_THAT(emg_channels(trial, {.channels = {"RSQL"}}).error().message,
+              HasSubstr("no analog channel 'RSQL' (nearest: RSOL"));
+}
+
+TEST(EmgRequest, ValuesAreVoltsAndStretchesThoseOfTheFrames) {
+  const auto trial = muscles();
+  const auto out =
+      measure_emg_of(trial, {}, {{.name = "Foot Strike Left 2", .first_frame = 151, .last_frame = 200}},
+                     {.measures = {"emg_rms"}, .refits = 0})
+          .value();
+  ASSERT_EQ(out.measures.size(), 2u);
+  const auto& rms = out.measures[0];
+  EXPECT_EQ(rms.subject, "LSOL");
+  EXPECT_EQ(rms.context, "Left");
+  EXPECT_EQ(rms.cycle, 1);
+  EXPECT_NEAR(rms.start_s, 1.5, 1e-9);
+  EXPECT_NEAR(rms.end_s, 1.999, 1e-9);
+  EXPECT_GT(rms.uncorrected, 1e-4);
+  EXPECT_LT(rms.uncorrected, 1.5e-3) << "millivolts";
+}
+
+TEST(EmgRequest, EnvelopesAreWrittenAtTheFrames) {
+  const auto trial = muscles();
+  const EmgRequest request{.maximum = "trial"};
+  const auto out = measure_emg_of(trial, request, {}, {.refits = 0}).value();
+  const auto table = envelope_table(trial, out, true);
+  EXPECT_TRUE(table.validate());
+  EXPECT_EQ(table.rows(), 200);
+  EXPECT_THAT(table.columns, ElementsAre("LSOL", "RSOL"));
+  EXPECT_DOUBLE_EQ(table.time_s[0], 1.0);
+  double most = 0.0;
+  for (const double v : table.values) most = std::max(most, v);
+  EXPECT_NEAR(most, 100.0, 1.0);
+  const auto csv = envelope_csv(table);
+  EXPECT_THAT(csv, ::testing::StartsWith("time_s,LSOL,RSOL\n1.000000,"));
+  const std::vector<analysis::GaitCycle> cycles{{.side = data::Side::left, .start_s = 1.2, .end_s = 2.2},
+                                                {.side = data::Side::right, .start_s = 1.5, .end_s = 2.5}};
+  const auto curves = envelope_cycles(trial, out, cycles, true);
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_EQ(curves[0].id, "LSOL");
+  EXPECT_EQ(curves[0].context, "Left");
+  EXPECT_EQ(curves[1].context, "Right");
+  EXPECT_EQ(curves[0].points, 101);
+}
+
+TEST(EmgRequest, RefusesInOneSentence) {
+  EXPECT_TRUE(EmgRequest{}.check());
+  EXPECT_FALSE(EmgRequest{}.wanted());
+  EXPECT_THAT((EmgRequest{.write = "a.txt"}.check().error().message), HasSubstr("written as .sto or .csv"));
+  EXPECT_THAT((EmgRequest{.write_cycles = "a.sto"}.check().error().message), HasSubstr("written as .csv"));
+  EXPECT_EQ((EmgRequest{.envelope = {.low_pass_hz = 5.0}}.check().error().code), Code::usage);
+  auto trial = muscles();
+  trial.analog.names = {"a", "b", "c", "d"};
+  EXPECT_THAT(measure_emg_of(trial, {}, {}, {}).error().message, HasSubstr("name them with --emg"));
+  EXPECT_EQ(
+      measure_emg_of(trial, {.channels = {"b"}, .maximum = "/nowhere.c3d"}, {}, {.refits = 0}).error().code,
+      Code::io);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
