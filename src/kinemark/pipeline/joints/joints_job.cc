@@ -31,8 +31,10 @@ namespace fs = std::filesystem;
 /// Screening looks for breaks of paths. Where so large a share of samples breaks them there are no paths: the
 /// frames are poses of their own.
 constexpr double kMostDefects = 0.05;
-// Times what is expected of a body. Noise hardly changes from the first geometry to the last; reach does.
+// Times what is expected of a body. Noise and distances hardly change from the first geometry to the last;
+// reach does.
 constexpr double kHopelessNoise = 1.5;
+constexpr double kHopelessChange = 1.1;
 constexpr double kHopelessReach = 3.0;
 constexpr std::size_t kDefectsListed = 5;
 
@@ -84,8 +86,10 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
   return {};
 }
 
+/// `refined`: even what is none of a body's. Else its first geometry may be returned as it is; `refined` then
+/// becomes false.
 Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& markers,
-                                const data::SegmentLayout& layout, JointsOutcome& outcome) {
+                                const data::SegmentLayout& layout, bool& refined, JointsOutcome& outcome) {
   if (job.method == "articulated") {
     skeleton::ArticulatedOptions options;
     options.noise_sd_m = job.noise_sd_m;
@@ -93,12 +97,15 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
     options.soft_tissue = job.soft_tissue;
     options.joint = job.kind;
     options.threads = job.threads;
-    // Far beyond what judge_skeleton() takes for a body's: the fit need not go on.
-    constexpr skeleton::PlausibilityOptions body;
-    options.most_noise_m = kHopelessNoise * body.most_noise_m;
-    options.most_reach_m = kHopelessReach * body.most_length_m;
+    if (!refined) {  // beyond what judge_skeleton() takes for a body's the fit need not go on
+      constexpr skeleton::PlausibilityOptions body;
+      options.most_noise_m = kHopelessNoise * body.most_noise_m;
+      options.most_reach_m = kHopelessReach * body.most_length_m;
+      options.most_change_m = kHopelessChange * body.most_noise_m;
+    }
     auto fit = skeleton::fit_articulated(markers, layout, options, job.progress);
     if (!fit) return std::unexpected(fit.error());
+    refined = fit->refined;
     if (!job.soft_tissue) return std::move(fit->skeleton);
     auto& noise = outcome.marker_noise_sd_m;
     noise.resize(fit->marker_noise_sd_m.size(), kNaN);
@@ -106,6 +113,7 @@ Result<data::Skeleton> estimate(const JointsJob& job, const data::Trajectories& 
       if (std::isfinite(fit->marker_noise_sd_m[m])) noise[m] = fit->marker_noise_sd_m[m];
     return std::move(fit->skeleton);
   }
+  refined = true;
   skeleton::FunctionalOptions options;
   options.method = skeleton::parse_functional_method(job.method).value();
   options.sides = job.sides;
@@ -168,7 +176,13 @@ Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, 
   outcome.layout = {};
   for (std::size_t next = 0; next < waiting.size(); ++next) {
     data::SegmentLayout layout = std::move(waiting[next]);
-    auto found = estimate(job, markers, layout, outcome);
+    bool refined = false;
+    auto found = estimate(job, markers, layout, refined, outcome);
+    // What was taken for none of a body's is judged one by the whole recording.
+    if (found && !refined && skeleton::judge_skeleton(markers, *found).empty()) {
+      refined = true;
+      found = estimate(job, markers, layout, refined, outcome);
+    }
     if (!found) {
       if (found.error().code != Code::bad_input) return std::unexpected(found.error());
       if (first) first = std::unexpected(with_left_out(outcome, found.error()));

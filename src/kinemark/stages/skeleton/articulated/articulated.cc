@@ -75,6 +75,7 @@ ChainFitOptions fit_options(const Work& w) {
   out.marker_noise = w.options.soft_tissue;
   out.most_noise_m = w.options.most_noise_m;
   out.most_reach_m = w.options.most_reach_m;
+  out.most_change_m = w.options.most_change_m;
   out.threads = w.options.threads;
   if (!w.options.kinds.empty())
     for (const int s : w.tree.segment_order) out.kind.push_back(w.options.kinds[at(s)]);
@@ -321,6 +322,7 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
 ArticulatedFit assemble(const Work& w) {
   ArticulatedFit out;
   data::Skeleton& skeleton = out.skeleton;
+  out.refined = w.fit.refined;
   const auto J = static_cast<int>(w.layout.joints.size());
   skeleton.markers = w.markers.names;
   skeleton.time = w.markers.time;
@@ -371,11 +373,11 @@ Status ArticulatedOptions::check() const {
     return fail(Code::usage, fmt::format("noise is {} m; need 0 (estimated) or more", noise_sd_m));
   if (max_fit_frames < 20)
     return fail(Code::usage, fmt::format("{} frames for the geometry; need 20 or more", max_fit_frames));
-  if (!(most_noise_m > 0.0) || !(most_reach_m > 0.0))
+  if (!(most_noise_m > 0.0) || !(most_reach_m > 0.0) || !(most_change_m > 0.0))
     return fail(Code::usage,
-                fmt::format("bounds of a first geometry are {} m of noise and {} m of reach; need "
-                            "more than 0",
-                            most_noise_m, most_reach_m));
+                fmt::format("bounds of a first geometry are {} m of noise, {} m of reach and {} m of change; "
+                            "need more than 0",
+                            most_noise_m, most_reach_m, most_change_m));
   if (!std::isfinite(max_bridge_sd_m) || max_bridge_sd_m <= 0.0)
     return fail(Code::usage, fmt::format("largest bridged SD is {} m; need more than 0", max_bridge_sd_m));
   if (threads < 0) return fail(Code::usage, fmt::format("{} threads; need 0 (all cores) or more", threads));

@@ -33,6 +33,8 @@ struct ArticulatedOptions {
   double most_noise_m = std::numeric_limits<double>::infinity();
   /// > 0; the same for one with a joint farther from the nearest marker of one of its segments.
   double most_reach_m = std::numeric_limits<double>::infinity();
+  /// > 0; the same for one with a joint whose distance from a marker of its segments changes by more (RMS).
+  double most_change_m = std::numeric_limits<double>::infinity();
   double max_bridge_sd_m = 0.02;  ///< > 0; a centre known worse (root of the trace) is not bridged
   int threads = 1;                ///< 0: all cores. Any number gives the same bits.
 
@@ -54,6 +56,7 @@ struct ArticulatedFit {
   /// Noise of each marker, M, per axis, m: the same for all but with soft_tissue. NaN: not in the layout, or
   /// left out.
   std::vector<double> marker_noise_sd_m;
+  bool refined = true;  ///< false: a first geometry beyond the bounds of the options was returned as it was
 };
 
 /// Centres of all joints of `layout` in every frame, their covariances, and what can be known of them.

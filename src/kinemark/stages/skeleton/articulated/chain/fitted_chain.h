@@ -31,6 +31,7 @@ struct FittedChain {
   /// Chi-square by which the best mirrored geometry is worse: below about 10 the mirror ambiguity is not
   /// resolved.
   double mirror_margin = std::numeric_limits<double>::infinity();
+  bool refined = true;  ///< false: the first geometry was so far from a body that it was left as it was
   std::vector<std::string> warnings;
 
   /// Joint j in the axes of its parent or child: covariance, m^2, defined up to the gauge (segment axes held

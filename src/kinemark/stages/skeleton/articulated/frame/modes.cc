@@ -95,7 +95,7 @@ int ModeFinder::find(PoseSolver& solver, const double* x, double sigma_m, const 
                      int iterations, std::vector<ChainMode>& modes) {
   count_ = 0;
   const double same_m = 0.2 * sigma_m + kSame;
-  starts_.find(solver, x);
+  starts_.find(solver, x, sigma_m);
   if (extra != nullptr) refine(solver, *extra, same_m, iterations, modes);
   for (const ChainPose& start : starts_.poses()) refine(solver, start, same_m, iterations, modes);
   if (count_ == 0) return 0;

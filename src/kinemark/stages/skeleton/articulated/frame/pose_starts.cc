@@ -28,7 +28,7 @@ Matrix3d rotation_with_z(const Vector3d& d) {
 }  // namespace
 
 PoseStarts::PoseStarts(const Chain& chain)
-    : chain_(&chain), done_(chain.segments()), origin_(chain.segments()) {}
+    : chain_(&chain), done_(chain.segments()), wanted_(chain.segments()), origin_(chain.segments()) {}
 
 ChainPose& PoseStarts::next() {
   if (count_ == static_cast<int>(poses_.size())) poses_.emplace_back();
@@ -187,7 +187,7 @@ void PoseStarts::two_lines(const PoseSolver& solver) {
   }
 }
 
-void PoseStarts::find(const PoseSolver& solver, const double* x) {
+void PoseStarts::find(const PoseSolver& solver, const double* x, double sigma_m) {
   const Chain& c = *chain_;
   count_ = 0;
   if (solver.sums().seen == 0) return;
@@ -195,8 +195,23 @@ void PoseStarts::find(const PoseSolver& solver, const double* x) {
     two_lines(solver);
     return;
   }
-  for (int s = 0; s < c.segments(); ++s) anchor(solver, s);
-  for (int j = 0; j < c.joints(); ++j) trilaterate(solver, x, j);
+  const auto open = [&](int joint) {
+    return c.joints() == 1 ||
+           (!solver.shows_pose(c.layout.parent[joint], sigma_m) && !solver.shows_pose(joint + 1, sigma_m));
+  };
+  std::fill(wanted_.begin(), wanted_.end(), char{0});
+  int shown = -1;
+  for (int s = 0; s < c.segments(); ++s) {
+    const auto seen = [&](int segment) { return solver.sums().segment[segment].seen; };
+    if (solver.shows_pose(s, sigma_m) && (shown < 0 || seen(s) > seen(shown))) shown = s;
+  }
+  if (shown >= 0) wanted_[shown] = 1;
+  for (int j = 0; j < c.joints(); ++j)
+    if (open(j)) wanted_[c.layout.parent[j]] = wanted_[j + 1] = 1;
+  for (int s = 0; s < c.segments(); ++s)
+    if (wanted_[s] != 0) anchor(solver, s);
+  for (int j = 0; j < c.joints(); ++j)
+    if (open(j)) trilaterate(solver, x, j);
   if (count_ > 0) return;
   // One marker in all, or one on each of two segments far apart: anything that is a pose.
   ChainPose& pose = next();

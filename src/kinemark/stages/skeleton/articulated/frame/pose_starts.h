@@ -18,8 +18,10 @@ class PoseStarts {
   /// All starts: the rigid pose of each segment, the same rotated by half a turn about the long axis of its
   /// seen markers, and two trilaterations of every joint from the markers of its two segments, on either side
   /// of their plane; the other segments follow joint by joint. Two lines: the two starts that their
-  /// likelihood gives in closed form, which are enough.
-  void find(const PoseSolver& solver, const double* x);
+  /// likelihood gives in closed form, which are enough. In longer chains a joint beside a segment that shows
+  /// its pose beside noise of `sigma_m` has one position: starts are those of the other joints and their
+  /// segments, and the rigid pose of that segment alone which shows most markers of those that show theirs.
+  void find(const PoseSolver& solver, const double* x, double sigma_m);
   [[nodiscard]] std::span<const ChainPose> poses() const {
     return {poses_.data(), static_cast<std::size_t>(count_)};
   }
@@ -45,7 +47,7 @@ class PoseStarts {
 
   const Chain* chain_;
   std::vector<ChainPose> poses_;
-  std::vector<char> done_;
+  std::vector<char> done_, wanted_;
   std::vector<Vector3d> origin_;
   int count_ = 0;
 };

@@ -47,7 +47,7 @@ std::vector<double> start_costs(const Chain& chain, const double* x) {
   PoseSolver solver(chain);
   solver.set(x);
   PoseStarts starts(chain);
-  starts.find(solver, x);
+  starts.find(solver, x, 0.003);
   std::vector<double> costs;
   for (const ChainPose& pose : starts.poses()) costs.push_back(solver.cost(pose));
   std::sort(costs.begin(), costs.end());
@@ -63,6 +63,23 @@ TEST(PoseStarts, OneOfThemIsThePoseItselfOnExactData) {
       EXPECT_LT(costs.front(), 1e-12) << data::to_string(kind) << ' ' << f;
     }
   }
+}
+
+TEST(PoseStarts, OfLongChainsAreThoseOfJointsThatNoSegmentShows) {
+  RandomChain limb = make_random_chain({.segments = 4, .frames = 1, .noise_sd_m = 0.0});
+  PoseSolver solver(limb.chain);
+  PoseStarts starts(limb.chain);
+  const auto count = [&](double sigma_m) {
+    solver.set(limb.samples.frame(0));
+    starts.find(solver, limb.samples.frame(0), sigma_m);
+    return starts.poses().size();
+  };
+  // A rigid pose and its half turn; of joints in doubt two trilaterations, of segments with two markers four
+  // rotations.
+  EXPECT_EQ(count(1e-4), 2U);
+  EXPECT_EQ(count(1.0), 4U * 2 + 3 * 2) << "beside this noise no segment shows its pose";
+  for (const int segment : {2, 3}) hide(limb.samples, 0, limb.chain.layout.markers_of(segment).front());
+  EXPECT_EQ(count(1e-4), 2U + 4 + 4 + 2);
 }
 
 TEST(PoseStarts, MoveWithTheLab) {

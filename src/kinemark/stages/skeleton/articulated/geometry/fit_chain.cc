@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "kinemark/stages/skeleton/articulated/geometry/bootstrap.h"
 #include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
 #include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
+#include "kinemark/stages/skeleton/articulated/geometry/joint_figures.h"
 #include "kinemark/stages/skeleton/articulated/geometry/mirror_ambiguity.h"
 #include "kinemark/stages/skeleton/articulated/geometry/segment_kind.h"
 #include "kinemark/stages/skeleton/articulated/geometry/segment_shape.h"
@@ -35,6 +38,10 @@ constexpr int kReplicates = 3;
 constexpr std::int64_t kFollowed = 256;    // frames that one thread follows from a cold start
 constexpr std::size_t kFirstFrames = 400;  // enough for a first geometry, which further rounds refine
 constexpr double kMirrorClear = 10.0;      // chi-square between a geometry and its mirror image
+// A fit is done once a step changes chi-square by no more: a thirtieth of an SD, or a third in fits that
+// others follow.
+constexpr int kRoughSteps = 6;  // of a fit, until its noise is about known
+constexpr double kLeastGain = 1e-3, kLeastGainBefore = 0.1;
 
 Status check_options(const ChainSamples& samples, const ChainLayout& layout, const ChainFitOptions& options) {
   check(samples.markers == layout.markers(), "one segment a marker");
@@ -72,27 +79,28 @@ std::vector<int> drop_loose_markers(ChainSamples& samples, const ChainLayout& la
   return dropped;
 }
 
-// Frames whose joints are all determined, with their poses.
-PosedFrames determined_frames(const ChainSamples& samples, const FittedChain& fit, int threads) {
-  std::vector<std::optional<ChainPose>> poses(at(samples.frames));
-  parallel_for(samples.frames, kFollowed, threads, [&](std::int64_t begin, std::int64_t end) {
+// Those of `frames` whose joints are all determined, with their poses.
+PosedFrames determined_frames(const ChainSamples& samples, const std::vector<std::int64_t>& frames,
+                              const FittedChain& fit, int threads) {
+  std::vector<std::optional<ChainPose>> poses(frames.size());
+  parallel_for(std::ssize(frames), kFollowed, threads, [&](std::int64_t begin, std::int64_t end) {
     ChainSolver solver(fit);
     ChainFrame frame;
     ChainPose last;
-    for (std::int64_t f = begin; f < end; ++f) {
-      solver.solve(samples.frame(f), last.rotation.empty() ? nullptr : &last, frame);
+    for (std::int64_t i = begin; i < end; ++i) {
+      solver.solve(samples.frame(frames[at(i)]), last.rotation.empty() ? nullptr : &last, frame);
       if (frame.mode_count == 0) continue;
       last = frame.modes[0].pose;
       const bool all = std::all_of(frame.state.begin(), frame.state.end(),
                                    [](CentreState s) { return s == CentreState::determined; });
-      if (all && !frame.gathered) poses[at(f)] = last;
+      if (all && !frame.gathered) poses[at(i)] = last;
     }
   });
   PosedFrames out;
-  for (std::int64_t f = 0; f < samples.frames; ++f) {
-    if (!poses[at(f)]) continue;
-    out.frame.push_back(f);
-    out.pose.push_back(std::move(*poses[at(f)]));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!poses[i]) continue;
+    out.frame.push_back(frames[i]);
+    out.pose.push_back(std::move(*poses[i]));
     out.weight.push_back(fit.marker_weight);
   }
   return out;
@@ -106,40 +114,39 @@ std::vector<std::int64_t> draw(const std::vector<std::int64_t>& frames, std::siz
   return out;
 }
 
-// Distance of a joint from the nearest marker of the segment that it is farther from; infinite where it is no
-// number.
-double reach_of(const Chain& chain, int joint) {
-  double reach = 0.0;
-  for (const bool in_parent : {true, false}) {
-    const Vector3d at = in_parent ? Vector3d(chain.joint.col(joint)) : Vector3d(Vector3d::Zero());
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const int k : chain.layout.markers_of(in_parent ? chain.layout.parent[joint] : joint + 1))
-      if (const double d = (chain.marker.col(k) - at).norm(); d < nearest) nearest = d;
-    reach = std::max(reach, nearest);
+bool is_hopeless(const FittedChain& fit, const ChainSamples& samples, const PosedFrames& frames,
+                 const ChainFitOptions& options) {
+  double reach = 0.0, change = 0.0;
+  for (int j = 0; j < fit.chain.joints(); ++j) {
+    reach = std::max(reach, reach_of(fit.chain, j));
+    if (std::isfinite(options.most_change_m))
+      change = std::max(change, distance_change(fit.chain, samples, frames, j));
   }
-  return reach;
-}
-
-bool is_hopeless(const FittedChain& fit, const ChainFitOptions& options) {
-  double reach = 0.0;
-  for (int j = 0; j < fit.chain.joints(); ++j) reach = std::max(reach, reach_of(fit.chain, j));
-  return !(fit.noise_sd_m <= options.most_noise_m && reach <= options.most_reach_m);
+  return !(fit.noise_sd_m <= options.most_noise_m && reach <= options.most_reach_m &&
+           change <= options.most_change_m);
 }
 
 class Rounds {
  public:
   Rounds(const ChainSamples& samples, const ChainFitOptions& options, FittedChain& fit)
-      : samples_(samples), options_(options), fit_(fit) {}
+      : samples_(samples), options_(options), fit_(fit), measured_(options.noise_sd_m > 0.0) {}
 
   // Geometry, noise and covariance from `frames`.
   void fit(PosedFrames& frames, bool last) {
     GeometryFit geometry(fit_.chain, samples_, frames, fit_.noise_sd_m, options_.threads);
-    double cost = geometry.run(30);
+    const auto done = [&](bool followed) {
+      return [this, least = followed || !last ? kLeastGainBefore : kLeastGain](int, double gain_m2) {
+        return gain_m2 < least * fit_.noise_sd_m * fit_.noise_sd_m;
+      };
+    };
+    const bool robust = options_.robust_dof > 0.0;
+    if (!measured_) measure_noise(geometry, geometry.run(kRoughSteps));
+    double cost = geometry.run(30, {}, done(robust));
     measure_noise(geometry, cost);
-    if (options_.robust_dof > 0.0) {
-      for (int round = 0; round < 2; ++round) {
+    if (robust) {
+      for (const bool followed : {true, false}) {
         geometry.reweigh(fit_.marker_weight, options_.robust_dof, fit_.noise_sd_m);
-        cost = geometry.run(10);
+        cost = geometry.run(followed ? 10 : 30, {}, done(followed));
       }
       measure_noise(geometry, cost);
     }
@@ -151,7 +158,7 @@ class Rounds {
             fit_.marker_weight[k] = std::clamp(fit_.marker_weight[k] / ratio[k], 0.01, 100.0);
         }
         for (auto& weight : frames.weight) weight = fit_.marker_weight;
-        cost = geometry.run(10);
+        cost = geometry.run(10, {}, done(round < 2));
         measure_noise(geometry, cost);
       }
     }
@@ -167,7 +174,7 @@ class Rounds {
         cost = geometry.run(15, extra_gradient);
         measure_noise(geometry, cost);
         // No joint comes back from where no body has one.
-        if (is_hopeless(fit_, options_)) break;
+        if (is_hopeless(fit_, samples_, frames, options_)) break;
       }
     }
     fit_.geometry_covariance = fit_.noise_sd_m * fit_.noise_sd_m * geometry.covariance(fit_.noise_sd_m);
@@ -206,11 +213,13 @@ class Rounds {
     if (options_.noise_sd_m > 0.0) return;
     fit_.noise_sd_m = std::max(std::sqrt(cost / std::max(geometry.degrees_of_freedom(), 1.0)), kLeastNoise);
     geometry.set_noise(fit_.noise_sd_m);
+    measured_ = true;
   }
 
   const ChainSamples& samples_;
   const ChainFitOptions& options_;
   FittedChain& fit_;
+  bool measured_ = false;
 };
 
 }  // namespace
@@ -259,6 +268,8 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
   const bool two_lines =
       fit.chain.segments() == 2 && kind[0] == SegmentKind::line && kind[1] == SegmentKind::line;
   const int count = two_lines ? 1 : std::max(options.rounds, 1);
+  std::vector<std::int64_t> all(at(drawn.frames));
+  std::iota(all.begin(), all.end(), 0);
   PosedFrames frames = pose(count > 1 ? draw(first, kFirstFrames) : first);
   for (int round = 0; round < count; ++round) {
     if (stopped()) return cancelled();
@@ -269,14 +280,20 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
       rounds.fit(frames, round + 1 == count);
     }
     if (round + 1 == count) break;
-    if (is_hopeless(fit, options)) {
+    if (is_hopeless(fit, drawn, frames, options)) {
+      fit.refined = false;
       fit.warnings.emplace_back(
           "The first geometry is so far from what is expected that it was not refined; its error bars are "
           "rough.");
       break;
     }
     if (stopped()) return cancelled();
-    PosedFrames next = determined_frames(drawn, fit, options.threads);
+    const auto determined = [&](std::size_t most) {
+      return determined_frames(drawn, draw(all, most), fit, options.threads);
+    };
+    PosedFrames next = determined(round + 2 == count ? all.size() : kFirstFrames);
+    if (next.size() < kFirstFrames / 2 && round + 2 < count && all.size() > kFirstFrames)
+      next = determined(all.size());
     if (next.size() < 20) {
       fit.warnings.emplace_back(
           "Fewer than 20 frames determine all joints by themselves; the geometry rests on the frames that "

@@ -28,6 +28,8 @@ struct ChainFitOptions {
   double most_noise_m = std::numeric_limits<double>::infinity();
   /// The same for a joint farther from the nearest marker of one of its segments.
   double most_reach_m = std::numeric_limits<double>::infinity();
+  /// The same for a joint whose distance from a marker of its segments changes by more (RMS).
+  double most_change_m = std::numeric_limits<double>::infinity();
   int threads = 1;  ///< 0: all cores. Any number gives the same bits.
 };
 

@@ -93,15 +93,18 @@ TEST(FitChain, AGeometryThatIsNoBodysIsNotRefined) {
       return true;
     });
     EXPECT_NEAR(fit->noise_sd_m, 0.01, 0.001);
+    EXPECT_EQ(fit->refined, fit->warnings.empty());
     said = std::ranges::any_of(fit->warnings, [](const auto& w) { return w.contains("was not refined"); });
     return asked;
   };
   const ChainFitOptions whole = of_kind(SegmentKind::solid);
-  ChainFitOptions loose = whole, noisy = whole, far = whole;
+  ChainFitOptions loose = whole, noisy = whole, far = whole, changing = whole;
   loose.most_noise_m = 0.02;
   loose.most_reach_m = 0.5;
+  loose.most_change_m = 0.1;
   noisy.most_noise_m = 0.005;
   far.most_reach_m = 0.01;
+  changing.most_change_m = 0.002;
   const int all = steps(whole);
   EXPECT_FALSE(said);
   EXPECT_EQ(steps(loose), all);
@@ -109,6 +112,8 @@ TEST(FitChain, AGeometryThatIsNoBodysIsNotRefined) {
   EXPECT_LT(steps(noisy), all);
   EXPECT_TRUE(said);
   EXPECT_LT(steps(far), all);
+  EXPECT_TRUE(said);
+  EXPECT_LT(steps(changing), all);
   EXPECT_TRUE(said);
 }
 

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/data/joint_choice.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
@@ -23,9 +24,11 @@ namespace {
 
 constexpr double kUnknownPosition = 1.0;  // m, SD of a parameter that no frame shows
 constexpr double kDifference = 1e-5;      // m, for derivatives of log det H
+constexpr double kPoseTolerance = 1e-9;   // of a frame's cost, of its pose's last step
 constexpr std::int64_t kChunk = 64;       // frames that one thread takes at a time
-constexpr double kShrinkage = 300.0;      // residuals' degrees of freedom that the common noise weighs
-constexpr double kHold =                  // information of a hold over that of the prior
+constexpr double kGrow = 5.0;         // of the damping after a step that failed; twice as much after another
+constexpr double kShrinkage = 300.0;  // residuals' degrees of freedom that the common noise weighs
+constexpr double kHold =              // information of a hold over that of the prior
     data::kJointPriorSd_m / kHingeHold_m * (data::kJointPriorSd_m / kHingeHold_m);
 
 Eigen::VectorXd geometry_of(const Chain& chain) {
@@ -62,6 +65,36 @@ GeometryFit::GeometryFit(Chain& chain, const ChainSamples& samples, PosedFrames&
                          int threads)
     : chain_(chain), samples_(samples), frames_(frames), solver_(chain), threads_(threads) {
   set_noise(sigma_m);
+  find_columns();
+}
+
+// A marker's parameters move with the rotations of its own segment and of those between joint 0 and it; a
+// joint's with those of all segments beyond it, whose markers it moves, and with theirs. Eliminating a
+// frame's pose from the leaves on keeps these zeros.
+void GeometryFit::find_columns() {
+  const Chain& c = chain_;
+  std::vector<std::vector<char>> moves(c.segments(),
+                                       std::vector<char>(c.segments(), 0));  // [q][s]: s moves q
+  for (int q = 0; q < c.segments(); ++q) {
+    moves[q][q] = 1;
+    for (const int j : c.joints_to(q)) moves[q][c.layout.parent[j]] = 1;
+  }
+  const auto sees = [&](int segment, const Chain::GeometryParameter& parameter) {
+    if (parameter.marker >= 0) return moves[parameter.segment][segment] != 0;
+    for (int q = 0; q < c.segments(); ++q) {
+      const auto& path = c.joints_to(q);
+      const bool beyond = std::find(path.begin(), path.end(), parameter.joint) != path.end();
+      if (beyond && moves[q][segment] != 0) return true;
+    }
+    return false;
+  };
+  const auto& parameters = c.geometry_parameters();
+  columns_.assign(c.segments() + 1, {});
+  for (std::size_t g = 0; g < parameters.size(); ++g) {
+    columns_[0].push_back(static_cast<Eigen::Index>(g));
+    for (int s = 0; s < c.segments(); ++s)
+      if (sees(s, parameters[g])) columns_[s + 1].push_back(static_cast<Eigen::Index>(g));
+  }
 }
 
 void GeometryFit::set_noise(double sigma_m) { prior_weight_ = std::pow(sigma_m / data::kJointPriorSd_m, 2); }
@@ -126,7 +159,7 @@ double GeometryFit::refine_all(const Chain& chain, std::vector<ChainPose>& poses
     PoseSolver solver(chain);
     for (std::int64_t i = begin; i < end; ++i) {
       solver.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
-      cost[i] = solver.refine(poses[i], {}, iterations, 1e-12);
+      cost[i] = solver.refine(poses[i], {}, iterations, kPoseTolerance);
     }
   });
   return std::accumulate(cost.begin(), cost.end(), 0.0);
@@ -141,6 +174,12 @@ void GeometryFit::accumulate(std::int64_t begin, std::int64_t end, bool keep, Pa
   Eigen::MatrixXd G;
   Eigen::VectorXd b;
   std::vector<Eigen::Index> rows;
+  const auto size = [&](std::size_t block) {
+    return block == 0 ? 3 : chain_.rotation_size(static_cast<int>(block) - 1);
+  };
+  std::vector<Eigen::MatrixXd> seen(columns_.size());  // U^-1 G of all frames, without its zeros
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    seen[k].setZero((end - begin) * size(k), std::ssize(columns_[k]));
   for (std::int64_t i = begin; i < end; ++i) {
     const double* x = samples_.frame(frames_.frame[i]);
     solver.set(x, frames_.weight[i]);
@@ -150,9 +189,25 @@ void GeometryFit::accumulate(std::int64_t begin, std::int64_t end, bool keep, Pa
     if (!cholesky_from_leaves(H, rows)) continue;
     for (Eigen::Index c = 0; c < n; ++c) solve_from_leaves(H, G.col(c));
     solve_from_leaves(H, b);
-    part.S.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose(), -1.0);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const int offset = k == 0 ? 0 : chain_.rotation_offset(static_cast<int>(k) - 1);
+      for (std::size_t c = 0; c < columns_[k].size(); ++c)
+        for (int r = 0; r < size(k); ++r)
+          seen[k]((i - begin) * size(k) + r, static_cast<Eigen::Index>(c)) = G(offset + r, columns_[k][c]);
+    }
     part.right.noalias() -= G.transpose() * b;
-    if (keep) eliminated_[i] = {.factor = H, .by_geometry = G, .right = b};
+    if (!keep) continue;
+    eliminated_[i].factor.swap(H);
+    eliminated_[i].by_geometry.swap(G);
+    eliminated_[i].right.swap(b);
+  }
+  Eigen::MatrixXd product;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    product.setZero(seen[k].cols(), seen[k].cols());
+    product.selfadjointView<Eigen::Lower>().rankUpdate(seen[k].transpose());
+    for (Eigen::Index c = 0; c < product.cols(); ++c)
+      for (Eigen::Index r = c; r < product.rows(); ++r)
+        part.S(columns_[k][at(r)], columns_[k][at(c)]) -= product(r, c);
   }
 }
 
@@ -180,7 +235,7 @@ double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient,
                         const std::function<bool(int round, double gain_m2)>& give_up) {
   const Eigen::Index n = static_cast<Eigen::Index>(chain_.geometry_parameters().size());
   double cost = refine_all(chain_, frames_.pose, 40) + prior_cost(chain_);
-  double lambda = 1e-6;
+  double lambda = 1e-6, grow = kGrow;
   Eigen::MatrixXd S;
   Eigen::VectorXd right;
   Chain trial = chain_;
@@ -221,11 +276,16 @@ double GeometryFit::run(int iterations, const Eigen::VectorXd& extra_gradient,
         chain_.joint = trial.joint;
         frames_.pose.swap(poses);
         cost = value;
-        lambda = std::max(lambda / 6.0, 1e-10);
+        // As far as the quadratic was right (as in PoseSolver::refine).
+        const double expected = step.dot(right) + lambda * mean * step.squaredNorm();
+        lambda *= std::max(1.0 / 6.0, 1.0 - std::pow(2.0 * gain / std::max(expected, gain) - 1.0, 3));
+        lambda = std::max(lambda, 1e-10);
+        grow = kGrow;
         better = true;
         break;
       }
-      lambda = std::max(5.0 * lambda, 1e-6);
+      lambda = std::max(grow * lambda, 1e-6);
+      grow *= 2.0;
     }
     if (!better || gain < 1e-9 * cost + 1e-20 || (give_up && give_up(round, gain))) break;
   }

@@ -77,6 +77,7 @@ class GeometryFit {
 
   double refine_all(const Chain& chain, std::vector<ChainPose>& poses, int iterations) const;
   void accumulate(std::int64_t begin, std::int64_t end, bool keep, Part& part);
+  void find_columns();
   void accumulate(Eigen::MatrixXd& S, Eigen::VectorXd& right, bool keep);
   void add_prior(Eigen::MatrixXd& S, Eigen::VectorXd& right) const;
   [[nodiscard]] double prior_cost(const Chain& chain) const;
@@ -101,6 +102,9 @@ class GeometryFit {
   PoseSolver solver_;
   int threads_;
   std::vector<Hold> holds_;
+  // Geometry parameters that a frame's parameters see, in order: first of its translation, then segment by
+  // segment of its rotation.
+  std::vector<std::vector<Eigen::Index>> columns_;
   double prior_weight_ = 0.0;           // (noise / kJointPriorSd_m)^2
   std::vector<Eliminated> eliminated_;  // frame by frame
 };

@@ -6,6 +6,11 @@
 #include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
 
 namespace kinemark::skeleton::articulated {
+namespace {
+
+constexpr double kHeldGain = 1e-3;  // chi-square of a fit's last step
+
+}  // namespace
 
 void hold_hinges(const ChainSamples& samples, const std::vector<HingeAxis>& hinges, FittedChain& fit) {
   for (const HingeAxis& hinge : hinges) {
@@ -18,10 +23,13 @@ void hold_hinges(const ChainSamples& samples, const std::vector<HingeAxis>& hing
   PosedFrames frames = first_poses(samples, fit.chain, fit.frames, fit.marker_weight, fit.noise_sd_m, 25);
   GeometryFit geometry(fit.chain, samples, frames, fit.noise_sd_m);
   geometry.hold(hinges);
-  geometry.run(20);
+  const auto done = [&](int, double gain_m2) {
+    return gain_m2 < kHeldGain * fit.noise_sd_m * fit.noise_sd_m;
+  };
+  geometry.run(20, {}, done);
   if (fit.robust_dof > 0.0) {
     geometry.reweigh(fit.marker_weight, fit.robust_dof, fit.noise_sd_m);
-    geometry.run(10);
+    geometry.run(10, {}, done);
   }
   fit.geometry_covariance =
       fit.geometry_covariance_scale * fit.noise_sd_m * fit.noise_sd_m * geometry.covariance(fit.noise_sd_m);

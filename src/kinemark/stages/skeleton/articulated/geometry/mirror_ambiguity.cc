@@ -17,6 +17,10 @@ using data::SegmentKind;
 
 constexpr std::size_t kMirrorFrames = 150;
 constexpr double kEnoughFrames = 40.0;
+constexpr int kFirstLook = 3, kSecondLook = 6;  // steps of a fit after which it may be given up
+constexpr double kGainsLeft = 100.0;            // a fit gains no more than so many times its last step
+constexpr double kLeastGain = 0.1;              // chi-square of a fit's last step
+constexpr double kFarWorse = 1000.0;            // chi-square above the best: no mirror image
 constexpr double kWideSd = 50.0;         // second extent of a segment's markers over the noise, chi-square
 constexpr double kRotatesEnough = 0.05;  // least eigenvalue over its largest possible value
 
@@ -91,13 +95,18 @@ bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, Fitted
   const double variance = fit.noise_sd_m * fit.noise_sd_m;
   bool taken = false;
   const double share = static_cast<double>(frames.size()) / static_cast<double>(n);
-  const auto refit = [&](Chain& chain, PosedFrames& poses) {
+  const auto refit = [&](Chain& chain, PosedFrames& poses, double best) {
     poses = first_poses(samples, chain, some, fit.marker_weight, fit.noise_sd_m, 15, threads);
-    return GeometryFit(chain, samples, poses, fit.noise_sd_m, threads).run(10);
+    GeometryFit geometry(chain, samples, poses, fit.noise_sd_m, threads);
+    return geometry.run(10, {}, [&](int round, double gain_m2) {
+      if (gain_m2 < kLeastGain * variance) return true;
+      if (round != kFirstLook && round != kSecondLook) return false;
+      return geometry.cost() - kGainsLeft * gain_m2 > best + kFarWorse * variance;
+    });
   };
   Chain best = fit.chain;
   PosedFrames best_poses;
-  double best_cost = refit(best, best_poses);
+  double best_cost = refit(best, best_poses, std::numeric_limits<double>::infinity());
   for (const int j : open) {
     const bool parent_solid = fit.chain.kind[fit.chain.layout.parent[j]] == SegmentKind::solid;
     const bool child_solid = fit.chain.kind[j + 1] == SegmentKind::solid;
@@ -107,7 +116,7 @@ bool try_mirrored(const ChainSamples& samples, const PosedFrames& frames, Fitted
       if ((which & 1) != 0) mirror_joint(mirrored, j, true);
       if ((which & 2) != 0) mirror_joint(mirrored, j, false);
       PosedFrames poses;
-      const double cost = refit(mirrored, poses);
+      const double cost = refit(mirrored, poses, best_cost);
       if (joint_distance(best, best_poses, mirrored, poses, j) < 2.0 * fit.noise_sd_m) continue;
       const double margin = share * (cost - best_cost) / variance;
       fit.mirror_margin = std::min(fit.mirror_margin, std::abs(margin));

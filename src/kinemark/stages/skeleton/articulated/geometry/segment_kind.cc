@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "kinemark/core/index.h"
+#include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
 #include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
 #include "kinemark/stages/skeleton/articulated/geometry/start_geometry.h"
 
@@ -25,9 +27,12 @@ constexpr double kLineBonus = 15.0;   // nats that another kind must be better t
 constexpr double kPlaneBonus = 3.0;   // nats that a solid must be better than a plane
 constexpr double kSurelyLine = 2.5;   // deviates of across_line()
 constexpr double kSurelyWide = 60.0;  // and of across_plane()
-constexpr int kFrames = 400;
+constexpr std::size_t kFrames = 400, kLeastFrames = 150;
+constexpr std::size_t kSegmentFrames = 2400;    // in all: of many segments fewer frames
 constexpr int kFirstLook = 3, kSecondLook = 8;  // steps of a fit after which it may be given up
 constexpr double kGainsLeft = 100.0;            // a fit gains no more than so many times its last step
+constexpr int kFirstSteps = 6;                  // of a fit, until its noise is about known
+constexpr double kLeastNats = 0.05;             // nats of a fit's last step
 
 /// Modified Bessel function I_0 by its power series, all of whose terms are positive: h from 0 to kFirm.
 /// (std::cyl_bessel_i is not in libc++.)
@@ -43,6 +48,7 @@ double bessel_i0(double h) {
 /// What is tried, and on which frames.
 struct Trial {
   const ChainSamples& samples;
+  const ChainSamples& some;  ///< of them, enough for shapes to begin from
   const ChainLayout& layout;
   std::vector<std::int64_t> frames;
   double sigma_m = 0.0;  ///< 0: that which the first fit leaves
@@ -54,7 +60,8 @@ struct Trial {
 };
 
 double Trial::evidence(const std::vector<SegmentKind>& kind, double needed) {
-  const auto start = start_geometry(samples, layout, kind, sigma_m);
+  auto start = start_geometry(some, layout, kind, sigma_m);
+  if (!start || !start->marker.allFinite()) start = start_geometry(samples, layout, kind, sigma_m);
   if (!start) return kNever;
   Chain chain = *start;
   const std::vector<double> weights(chain.markers(), 1.0);
@@ -62,13 +69,19 @@ double Trial::evidence(const std::vector<SegmentKind>& kind, double needed) {
       first_poses(samples, chain, frames, weights, sigma_m > 0.0 ? sigma_m : 1e-3, 15, threads);
   if (poses.size() < 5) return kNever;
   GeometryFit fit(chain, samples, poses, 0.0, threads);
-  const auto hopeless = [&](int round, double gain_m2) {
-    if (!(sigma_m > 0.0) || (round != kFirstLook && round != kSecondLook)) return false;
-    const double reach = kGainsLeft * gain_m2 / (2.0 * sigma_m * sigma_m);
+  const auto done = [&](int round, double gain_m2) {
+    if (!(sigma_m > 0.0)) return false;
+    const double gain = gain_m2 / (2.0 * sigma_m * sigma_m);
+    if (gain < kLeastNats) return true;
+    if (round != kFirstLook && round != kSecondLook) return false;
+    const double reach = kGainsLeft * gain;
     return log_evidence(chain, samples, poses, sigma_m) + reach < needed;
   };
-  const double cost = fit.run(20, {}, hopeless);
-  if (!(sigma_m > 0.0)) sigma_m = std::sqrt(cost / std::max(fit.degrees_of_freedom(), 1.0));
+  const auto noise = [&](double cost) { return std::sqrt(cost / std::max(fit.degrees_of_freedom(), 1.0)); };
+  const bool unknown = !(sigma_m > 0.0);
+  if (unknown) sigma_m = noise(fit.run(kFirstSteps));
+  const double cost = fit.run(20, {}, done);
+  if (unknown) sigma_m = noise(cost);
   return sigma_m > 0.0 ? log_evidence(chain, samples, poses, sigma_m) : kNever;
 }
 
@@ -77,8 +90,9 @@ double Trial::evidence(const std::vector<SegmentKind>& kind, double needed) {
 double log_evidence(const Chain& chain, const ChainSamples& samples, const PosedFrames& frames,
                     double sigma_m) {
   PoseSolver solver(chain);
-  Eigen::MatrixXd H;
+  Eigen::MatrixXd H, firm;
   Eigen::VectorXd b;
+  std::vector<Eigen::Index> rows;
   const double variance = sigma_m * sigma_m;
   double evidence = 0.0;
   double seen = 0.0;
@@ -87,11 +101,19 @@ double log_evidence(const Chain& chain, const ChainSamples& samples, const Posed
     solver.normal(frames.pose[i], {}, false, H, b);
     seen += solver.sums().seen;
     evidence -= solver.cost(frames.pose[i]) / (2.0 * variance);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H / variance, Eigen::EigenvaluesOnly);
-    for (const double value : eigen.eigenvalues()) {
-      const double h = std::max(value, 1e-12);
+    H /= variance;
+    firm = H;
+    firm.diagonal().array() -= kFirm;
+    if (cholesky_from_leaves(firm, rows) && cholesky_from_leaves(H, rows)) {  // all eigenvalues above kFirm
       evidence +=
-          h > kFirm ? 0.5 * std::log(2.0 * kPi / h) : std::log(2.0 * kPi * bessel_i0(h) * std::exp(-h));
+          0.5 * static_cast<double>(H.rows()) * std::log(2.0 * kPi) - H.diagonal().array().log().sum();
+    } else {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H, Eigen::EigenvaluesOnly);
+      for (const double value : eigen.eigenvalues()) {
+        const double h = std::max(value, 1e-12);
+        evidence +=
+            h > kFirm ? 0.5 * std::log(2.0 * kPi / h) : std::log(2.0 * kPi * bessel_i0(h) * std::exp(-h));
+      }
     }
     for (const SegmentKind kind : chain.kind) {
       evidence -= kind == SegmentKind::line ? std::log(4.0 * kPi) : std::log(8.0 * kPi * kPi);
@@ -153,7 +175,14 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
     general[s] = points >= 4 ? SegmentKind::solid : points == 3 ? SegmentKind::plane : SegmentKind::line;
     allowed[s].push_back(general[s]);
   }
-  Trial trial{.samples = samples, .layout = layout, .frames = {}, .sigma_m = sigma_m, .threads = threads};
+  std::vector<std::int64_t> kept;
+  const ChainSamples thinned = thin_out(samples, kFrames, kept);
+  Trial trial{.samples = samples,
+              .some = thinned,
+              .layout = layout,
+              .frames = {},
+              .sigma_m = sigma_m,
+              .threads = threads};
   auto& frames = trial.frames;
   {
     auto start = start_geometry(samples, layout, general, sigma_m);
@@ -172,7 +201,8 @@ Result<std::vector<SegmentKind>> choose_kinds(const ChainSamples& samples, const
     }
     frames = first_frames(samples, *start);
     std::vector<std::int64_t> some;
-    const std::size_t take = std::min<std::size_t>(frames.size(), kFrames);
+    const std::size_t most = std::clamp(kSegmentFrames / at(segments), kLeastFrames, kFrames);
+    const std::size_t take = std::min(frames.size(), most);
     for (std::size_t i = 0; i < take; ++i) some.push_back(frames[i * frames.size() / take]);
     frames.swap(some);
   }
