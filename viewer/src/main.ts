@@ -30,14 +30,30 @@ async function show(page: HTMLElement, data: AnyPage): Promise<void> {
   document.title = `${data.summary.trial} · kinemark report`;
   const base = baseOf(location.pathname);
   if (isMarkers(data) && data.editing !== undefined && !("refused" in data.editing) && base !== null) {
-    await new EditedPage(new Channel(base), data.editing, (content) => put(page, content, `kinemark ${data.summary.version} shows the recording with its edits, and talks to nobody but the program on this machine.`)).draw(data);
+    await new EditedPage(new Channel(base), data.editing, (content) => {
+      // Where people have scrolled to is found again on a page that is there as a whole.
+      lay(page, content, `kinemark ${data.summary.version} shows the recording with its edits, and talks to nobody but the program on this machine.`);
+      for (const run of content.later ?? []) run();
+    }).draw(data);
     return;
   }
   const foot = isLive(data) ? `kinemark ${data.summary.version}. This page talks with its own server alone.` : `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`;
-  put(page, isLive(data) ? livePage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data), foot);
+  const content = isLive(data) ? livePage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
+  lay(page, content, foot);
+  for (const run of content.later ?? []) {
+    await painted();
+    run();
+  }
 }
 
-function put(page: HTMLElement, content: Content, foot: string): void {
+/** When the browser has had the time to show what was drawn; soon where nobody looks at the page. */
+const painted = (): Promise<void> =>
+  new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, 250);
+  });
+
+function lay(page: HTMLElement, content: Content, foot: string): void {
   const [section, words] = content.skip;
   page.replaceChildren(
     el("a", { class: "skip", href: `#${section}` }, words),
@@ -47,7 +63,6 @@ function put(page: HTMLElement, content: Content, foot: string): void {
     el("footer", {}, foot),
   );
   content.start();
-  document.documentElement.dataset["ready"] = "yes";
 }
 
 const page = document.getElementById("page")!;
@@ -55,6 +70,7 @@ try {
   const data = JSON.parse(document.getElementById("kinemark-data")!.textContent) as AnyPage | null;
   if (data === null) throw new Error("this page holds no data; kinemark report makes one that does");
   await show(page, data);
+  document.documentElement.dataset["ready"] = "yes";
 } catch (error) {
   page.replaceChildren(
     el("p", { class: "broken", role: "alert" }, `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`),

@@ -25,7 +25,7 @@ export class LiveWindow {
     this.scene = {
       points, frameStep, firstFrame: 0, rateHz: rate_hz, names, up: summary.up, upFrom: summary.up_from, isMain: areComputed(names).map((c) => !c),
       time: new Float64Array(points), markers: { x: new Float32Array(3 * names.length * points), states }, worst: states,
-      before: null, model: null, plates: [], forces: [], bodies: null, skeleton: null, cameras: [], ...(summary.extent_m === null ? {} : { extent: summary.extent_m }),
+      before: null, model: null, plates: [], forces: [], bodies: null, skeleton: null, cameras: [], changes: true, ...(summary.extent_m === null ? {} : { extent: summary.extent_m }),
     };
   }
 

@@ -32,6 +32,7 @@ export function cleanPage(data: CleanPageData): Content {
   const others = { legend: "as it came in", switch: "Before" };
   const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
   const plots = [cleanGaps(trial, view), cleanMarker(trial, view, show)] as const;
+  const [first, ...rest] = [...inSpace, ...plots];
   const table = cleanTable(summary, view);
   return {
     skip: ["markers", "Skip to the markers"],
@@ -62,7 +63,8 @@ export function cleanPage(data: CleanPageData): Content {
       recording(summary, show),
       settings(summary, [["Gaps", summary.gap_method], ["Filter", summary.filter_method]], summary.clean_s),
     ],
-    start: () => [...inSpace, ...plots].forEach((p) => p.start()),
+    start: () => first!.start(),
+    later: rest.map((p) => p.start),
   };
 }
 

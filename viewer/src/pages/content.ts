@@ -10,6 +10,8 @@ export interface Content {
   sections: HTMLElement[];
   /** Called once all of it is on the page: plots take the width of their boxes. */
   start: () => void;
+  /** Called after that one by one, so that what begins first is seen before all else is drawn. */
+  later?: readonly (() => void)[];
   /** Called when something else takes its place. */
   stop?: () => void;
 }

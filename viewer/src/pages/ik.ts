@@ -56,6 +56,7 @@ export async function ikPage(data: PageData): Promise<Content> {
       worstFrames(summary, view),
       settings(summary, [["Method", summary.method]], summary.solve_s),
     ],
-    start: () => plots.forEach((p) => p.start()),
+    start: () => plots[0]!.start(),
+    later: plots.slice(1).map((p) => p.start),
   };
 }

@@ -4,7 +4,8 @@ import { columnRange, firstAtOrAfter, nearest, worstCode } from "../downsample.t
 import { el, fitCanvas } from "../dom.ts";
 import { seconds } from "../format.ts";
 import { onThemeChange, palette } from "../theme.ts";
-import type { View } from "../view.ts";
+import type { TimeRange, View } from "../view.ts";
+import { TimeLine } from "./time_line.ts";
 
 /** What the codes of a row mean: the worse, the larger; 0 is as it should be. */
 export interface MapKind {
@@ -47,7 +48,7 @@ export class GapMap {
   ) {
     this.#rows = rows;
     this.#layOut();
-    box.append(this.canvas);
+    box.append(this.canvas, this.#pointed.node, this.#asked.node);
     this.canvas.addEventListener("mousemove", (e) => this.#point(e));
     this.canvas.addEventListener("mouseleave", () => {
       this.readout.textContent = "";
@@ -59,8 +60,15 @@ export class GapMap {
     });
     new ResizeObserver(() => this.draw()).observe(box);
     onThemeChange(() => this.draw());
-    view.onChange(() => this.draw());
+    view.onChange(() => {
+      if (view.range === this.#drawn[0] && view.marker === this.#drawn[1]) this.#putLines();
+      else this.draw();
+    });
   }
+
+  readonly #pointed = new TimeLine("pointed");
+  readonly #asked = new TimeLine("asked");
+  #drawn: [range: TimeRange | null, marker: number] = [null, -1];
 
   /** Show other rows of the same recording. */
   setRows(rows: readonly MapRow[]): void {
@@ -115,8 +123,8 @@ export class GapMap {
     });
     pen.globalAlpha = 1;
     this.#axis(pen, height);
-    this.#line(pen, this.view.pointer, height, palette().muted);
-    this.#line(pen, this.view.focus, height, palette().focus);
+    this.#drawn = [this.view.range, this.view.marker];
+    this.#putLines();
   }
 
   #strip(
@@ -172,11 +180,11 @@ export class GapMap {
     }
   }
 
-  #line(pen: CanvasRenderingContext2D, time: number | null, height: number, colour: string): void {
+  #putLines(): void {
     const [from, to] = this.view.range;
-    if (time === null || time < from || time > to) return;
-    const x = this.#gutter + ((time - from) / (to - from)) * (this.#width - this.#gutter);
-    pen.fillStyle = colour;
-    pen.fillRect(Math.round(x), 0, 1, height - 20);
+    const place = (time: number | null): number | null =>
+      time === null || time < from || time > to ? null : Math.round(this.#gutter + ((time - from) / (to - from)) * (this.#width - this.#gutter));
+    this.#pointed.put(place(this.view.pointer));
+    this.#asked.put(place(this.view.focus));
   }
 }

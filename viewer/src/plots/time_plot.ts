@@ -6,8 +6,9 @@ import { el } from "../dom.ts";
 import { number } from "../format.ts";
 import { fileName, save } from "../save.ts";
 import { hatch, onThemeChange, palette } from "../theme.ts";
-import type { View } from "../view.ts";
+import type { TimeRange, View } from "../view.ts";
 import { figureCsv, figureSvg, type Figure } from "./figure.ts";
+import { TimeLine } from "./time_line.ts";
 
 export interface TimePlotOptions {
   label: string;
@@ -72,7 +73,7 @@ export class TimePlot {
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
       hooks: {
         drawClear: [(u) => this.#drawHatched(u, options.hatched()), (u) => this.#drawStretch(u)],
-        draw: [(u) => this.#drawFocus(u), (u) => this.#drawLevels(u, options.levels?.() ?? [])],
+        draw: [() => this.#putFocus(), (u) => this.#drawLevels(u, options.levels?.() ?? [])],
         setSelect: [
           (u) => {
             if (u.select.width < 3) return;
@@ -93,6 +94,7 @@ export class TimePlot {
       },
     };
     this.plot = new uPlot(config, undefined, box);
+    this.plot.over.append(this.#focus.node);
     this.plot.root.setAttribute("role", "img");
     this.plot.root.setAttribute("aria-label", options.label);
     this.plot.over.addEventListener("dblclick", () => view.set({ range: view.whole, focus: null }));
@@ -117,6 +119,8 @@ export class TimePlot {
   readonly #unit: () => string;
   readonly #precision: (() => Precision) | undefined;
   readonly #held = el("small", { class: "held" });
+  readonly #focus = new TimeLine("asked");
+  #stretch: TimeRange | null = null;
 
   /** Buttons that save what is drawn. */
   #tools(options: TimePlotOptions): HTMLElement {
@@ -179,10 +183,12 @@ export class TimePlot {
   }
 
   #follow(): void {
-    const { range, pointer } = this.#view;
+    const { range, pointer, stretch } = this.#view;
     const { min, max } = this.plot.scales["x"]!;
     if (min !== range[0] || max !== range[1]) this.plot.setScale("x", { min: range[0], max: range[1] });
-    else this.plot.redraw(false, false);
+    else if (stretch !== this.#stretch) this.plot.redraw(false, false);
+    else this.#putFocus();
+    this.#stretch = stretch;
     if (!this.plot.root.matches(":hover")) {
       const left = pointer === null || pointer < range[0] || pointer > range[1] ? -10 : this.plot.valToPos(pointer, "x");
       this.plot.setCursor({ left, top: left < 0 ? -10 : 0 }, false);
@@ -234,21 +240,9 @@ export class TimePlot {
     }
   }
 
-  #drawFocus(u: uPlot): void {
-    const { focus } = this.#view;
-    if (focus === null) return;
-    const { ctx, bbox } = u;
-    const x = Math.round(u.valToPos(focus, "x", true));
-    if (x < bbox.left || x > bbox.left + bbox.width) return;
-    ctx.save();
-    ctx.strokeStyle = palette().focus;
-    ctx.lineWidth = window.devicePixelRatio;
-    ctx.setLineDash([5 * window.devicePixelRatio, 4 * window.devicePixelRatio]);
-    ctx.beginPath();
-    ctx.moveTo(x, bbox.top);
-    ctx.lineTo(x, bbox.top + bbox.height);
-    ctx.stroke();
-    ctx.restore();
+  #putFocus(): void {
+    const { focus, range } = this.#view;
+    this.#focus.put(focus === null || focus < range[0] || focus > range[1] ? null : this.plot.valToPos(focus, "x"));
   }
 }
 

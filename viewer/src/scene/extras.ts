@@ -46,9 +46,9 @@ export class Extras {
     this.#scene = scene;
     const joints = scene.skeleton?.names.length ?? 0;
     this.#links = new Kind(stage, new CylinderGeometry(1, 1, 1, 12, 1, true), new MeshLambertMaterial(), scene.skeleton?.links.length ?? 0);
-    this.#bodies = new Kind(stage, new SphereGeometry(1, 20, 14), new MeshLambertMaterial({ transparent: true, opacity: 0.5, depthWrite: false }), scene.bodies?.names.length ?? 0, 1);
+    this.#bodies = new Kind(stage, new SphereGeometry(1, 20, 14), new MeshLambertMaterial({ transparent: true, opacity: 0.5, depthWrite: false }), scene.bodies?.names.length ?? 0, { order: 1 });
     this.#centres = new Kind(stage, new SphereGeometry(1, 16, 11), new MeshLambertMaterial(), joints);
-    this.#regions = new Kind(stage, new SphereGeometry(1, 24, 16), new MeshLambertMaterial({ transparent: true, opacity: 0.38, depthWrite: false }), joints, 3);
+    this.#regions = new Kind(stage, new SphereGeometry(1, 24, 16), new MeshLambertMaterial({ transparent: true, opacity: 0.38, depthWrite: false }), joints, { order: 3 });
     const lines = (dashed = false): LineSegments => {
       const made = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: dashed, opacity: dashed ? 0.45 : 1 }));
       made.frustumCulled = false;
@@ -62,8 +62,7 @@ export class Extras {
     this.#sheet = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.16, depthWrite: false }));
     this.#sheet.frustumCulled = false;
     stage.add(this.#sheet);
-    this.#axes = new Kind(stage, new CylinderGeometry(1, 1, 1, 8, 1, true), new MeshBasicMaterial(), 3);
-    this.#axes.mesh.setColorAt(0, new Color());
+    this.#axes = new Kind(stage, new CylinderGeometry(1, 1, 1, 8, 1, true), new MeshBasicMaterial(), 3, { coloured: true });
     set(this.#cameras, scene.cameras.filter((c) => !c.nominal).flatMap(frustum));
     set(this.#nominal, scene.cameras.filter((c) => c.nominal).flatMap(frustum));
   }

@@ -83,6 +83,8 @@ export interface Scene {
   cameras: CameraPlace[];
   /** Smallest and largest coordinates where they are known beforehand, m. */
   extent?: [low: Vec, high: Vec];
+  /** Its samples change while it is shown. */
+  changes?: boolean;
 }
 
 /** What a scene has to know of its recording. */
@@ -189,26 +191,38 @@ export function pointAt(scene: Pick<Scene, "points" | "frameStep" | "rateHz" | "
   return Math.min(Math.max(0, scene.points - 1), Math.max(0, point));
 }
 
-/** Smallest and largest coordinates of what is there; about `share` of the samples on each side are left out. */
+const known = new WeakMap<Scene, Map<number, [low: Vec, high: Vec]>>();
+
+/** Smallest and largest coordinates of what is there; about `share` of the samples on each side are left out. Reckoned once, where samples do not change. */
 export function bounds(scene: Scene, share = 0.005): [low: Vec, high: Vec] {
   if (scene.extent !== undefined) return scene.extent;
+  if (scene.changes === true) return reckonBounds(scene, share);
+  const shares = known.get(scene) ?? new Map<number, [Vec, Vec]>();
+  known.set(scene, shares);
+  const found = shares.get(share) ?? reckonBounds(scene, share);
+  shares.set(share, found);
+  return found;
+}
+
+function reckonBounds(scene: Scene, share: number): [low: Vec, high: Vec] {
   const { points, markers, names } = scene;
-  const stride = Math.max(1, Math.floor((points * names.length) / 60_000));
+  const stride = Math.max(1, Math.floor((points * names.length) / 20_000));
   const low: Vec = [0, 0, 0];
   const high: Vec = [0, 0, 0];
   const all = !scene.isMain.includes(true);
+  const values = new Float32Array(names.length * Math.ceil(points / stride));
   for (const axis of [0, 1, 2] as const) {
-    const values: number[] = [];
+    let count = 0;
     for (let m = 0; m < names.length; ++m) {
       if (!all && !scene.isMain[m]) continue;
       for (let p = 0; p < points; p += stride) {
-        if (isThere(markers, points, m, p)) values.push(markers.x[(3 * m + axis) * points + p]!);
+        if (isThere(markers, points, m, p)) values[count++] = markers.x[(3 * m + axis) * points + p]!;
       }
     }
-    values.sort((a, b) => a - b);
-    const cut = Math.floor(share * values.length);
+    const there = values.subarray(0, count).sort();
+    const cut = Math.floor(share * count);
     const lenses = scene.cameras.map((c) => c.centre[axis]);
-    const ends = [...(values.length > 0 ? [values[cut]!, values[values.length - 1 - cut]!] : []), ...lenses];
+    const ends = [...(count > 0 ? [there[cut]!, there[count - 1 - cut]!] : []), ...lenses];
     low[axis] = ends.length > 0 ? Math.min(...ends) : -0.5;
     high[axis] = ends.length > 0 ? Math.max(...ends) : 0.5;
   }

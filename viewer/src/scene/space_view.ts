@@ -27,8 +27,10 @@ import { metresPerPixel, poseOf, project, fieldOfView, type Camera, type Pose } 
 import { floorLines, floorOf, type Floor } from "./floor.ts";
 import type { Plane } from "./plane.ts";
 import { at, bounds, type Scene } from "./scene.ts";
+import { isDrawnByProcessor } from "./drawn_by.ts";
 import { Extras } from "./extras.ts";
 import { Kind } from "./kind.ts";
+import { Ribbons } from "./ribbons.ts";
 import { arrowHead, stateShapes } from "./shapes.ts";
 import type { Stick } from "./sticks.ts";
 import { firstAbsent } from "../states.ts";
@@ -37,6 +39,9 @@ import { add, cross, dot, length, scaled, sub, unit, type Vec } from "./vec.ts";
 /** Metres of an arrow for a newton. */
 export const metresPerNewton = 1 / 1000;
 const mostTrail = 3000;
+/** What stood still for so long, ms, is drawn with so many pixels a side of a pixel of the page where the processor draws. */
+const stillAfter = 160;
+const smoothRatio = 2;
 
 /** What the picture shows besides the scene. */
 export interface Look {
@@ -75,7 +80,7 @@ export class SpaceView {
   readonly #sticks: Kind;
   readonly #shadows: Kind;
   readonly #stickShadows: Kind;
-  readonly #trails: Kind;
+  readonly #trails: Ribbons;
   readonly #shafts: Kind;
   readonly #heads: Kind;
   readonly #ring: Kind;
@@ -86,15 +91,23 @@ export class SpaceView {
   readonly floor: Floor;
   readonly #extras: Extras;
   readonly #reach: number;
+  /** A film is being made, of pictures that are as many pixels large and come as fast as can be. */
+  keepsSize = false;
+  /** The processor draws: edges are smooth in what stands still alone. */
+  readonly #isSlow: boolean;
   #width = 1;
   #height = 1;
+  #ratio = 1;
+  #drawnRatio = 0;
+  #still = 0;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
     readonly scene: Scene,
     readonly sticks: readonly Stick[],
   ) {
-    const context = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true, alpha: false });
+    this.#isSlow = isDrawnByProcessor();
+    const context = canvas.getContext("webgl2", { antialias: !this.#isSlow, preserveDrawingBuffer: true, alpha: false });
     if (context === null) throw new Error("no WebGL2");
     this.#renderer = new WebGLRenderer({ canvas, context });
     const M = scene.names.length;
@@ -115,14 +128,11 @@ export class SpaceView {
     );
     this.#others = new Kind(stage, new RingGeometry(0.72, 1, 24), plain(), M);
     this.#ties = new Kind(stage, rod(6), plain(), M);
-    const coloured = plain();
-    this.#trails = new Kind(stage, rod(4), coloured, mostTrail);
-    this.#trails.mesh.setColorAt(0, new Color());
+    this.#trails = new Ribbons(stage, mostTrail);
     this.#shafts = new Kind(stage, rod(14), lit(), scene.forces.length);
     this.#heads = new Kind(stage, arrowHead(), lit(), scene.forces.length);
-    this.#ring = new Kind(stage, new RingGeometry(1.55, 1.95, 32), plain(), 1, 5);
-    this.#axes = new Kind(stage, rod(8), plain(), 3);
-    this.#axes.mesh.setColorAt(0, new Color());
+    this.#ring = new Kind(stage, new RingGeometry(1.55, 1.95, 32), plain(), 1, { order: 5 });
+    this.#axes = new Kind(stage, rod(8), plain(), 3, { coloured: true });
     this.#layPlates();
     this.#extras = new Extras(stage, scene);
     const [low, high] = bounds(scene, 0);
@@ -132,8 +142,15 @@ export class SpaceView {
   resize(width: number, height: number, ratio = Math.min(2, Math.max(1, window.devicePixelRatio))): void {
     this.#width = width;
     this.#height = height;
+    this.#ratio = ratio;
+    this.#drawnRatio = 0;
+  }
+
+  #scale(ratio: number): void {
+    if (ratio === this.#drawnRatio) return;
+    this.#drawnRatio = ratio;
     this.#renderer.setPixelRatio(ratio);
-    this.#renderer.setSize(width, height, false);
+    this.#renderer.setSize(this.#width, this.#height, false);
   }
 
   /** Pixels of a place in the picture, and its depth. */
@@ -146,7 +163,29 @@ export class SpaceView {
     return this.#renderer.info.render.calls;
   }
 
+  /** Draw; where the processor does it, a picture that nothing follows is drawn once more with smooth edges. */
   draw(look: Look): void {
+    if (!this.#isSlow) {
+      this.drawSmooth(look);
+      return;
+    }
+    window.clearTimeout(this.#still);
+    this.#scale(1);
+    this.#draw(look);
+    this.canvas.dataset["still"] = "no";
+    if (this.keepsSize) return;
+    this.#still = window.setTimeout(() => this.drawSmooth(look), stillAfter);
+  }
+
+  /** Draw as a picture that is kept shall look. */
+  drawSmooth(look: Look): void {
+    window.clearTimeout(this.#still);
+    this.#scale(this.#isSlow ? smoothRatio : this.#ratio);
+    this.#draw(look);
+    this.canvas.dataset["still"] = "yes";
+  }
+
+  #draw(look: Look): void {
     const pose = poseOf(look.camera);
     this.#paint();
     const tint = this.#putMarkers(look, pose);
@@ -174,6 +213,7 @@ export class SpaceView {
 
   /** Give back what a browser has few of. */
   dispose(): void {
+    window.clearTimeout(this.#still);
     this.#renderer.dispose();
     this.#renderer.getContext().getExtension("WEBGL_lose_context")?.loseContext();
   }
@@ -293,17 +333,28 @@ export class SpaceView {
     const [from, to] = [Math.max(0, look.point - look.trail[0]), Math.min(points - 1, look.point + look.trail[1])];
     const [old, middle, recent] = palette().trail.map((c) => new Color(c)) as [Color, Color, Color];
     const colour = new Color();
-    const stride = Math.max(1, Math.ceil(((to - from) * look.trailOf.length) / mostTrail));
+    const sight = (x: Vec): Vec => (look.camera.perspective ? sub(x, pose.eye) : pose.forward);
+    const stride = Math.max(1, Math.ceil(((to - from + 1) * look.trailOf.length) / mostTrail));
     this.#trails.begin();
     for (const m of look.trailOf) {
-      for (let p = from; p + stride <= to; p += stride) {
-        if (markers.states[m * points + p]! >= firstAbsent || markers.states[m * points + p + stride]! >= firstAbsent) continue;
-        const share = (p - from) / Math.max(1, to - from);
-        if (share < 0.5) colour.lerpColors(old, middle, 2 * share);
-        else colour.lerpColors(middle, recent, 2 * share - 1);
-        const x = at(markers.x, points, m, p);
-        this.#trails.rod(x, at(markers.x, points, m, p + stride), 0.28 * this.#radius(look.camera, pose, x), colour);
+      const places: Vec[] = [];
+      const shares: number[] = [];
+      const end = (): void => {
+        this.#trails.path(places, sight, (x) => 0.28 * this.#radius(look.camera, pose, x), (i) => {
+          const share = shares[i]!;
+          return share < 0.5 ? colour.lerpColors(old, middle, 2 * share) : colour.lerpColors(middle, recent, 2 * share - 1);
+        });
+        places.length = shares.length = 0;
+      };
+      for (let p = from; p <= to; p += stride) {
+        if (markers.states[m * points + p]! >= firstAbsent) {
+          end();
+          continue;
+        }
+        places.push(at(markers.x, points, m, p));
+        shares.push((p - from) / Math.max(1, to - from));
       }
+      end();
     }
     this.#trails.end();
   }

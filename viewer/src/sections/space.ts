@@ -345,7 +345,8 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       draw();
     };
     new ResizeObserver(fit).observe(frame);
-    onThemeChange(() => draw());
+    // Paper does not wait for a smooth picture.
+    onThemeChange(() => picture?.drawSmooth(look()));
     listen();
     let [planeOfMarker, planeRange] = [view.marker, view.range];
     view.onChange(() => {
@@ -374,7 +375,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   }
 
   async function savePicture(): Promise<void> {
-    draw();
+    picture?.drawSmooth(look());
     const ratio = canvas.width / Math.max(1, canvas.clientWidth);
     const copy = el("canvas", { width: canvas.width, height: canvas.height });
     const pen = copy.getContext("2d")!;
@@ -401,6 +402,9 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   function beginFilm(): void {
     if (filming !== null) return void endFilm();
     setPlaying(false);
+    if (picture === null) return;
+    picture.keepsSize = true;
+    picture.draw(look());
     filming = film(canvas, 30);
     filmButton.textContent = "End film";
     point = 0;
@@ -413,6 +417,8 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     filming = null;
     setPlaying(false);
     filmButton.textContent = "Save film";
+    if (picture !== null) picture.keepsSize = false;
+    draw();
     if (done !== null) save(fileName(options.trial, "webm"), await done.finish());
   }
 

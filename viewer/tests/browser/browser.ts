@@ -80,11 +80,10 @@ export async function openAddress(url: string, may: (asked: string) => boolean, 
   };
 }
 
-/** Wait until the page has drawn what it was asked to draw. */
+/** Wait until the page has drawn what it was asked to draw, in space smoothly, unless that goes on. */
 export async function settle(page: Page): Promise<void> {
-  await page.evaluate(
-    () => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30)))),
-  );
+  await page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30)))));
+  for (let tries = 0; tries < 20 && (await page.locator('.space-canvas[data-still="no"]').count()) > 0; ++tries) await page.waitForTimeout(50);
 }
 
 export interface Ink {

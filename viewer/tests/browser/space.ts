@@ -104,7 +104,8 @@ export const alwaysOfMarkers: Record<string, Check> = {
   "play, scrub and step show the same instant in every plot": async ({ page }) => {
     const last = Number(await page.locator("#space .transport input[type=range]").getAttribute("max"));
     await goTo(page, Math.floor(last / 2));
-    const [space, curve, map] = [await ink(page, ".space-canvas"), await ink(page, "#plot-x canvas"), await ink(page, "#gap-map canvas")];
+    const lineIn = (box: string): Promise<number> => page.locator(`${box} .time-line.asked`).evaluate((node) => node.getBoundingClientRect().left);
+    const [space, curve, map] = [await ink(page, ".space-canvas"), await lineIn("#plot-x"), await lineIn("#gap-map")];
     const before = await pointOf(page);
     assert.equal(before, Math.floor(last / 2));
     await page.locator(".space-canvas").focus();
@@ -114,8 +115,8 @@ export const alwaysOfMarkers: Record<string, Check> = {
     await page.keyboard.press("Home");
     await settle(page);
     assert.equal(await pointOf(page), 0);
-    assert.notEqual((await ink(page, "#plot-x canvas")).hash, curve.hash, "the curves follow");
-    assert.notEqual((await ink(page, "#gap-map canvas")).hash, map.hash, "the map follows");
+    assert.ok((await lineIn("#plot-x")) < curve - 100, "the curves follow");
+    assert.ok((await lineIn("#gap-map")) < map - 100, "the map follows");
     await page.keyboard.press(" ");
     await page.waitForTimeout(400);
     await page.keyboard.press(" ");

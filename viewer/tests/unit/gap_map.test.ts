@@ -91,12 +91,21 @@ describe("GapMap", () => {
     expect(rects("c0").length).toBe(0);
     expect(rects("c1")[0]!.map(Math.round)).toEqual([gutter, 33 + 8, 568, 12]);
   });
-  it("marks the pointer and the time asked for, if they can be seen", () => {
-    const { view, drawn } = make();
+  it("marks the pointer and the time asked for, if they can be seen, without drawing anew", () => {
+    const { view, box, canvas } = make();
+    const [pointed, asked] = box.classed("time-line");
+    canvas.getContext().drawn = [];
     view.set({ pointer: 4.95, focus: 20 });
     nextFrame();
-    const lines = drawn().filter((d) => d.what === "rect" && d.numbers[1] === 0);
-    expect(lines.map((l) => l.numbers[0])).toEqual([x(0.5)]);
+    expect([pointed!.hidden, asked!.hidden]).toEqual([false, true]);
+    expect(pointed!.style["transform"]).toBe(`translateX(${x(0.5).toFixed(1)}px)`);
+    view.set({ pointer: null, focus: 9.9 });
+    nextFrame();
+    expect([pointed!.hidden, asked!.hidden]).toEqual([true, false]);
+    expect(canvas.getContext().drawn).toEqual([]);
+    view.set({ marker: 1 });
+    nextFrame();
+    expect(canvas.getContext().drawn.length).toBeGreaterThan(0);
   });
   it("keeps its time axis readable in a narrow window", () => {
     const { box, drawn, canvas } = make();

@@ -154,6 +154,14 @@ describe("the floor", () => {
     const onPlate = { ...sceneOf(["a"], 10, () => [0, 0, 1]), plates: [[[0, 0, 0.2], [1, 0, 0.2], [1, 1, 0.2], [0, 1, 0.2]] as Vec[]] };
     expect(floorHeight(onPlate)).toBe(0.2);
   });
+  it("reckons how far a recording reaches once, unless its samples change", () => {
+    const scene = sceneOf(["a"], 3, (_, p) => [p, 2, 3]);
+    expect(bounds(scene, 0)).toEqual([[0, 2, 3], [2, 2, 3]]);
+    scene.markers.x[2] = 50;
+    expect(bounds(scene, 0)[1][0]).toBe(2);
+    expect(bounds({ ...scene, changes: true }, 0)[1][0]).toBe(50);
+    expect(bounds({ ...scene, extent: [[7, 7, 7], [8, 8, 8]] }, 0)[0]).toEqual([7, 7, 7]);
+  });
   it("reaches beyond everything, with lines at whole multiples", () => {
     const scene = sceneOf(["a"], 100, (_, p) => [0.05 * p, 0, 1]);
     const floor = floorOf(scene);

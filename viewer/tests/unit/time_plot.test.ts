@@ -122,15 +122,27 @@ describe("TimePlot", () => {
     expect(rects.map((r) => r.numbers.map(Math.round))).toEqual([[300, 10, 200, 200], [900, 10, 200, 200], [700, 10, 1, 200]]);
     expect(rects.map((r) => r.alpha)).toEqual([1, 1, 0.3]);
   });
-  it("marks the time that was asked for, if it can be seen", () => {
+  it("marks the time that was asked for, if it can be seen, without drawing anew", () => {
     const { view, plot } = make();
-    plot.hook("draw");
+    const [line] = plot.over.classed("time-line");
+    const { redraws } = plot;
+    expect(line!.hidden).toBe(true);
     view.set({ focus: 5 });
-    plot.hook("draw");
+    nextFrame();
+    expect([line!.hidden, line!.style["transform"]]).toEqual([false, "translateX(500.0px)"]);
     view.set({ focus: 50 });
-    plot.hook("draw");
-    const lines = plot.ctx.drawn.filter((d) => d.what === "stroke");
-    expect(lines.map((l) => l.numbers)).toEqual([[600, 10, 600, 210]]);
+    nextFrame();
+    expect(line!.hidden).toBe(true);
+    expect(plot.redraws).toBe(redraws);
+  });
+  it("draws anew what is to be edited", () => {
+    const { view, plot } = make();
+    const { redraws } = plot;
+    view.set({ stretch: [2, 3] });
+    nextFrame();
+    view.set({ focus: 4 });
+    nextFrame();
+    expect(plot.redraws).toBe(redraws + 1);
   });
   it("takes the width of its box", () => {
     const { plot, element } = make();
