@@ -165,7 +165,7 @@ Result<IkOutcome> run_ik(IkJob job) {
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
     files.push_back(text_file(
-        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved); }));
+        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved, trial); }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
   return outcome;
