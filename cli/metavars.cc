@@ -18,7 +18,7 @@ struct Values {
 
 constexpr std::array kValues = {
     Values{"FILE IN INPUT OUT output model markers static setup tasks forces rig nominal data report figures "
-           "segments skeleton edits joints record",
+           "segments skeleton edits joints record certificate key",
            "FILE"},
     Values{"out man-pages", "FOLDER"},
     Values{"rate cutoff half-gain resample", "HZ"},

@@ -34,6 +34,11 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command.add_option("-t,--markers", a.recordings, "Marker file, .c3d, .trc, .nwb, .csv, .tsv or .v3d")
       ->group("Input");
+  command
+      .add_option("--edits", job.edits,
+                  "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
+                  "recording, where there is one")
+      ->group("Input");
   command.add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz")
       ->group("Input");
   command

@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/files/edit_job.h"
+#include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/live/live_source.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
@@ -30,7 +31,9 @@ struct ServeArguments {
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;
   bool no_open = false;
-  std::filesystem::path model, record;  ///< of a live source
+  std::filesystem::path model;             ///< of a live source, or of all recordings
+  std::filesystem::path record;            ///< of a live source
+  std::filesystem::path certificate, key;  ///< of TLS; empty: none
 
   /// The live source that was given, if one was.
   [[nodiscard]] bool is_live() const {
@@ -39,18 +42,42 @@ struct ServeArguments {
   }
 };
 
-/// A live source is served alone, and only it has a model and a recording.
+/// A live source is served alone, and only it is recorded.
 Status check_together(const ServeArguments& arguments) {
   if (arguments.is_live() && arguments.given.size() > 1)
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
-  if (!arguments.is_live() && !(arguments.model.empty() && arguments.record.empty()))
-    return fail(Code::usage, "--model and --record are for a live source (sim:... or replay:FILE)");
+  if (!arguments.is_live() && !arguments.record.empty())
+    return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE)");
   return {};
 }
 
-Result<server::Keys> make_keys(const ServeArguments& arguments, std::uint16_t port) {
-  server::Keys keys{.hosts = server::own_hosts(arguments.bind, port),
-                    .cookie = fmt::format("kinemark_{}", port)};
+/// What was given is there, and the model can be used.
+Status check_files(const ServeArguments& arguments) {
+  if (auto s = server::check_given(arguments.given); !s) return s;
+  if (arguments.model.empty()) return {};
+  const auto model = pipeline::read_model_input(arguments.model);
+  return model ? Status() : std::unexpected(model.error());
+}
+
+/// Certificate and key; nullptr where none were given.
+Result<std::shared_ptr<server::Tls>> read_tls(const ServeArguments& arguments) {
+  if (arguments.certificate.empty() && arguments.key.empty()) return nullptr;
+  if (arguments.certificate.empty() || arguments.key.empty())
+    return fail(Code::usage, "--certificate and --key belong together; give both");
+  return server::Tls::read(arguments.certificate, arguments.key);
+}
+
+Result<server::Keys> make_keys(const ServeArguments& arguments, const server::Tls* tls, std::uint16_t port) {
+  server::Keys keys{
+      .hosts = server::own_hosts(arguments.bind, port, tls != nullptr ? &tls->names() : nullptr),
+      .tls = tls != nullptr,
+      .cookie = fmt::format("kinemark_{}", port)};
+  if (keys.hosts.empty())
+    return fail(
+        Code::usage,
+        fmt::format("--bind: {} stands for all addresses of this machine and the certificate {} names "
+                    "none; give one address, or a certificate with a subjectAltName",
+                    arguments.bind, arguments.certificate.string()));
   for (auto* key : {&keys.token, &keys.opening, &keys.session}) {
     auto secret = server::new_secret();
     if (!secret) return std::unexpected(secret.error());
@@ -92,24 +119,26 @@ int serve_live(server::HttpServer& http, server::Keys keys, LiveParts& parts,
 
 /// Until a signal ends the program (watch_signals()), or an error comes.
 int serve(const CommonOptions& common, const ServeArguments& arguments) {
-  if (const auto s = server::check_bind_address(arguments.bind); !s) return report_error(s.error());
+  const auto tls = read_tls(arguments);
+  if (!tls) return report_error(tls.error());
+  if (const auto s = server::check_bind_address(arguments.bind, *tls != nullptr); !s)
+    return report_error(s.error());
   if (const auto s = check_together(arguments); !s) return report_error(s.error());
   const bool live = arguments.is_live();
-  if (const auto s = live ? Status() : server::check_given(arguments.given); !s)
-    return report_error(s.error());
+  if (const auto s = live ? Status() : check_files(arguments); !s) return report_error(s.error());
   auto source = live ? open_source(common, arguments) : Result<std::unique_ptr<LiveParts>>(nullptr);
   if (!source) return report_error(source.error());
-  const auto http = server::HttpServer::listen(arguments.bind, arguments.port);
+  const auto http = server::HttpServer::listen(arguments.bind, arguments.port, {}, *tls);
   if (!http) return report_error(http.error());
-  auto keys = make_keys(arguments, (*http)->port());
+  auto keys = make_keys(arguments, tls->get(), (*http)->port());
   if (!keys) return report_error(keys.error());
   auto feed = live ? server::LiveFeed::create(std::move((*source)->feed))
                    : Result<std::unique_ptr<server::LiveFeed>>(nullptr);
   if (!feed) return report_error(feed.error());
   const bool opens = !arguments.no_open && server::has_desktop();
   if (!opens) keys->opening.clear();
-  const auto address = [host = keys->hosts.front()](const std::string& token) {
-    return fmt::format("http://{}/?token={}", host, token);
+  const auto address = [&tls, host = keys->hosts.front()](const std::string& token) {
+    return fmt::format("{}://{}/?token={}", *tls ? "https" : "http", host, token);
   };
   print_result(address(keys->token) + "\n");
   if (output_failed()) return 0;  // which main() reports
@@ -117,11 +146,13 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
   if (opens && !server::open_browser(address(keys->opening)))
     say(common, "note: no browser could be opened; open the address by hand");
   if (live) return serve_live(**http, std::move(*keys), **source, std::move(*feed));
-  server::TrialService service({.given = arguments.given,
-                                .keys = std::move(*keys),
-                                .make_page = server::make_trial_page,
-                                .describe = server::describe_trial,
-                                .edits = {.time_now = pipeline::time_of_edit}});
+  server::TrialService service(
+      {.given = arguments.given,
+       .keys = std::move(*keys),
+       .make_page = server::make_trial_page,
+       .describe = server::describe_trial,
+       .edits = {.time_now = pipeline::time_of_edit},
+       .angles = {.model = arguments.model, .threads = common.threads, .seed = common.seed}});
   (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
     service.handle(request, reply);
   });
@@ -141,14 +172,22 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
           ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
           "at again when the page is reloaded; or a live source: sim:walk, replay:FILE")
       ->required();
-  command->add_option("-m,--model", arguments->model,
-                      "Body model, .osim, whose angles are shown live; a simulation has its own");
+  command->add_option(
+      "-m,--model", arguments->model,
+      "Body model, .osim, of a live source (a simulation has its own), or that recordings are "
+      "solved with after edits; without, the .osim beside a recording");
   command->add_option("--record", arguments->record,
                       "Recording to write, .mcap: every frame of a live source");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command->add_option("--bind", arguments->bind, "Address of this machine to listen on: 127.0.0.1 or ::1")
+  command->add_option(
+      "--certificate", arguments->certificate,
+      "Certificate for TLS with its chain, .pem; needed for addresses that other machines reach");
+  command->add_option("--key", arguments->key, "Key of that certificate without a password, .pem");
+  command
+      ->add_option("--bind", arguments->bind,
+                   "Address of this machine to listen on: 127.0.0.1 or ::1; any other with --certificate")
       ->capture_default_str();
   command->add_flag("--no-open", arguments->no_open, "Open no browser, in a desktop session either");
   command->callback(

@@ -27,6 +27,12 @@ TEST(BindAddress, ThatOthersReachIsRefusedWithWhatToDo) {
   }
 }
 
+TEST(BindAddress, AnyOtherIsTakenWhereThereIsTls) {
+  for (const char* address : {"0.0.0.0", "192.168.1.7", "::", "fe80::1", "127.0.0.1"})
+    EXPECT_TRUE(check_bind_address(address, true)) << address;
+  EXPECT_FALSE(check_bind_address("lab-pc", true));
+}
+
 TEST(BindAddress, IsANumberNotAName) {
   using namespace std::string_view_literals;
   for (const auto address : {"localhost"sv, ""sv, "127.1"sv, "127.0.0.1:80"sv, "[::1]"sv, "127.0.0.01x"sv,
@@ -45,6 +51,17 @@ TEST(OwnHosts, AreTheAddressAndLocalhostWithThePort) {
 
 TEST(OwnHosts, AnotherLoopbackAddressIsNotLocalhost) {
   EXPECT_THAT(own_hosts("127.0.0.2", 8123), ElementsAre("127.0.0.2:8123"));
+}
+
+TEST(OwnHosts, AreFirstTheNamesOfTheCertificate) {
+  const std::vector<std::string> names = {"lab-pc", "10.0.0.7"}, none;
+  EXPECT_THAT(own_hosts("10.0.0.7", 8123, &names), ElementsAre("lab-pc:8123", "10.0.0.7:8123"));
+  EXPECT_THAT(own_hosts("0.0.0.0", 443, &names),
+              ElementsAre("lab-pc:443", "10.0.0.7:443", "lab-pc", "10.0.0.7"));
+  EXPECT_THAT(own_hosts("fe80::1", 1, &none), ElementsAre("[fe80::1]:1"));
+  EXPECT_THAT(own_hosts("127.0.0.1", 80, &none), ElementsAre("127.0.0.1:80", "localhost:80"));
+  EXPECT_THAT(own_hosts("::", 1, &none), ::testing::IsEmpty());
+  EXPECT_THAT(own_hosts("0.0.0.0", 1, &none), ::testing::IsEmpty());
 }
 
 TEST(OwnHosts, Port80MayBeLeftOut) {

@@ -7,18 +7,16 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
-#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "kinemark/core/counted.h"
-#include "kinemark/core/utf8.h"
-#include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/motion/edited_page.h"
 #include "server/edit_request.h"
 #include "server/entrance.h"
+#include "server/json_answer.h"
 
 namespace kinemark::server {
 namespace {
@@ -27,25 +25,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostRequests = 64;  // that wait
-
-Response json_response(int status, const Json& json) {
-  Response response{.status = status, .type = "application/json", .admitted = true};
-  response.body = std::make_shared<const std::string>(pipeline::json_text(json) + "\n");
-  if (status == 503) response.headers.emplace_back("Retry-After", "1");
-  return response;
-}
-
-Response refusal(int status, std::string_view sentence) {
-  return json_response(status, {{"error", printable_sentence(sentence)}});
-}
-
-/// What is wrong with the data is not what is wrong with the disk.
-Response refusal(const Error& error) { return refusal(error.code == Code::io ? 503 : 422, error.message); }
-
-bool is_json(std::string_view type) {
-  constexpr std::string_view kJson = "application/json";
-  return type == kJson || (type.starts_with(kJson) && type[kJson.size()] == ';');
-}
 
 }  // namespace
 

@@ -94,14 +94,16 @@ bool Entrance::knows_session(const Request& request) const {
 std::optional<Response> Entrance::ask(const Request& request) {
   if (!request.host || std::ranges::find(keys_.hosts, lower(*request.host)) == keys_.hosts.end())
     return sentence_page(421, fmt::format("This server is {} and answers to no other name.", keys_.hosts[0]));
-  if (!only_reads(request) && (!request.origin || lower(*request.origin) != "http://" + lower(*request.host)))
+  if (!only_reads(request) &&
+      (!request.origin ||
+       lower(*request.origin) != (keys_.tls ? "https://" : "http://") + lower(*request.host)))
     return sentence_page(403, "This is for pages of this server alone.");
   if (request.method == "GET" && !request.upgrade && request.target.starts_with(kTokenQuery) &&
       takes_token(std::string_view(request.target).substr(kTokenQuery.size()))) {
     Response response{.status = 303, .admitted = true};
-    response.headers = {
-        {"Location", "/"},
-        {"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", keys_.cookie, keys_.session)}};
+    response.headers = {{"Location", "/"},
+                        {"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}", keys_.cookie,
+                                                   keys_.session, keys_.tls ? "; Secure" : "")}};
     return response;
   }
   if (!knows_session(request)) {

@@ -22,6 +22,7 @@ struct Keys {
   std::string token;               ///< in the printed URL, for as long as the server runs
   std::string opening;             ///< in the URL of the browser that is opened: once; empty: none
   std::string session;             ///< value of the cookie that a token is exchanged for
+  bool tls = false;                ///< browsers come by https, and the cookie is for that alone
   std::string cookie;              ///< name of the cookie; cookies know no port, so it holds the port
 };
 

@@ -44,6 +44,24 @@ class AskEntrance : public ::testing::Test {
   Entrance entrance_{keys()};
 };
 
+std::string header(const Response& response, const std::string& name);
+
+TEST(EntranceOverTls, TakesPagesOfHttpsAloneAndTheCookieIsForThat) {
+  auto secured = keys();
+  secured.tls = true;
+  Entrance entrance(secured);
+  Request request{.method = "POST", .host = kHost, .cookie = std::string("kinemark_8123=") + kSession};
+  request.origin = std::string("http://") + kHost;
+  EXPECT_EQ(entrance.ask(request)->status, 403);
+  request.origin = std::string("https://") + kHost;
+  EXPECT_FALSE(entrance.ask(request));
+  const auto response =
+      entrance.ask({.method = "GET", .target = std::string("/?token=") + kToken, .host = kHost}).value();
+  EXPECT_EQ(response.status, 303);
+  EXPECT_EQ(header(response, "Set-Cookie"),
+            std::string("kinemark_8123=") + kSession + "; Path=/; HttpOnly; SameSite=Strict; Secure");
+}
+
 std::string header(const Response& response, const std::string& name) {
   for (const auto& [key, value] : response.headers)
     if (key == name) return value;

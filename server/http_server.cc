@@ -19,6 +19,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/peer_stream.h"
 #include "server/web_socket.h"
 
 namespace kinemark::server {
@@ -40,6 +41,7 @@ using Connections = std::list<Connection*>;
 struct Books {
   HttpLimits limits;
   Handler handler;
+  std::shared_ptr<Tls> tls;
   Connections strangers, waiting, friends;  ///< waiting: for the response to a request that is whole
 };
 
@@ -82,18 +84,28 @@ int status_of(const error_code& error) {
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(tcp::socket socket, Books& books)
-      : stream_(std::move(socket)), books_(books), list_(&books.strangers) {
+      : stream_(std::move(socket), books.tls.get()), books_(books), list_(&books.strangers) {
     at_ = list_->insert(list_->end(), this);
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
   ~Connection() { leave(); }
 
+  /// The handshake, where there is one, and the first request.
+  void begin() {
+    wire().expires_after(books_.limits.request);
+    stream_.async_greet([self = shared_from_this()](error_code error) {
+      if (self->list_ == nullptr) return;
+      if (error) return self->close();
+      self->read();
+    });
+  }
+
   void read() {
     parser_.emplace();
     parser_->header_limit(books_.limits.header_bytes);
     parser_->body_limit(books_.limits.body_bytes);
-    stream_.expires_after(list_ == &books_.friends ? books_.limits.idle : books_.limits.request);
+    wire().expires_after(list_ == &books_.friends ? books_.limits.idle : books_.limits.request);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
   }
@@ -101,11 +113,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Close at once; what is under way ends with errors.
   void close() {
     leave();
-    if (const auto socket = socket_.lock()) return socket->close();
-    stream_.close();
+    if (!is_web_socket_) return wire().close();
+    if (const auto socket = socket_.lock()) socket->close();
   }
 
  private:
+  [[nodiscard]] beast::tcp_stream& wire() { return stream_.next_layer(); }
   using Whole = http::response<http::span_body<const char>>;
   using HeaderOnly = http::response<http::empty_body>;
 
@@ -131,7 +144,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     keep_alive_ = message.keep_alive();
     only_header_ = message.method() == http::verb::head;
     if (message.count(http::field::host) > 1) return refuse(400);
-    stream_.expires_never();
+    wire().expires_never();
     // Refusals come at once, so who waits here is let in: no crowd of strangers may push it out.
     if (list_ == &books_.strangers) move_to(books_.waiting);
     books_.handler(request_of(std::move(message)), [self = shared_from_this()](Response response) {
@@ -174,8 +187,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   /// From here on the connection is a WebSocket's, which keeps its place in the books.
   void upgrade(std::shared_ptr<SocketPeer> peer) {
-    stream_.expires_never();
-    socket_ = open_web_socket(stream_.release_socket(), parser_->get(), std::move(peer), books_.limits,
+    wire().expires_never();
+    is_web_socket_ = true;
+    socket_ = open_web_socket(std::move(stream_), parser_->get(), std::move(peer), books_.limits,
                               [self = shared_from_this()] { self->leave(); });
   }
 
@@ -191,7 +205,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   template <class Message>
   void send(Message& message) {
-    stream_.expires_after(books_.limits.response);
+    wire().expires_after(books_.limits.response);
     http::async_write(stream_, message,
                       [self = shared_from_this()](error_code error, std::size_t) { self->on_write(error); });
   }
@@ -203,22 +217,20 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (error) return close();
     if (keep_alive_) return read();
     // What comes in still must be taken, or the system drops the response with it.
-    error_code ignored;
-    (void)stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(books_.limits.farewell);
-    drain();
+    wire().expires_after(books_.limits.farewell);
+    stream_.async_end_writing([self = shared_from_this()] { self->drain(); });
   }
 
   void drain() {
-    stream_.async_read_some(asio::buffer(rest_),
-                            [self = shared_from_this()](error_code error, std::size_t bytes) {
-                              self->drained_ += bytes;
-                              if (error || self->drained_ > kMostFarewellBytes) return self->close();
-                              self->drain();
-                            });
+    wire().async_read_some(asio::buffer(rest_),
+                           [self = shared_from_this()](error_code error, std::size_t bytes) {
+                             self->drained_ += bytes;
+                             if (error || self->drained_ > kMostFarewellBytes) return self->close();
+                             self->drain();
+                           });
   }
 
-  beast::tcp_stream stream_;
+  PeerStream stream_;
   Books& books_;
   Connections* list_;
   Connections::iterator at_;
@@ -229,12 +241,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::weak_ptr<WebSocket> socket_;
   std::array<char, 4096> rest_{};
   std::size_t drained_ = 0;
-  bool keep_alive_ = false, only_header_ = false;
+  bool keep_alive_ = false, only_header_ = false, is_web_socket_ = false;
 };
 
 class BeastServer final : public HttpServer {
  public:
-  explicit BeastServer(const HttpLimits& limits) { books_.limits = limits; }
+  BeastServer(const HttpLimits& limits, std::shared_ptr<Tls> tls) {
+    books_.limits = limits;
+    books_.tls = std::move(tls);
+  }
 
   [[nodiscard]] error_code open(const tcp::endpoint& endpoint) {
     error_code error;
@@ -273,7 +288,7 @@ class BeastServer final : public HttpServer {
       error_code ignored;
       (void)socket.set_option(tcp::no_delay(true), ignored);
       while (books_.strangers.size() >= books_.limits.strangers) books_.strangers.front()->close();
-      std::make_shared<Connection>(std::move(socket), books_)->read();
+      std::make_shared<Connection>(std::move(socket), books_)->begin();
       accept();
     });
   }
@@ -287,10 +302,10 @@ class BeastServer final : public HttpServer {
 }  // namespace
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& address, std::uint16_t port,
-                                                       const HttpLimits& limits) {
+                                                       const HttpLimits& limits, std::shared_ptr<Tls> tls) {
   error_code error;
   const auto numeric = asio::ip::make_address(address, error);
-  auto server = std::make_unique<BeastServer>(limits);
+  auto server = std::make_unique<BeastServer>(limits, std::move(tls));
   if (!error) error = server->open({numeric, port});
   if (error)
     return fail(Code::io,

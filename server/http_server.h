@@ -14,6 +14,7 @@
 
 #include "kinemark/core/result.h"
 #include "server/message.h"
+#include "server/tls.h"
 
 namespace kinemark::server {
 
@@ -25,12 +26,13 @@ struct HttpLimits {
   std::uint32_t body_bytes = 4'096;            ///< of a request: beyond, 413
   std::size_t strangers = 256;                 ///< connections
   std::size_t friends = 64;                    ///< connections that were admitted
-  std::chrono::milliseconds request{5'000};    ///< for all of a request to arrive
+  std::chrono::milliseconds request{5'000};    ///< for all of a request to arrive, and for a TLS handshake
   std::chrono::milliseconds idle{60'000};      ///< for the next one to arrive, of who is admitted
   std::chrono::milliseconds response{60'000};  ///< for a response to be taken
-  std::chrono::milliseconds farewell{1'000};   ///< for the end of a connection that was refused
-  std::size_t message_bytes = 64;              ///< of what comes over a WebSocket: beyond, it ends (1009)
-  std::chrono::milliseconds silence{30'000};   ///< of a WebSocket whose other side answers no ping
+  std::chrono::milliseconds farewell{
+      1'000};                      ///< for the end of a connection that was refused, or of a WebSocket
+  std::size_t message_bytes = 64;  ///< of what comes over a WebSocket: beyond, it ends (1009)
+  std::chrono::milliseconds silence{30'000};  ///< of a WebSocket whose other side answers no ping
 };
 
 /// Called for each request, on the server's thread: must return soon.
@@ -42,9 +44,11 @@ class HttpServer {
   /// Listen. Code::io, in one sentence, where the address or port cannot be had.
   /// @param address  numeric
   /// @param port     0: any that is free
+  /// @param tls      certificate and key; nullptr: plain HTTP
   [[nodiscard]] static Result<std::unique_ptr<HttpServer>> listen(const std::string& address,
                                                                   std::uint16_t port,
-                                                                  const HttpLimits& limits = {});
+                                                                  const HttpLimits& limits = {},
+                                                                  std::shared_ptr<Tls> tls = nullptr);
   virtual ~HttpServer() = default;
 
   [[nodiscard]] virtual std::uint16_t port() const = 0;  ///< the one that is listened on

@@ -74,9 +74,18 @@ void LiveViewer::opened(std::function<void()> wake) {
   wake_ = std::move(wake);
 }
 
-bool LiveViewer::is_behind() const {
-  return under_way_.size() >= limits_.under_way ||
-         (!under_way_.empty() && clock_->now_s() - under_way_.front().given_s > limits_.ahead_s);
+std::size_t LiveViewer::most_under_way(double now_s) {
+  while (!drawn_lately_.empty() && now_s - drawn_lately_.front().time_s > limits_.ahead_s)
+    drawn_lately_.pop_front();
+  std::size_t drawn = 0;
+  for (const auto& one : drawn_lately_) drawn += one.count;
+  return std::min(limits_.under_way, limits_.at_first + drawn + drawn / 4);
+}
+
+bool LiveViewer::is_behind() {
+  const double now_s = clock_->now_s();
+  return under_way_.size() >= most_under_way(now_s) ||
+         (!under_way_.empty() && now_s - under_way_.front().given_s > limits_.ahead_s);
 }
 
 std::shared_ptr<const std::string> LiveViewer::next() {
@@ -110,6 +119,8 @@ bool LiveViewer::heard(std::string_view bytes) {
   const auto drawn = drawn_count(bytes);
   const std::scoped_lock lock(mutex_);
   if (!drawn || *drawn < drawn_ || *drawn - drawn_ > under_way_.size()) return false;
+  if (*drawn > drawn_)
+    drawn_lately_.push_back({.time_s = now_s, .count = static_cast<std::size_t>(*drawn - drawn_)});
   for (; drawn_ < *drawn; ++drawn_) {
     const double due_s = under_way_.front().due_s;
     if (!std::isnan(due_s)) answer_s_ = static_cast<float>(now_s - due_s);

@@ -24,6 +24,7 @@ struct LiveLimits {
       16;  ///< messages of a kind that wait for it: beyond, the oldest is dropped and counted
   std::size_t under_way = 64;  ///< messages that were sent and not yet drawn: beyond, none is sent
   double ahead_s = 0.3;        ///< none is sent either while one that was given so long ago is not drawn
+  std::size_t at_first = 4;    ///< messages under way of who has drawn none for that long
 };
 
 /// How often each duration occurred, in steps of 50 us up to 100 ms; all that is longer is one.
@@ -83,7 +84,10 @@ class LiveViewer final : public SocketPeer {
     double due_s, given_s;
   };
   void drop_beyond_limit(LiveKind kind);
-  [[nodiscard]] bool is_behind() const;
+  [[nodiscard]] bool is_behind();
+  /// Messages that may be under way: a quarter more than were drawn within ahead_s. So many wait in the
+  /// network for a viewer as it takes in that time, however slow it is.
+  [[nodiscard]] std::size_t most_under_way(double now_s);
 
   LiveLimits limits_;
   std::shared_ptr<LiveClock> clock_;
@@ -92,6 +96,12 @@ class LiveViewer final : public SocketPeer {
   std::deque<Waiting> waiting_;
   std::deque<UnderWay> under_way_;
   double saying_due_s_ = 0.0;
+  /// How many were drawn, and when; of the last ahead_s.
+  struct Drawn {
+    double time_s;
+    std::size_t count;
+  };
+  std::deque<Drawn> drawn_lately_;
   std::uint64_t drawn_ = 0;
   std::int64_t sent_ = 0;
   std::array<std::uint32_t, 4> dropped_{};  ///< by kind

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <vector>
 
 #include "server/testing/fake_clock.h"
@@ -115,6 +117,72 @@ TEST_F(LiveViewerTest, WhoDrawsLateGetsNothingAheadOfThat) {
   EXPECT_TRUE(viewer_.heard(count_bytes(1)));
   EXPECT_EQ(take(), (std::vector<double>{3, 4, 5})) << "the newest, not those that were there first";
   EXPECT_EQ(viewer_.state().dropped, 2);
+}
+
+/// A viewer that takes `per_second` messages of 480 that come in a second; the oldest that it drew, s, after
+/// the first two seconds.
+double oldest_drawn(testing::FakeClock& clock, LiveViewer& viewer, double per_second) {
+  std::deque<double> in_network;  // when they were due
+  double oldest = 0.0, credit = 0.0;
+  std::uint64_t drawn = 0;
+  const double start_s = clock.now_s();
+  for (int f = 0; f < 10 * 480; ++f) {
+    clock.pass(1.0 / 480.0);
+    const double now_s = clock.now_s();
+    const auto kind = f % 2 == 0 ? LiveKind::markers : LiveKind::angles;
+    auto message = markers_message(f, 0.0, now_s, {}, {});
+    message[0] = static_cast<char>(kind);
+    viewer.offer(std::make_shared<const std::string>(std::move(message)), kind, now_s);
+    while (const auto next = viewer.next()) {
+      viewer.sent();
+      in_network.push_back(start_s + (frame_of(*next) + 1.0) / 480.0);
+    }
+    for (credit += per_second / 480.0; credit >= 1.0 && !in_network.empty(); credit -= 1.0) {
+      if (now_s - start_s > 2.0) oldest = std::max(oldest, now_s - in_network.front());
+      in_network.pop_front();
+      EXPECT_TRUE(viewer.heard(count_bytes(static_cast<double>(++drawn))));
+    }
+    credit = std::min(credit, 1.0);
+  }
+  return oldest;
+}
+
+TEST(LiveViewerPace, WhatASlowViewerDrawsIsNeverOldHoweverSlowItIs) {
+  for (const double per_second : {30.0, 60.0, 120.0}) {
+    const auto clock = std::make_shared<testing::FakeClock>();
+    LiveViewer viewer({}, clock);
+    EXPECT_LT(oldest_drawn(*clock, viewer, per_second), 0.6) << per_second;
+    EXPECT_GT(viewer.state().dropped, 0);
+  }
+}
+
+TEST(LiveViewerPace, WhoTakesAllGetsAll) {
+  const auto clock = std::make_shared<testing::FakeClock>();
+  LiveViewer viewer({}, clock);
+  EXPECT_LT(oldest_drawn(*clock, viewer, 500.0), 0.02);
+  EXPECT_EQ(viewer.state().dropped + viewer.state().dropped_angles, 0);
+}
+
+TEST_F(LiveViewerTest, WhoDrawsMoreGetsMoreAtATime) {
+  const auto clock = std::make_shared<testing::FakeClock>();
+  LiveViewer viewer({.waiting = 100}, clock);
+  const auto offer_all = [&] {
+    for (int f = 0; f < 100; ++f)
+      viewer.offer(std::make_shared<const std::string>(markers_message(f, 0.0, 0.0, {}, {})),
+                   LiveKind::markers, 0.0);
+  };
+  const auto given = [&] {
+    std::size_t count = 0;
+    while (viewer.next()) ++count;
+    return count;
+  };
+  offer_all();
+  EXPECT_EQ(given(), 4U);
+  EXPECT_TRUE(viewer.heard(count_bytes(4)));
+  EXPECT_EQ(given(), 9U) << "four were drawn, and five more may be under way";
+  EXPECT_TRUE(viewer.heard(count_bytes(13)));
+  clock->pass(0.31);
+  EXPECT_EQ(given(), 4U) << "what was drawn long ago does not count";
 }
 
 TEST_F(LiveViewerTest, AnglesThatComeLateByDesignAreNoDelay) {

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kinemark/io/edits/edit_line.h"
@@ -71,8 +72,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (route.target == Target::trial_edits && request.target != "/api/trial/" + number + "/edits")
     std::abort();
   if (route.target == Target::trial_data && request.target != "/api/trial/" + number + "/data") std::abort();
+  if (route.target == Target::trial_angles && request.target != "/api/trial/" + number + "/angles")
+    std::abort();
+  for (const auto& [target, name] :
+       {std::pair(Target::angles_now, "now"), std::pair(Target::angles_before, "before"),
+        std::pair(Target::angles_recorded, "recorded")})
+    if (route.target == target && request.target != "/trial/" + number + "/angles/" + name) std::abort();
   const bool of_trial = route.target == Target::trial_page || route.target == Target::trial_edits ||
-                        route.target == Target::trial_data;
+                        route.target == Target::trial_data || route.target == Target::trial_angles ||
+                        route.target == Target::angles_now || route.target == Target::angles_before ||
+                        route.target == Target::angles_recorded;
   if (of_trial != (route.number != 0)) std::abort();
   if (route.target != Target::none && request.target.find("..") != std::string::npos) std::abort();
   if (const auto asked = parse_edit_request(request.body)) {

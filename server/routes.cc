@@ -22,7 +22,11 @@ struct OfTrial {
   std::string_view before, behind;
   Target target;
 };
-constexpr std::array<OfTrial, 3> kOfTrial = {{{"/trial/", "", Target::trial_page},
+constexpr std::array<OfTrial, 7> kOfTrial = {{{"/trial/", "", Target::trial_page},
+                                              {"/trial/", "/angles/now", Target::angles_now},
+                                              {"/trial/", "/angles/before", Target::angles_before},
+                                              {"/trial/", "/angles/recorded", Target::angles_recorded},
+                                              {"/api/trial/", "/angles", Target::trial_angles},
                                               {"/api/trial/", "/edits", Target::trial_edits},
                                               {"/api/trial/", "/data", Target::trial_data}}};
 

@@ -93,6 +93,7 @@ TrialService::TrialService(ServiceOptions options)
       files_(options_.given),
       shelf_(options_.most_page_bytes),
       edits_(options_.edits),
+      angles_(options_.angles),
       list_worker_(kMostRequests),
       row_worker_(kMostRows),
       page_worker_(kMostRequests) {}
@@ -104,8 +105,9 @@ void TrialService::handle(const Request& request, const Reply& reply) {
     return;
   }
   const Route route = request.upgrade ? Route{} : find_route(request.target);
-  if (request.method == "POST" && route.target != Target::trial_edits && route.target != Target::none) {
-    auto response = sentence_page(405, "This is only shown; edits are what POST is for.");
+  if (request.method == "POST" && route.target != Target::trial_edits &&
+      route.target != Target::trial_angles && route.target != Target::none) {
+    auto response = sentence_page(405, "This is only shown; edits and angles are what POST is for.");
     response.headers.emplace_back("Allow", "GET, HEAD");
     return send(std::move(response), reply);
   }
@@ -122,6 +124,13 @@ void TrialService::handle(const Request& request, const Reply& reply) {
     case Target::trial_edits:
     case Target::trial_data:
       if (!list_worker_.post([this, request, route, reply] { send_edits(request, route, reply); }))
+        send_busy(reply);
+      return;
+    case Target::trial_angles:
+    case Target::angles_now:
+    case Target::angles_before:
+    case Target::angles_recorded:
+      if (!list_worker_.post([this, request, route, reply] { send_angles(request, route, reply); }))
         send_busy(reply);
       return;
     case Target::style:
@@ -201,6 +210,19 @@ void TrialService::send_edits(const Request& request, const Route& route, const 
   if (!trial || is_gone(stamps_of(trial->path)))
     return send_sentence(404, "Not found", "There is no trial of that number; see the list.", reply);
   if (!edits_.handle(request, *trial, route.target == Target::trial_data, reply)) send_busy(reply);
+}
+
+void TrialService::send_angles(const Request& request, const Route& route, const Reply& reply) {
+  const auto trial = find_trial(route.number);
+  if (!trial || is_gone(stamps_of(trial->path)))
+    return send_sentence(404, "Not found", "There is no trial of that number; see the list.", reply);
+  if (route.target == Target::trial_angles) return send(angles_.answer(request, *trial), reply);
+  const auto which = route.target == Target::angles_now      ? AnglesOf::now
+                     : route.target == Target::angles_before ? AnglesOf::before
+                                                             : AnglesOf::recorded;
+  if (const auto page = angles_.page(*trial, which)) return send_page(*page, reply);
+  send_sentence(404, "Not found", "There are no such angles now; the page of the recording solves them.",
+                reply);
 }
 
 void TrialService::make_page(const TrialFile& trial, const Reply& reply) {

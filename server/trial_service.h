@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "server/angle_service.h"
 #include "server/edit_service.h"
 #include "server/entrance.h"
 #include "server/message.h"
@@ -31,6 +32,7 @@ struct ServiceOptions {
   std::function<TrialRow(const std::filesystem::path&)> describe;       ///< as describe_trial()
   std::size_t most_page_bytes = 256UL << 20;                            ///< of pages that are kept
   EditServiceOptions edits;                                             ///< of recordings
+  AngleServiceOptions angles;                                           ///< of recordings
 };
 
 /// A request in, a response out. Files are read on threads of their own: one for the list, one for what the
@@ -47,6 +49,7 @@ class TrialService {
   void send_list(bool as_json, const Reply& reply);
   void send_trial(std::uint32_t number, const Reply& reply);
   void send_edits(const Request& request, const Route& route, const Reply& reply);
+  void send_angles(const Request& request, const Route& route, const Reply& reply);
   [[nodiscard]] std::optional<TrialFile> find_trial(std::uint32_t number);
   void make_page(const TrialFile& trial, const Reply& reply);
   [[nodiscard]] TrialRow row_of(const TrialFile& trial);
@@ -62,6 +65,7 @@ class TrialService {
   TrialFiles files_;
   PageShelf shelf_;
   EditService edits_;
+  AngleService angles_;
   std::mutex mutex_;  ///< of rows_ and being_read_
   std::map<std::uint32_t, Described> rows_;
   std::set<std::uint32_t> being_read_;

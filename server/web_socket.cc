@@ -18,23 +18,23 @@ using boost::system::error_code;
 
 class BeastSocket final : public WebSocket, public std::enable_shared_from_this<BeastSocket> {
  public:
-  BeastSocket(asio::ip::tcp::socket socket, std::shared_ptr<SocketPeer> peer, const HttpLimits& limits,
+  BeastSocket(PeerStream stream, std::shared_ptr<SocketPeer> peer, const HttpLimits& limits,
               std::function<void()> gone)
-      : stream_(std::move(socket)), peer_(std::move(peer)), gone_(std::move(gone)) {
+      : stream_(std::move(stream)), limits_(limits), peer_(std::move(peer)), gone_(std::move(gone)) {
     stream_.binary(true);
     stream_.auto_fragment(false);
     stream_.read_message_max(limits.message_bytes);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(beast::http::field::server, "kinemark");  // without one, Beast names itself
     }));
-    stream_.set_option(websocket::stream_base::timeout{
-        .handshake_timeout = limits.request, .idle_timeout = limits.silence, .keep_alive_pings = true});
+    set_timeouts(limits.request);
   }
   ~BeastSocket() override { leave(); }
 
   void accept(const UpgradeRequest& request) {
     stream_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) return self->close();
+      self->set_timeouts(self->limits_.farewell);
       self->peer_->opened([weak = std::weak_ptr(self), executor = self->stream_.get_executor()] {
         asio::post(executor, [weak] {
           if (const auto living = weak.lock()) living->speak();
@@ -51,6 +51,12 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
   }
 
  private:
+  /// @param handshake  of the beginning, then of the end
+  void set_timeouts(std::chrono::milliseconds handshake) {
+    stream_.set_option(websocket::stream_base::timeout{
+        .handshake_timeout = handshake, .idle_timeout = limits_.silence, .keep_alive_pings = true});
+  }
+
   void leave() {
     if (left_) return;
     left_ = true;
@@ -96,7 +102,8 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
                         [self = shared_from_this()](error_code) { self->close(); });
   }
 
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<PeerStream> stream_;
+  HttpLimits limits_;
   std::shared_ptr<SocketPeer> peer_;
   std::function<void()> gone_;
   beast::flat_buffer buffer_;
@@ -106,11 +113,11 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
 
 }  // namespace
 
-std::weak_ptr<WebSocket> open_web_socket(asio::ip::tcp::socket socket, const UpgradeRequest& request,
+std::weak_ptr<WebSocket> open_web_socket(PeerStream stream, const UpgradeRequest& request,
                                          std::shared_ptr<SocketPeer> peer, const HttpLimits& limits,
                                          std::function<void()> gone) {
   const auto opened =
-      std::make_shared<BeastSocket>(std::move(socket), std::move(peer), limits, std::move(gone));
+      std::make_shared<BeastSocket>(std::move(stream), std::move(peer), limits, std::move(gone));
   opened->accept(request);
   return opened;
 }

@@ -5,7 +5,6 @@
 // slowly.
 #pragma once
 
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/http/fields.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
@@ -13,6 +12,7 @@
 #include <memory>
 
 #include "server/http_server.h"
+#include "server/peer_stream.h"
 #include "server/socket_peer.h"
 
 namespace kinemark::server {
@@ -32,7 +32,7 @@ using UpgradeRequest = boost::beast::http::request<boost::beast::http::string_bo
 
 /// Answer the request with 101 and let the peer speak. Where the request is no sound upgrade the connection
 /// ends. @param gone  called once, when the connection is closed
-std::weak_ptr<WebSocket> open_web_socket(boost::asio::ip::tcp::socket socket, const UpgradeRequest& request,
+std::weak_ptr<WebSocket> open_web_socket(PeerStream stream, const UpgradeRequest& request,
                                          std::shared_ptr<SocketPeer> peer, const HttpLimits& limits,
                                          std::function<void()> gone);
 

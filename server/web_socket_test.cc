@@ -179,7 +179,7 @@ TEST_F(WebSocketThread, ALargeMessageIsWhole) {
 }
 
 TEST_F(WebSocketThread, EndsWithACodeAndAReason) {
-  start();
+  start({.farewell = std::chrono::milliseconds(50)});
   const auto client = opened();
   client.say(2, "end");
   EXPECT_EQ(client.hear().bytes, "end");
@@ -193,7 +193,7 @@ TEST_F(WebSocketThread, EndsWithACodeAndAReason) {
 }
 
 TEST_F(WebSocketThread, WhatIsNotUnderstoodEndsIt) {
-  start();
+  start({.farewell = std::chrono::milliseconds(50)});
   for (const auto& [kind, text, mask, code] :
        {std::tuple(2, std::string("?"), true, 1008), std::tuple(1, std::string("text"), true, 1008),
         std::tuple(2, std::string(65, 'x'), true, 1009),

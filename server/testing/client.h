@@ -32,6 +32,7 @@ class Client {
     if (fd_ >= 0) ::close(fd_);
   }
   [[nodiscard]] bool connected() const { return connected_; }
+  [[nodiscard]] int fd() const { return fd_; }  ///< stays this object's
   void send(const std::string& text) const { (void)::send(fd_, text.data(), text.size(), MSG_NOSIGNAL); }
   void end_sending() const { ::shutdown(fd_, SHUT_WR); }
   /// All until the server closes the connection.

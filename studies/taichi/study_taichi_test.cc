@@ -264,6 +264,8 @@ TEST(TaiChiRows, FailWhatIsTooMuch) {
   EXPECT_EQ(fails([](auto& s) { s.whole.recorded_fine.bounded = s.whole.recorded_fine.held_15 = 0; }), 1)
       << "nothing bounded is no bound that holds";
   EXPECT_EQ(fails([](auto& s) { s.paper.recorded_fine.rank_min = 10; }), 1);
+  EXPECT_EQ(fails([](auto& s) { s.paper.recorded_fine.rank_min = 10; }, false), 0) << "a straight right arm";
+  EXPECT_EQ(fails([](auto& s) { s.paper.recorded_fine.rank_min = 9; }, false), 1);
   EXPECT_EQ(
       fails([](auto& s) { s.whole.recorded_fine.control_rms_m = std::numeric_limits<double>::quiet_NaN(); }),
       1)

@@ -133,7 +133,7 @@ void add_run(const Subjects& subjects, const std::string& what, const Asked& ask
 }
 
 template <class Get>
-void add_rank(const Subjects& subjects, const std::string& what, bool asked, const Get& run,
+void add_rank(const Subjects& subjects, const std::string& what, double asked, const Get& run,
               std::vector<StudyRow>& rows) {
   StudyRow low{.quantity = what + ": smallest rank of all frames",
                .unit = "1",
@@ -141,8 +141,8 @@ void add_rank(const Subjects& subjects, const std::string& what, bool asked, con
   StudyRow high{.quantity = what + ": largest rank of all frames",
                 .unit = "1",
                 .ours = worst(subjects, 1.0, [&](auto& s) { return static_cast<double>(run(s).rank_max); })};
-  if (asked) {
-    low.at_least = 11.0;
+  if (asked > 0.0) {
+    low.at_least = asked;
     high.at_most = 12.0;
   }
   rows.push_back(low);
@@ -174,7 +174,7 @@ std::vector<StudyRow> taichi_rows(const Subjects& subjects, bool recorded) {
   add_run(
       subjects, "whole body, goals that the model made, 1/60 s", {.rms_mm = 1.0, .bounds = true},
       [&](auto& s) -> auto& { return *whole(s).reachable_coarse; }, rows);
-  add_rank(subjects, "whole body", false, [&](auto& s) -> auto& { return whole(s).recorded_fine; }, rows);
+  add_rank(subjects, "whole body", 0.0, [&](auto& s) -> auto& { return whole(s).recorded_fine; }, rows);
   add_run(
       subjects, "three strict levels, 1 ms", {}, [](auto& s) -> auto& { return s.three.recorded_fine; },
       rows);
@@ -182,14 +182,16 @@ std::vector<StudyRow> taichi_rows(const Subjects& subjects, bool recorded) {
   add_run(
       subjects, "the paper's four landmarks, 1 ms", {},
       [](auto& s) -> auto& { return s.paper.recorded_fine; }, rows);
+  // Elbow and wrist of the left arm lie on one forearm: 11 of 12. A straight right arm holds its shoulder and
+  // wrist apart, too; that of the recording never is, a simulated one may be.
   add_rank(
-      subjects, "the paper's four landmarks", true, [](auto& s) -> auto& { return s.paper.recorded_fine; },
-      rows);
+      subjects, "the paper's four landmarks", recorded ? 11.0 : 10.0,
+      [](auto& s) -> auto& { return s.paper.recorded_fine; }, rows);
   add_run(
       subjects, "pelvis, then the paper's four, 1 ms", {},
       [](auto& s) -> auto& { return s.pelvis_paper.recorded_fine; }, rows);
   add_rank(
-      subjects, "pelvis, then the paper's four", false,
+      subjects, "pelvis, then the paper's four", 0.0,
       [](auto& s) -> auto& { return s.pelvis_paper.recorded_fine; }, rows);
   rows.push_back({.quantity = "left elbow to left wrist as recorded, shortest",
                   .unit = "mm",

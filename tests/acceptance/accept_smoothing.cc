@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -415,7 +416,8 @@ int run_check(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "quick";
   const auto movements = testing_support::movements();
   if (part == "fresh") {
-    for (std::uint64_t seed = 11; seed <= 13; ++seed)
+    const std::uint64_t first = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 11;
+    for (std::uint64_t seed = first; seed < first + 3; ++seed)
       against_the_oracle(movements, 8, seed, Axes::independent, fmt::format("seed {}", seed));
   } else if (part == "one_coordinate") {
     against_the_oracle(movements, 6, 1, Axes::copies, "one coordinate, the reference's noise");

@@ -4,7 +4,9 @@
 """`kinemark serve` under attack: what is refused, and how long the rightful page takes meanwhile.
 
     serve.py            attack a server of its own, on a simulated recording
-    serve.py --attack KIND PORT   what the attackers run, in processes of their own, until they are ended
+    serve.py sockets    attack the WebSocket of a live source
+    serve.py tls        attack a server with a certificate, which openssl makes
+    serve.py --attack TABLE KIND PORT COOKIE   what the attackers run, in processes of their own, until they are ended
 
 Loopback only. Prints rows "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
@@ -13,15 +15,19 @@ import contextlib
 import os
 import signal
 import socket
+import ssl
+import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "cli"))
 
+from live_viewer import Ended, Viewer  # noqa: E402
 from serving import Server  # noqa: E402
 
 PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
@@ -47,15 +53,15 @@ def connect(port):
     return connection
 
 
-def hold(port, count, drip):
-    """`count` connections that send nothing, or a letter of a header now and then; those that are closed are opened again."""
+def hold(port, count, drip, begin=b"GET / HTTP/1.1\r\nX-"):
+    """`count` connections that send nothing, or begin and send a letter now and then; those that are closed are opened again."""
     held = [None] * count
     while True:
         for i, connection in enumerate(held):
             try:
                 if connection is None:
                     connection = held[i] = connect(port)
-                    connection.send(b"GET / HTTP/1.1\r\nX-" if drip else b"")
+                    connection.send(begin if drip else b"")
                 elif drip:
                     connection.send(b"a")
                 if connection.recv(1) == b"":
@@ -95,9 +101,90 @@ ATTACKS = {
 }
 
 
+UPGRADE = "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+
+
+def upgrade(port, more=""):
+    return request(port, "GET /live/socket HTTP/1.1", UPGRADE + more)
+
+
+def known(port, cookie):
+    return upgrade(port, f"Origin: http://127.0.0.1:{port}\r\nCookie: {cookie}\r\n")
+
+
+def hold_asked(port, count, asked):
+    """`count` connections that ask at once and read nothing; those that are closed are opened again."""
+    held = [None] * count
+    while True:
+        for i, connection in enumerate(held):
+            try:
+                if connection is None:
+                    held[i] = connect(port)
+                    held[i].send(asked)
+                elif connection.recv(1, socket.MSG_PEEK) == b"":
+                    raise ConnectionResetError
+            except BlockingIOError:
+                pass
+            except OSError:
+                if held[i] is not None:
+                    held[i].close()
+                held[i] = None
+        time.sleep(0.05)
+
+
+def flood_socket(port, cookie, message):
+    """A WebSocket that is let in and then sends this, over and over."""
+    while True:
+        with contextlib.suppress(OSError):
+            with socket.create_connection(("127.0.0.1", port), timeout=5) as connection:
+                connection.sendall(known(port, cookie))
+                connection.recv(1024)
+                while True:
+                    connection.sendall(message)
+
+
+def frame(kind, size):
+    """A masked frame of so many zeros."""
+    return bytes([0x80 | kind, 0xFF]) + struct.pack(">Q", size) + b"mask" + bytes(size)
+
+
+# On the WebSocket of a live source; the last of them know the secret.
+SOCKET_ATTACKS = {
+    "1,000 WebSockets without a token": lambda port, _: hold_asked(port, 1000, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
+    "WebSockets without a token, one after the other": lambda port, _: flood(port, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
+    "WebSockets from a foreign Origin": lambda port, cookie: flood(port, upgrade(port, f"Origin: http://evil.example\r\nCookie: {cookie}\r\n")),
+    "300 upgrades that send a letter at a time": lambda port, _: hold(port, 300, True, upgrade(port)[:-2] + b"X-"),
+    "1,000 connections that say nothing": lambda port, _: hold(port, 1000, drip=False),
+    "messages of 10 MB over WebSockets": lambda port, cookie: flood_socket(port, cookie, frame(2, 10_000_000)),
+    "pings without end": lambda port, cookie: flood_socket(port, cookie, frame(9, 100) * 1000),
+    "4 viewers that never read": lambda port, cookie: hold_asked(port, 4, known(port, cookie)),
+}
+
+
+def flood_handshakes(port):
+    """One whole handshake after the other, and nothing asked."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    while True:
+        with contextlib.suppress(OSError):
+            with socket.create_connection(("127.0.0.1", port), timeout=5) as connection, context.wrap_socket(connection):
+                pass
+
+
+# On a server with a certificate.
+TLS_ATTACKS = {
+    "300 handshakes that send a letter at a time": lambda port: hold(port, 300, True, b"\x16\x03\x01\x02\x00\x01"),
+    "1,000 connections that say nothing": lambda port: hold(port, 1000, drip=False),
+    "handshakes one after the other": flood_handshakes,
+    "plain HTTP": lambda port: flood(port, request(port)),
+    "noise": lambda port: flood(port, os.urandom(4096)),
+}
+TABLES = {"pages": ATTACKS, "sockets": SOCKET_ATTACKS, "tls": TLS_ATTACKS}
+
+
 @contextlib.contextmanager
-def attackers(kind, port, count=2):
-    running = [subprocess.Popen([sys.executable, __file__, "--attack", kind, str(port)]) for _ in range(count)]
+def attackers(table, kind, port, count=2, cookie=""):
+    running = [subprocess.Popen([sys.executable, __file__, "--attack", table, kind, str(port), cookie]) for _ in range(count)]
     time.sleep(1.0)  # they are to be at it
     try:
         yield
@@ -146,9 +233,9 @@ def check_refusals(server):
         row(asked == measured, check, asked, measured)
 
 
-def check_attack(server, kind):
+def check_attack(server, kind, table="pages"):
     page, most = [], 0
-    with attackers(kind, server.port):
+    with attackers(table, kind, server.port):
         for _ in range(REQUESTS):
             most = max(most, descriptors_of(server))
             page.append(timed(server, "/"))
@@ -201,7 +288,111 @@ def make_hour(path):
             file.write(f"{f + 1}\t{f / rate:.6f}\t{cells[f % 2400]}\n")
 
 
+class Rightful(threading.Thread):
+    """A viewer that takes every message of a live source."""
+
+    def __init__(self, server):
+        super().__init__(daemon=True)
+        self.viewer, self.frames, self.ages, self.dropped, self.going = Viewer(server), 0, [], 0, True
+
+    def run(self):
+        with contextlib.suppress(Ended, OSError):
+            while self.going:
+                kind, head, _ = self.viewer.hear()
+                if kind == 1:
+                    self.frames += 1
+                    self.dropped = head["dropped"]
+                    self.ages.append(1000 * (time.monotonic() - head["due_s"]))
+                self.viewer.drawn()
+
+
+def check_socket_refusals(server):
+    name = server.name
+    for check, asked, changes in (
+        ("no token", 401, {"known": False}),
+        ("wrong token", 401, {"known": False, "Authorization": f"Bearer {'0' * 32}"}),
+        ("foreign Origin", 403, {"Origin": "http://evil.example"}),
+        ("no Origin", 403, {"Origin": None}),
+        ("Origin null", 403, {"Origin": "null"}),
+        ("foreign Host", 421, {"Host": "evil.example"}),
+        ("another target", 404, {"target": "/live/sockets"}),
+        ("ours", 101, {"Origin": f"http://{name}"}),
+    ):
+        with Viewer(server, **changes) as viewer:
+            row(viewer.status == asked, f"WebSocket: {check}", asked, viewer.status)
+    for check, code, kind, data in (
+        ("a message of 10 MB", 1009, 2, bytes(10_000_000)),
+        ("text", 1008, 1, b"drawn"),
+        ("a number that cannot be", 1008, 2, struct.pack("<d", 1e9)),
+    ):
+        with Viewer(server) as viewer:
+            with contextlib.suppress(OSError):
+                viewer.connection.sendall(frame(kind, len(data)) if kind == 2 and len(data) > 100 else b"")
+                if len(data) <= 100:
+                    viewer.say(kind, data)
+            try:
+                while True:
+                    viewer.hear()
+            except (Ended, OSError) as end:
+                row(getattr(end, "code", 0) in (code, 0), f"WebSocket: {check}", f"ended, {code}", f"ended, {getattr(end, 'code', 'reset')}")
+
+
+def check_socket_attack(server, kind, count=2):
+    rightful = Rightful(server)
+    rightful.start()
+    page, most = [], 0
+    with attackers("sockets", kind, server.port, count, server.exchanged()):
+        begun = len(rightful.ages)
+        for _ in range(REQUESTS):
+            most = max(most, descriptors_of(server))
+            page.append(timed(server, "/api/live"))
+            page.append(timed(server, "/"))
+            time.sleep(0.005)
+        seen = sorted(rightful.ages[begun:]) or [1e9]
+    rightful.going = False
+    rightful.join(10)
+    good = sum(status == 200 for status, _ in page)
+    times = sorted(ms for _, ms in page)
+    late, old = times[int(0.99 * len(times))], seen[int(0.99 * len(seen))]
+    row(good == len(page) and late <= ASKED_MS and old <= ASKED_MS and most <= MOST_DESCRIPTORS and rightful.is_alive() is False,
+        f"{kind}: the rightful page meanwhile", f"all answered, 99 % within {ASKED_MS} ms, its frames too; <= {MOST_DESCRIPTORS} descriptors",
+        f"{good} of {len(page)}, {late:.1f} ms (longest {times[-1]:.1f}); {len(seen)} frames, {old:.1f} ms old; {most} descriptors")
+
+
+def sockets(scratch):
+    with Server(PROGRAM, "sim:walk?rate=240&seconds=600", "--no-open", cwd=scratch) as server:
+        check_socket_refusals(server)
+        most = 0.0
+        check_socket_attack(server, "nobody attacks", count=0)
+        for kind in SOCKET_ATTACKS:
+            check_socket_attack(server, kind)
+            most = max(most, memory_mb(server.process.pid))
+        row(most <= MOST_MEMORY_MB, "memory during all that", f"<= {MOST_MEMORY_MB} MB", f"{most:.0f} MB")
+
+
+def tls(scratch):
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2", "-subj", "/CN=test", "-addext",
+                    "subjectAltName=IP:127.0.0.1", "-keyout", scratch / "key.pem", "-out", scratch / "cert.pem"], check=True, capture_output=True)  # fmt: skip
+    subprocess.run([PROGRAM, "simulate", "subject", "-o", scratch / "recorded", "--duration", "10", "--quiet"], check=True)
+    with Server(PROGRAM, scratch / "recorded", "--no-open", "--certificate", "cert.pem", "--key", "key.pem", cwd=scratch, trusted=scratch / "cert.pem") as server:
+        for check, asked, measured in (
+            ("no token", 401, server.request(known=False)[0]),
+            ("foreign Host", 421, server.request(Host="evil.example")[0]),
+            ("POST from our name by http", 403, server.request(method="POST", Origin=f"http://{server.name}")[0]),
+            ("ours", 200, server.request()[0]),
+        ):
+            row(asked == measured, f"over TLS: {check}", asked, measured)
+        for kind in TLS_ATTACKS:
+            check_attack(server, kind, "tls")
+        memory = memory_mb(server.process.pid)
+        row(memory <= MOST_MEMORY_MB, "memory after all that", f"<= {MOST_MEMORY_MB} MB", f"{memory:.0f} MB")
+
+
 def main():
+    if sys.argv[1:] in (["sockets"], ["tls"]):
+        with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
+            (sockets if sys.argv[1] == "sockets" else tls)(Path(scratch))
+        return 1 if failed else 0
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         scratch = Path(scratch)
         subprocess.run([PROGRAM, "simulate", "subject", "-o", scratch / "recorded", "--duration", "10", "--quiet"], check=True)
@@ -221,5 +412,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--attack"]:
-        ATTACKS[sys.argv[2]](int(sys.argv[3]))
+        table, kind, port, cookie = *sys.argv[2:4], int(sys.argv[4]), sys.argv[5]
+        TABLES[table][kind](port, *([cookie] if table == "sockets" else []))
     sys.exit(main())

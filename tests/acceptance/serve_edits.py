@@ -6,6 +6,8 @@
     serve_edits.py history    100 edits from a fixed seed: undo all, redo all, reload; `kinemark run`
     serve_edits.py kills      the server killed by kill -9 while it is edited
     serve_edits.py strangers  who may not edit, and what is no edit
+    serve_edits.py angles     joint angles of what was edited, and the command's
+    serve_edits.py hour       memory while an hour of 16 markers at 240 Hz is edited
 
 Prints rows "PASS|FAIL | check | asked | measured".
 """
@@ -13,20 +15,27 @@ Prints rows "PASS|FAIL | check | asked | measured".
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import sys
 import tempfile
 import threading
+import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "cli"), str(HERE)]
 
+import serving
+from serve import make_hour
 from serving import Server
 from support import PROGRAM, run
 
+serving.SECONDS = 600  # an hour is edited on a busy machine, too
 EDITS = 100
 KILLS = 50
+MOST_HOUR_MB = 4000
 HOSTILE = "</script><img onerror=alert(1) src=x>"
 failed = False
 
@@ -173,6 +182,110 @@ def kills(scratch):
     row(recording.read_bytes() == original, "the recording's own bytes", "unchanged", "unchanged" if recording.read_bytes() == original else "changed")
 
 
+# Angles
+
+
+def ask_angles(server, what, trial=1):
+    body = json.dumps({"do": what}).encode()
+    status, _, text = server.request(f"/api/trial/{trial}/angles", method="POST", body=body, Origin=f"http://{server.name}", Content_Type="application/json")
+    return status, json.loads(text)
+
+
+def settled(server):
+    """The state once nothing is under way."""
+    while True:
+        state = server.json("angles")[1]
+        if state["state"] not in ("waiting", "solving"):
+            return state
+        time.sleep(0.02)
+
+
+def page_data(html):
+    text = re.search(r'<script type="application/json" id="kinemark-data">(.*?)</script>', html, re.DOTALL)[1]
+    return json.loads(text)
+
+
+def angles(scratch):
+    recording = record(scratch, 2)
+    original = recording.read_bytes()
+    model = scratch / "subject.osim"
+    with serve(recording) as server:
+        row(ask_angles(server, "solve")[0] == 422 and server.json("angles")[1]["model"] is None, "no body model: solving", "422, a sentence", server.json("angles")[1]["said"][:60])
+        shutil.copy(scratch / "in" / "model.osim", model)
+        labels = json.loads(good("info", recording, "--json", cwd=scratch).out)["labels"]
+        for i, edit in enumerate(({"do": "swap", "marker": labels[0], "with": labels[1], "first": 30, "last": 60},
+                                  {"do": "cut", "marker": labels[2], "first": 80, "last": 90}, {"do": "crop", "first": 5})):  # fmt: skip
+            server.edit(i, edit)
+        begun, state = ask_angles(server, "solve")[0], settled(server)
+        row(begun == 202 and state["state"] == "solved", "solving the edited recording", "202, then solved", f"{begun}, then {state['state']}")
+        shown = {which: page_data(server.request(f"/trial/1/angles/{which}")[2]) for which in ("now", "recorded")}
+        row(shown["now"]["series"]["coordinates"] != shown["recorded"]["series"]["coordinates"], "the edits change angles", "yes", "yes" if shown["now"] != shown["recorded"] else "no")
+        for what, edits in (("now", ("--edits", "beside")), ("recorded", ())):
+            good("ik", "-m", model, "-t", recording, *edits, "-o", f"{what}.mot", "--report", f"{what}.html", cwd=scratch)
+            same = json.loads((scratch / f"{what}_report.json").read_text())["kinemark_set"] == state["solutions"][what]["set"]
+            drawn = page_data((scratch / f"{what}.html").read_text())["series"] == shown[what]["series"]
+            row(same and drawn, f"`kinemark ik {' '.join(edits)}` ({what})", "same set, same curves", f"{'same' if same else 'another'} set, {'same' if drawn else 'other'} curves")
+        good("convert", recording, "edited.c3d", "--edits", "beside", cwd=scratch)
+        good("ik", "-m", model, "-t", "edited.c3d", "-o", "file.mot", cwd=scratch)
+        (scratch / "study.toml").write_text(
+            f'steps = ["ik"]\n[ik]\nmodel = "{model.name}"\nedits = "beside"\n[[subject]]\nname = "S"\ntrials = ["{recording.name}"]\n', encoding="utf-8"
+        )
+        good("run", "study.toml", cwd=scratch)
+        numbers = [table(scratch / name) for name in ("now.mot", "file.mot", "results/S/walk/ik.mot")]
+        for name, other in zip(("`convert --edits`, then `ik`", "`kinemark run` with edits under [ik]"), numbers[1:], strict=True):
+            apart = max(abs(a - b) for a, b in zip(numbers[0], other, strict=True))
+            row(apart <= 1e-9, f"{name}: largest difference of angles and positions", "<= 1e-9", f"{apart:.1e} of {len(other)}")
+        ask_angles(server, "solve")
+        stopped, again = ask_angles(server, "stop")[0], settled(server)
+        row(stopped == 202 and again["state"] in ("stopped", "solved") and again["solutions"]["now"]["set"] == state["solutions"]["now"]["set"], "stopped: the solution from before", "still there",
+            "still there" if again["solutions"]["now"] else "gone")
+        ours, target = f"http://{server.name}", "/api/trial/1/angles"
+        asked = {"method": "POST", "body": b'{"do":"solve"}', "Content_Type": "application/json"}
+        refused = [server.request(target, **{**asked, "Origin": "http://evil.example"})[0], server.request(target, known=False, Origin=ours, **asked)[0],
+                   server.request("/trial/1/angles/now", known=False)[0], server.request(target, **{**asked, "Content_Type": "text/plain"}, Origin=ours)[0]]  # fmt: skip
+        row(refused == [403, 401, 401, 415], "foreign Origin, no token, no token, a form's content type", "403, 401, 401, 415", ", ".join(map(str, refused)))
+    left = sorted(p.name for p in scratch.iterdir())
+    row(recording.read_bytes() == original and not [n for n in left if n.startswith("walk") and n not in ("walk.c3d", "walk_edits.jsonl")], "what the server wrote", "the journal alone", "the journal alone")
+
+
+def table(path):
+    """All numbers of a motion file."""
+    lines = path.read_text().split("endheader\n")[1].splitlines()[1:]
+    return [float(cell) for line in lines for cell in line.split()]
+
+
+# An hour
+
+
+def memory_mb(pid, what):
+    return int(re.search(rf"{what}:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())[1]) / 1024
+
+
+def hour(scratch):
+    recording = scratch / "hour.trc"
+    make_hour(recording)
+    with serve(recording) as server:
+        pid = server.process.pid
+        server.request("/trial/1")
+        shown, peaks, made = memory_mb(pid, "VmHWM"), [], 0
+        swap = {"do": "swap", "marker": "M5", "with": "M6", "first": 1000}
+        for edit in ({"do": "swap", "marker": "M1", "with": "M2", "first": 400_000}, {"do": "cut", "marker": "M3", "first": 1000, "last": 2000},
+                     {"do": "fill", "marker": "M3", "method": "linear"}, {"do": "relabel", "marker": "M4", "to": "KNEE"}, {"do": "undo"}, {"do": "redo"},
+                     swap, {"do": "undo"}, swap, {"do": "undo"}, swap, {"do": "undo", "count": 2}):  # fmt: skip
+            status, answer = server.edit(made, edit)
+            if status != 200:
+                row(False, f"{edit['do']} of an hour", 200, f"{status}: {answer['error']}")
+                return
+            made += 1
+            peaks.append(memory_mb(pid, "VmHWM"))
+        server.json("data")
+        edited = memory_mb(pid, "VmHWM")
+        row(edited <= MOST_HOUR_MB, f"an hour of 16 markers at 240 Hz, {made} operations, data fetched: most memory", f"<= {MOST_HOUR_MB} MB",
+            f"{edited:.0f} MB ({shown:.0f} for its page alone)")
+        half = len(peaks) // 2
+        row(peaks[-1] <= 1.05 * peaks[half - 1], f"the last {len(peaks) - half} operations: most memory against the first {half}", "<= 1.05 times", f"{peaks[-1] / peaks[half - 1]:.2f} times")
+
+
 # Strangers
 
 
@@ -220,7 +333,7 @@ def strangers(scratch):
 
 
 def main():
-    what = {"history": history, "kills": kills, "strangers": strangers}.get(sys.argv[1] if len(sys.argv) > 1 else "")
+    what = {"history": history, "kills": kills, "strangers": strangers, "angles": angles, "hour": hour}.get(sys.argv[1] if len(sys.argv) > 1 else "")
     if what is None:
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as folder:

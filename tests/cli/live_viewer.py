@@ -22,7 +22,7 @@ class Viewer:
 
     def __init__(self, server, known=True, target="/live/socket", **headers):
         asked = {"Host": server.name, "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": KEY}
-        asked["Origin"] = f"http://{server.name}"
+        asked["Origin"] = server.origin
         if known:
             asked["Cookie"] = server.exchanged()
         asked.update({name.replace("_", "-"): value for name, value in headers.items()})

@@ -6,9 +6,10 @@ import json
 import re
 import signal
 import socket
+import ssl
 import subprocess
 
-ADDRESS = re.compile(r"http://(127\.0\.0\.1|\[::1\]|127\.0\.0\.2):(\d+)/\?token=([0-9a-f]{32})\n")
+ADDRESS = re.compile(r"(https?)://(127\.0\.0\.1|\[::1\]|127\.0\.0\.2|localhost):(\d+)/\?token=([0-9a-f]{32})\n")
 SECONDS = 60  # of patience
 
 
@@ -33,9 +34,10 @@ def parse(answer):
 
 
 class Server:
-    """A running server, ended at the end of a `with`."""
+    """A running server, ended at the end of a `with`. With `trusted`, a certificate's file, it is spoken to over TLS."""
 
-    def __init__(self, program, *arguments, cwd, environment=None):
+    def __init__(self, program, *arguments, cwd, environment=None, trusted=None):
+        self.tls = ssl.create_default_context(cafile=trusted) if trusted else None
         self.process = subprocess.Popen(
             [program, "serve", *map(str, arguments)],
             cwd=cwd,
@@ -50,8 +52,9 @@ class Server:
         if found is None:
             self.process.kill()
             raise AssertionError(f"{self.line!r}: {self.process.communicate()[1]}")
-        self.host, self.port, self.token = found[1], int(found[2]), found[3]
+        self.host, self.port, self.token = found[2], int(found[3]), found[4]
         self.name = f"{self.host}:{self.port}"
+        self.origin = f"{found[1]}://{self.name}"
         self.cookie = None
 
     def __enter__(self):
@@ -69,7 +72,8 @@ class Server:
         return self.process.returncode, out, err
 
     def connect(self):
-        return socket.create_connection((self.host.strip("[]"), self.port), timeout=SECONDS)
+        connection = socket.create_connection((self.host.strip("[]"), self.port), timeout=SECONDS)
+        return connection if self.tls is None else self.tls.wrap_socket(connection, server_hostname=self.host.strip("[]"))
 
     def raw(self, data):
         """What comes back for these bytes until the server closes."""
@@ -99,7 +103,7 @@ class Server:
     def edit(self, expected, edit, trial=1):
         """(status, answer) of one operation, on as many as are expected to be there. OSError where no answer comes."""
         body = json.dumps({"expected": expected, "edit": edit}).encode()
-        status, _, text = self.request(f"/api/trial/{trial}/edits", method="POST", body=body, Origin=f"http://{self.name}", Content_Type="application/json")
+        status, _, text = self.request(f"/api/trial/{trial}/edits", method="POST", body=body, Origin=self.origin, Content_Type="application/json")
         if status == 0:
             raise ConnectionResetError("the server gave no answer")
         return status, json.loads(text)

@@ -92,6 +92,21 @@ class EditsTest(CommandTest):
         text = (self.folder / "filled.csv").read_text()
         self.assertGreaterEqual(text.count("pchip"), 10)
 
+    def test_ik_and_track_work_on_what_was_edited(self):
+        a, b = self.labels[:2]
+        self.edit("--swap", a, b, "--from", self.first + 10)
+        self.edit("--crop", "--from", self.first + 3)
+        self.good("convert", "walk.c3d", "edited.c3d", "--edits", "beside")
+        for solver in ("ik", "track"):
+            self.good(solver, "-m", self.model, "-t", "edited.c3d", "-o", "by_file.mot", "--force")
+            ran = self.good(solver, "-m", self.model, "-t", "walk.c3d", "--edits", "beside", "-o", f"{solver}.mot")
+            self.assertIn("2 edits of walk_edits.jsonl were applied", ran.err)
+            numbers = [(self.folder / name).read_text().split("endheader")[1] for name in ("by_file.mot", f"{solver}.mot")]
+            self.assertEqual(*numbers)
+            self.assertIn("edits", {i["role"] for i in json.loads((self.folder / f"{solver}_report.json").read_text())["inputs"]})
+        self.refused(4, "absent.jsonl", "ik", "-m", self.model, "-t", "walk.c3d", "--edits", "absent.jsonl", "-o", "x.mot")
+        self.refused(2, "need 'beside' with several", "ik", "-m", self.model, "-t", "walk.c3d", "edited.c3d", "--edits", "walk_edits.jsonl", "-o", "out")
+
     def test_what_cannot_be_done_is_one_sentence(self):
         a, b = self.labels[:2]
         outside = self.last + 1

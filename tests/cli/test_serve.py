@@ -277,6 +277,8 @@ class Started(ServeTest):
         self.refused(4, ["absent.c3d", "cannot be opened"], "serve", "absent.c3d")
         self.refused(3, ["empty", "holds no file"], "serve", "empty")
         self.refused(2, "--port", "serve", self.c3d, "--port", 70000)
+        self.refused(4, "absent.osim", "serve", self.c3d, "--model", "absent.osim")
+        self.refused(3, "markers.c3d", "serve", self.c3d, "--model", self.c3d)
         for address in ("0.0.0.0", "192.168.0.1", "::"):
             self.refused(2, ["--bind", address, "TLS", "ssh -L"], "serve", self.c3d, "--bind", address)
         self.refused(2, ["--bind", "'localhost'", "127.0.0.1"], "serve", self.c3d, "--bind", "localhost")
@@ -320,6 +322,29 @@ class Started(ServeTest):
         self.assertEqual(recording.read_bytes(), original)
         self.assertEqual(server.end(signal.SIGKILL)[0], -signal.SIGKILL)
         self.assertEqual(sorted(listing(self.folder)), ["walk.trc", "walk_edits.jsonl"])
+
+    def test_angles_are_solved_with_the_edits_and_nothing_is_written(self):
+        (self.folder / "walk.c3d").write_bytes(self.c3d.read_bytes())
+        server = self.serve("walk.c3d")
+        post = {"method": "POST", "Origin": server.origin, "Content_Type": "application/json"}
+        status, _, body = server.request("/api/trial/1/angles", body=b'{"do": "solve"}', **post)
+        self.assertEqual(status, 422)
+        self.assertIn("No body model is known for walk.c3d", json.loads(body)["error"])
+        server = self.serve("walk.c3d", "--model", self.model)
+        labels = json.loads(self.good("info", "walk.c3d", "--json").out)["labels"]
+        self.assertEqual(server.edit(0, {"do": "swap", "marker": labels[0], "with": labels[1], "first": 20})[0], 200)
+        self.assertEqual(server.request("/trial/1/angles/now")[0], 404)
+        post["Origin"] = server.origin
+        self.assertEqual(server.request("/api/trial/1/angles", body=b'{"do": "solve"}', **post)[0], 202)
+        state = {"state": "waiting"}
+        while state["state"] in ("waiting", "solving"):
+            state = server.json("angles")[1]
+        self.assertEqual((state["state"], state["said"], state["solutions"]["now"]["edits"]), ("solved", None, 1))
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["walk.c3d", "walk_edits.jsonl"])
+        for which, edits in (("now", ("--edits", "beside")), ("recorded", ())):
+            self.assertIn("kinemark.ik_report", server.request(f"/trial/1/angles/{which}")[2])
+            self.good("ik", "-m", self.model, "-t", "walk.c3d", "-o", f"{which}.mot", *edits)
+            self.assertEqual(json.loads((self.folder / f"{which}_report.json").read_text())["kinemark_set"], state["solutions"][which]["set"])
 
     def test_what_is_no_recording_of_markers_has_no_edits(self):
         server = self.serve(self.study / "q.mot", self.write("bad.trc", b"nothing"))

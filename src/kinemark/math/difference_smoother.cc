@@ -92,23 +92,56 @@ DifferenceSmoother::DifferenceSmoother(std::vector<bool> seen, int order)
       if (gap >= 0) width_ = std::max(width_, std::abs(gap - row));
     }
   }
+  find_envelope();
+}
+
+// Left of a row's first entry the factor has none either, so that a gap widens only the rows about it.
+void DifferenceSmoother::find_envelope() {
+  const std::int64_t n = samples(), m = order_;
+  first_.resize(at(unknowns_));
+  for (std::int64_t row = 0; row < unknowns_; ++row) first_[at(row)] = row;
+  const auto touch = [this](std::int64_t row, std::int64_t column) {
+    auto& first = first_[at(std::max(row, column))];
+    first = std::min(first, std::min(row, column));
+  };
+  for (std::int64_t i = 0; i < n - m; ++i) {
+    touch(gamma_row_[at(i)], gamma_row_[at(std::max<std::int64_t>(0, i - m))]);
+    for (std::int64_t k = 0; k <= m; ++k)
+      if (const std::int64_t gap = gap_row_[at(i + k)]; gap >= 0) touch(gamma_row_[at(i)], gap);
+  }
+  last_.resize(at(unknowns_));
+  for (std::int64_t row = 0; row < unknowns_; ++row) {
+    last_[at(row)] = row;
+    for (std::int64_t column = first_[at(row)]; column < row; ++column) last_[at(column)] = row;
+  }
 }
 
 void DifferenceSmoother::assemble(double intensity) {
   const std::int64_t n = samples(), m = order_;
   factor_.assign(at(unknowns_ * (width_ + 1)), 0.0);
+  const auto entry = [&](std::int64_t i, std::int64_t lag, const auto& is_seen) {
+    double value = lag < m ? intensity * spline_[at(lag)] : 0.0;
+    for (std::int64_t k = 0; k + lag <= m; ++k)  // samples that both differences hold
+      if (is_seen(i + k)) value += difference_[at(k)] * difference_[at(k + lag)];
+    return value;
+  };
+  std::vector<double> complete;  // where all samples of a difference are seen
+  for (std::int64_t lag = 0; lag <= m; ++lag)
+    complete.push_back(entry(0, lag, [](std::int64_t) { return true; }));
+  std::int64_t missing = 0;  // of the samples of the difference in hand
+  for (std::int64_t k = 0; k < m; ++k) missing += !seen_[at(k)];
   for (std::int64_t i = 0; i < n - m; ++i) {
-    for (std::int64_t lag = 0; lag <= std::min(m, i); ++lag) {
-      double value = lag < m ? intensity * spline_[at(lag)] : 0.0;
-      for (std::int64_t k = 0; k + lag <= m; ++k)  // samples that both differences hold
-        if (seen_[at(i + k)]) value += difference_[at(k)] * difference_[at(k + lag)];
-      band(gamma_row_[at(i)], gamma_row_[at(i - lag)]) = value;
-    }
-    for (std::int64_t k = 0; k <= m; ++k)
+    missing += !seen_[at(i + m)];
+    for (std::int64_t lag = 0; lag <= std::min(m, i); ++lag)
+      band(gamma_row_[at(i)], gamma_row_[at(i - lag)]) =
+          missing == 0 ? complete[at(lag)]
+                       : entry(i, lag, [this](std::int64_t k) { return static_cast<bool>(seen_[at(k)]); });
+    for (std::int64_t k = 0; missing > 0 && k <= m; ++k)
       if (const std::int64_t gap = gap_row_[at(i + k)]; gap >= 0) {
         const std::int64_t row = gamma_row_[at(i)];
         band(std::max(gap, row), std::min(gap, row)) = difference_[at(k)];
       }
+    missing -= !seen_[at(i)];
   }
 }
 
@@ -118,56 +151,99 @@ bool DifferenceSmoother::factor(double half_power) {
   if (!(log_r > std::log(1e-12))) return false;
   assemble(std::exp(log_r));
   log_determinant_ = 0.0;
-  std::vector<double> scaled(at(width_ + 1));  // L D of the row in hand
+  const std::int64_t stride = width_ + 1;
+  std::vector<double> scaled(at(stride));                       // L D of the row in hand
+  std::vector<double> entered(at(stride)), before(at(stride));  // this row and the last, before the factor
+  std::int64_t equal = 0;  // rows up to the last that equal the one before them, in all digits
+  double log_pivot = 0.0;
   for (std::int64_t row = 0; row < unknowns_; ++row) {
-    const std::int64_t first = std::max<std::int64_t>(0, row - width_);
-    double pivot = band(row, row);
+    const std::int64_t first = first_[at(row)], reach = row - first;
+    double* here = &factor_[at(row * stride)];
+    std::copy_n(here, stride, entered.begin());
+    const bool as_before = row > 0 && reach == row - 1 - first_[at(row - 1)] && entered == before;
+    if (as_before && equal > reach) {
+      // All that enters this row is what entered the last one: so is all that comes of it.
+      std::copy_n(here - stride, stride, here);
+      log_determinant_ += log_pivot;
+      continue;
+    }
+    double pivot = here[width_];
     for (std::int64_t column = first; column < row; ++column) {
-      double value = band(row, column);
-      for (std::int64_t k = std::max(first, column - width_); k < column; ++k)
-        value -= band(column, k) * scaled[at(k - first)];
+      const double* other = &factor_[at(column * stride)];
+      double value = here[column - row + width_];
+      for (std::int64_t k = std::max(first, first_[at(column)]); k < column; ++k)
+        value -= other[k - column + width_] * scaled[at(k - first)];
       scaled[at(column - first)] = value;
-      band(row, column) = value / band(column, column);
-      pivot -= band(row, column) * value;
+      const double l = value / other[width_];
+      here[column - row + width_] = l;
+      pivot -= l * value;
     }
     if (pivot == 0.0 || !std::isfinite(pivot)) return false;
-    band(row, row) = pivot;
-    log_determinant_ += std::log(std::abs(pivot));
+    here[width_] = pivot;
+    log_pivot = std::log(std::abs(pivot));
+    log_determinant_ += log_pivot;
+    equal = as_before && std::equal(here, here + stride, here - stride) ? equal + 1 : 0;
+    std::swap(entered, before);
   }
   return true;
 }
 
+// Forward, back and out of the unknowns for kColumns columns side by side, each as it would be alone.
+template <int kColumns>
+void DifferenceSmoother::solve(double* series, std::int64_t series_stride,
+                               std::vector<double>& unknown) const {
+  const std::int64_t n = samples(), m = order_, stride = width_ + 1;
+  unknown.assign(at(unknowns_ * kColumns), 0.0);
+  const auto add = [](double* to, double factor, const double* from) {
+    for (int c = 0; c < kColumns; ++c) to[c] += factor * from[c];
+  };
+  const auto take = [](double* to, double factor, const double* from) {
+    for (int c = 0; c < kColumns; ++c) to[c] -= factor * from[c];
+  };
+  double* u = unknown.data();
+  for (std::int64_t i = 0; i < n - m; ++i)
+    for (std::int64_t k = 0; k <= m; ++k)
+      add(u + gamma_row_[at(i)] * kColumns, difference_[at(k)], series + (i + k) * series_stride);
+  for (std::int64_t row = 0; row < unknowns_; ++row) {
+    const double* l = &factor_[at(row * stride)] + width_ - row;
+    for (std::int64_t column = first_[at(row)]; column < row; ++column)
+      take(u + row * kColumns, l[column], u + column * kColumns);
+  }
+  for (std::int64_t row = unknowns_ - 1; row >= 0; --row) {
+    double* here = u + row * kColumns;
+    const double pivot = factor_[at(row * stride + width_)];
+    for (int c = 0; c < kColumns; ++c) here[c] /= pivot;
+    // Rows below have taken their part of this one already.
+    for (std::int64_t below = row + 1; below <= last_[at(row)]; ++below)
+      if (first_[at(below)] <= row)
+        take(here, factor_[at(below * stride + row - below + width_)], u + below * kColumns);
+  }
+  for (std::int64_t i = 0; i < n; ++i) {
+    double* sample = series + i * series_stride;
+    if (const std::int64_t gap = gap_row_[at(i)]; gap >= 0) {
+      take(sample, 1.0, u + gap * kColumns);
+      continue;
+    }
+    for (std::int64_t k = std::max<std::int64_t>(0, i - (n - m - 1)); k <= std::min(m, i); ++k)
+      take(sample, difference_[at(k)], u + gamma_row_[at(i - k)] * kColumns);
+  }
+}
+
 void DifferenceSmoother::smooth(SeriesMatrix& series) const {
-  const std::int64_t n = samples(), m = order_;
+  const std::int64_t n = samples(), columns = series.cols();
   check(series.rows() == n, "a smoother takes series of its own length");
   // Row by row, so that a column's digits do not depend on those beside it.
-  Eigen::RowVectorXd level = Eigen::RowVectorXd::Zero(series.cols());
+  Eigen::RowVectorXd level = Eigen::RowVectorXd::Zero(columns);
   for (std::int64_t i = 0; i < n; ++i)
     if (seen_[at(i)]) level += series.row(i);
   level /= static_cast<double>(std::ranges::count(seen_, true));
   series.rowwise() -= level;
   fill_straight(seen_, series);
-  SeriesMatrix unknown = SeriesMatrix::Zero(unknowns_, series.cols());
-  for (std::int64_t i = 0; i < n - m; ++i)
-    for (std::int64_t k = 0; k <= m; ++k)
-      unknown.row(gamma_row_[at(i)]) += difference_[at(k)] * series.row(i + k);
-  for (std::int64_t row = 0; row < unknowns_; ++row)
-    for (std::int64_t column = std::max<std::int64_t>(0, row - width_); column < row; ++column)
-      if (const double l = band(row, column); l != 0.0) unknown.row(row) -= l * unknown.row(column);
-  for (std::int64_t row = unknowns_ - 1; row >= 0; --row) {
-    // Rows below have taken their part of this one already.
-    unknown.row(row) /= band(row, row);
-    for (std::int64_t below = row + 1; below <= std::min(unknowns_ - 1, row + width_); ++below)
-      if (const double l = band(below, row); l != 0.0) unknown.row(row) -= l * unknown.row(below);
-  }
-  for (std::int64_t i = 0; i < n; ++i) {
-    if (const std::int64_t gap = gap_row_[at(i)]; gap >= 0) {
-      series.row(i) -= unknown.row(gap);
-      continue;
-    }
-    for (std::int64_t k = std::max<std::int64_t>(0, i - (n - m - 1)); k <= std::min(m, i); ++k)
-      series.row(i) -= difference_[at(k)] * unknown.row(gamma_row_[at(i - k)]);
-  }
+  std::vector<double> unknown;
+  std::int64_t done = 0;
+  for (; done + 8 <= columns; done += 8) solve<8>(series.data() + done, columns, unknown);
+  for (; done + 3 <= columns; done += 3) solve<3>(series.data() + done, columns, unknown);
+  for (; done < columns; ++done) solve<1>(series.data() + done, columns, unknown);
   series.rowwise() += level;
 }
 

@@ -25,7 +25,8 @@ using SeriesMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen
 /// samples, so that the matrix stays a band of width 2m, and its factor is that of Gauss without pivots:
 /// gammas first, each l after the gammas it touches. (Reinsch 1967; de Hoog & Hutchinson 1987.)
 ///
-/// Cost: n w^2 for a factor (w = m without missing samples, up to 2m with), n w for each series.
+/// Cost: n w^2 for a factor (w = m without missing samples, up to 2m about them), less where rows far from a
+/// gap repeat in all digits; n w for each series.
 class DifferenceSmoother {
  public:
   /// @param seen   n flags, true where there is a sample; at least order + 1 of them
@@ -60,7 +61,10 @@ class DifferenceSmoother {
   [[nodiscard]] double band(std::int64_t row, std::int64_t column) const {
     return factor_[static_cast<std::size_t>(row * (width_ + 1) + (column - row + width_))];
   }
+  void find_envelope();
   void assemble(double intensity);
+  template <int kColumns>
+  void solve(double* series, std::int64_t series_stride, std::vector<double>& unknown) const;
 
   std::vector<bool> seen_;
   int order_;
@@ -69,8 +73,10 @@ class DifferenceSmoother {
   std::vector<std::int64_t> gamma_row_;  ///< n - m: unknown of each difference
   std::vector<std::int64_t> gap_row_;    ///< n: unknown of each missing sample, -1 where seen
   std::int64_t unknowns_ = 0;
-  std::int64_t width_ = 0;      ///< columns left of the diagonal
-  std::vector<double> factor_;  ///< unknowns x (width + 1): L without its ones, D on the diagonal
+  std::int64_t width_ = 0;           ///< columns left of the diagonal, at most
+  std::vector<std::int64_t> first_;  ///< of each row's entries
+  std::vector<std::int64_t> last_;   ///< row that has an entry in each column
+  std::vector<double> factor_;       ///< unknowns x (width + 1): L without its ones, D on the diagonal
   double log_determinant_ = 0.0;
 };
 

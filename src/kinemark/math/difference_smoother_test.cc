@@ -138,6 +138,33 @@ TEST(DifferenceSmoother, ColumnsDoNotTouchEachOther) {
   EXPECT_EQ(both.col(1), one.col(0));
 }
 
+TEST(DifferenceSmoother, OfALongSeriesIsThatOfItsParts) {
+  // Rows that repeat are copied: far from the ends nothing differs from a shorter recording about the place.
+  const std::int64_t n = 3000;
+  auto seen = all_but(n, 2000, 12);
+  for (const int order : {3, 5}) {
+    const SeriesMatrix y = noise(n, 3, 11);
+    SeriesMatrix whole = y, part = y.middleRows(1500, 1000);
+    DifferenceSmoother smoother(seen, order), of_part({seen.begin() + 1500, seen.begin() + 2500}, order);
+    ASSERT_TRUE(smoother.factor(0.08));
+    ASSERT_TRUE(of_part.factor(0.08));
+    smoother.smooth(whole);
+    of_part.smooth(part);
+    EXPECT_LT((whole.middleRows(1700, 600) - part.middleRows(200, 600)).cwiseAbs().maxCoeff(), 1e-8) << order;
+  }
+}
+
+TEST(DifferenceSmoother, DeterminantOfALongSeriesGrowsEvenly) {
+  // Per sample it is the mean of a logarithm over the spectrum: the same for each thousand samples.
+  std::vector<double> found;
+  for (const std::int64_t n : {1000, 2000, 3000}) {
+    DifferenceSmoother smoother(all_but(n, 0, 0), 4);
+    ASSERT_TRUE(smoother.factor(0.1));
+    found.push_back(smoother.log_determinant());
+  }
+  EXPECT_NEAR(found[2] - found[1], found[1] - found[0], 1e-8 * found[2]);
+}
+
 TEST(DifferenceSmoother, SaysWhereDoublePrecisionEnds) {
   DifferenceSmoother smoother(all_but(50, 0, 0), 5);
   EXPECT_FALSE(smoother.factor(0.005));  // (2 pi 0.005)^10 = 9e-16
@@ -188,6 +215,20 @@ TEST(SmoothingChoice, ChoosesLittleErrorAndASmallerCutOffForSlowerPaths) {
     chosen.push_back(choice->half_power);
   }
   EXPECT_LT(2.0 * chosen[0], chosen[1]);
+}
+
+TEST(SmoothingChoice, OfALongSeriesIsThatOfStretchesAllAlongIt) {
+  const int n = 16000;
+  SeriesMatrix y = noise(n, 3, 4);
+  for (int i = 0; i < n; ++i) y.row(i).array() += 40.0 * std::sin(0.06 * i);
+  std::vector<bool> seen = all_but(n, 4100, 3000);  // the whole of the second stretch
+  const SmoothingSearch search{.orders = {4}, .lowest = 0.004, .samples = 10000};
+  SmoothingSearch all = search;
+  all.samples = n;
+  const auto few = choose_smoothing(y, seen, search), every = choose_smoothing(y, seen, all);
+  ASSERT_TRUE(few && every);
+  EXPECT_NEAR(std::log(few->half_power / every->half_power), 0.0, 0.25);
+  EXPECT_NEAR(few->risk, every->risk, 0.02);
 }
 
 TEST(SmoothingChoice, NothingOfTooFewSamples) {

@@ -19,7 +19,7 @@ struct SmoothingChoice {
   int order = 3;             ///< m
   double half_power = kNaN;  ///< cycles per sample
   double risk = kNaN;        ///< expected squared error of a smoothed sample over the noise variance
-  double parameters = kNaN;  ///< trace of the smoother: how many free numbers the path has, per series
+  double parameters = kNaN;  ///< trace of the smoother: free numbers of the samples judged, per series
 };
 
 /// Which orders and cut-offs are tried.
@@ -27,7 +27,10 @@ struct SmoothingSearch {
   std::vector<int> orders{3, 4, 5};  ///< 1 to 5 each
   double lowest = 0.0;               ///< lowest half-power frequency, cycles per sample, above 0
   double highest = 0.45;             ///< highest, below 0.5
-  int frequencies = 13;              ///< tried between them at equal ratios, then five around the best
+  int frequencies = 13;              ///< tried between them at equal ratios, then four around the best
+  /// of longer series as many, in four stretches from the first to the last sample, long ones because at an
+  /// end less can be smoothed away: at least 4000
+  std::int64_t samples = 16384;
 };
 
 /// The order and cut-off of least expected error by Stein's unbiased estimate (SURE: residual sum of squares
@@ -35,7 +38,7 @@ struct SmoothingSearch {
 ///
 /// @param series  n samples of some axes, over the standard deviation of their noise
 /// @return        nothing where no order has samples enough, or none can be computed in double precision.
-/// Cost: about 60 factors of a DifferenceSmoother for each order.
+/// Cost: about 60 factors of a DifferenceSmoother for each order, of search.samples samples at most.
 [[nodiscard]] std::optional<SmoothingChoice> choose_smoothing(const SeriesMatrix& series,
                                                               const std::vector<bool>& seen,
                                                               const SmoothingSearch& search);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { MarkersPageData } from "../markers_types.ts";
-import type { EditingState, Operation } from "./types.ts";
+import type { AnglesOf, AnglesState, EditingState, Operation } from "./types.ts";
 
 /** What became of a request. `state` is there whenever the server told it, after a conflict too. */
 export interface Answer<T> {
@@ -28,6 +28,27 @@ export class Channel {
   /** One operation, on as many as the page knows of. */
   post(expected: number, edit: Operation): Promise<Answer<EditingState>> {
     return this.#request("edits", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ expected, edit }) });
+  }
+
+  angles = (): Promise<Answer<AnglesState>> => this.#request("angles", {});
+
+  /** Begin to solve the recording with its edits, or stop that. */
+  askAngles(what: "solve" | "stop"): Promise<Answer<AnglesState>> {
+    return this.#request("angles", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ do: what }) });
+  }
+
+  /** Where the report of a solution is. */
+  anglesPage = (which: AnglesOf): string => `${this.base.replace(/^\/api/, "")}/angles/${which}`;
+
+  /** Its text. */
+  async anglesHtml(which: AnglesOf): Promise<{ html: string } | { refused: string }> {
+    try {
+      const answer = await this.ask(this.anglesPage(which), { credentials: "same-origin", cache: "no-store", redirect: "error" });
+      if (answer.status === 401 || answer.status === 421) return { refused: closed };
+      return answer.ok ? { html: await answer.text() } : { refused: `These angles are no longer there (status ${answer.status}); solve them again.` };
+    } catch {
+      return { refused: lost };
+    }
   }
 
   async #request<T>(what: string, init: RequestInit): Promise<Answer<T>> {

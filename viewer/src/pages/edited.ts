@@ -4,6 +4,7 @@ import type { Channel } from "../editing/channel.ts";
 import type { EditingState } from "../editing/types.ts";
 import type { MarkersPageData } from "../markers_types.ts";
 import { EditBar } from "../sections/editing.ts";
+import { SolvedAngles } from "../sections/solved.ts";
 import { forgetDrawn } from "../theme.ts";
 import type { Content } from "./content.ts";
 import { markersPage, type Editor, type Kept } from "./markers.ts";
@@ -14,6 +15,7 @@ const lookEvery = 3000;
 /** The page of a recording that is edited where it is shown: drawn anew after each edit, the bar stays. */
 export class EditedPage {
   readonly bar: EditBar;
+  readonly angles: SolvedAngles;
   readonly #kept: Kept = { view: null, marker: null, camera: null };
   #content: Content | null = null;
   #editing: EditingState;
@@ -25,9 +27,13 @@ export class EditedPage {
   ) {
     this.#editing = editing;
     this.bar = new EditBar(channel, editing, () => this.#reload());
+    this.angles = new SolvedAngles(channel, () => this.#reload(), () => this.bar.takesLetters);
     const look = (): void => {
-      if (document.visibilityState === "visible") void this.bar.lookAgain();
+      if (document.visibilityState !== "visible") return;
+      void this.bar.lookAgain();
+      void this.angles.lookAgain();
     };
+    void this.angles.lookAgain();
     setInterval(look, lookEvery);
     document.addEventListener("visibilitychange", look);
   }
@@ -38,15 +44,20 @@ export class EditedPage {
     this.#content?.stop?.();
     const editor: Editor = {
       node: this.bar.node,
+      further: [this.angles.node, this.angles.curves],
       kept: this.#kept,
-      show: (summary, view) => this.bar.show({ summary, view }, this.#editing),
+      show: (summary, view) => {
+        this.bar.show({ summary, view }, this.#editing);
+        this.angles.show(view, this.#editing.digest);
+      },
     };
     forgetDrawn();
     const content = await markersPage(data, editor);
     this.put(content);
+    this.angles.start();
     this.#content = content;
     if (top > 0) window.scrollTo(0, top);
-    if (focused instanceof HTMLElement && this.bar.node.contains(focused)) focused.focus({ preventScroll: true });
+    if (focused instanceof HTMLElement && focused.isConnected) focused.focus({ preventScroll: true });
   }
 
   /** Why the recording could not be fetched; null when it is drawn. */

@@ -29,6 +29,8 @@ export interface Editor {
   node: HTMLElement;
   kept: Kept;
   show: (summary: MarkersSummary, view: View) => void;
+  /** What stands below the bar. */
+  further: HTMLElement[];
 }
 
 /** The view as it was, on a recording whose markers and frames may be others. */
@@ -57,7 +59,7 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
   const recorded = scene.before === null ? null : { legend: "as recorded, before the edits", switch: "As recorded" };
   const inSpace = space(scene, view, { trial: summary.trial, others: recorded, ...(summary.rate_known ? {} : { playHz: 60 }), ...(editor === null ? {} : { kept: editor.kept }) });
   const refused = editing !== undefined && "refused" in editing ? [section("edit", "Edit", `This recording cannot be edited here: ${editing.refused}.`)] : [];
-  const bar = editor === null ? refused : [editor.node];
+  const bar = editor === null ? refused : [editor.node, ...editor.further];
   editor?.show(summary, view);
   const parts = [
     ...(scene.forces.length > 0 ? [ground(scene, view)] : []),
@@ -71,6 +73,7 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
       ["attention", "Findings"],
       ["space", "Space"],
       ...(bar.length > 0 ? ([["edit", "Edit"]] as const) : []),
+      ...(editor === null ? [] : ([["solved", "Angles"]] as const)),
       ["marker", "One marker"],
       ["gaps", "Gaps"],
       ["markers", "Markers"],

@@ -37,19 +37,27 @@ export function dataOfPage(html: string): PageData {
   return data;
 }
 
-/** Coordinates beside each other, both sides in one plot, over time or over the cycle, and a second result over the first. */
-export function compare(trial: Trial, view: View, cycles: EncodedCycles | null = null): { node: HTMLElement; start: () => void } {
+/** A result that lies over another one from the start: what it is called, and coordinates to show first. */
+export interface Over {
+  trial: Trial;
+  words: string;
+  first: readonly string[];
+}
+
+/** Coordinates beside each other, both sides in one plot, over time or over the cycle, and a second result over the first: one that is given, or a file. */
+export function compare(trial: Trial, view: View, over: Over | null = null, cycles: EncodedCycles | null = null): { node: HTMLElement; start: () => void } {
   const { coordinates } = trial.summary;
   const pairs = pairsOf(coordinates.map((c) => c.name)).filter((p) => !coordinates[p.right]!.locked);
   const hasTorques = trial.torques.some((t) => t !== null);
   const mass = trial.summary.mass_kg ?? null;
   let torques = false;
   let perMass = false;
-  let second: Trial | null = null;
+  let second: Trial | null = over?.trial ?? null;
   /** Over the cycle; null: over time. */
   let overlays: readonly Overlay[] | null = null;
   // Both sides first: they are what people compare.
-  const chosen = new Set<Pair>([...pairs.filter((p) => p.left >= 0), ...pairs.filter((p) => p.left < 0)].slice(0, firstShown));
+  const wanted = (over?.first ?? []).flatMap((name) => pairs.filter((p) => [p.right, p.left].some((i) => i >= 0 && coordinates[i]!.name === name)));
+  const chosen = new Set<Pair>([...new Set([...wanted, ...pairs.filter((p) => p.left >= 0), ...pairs.filter((p) => p.left < 0)])].slice(0, firstShown));
   const grid = el("div", { class: "side-by-side" });
   const cycleGrid = el("div", { class: "side-by-side", hidden: true });
   const plots = new Map<Pair, { box: HTMLElement; plot: TimePlot }>();
@@ -159,6 +167,7 @@ export function compare(trial: Trial, view: View, cycles: EncodedCycles | null =
     } });
     return el("label", { class: "tick" }, box, pair.title, pair.left < 0 ? null : el("small", {}, " right, left"));
   });
+  if (over !== null) note.textContent = `Dashed over it: the solution ${over.words}, ${differences(trial, over.trial)}.`;
   const file = el("input", { type: "file", id: "second-file", accept: ".html", change: () => void read() });
   async function read(): Promise<void> {
     const [picked] = file.files ?? [];
@@ -178,8 +187,7 @@ export function compare(trial: Trial, view: View, cycles: EncodedCycles | null =
   const overTime = el("div", { class: "controls" },
     hasTorques ? toggle("Torques", (on) => { torques = on; }) : null,
     hasTorques && mass !== null ? toggle(`per kg (${number(mass, 1)} kg)`, (on) => { perMass = on; }) : null,
-    el("label", { for: "second-file" }, "Second result"),
-    file,
+    ...(over === null ? [el("label", { for: "second-file" }, "Second result"), file] : []),
   );
   const timeWords = el("p", { class: "facts" }, "Each with its band of two standard deviations. Dashed level lines are limits of the model.");
   const cycleWords = el("p", { class: "facts", hidden: true }, "From foot strike to foot strike, as the recording's events mark them. Thin lines are cycles, the thick one is their mean, the band one standard deviation between them. Values that are not determined are left out.");
@@ -206,7 +214,7 @@ export function compare(trial: Trial, view: View, cycles: EncodedCycles | null =
     grid,
     cycleGrid,
   );
-  return { node, start: () => pairs.filter((p) => chosen.has(p)).forEach(add) };
+  return { node, start: () => (over === null ? pairs.filter((p) => chosen.has(p)) : [...chosen]).forEach(add) };
 }
 
 /** RMS difference of the coordinates that both results determine, in words. */

@@ -132,6 +132,11 @@ export class EditBar {
     document.addEventListener("keydown", (e) => this.#press(e));
   }
 
+  /** Whether letters are keys. */
+  get takesLetters(): boolean {
+    return this.#keys.checked;
+  }
+
   get state(): EditingState {
     return this.#state;
   }

@@ -4,7 +4,7 @@
 // npm run test:edits -- FILE... the same of C3D files with three markers that are whole, of which copies are edited
 // KINEMARK_PROGRAM names the program, KINEMARK_SCREENSHOTS a folder for pictures.
 import assert from "node:assert/strict";
-import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
@@ -21,7 +21,16 @@ interface Tried extends Opened {
   /** Names of three markers that are there in all frames. */
   names: [string, string, string];
   first: number;
+  /** The body model beside the recording; null: there is none. */
+  model: string | null;
 }
+
+/** Wait until no solution is under way, and give what the section says. */
+const solved = async (page: Page, words: RegExp): Promise<string> => {
+  await page.waitForFunction((w) => new RegExp(w, "u").test(document.getElementById("solved")?.textContent ?? ""), words.source);
+  await settle(page);
+  return (await page.locator("#solved").textContent()) ?? "";
+};
 
 const said = async (page: Page, words: RegExp): Promise<string> => {
   await page.waitForFunction((w) => new RegExp(w, "u").test(document.getElementById("edit-said")?.textContent ?? "") && document.getElementById("edit")!.getAttribute("aria-busy") !== "true", words.source);
@@ -214,6 +223,63 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
     await said(page, /Somebody else has edited/);
     await other.close();
   },
+  "without a body model the page says so": async ({ page, served, model }) => {
+    if (model === null) return;
+    renameSync(model, `${model}.away`);
+    await solved(page, /No body model is known for/);
+    assert.equal(await page.locator("#solved").getByRole("button", { name: "Solve" }).isDisabled(), true);
+    const refused = await page.evaluate(async () => (await fetch("/api/trial/1/angles", { method: "POST", headers: { "Content-Type": "application/json" }, body: '{"do":"solve"}' })).status);
+    assert.equal(refused, 422);
+    assert.equal((await fetch(`${served.origin}/api/trial/1/angles`)).status, 401, "strangers are told nothing");
+    renameSync(`${model}.away`, model);
+    await solved(page, /Not solved yet; the model is subject.osim/);
+  },
+  "angles are solved with the edits, lie over those as recorded, and are those of the command": async (t) => {
+    const { page, recording, model, names, first } = t;
+    if (model === null) return;
+    await choose(t, names[1], first + 30, first + 50);
+    await page.selectOption("#edit-other", names[2]);
+    await press(page, "Swap");
+    await said(page, /Made and saved: swap/);
+    await page.locator(".space-canvas").focus();
+    await page.keyboard.press("a");
+    const words = await solved(page, /Solved with \d+ edits? and subject.osim.*from the solution as recorded/);
+    assert.match(words, /coordinates? differs? from the solution as recorded/);
+    assert.match(words, /at most [\d.]+ (deg|mm) (more|less)/);
+    assert.match(words, /(none|\d+) by more than two standard deviations/);
+    await page.waitForFunction(() => document.querySelectorAll(".solved-curves .u-over").length >= 2);
+    assert.match((await page.locator(".solved-curves").textContent()) ?? "", /Dashed over it: the solution as recorded, angles [\d.]+ deg apart RMS/);
+    assert.notEqual((await ink(page, ".solved-curves canvas")).hash, 0);
+    const told = await page.evaluate(async () => (await (await fetch("/api/trial/1/angles")).json()) as { solutions: { now: { set: string; digest: string } } });
+    const out = join(recording, "..", "command.mot");
+    kinemark("ik", "--model", model, "--markers", recording, "--edits", "beside", "--output", out, "--force", "--quiet");
+    const report = JSON.parse(readFileSync(out.replace(".mot", "_report.json"), "utf8")) as { kinemark_set: string };
+    assert.equal(told.solutions.now.set, report.kinemark_set, "the same bits");
+    assert.equal(told.solutions.now.digest, listed(t).digest);
+  },
+  "an edit makes the angles old, and the next ones lie over those from before": async (t) => {
+    const { page, model, names, first } = t;
+    if (model === null) return;
+    await choose(t, names[0], first + 60, first + 70);
+    await press(page, "Cut");
+    await said(page, /Made and saved: cut/);
+    await solved(page, /The recording was edited since: solve it again/);
+    assert.ok((await page.locator(".solved-curves .u-over").count()) >= 2, "what was solved stays");
+    const before = (await page.locator("#solved-facts").textContent()) ?? "";
+    await page.locator("#solved").getByRole("button", { name: "Solve" }).click();
+    await page.waitForFunction((b) => (document.getElementById("solved-facts")?.textContent ?? b) !== b && document.getElementById("solved-facts")!.textContent!.includes("Solved with"), before);
+    await solved(page, /from the solution/);
+    await page.selectOption("#solved-over", "before");
+    await solved(page, /from the solution with \d+ edits?, as solved before/);
+    const report = await page.context().newPage();
+    await report.goto(new URL((await page.locator("#solved a").getAttribute("href"))!, page.url()).href);
+    await report.waitForFunction(() => document.documentElement.dataset["ready"] === "yes");
+    assert.equal(await report.locator("#angles").count(), 1, "its whole report is a page of its own");
+    await report.close();
+    await page.locator("#solved-changes button").first().click();
+    await settle(page);
+    assert.equal(await page.evaluate(() => location.hash), "#compare");
+  },
   "light, dark and 390 px: nothing clipped, axe has nothing against it": async ({ page, recording }) => {
     const folder = process.env["KINEMARK_SCREENSHOTS"];
     const wrong: string[] = [];
@@ -225,6 +291,8 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
         const name = recording.split("/").at(-1)!.replace(".c3d", "");
         await page.screenshot({ path: join(folder, `edit_${name}_${kind}.png`), fullPage: true });
         await page.locator("#edit").screenshot({ path: join(folder, `edit_${name}_${kind}_bar.png`) });
+        await page.locator("#solved").screenshot({ path: join(folder, `edit_${name}_${kind}_angles.png`) });
+        if ((await page.locator(".solved-curves section").count()) > 0) await page.locator(".solved-curves").screenshot({ path: join(folder, `edit_${name}_${kind}_curves.png`) });
       }
       wrong.push(...(await clipped(page)).map((c) => `${kind}: ${c}`), ...(await violations(page)).map((v) => `${kind}: ${v}`));
     }
@@ -247,6 +315,9 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
 async function tryOn(recording: string, given: string): Promise<number> {
   copyFileSync(given, recording);
   const original = readFileSync(recording);
+  const lies = given.replace("markers.c3d", "model.osim");
+  const model = lies !== given && existsSync(lies) ? join(recording, "..", "subject.osim") : null;
+  if (model !== null) copyFileSync(lies, model);
   const served = await serve(recording);
   const opened = await openAddress(served.address, (asked) => asked.startsWith(`${served.origin}/`), "light", true, `${served.origin}/trial/1`);
   // What is cut and swapped has to be there: whole markers, as the page itself tells.
@@ -254,7 +325,7 @@ async function tryOn(recording: string, given: string): Promise<number> {
   const whole = summary.markers.filter((m) => m.labelled && m.states.measured === summary.frames).map((m) => m.name);
   assert.ok(whole.length >= 3, "the recording has no three whole markers");
   const names = whole.slice(0, 3) as [string, string, string];
-  const t: Tried = { ...opened, served, recording, journal: recording.replace(".c3d", "_edits.jsonl"), names, first: summary.first_frame };
+  const t: Tried = { ...opened, served, recording, journal: recording.replace(".c3d", "_edits.jsonl"), names, first: summary.first_frame, model };
   let failed = 0;
   const all: typeof checks = {
     ...checks,

@@ -80,7 +80,7 @@ describe("the switch between time and cycle", () => {
     install();
     const trial = decode(simulated());
     const names = trial.summary.coordinates.map((c) => c.name);
-    return { names, ...compare(trial, new View(wholeOf(trial.summary)), encoded(names[0]!)) };
+    return { names, ...compare(trial, new View(wholeOf(trial.summary)), null, encoded(names[0]!)) };
   };
   it("is there where events mark cycles alone", () => {
     const { node } = made();

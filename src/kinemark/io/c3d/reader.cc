@@ -208,7 +208,7 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
     trial.residual_m = {};
     if (seen->unmeasured > 0 && !reader.parameters().number("POINT", kC3dResidualsParameter)) {
       // No sample has a residual, and kinemark's own mark is absent: a residual of 0 then has no meaning.
-      trial.warnings.push_back("carries no residuals; its samples are taken as measured");
+      trial.warnings.push_back("the file carries no residuals; its samples are taken as measured");
       for (data::SampleState& state : trial.markers.state)
         if (state == data::SampleState::interpolated) state = data::SampleState::measured;
     }

@@ -77,7 +77,19 @@ Result<std::vector<std::int64_t>> naming_columns(const io::TidyTable& table, con
   return out;
 }
 
-Status add_lines(const io::TidyTable& table, const CurveColumns& columns, std::string& unit,
+// Where a table holds cycles and their mean, as `analyze --write-cycles` writes it, the mean is no further
+// curve.
+void leave_out_means(const io::TidyTable& table, std::vector<std::int64_t>& rows,
+                     std::vector<std::string>& warnings) {
+  const auto cycle = table.find("cycle");
+  const auto is_mean = [&](std::int64_t row) { return table(row, cycle) == "mean"; };
+  if (cycle < 0 || std::ranges::all_of(rows, is_mean)) return;
+  if (std::erase_if(rows, is_mean) > 0)
+    warnings.push_back(fmt::format(
+        "{}: lines of the mean of cycles are left out; --where cycle=mean takes them alone", table.name));
+}
+
+Status add_lines(const io::TidyTable& table, const CurveColumns& columns, CurveGroups& out,
                  Collection& collection) {
   const auto at = column_of(table, columns.at, "--at");
   if (!at) return std::unexpected(at.error());
@@ -93,8 +105,10 @@ Status add_lines(const io::TidyTable& table, const CurveColumns& columns, std::s
   }
   const auto naming = naming_columns(table, columns);
   if (!naming) return std::unexpected(naming.error());
-  const auto rows = rows_where(table, columns.where);
+  auto rows = rows_where(table, columns.where);
   if (!rows) return std::unexpected(rows.error());
+  leave_out_means(table, *rows, out.warnings);
+  auto& unit = out.unit;
   auto its_unit = unit_of(table, *rows);
   if (!its_unit) return std::unexpected(its_unit.error());
   if (!unit.empty() && !its_unit->empty() && *its_unit != unit)
@@ -193,8 +207,8 @@ Result<CurveGroups> make_curve_groups(const std::vector<io::TidyTable>& tables, 
     if (numbers && table.width != tables.front().width)
       return fail(Code::bad_input, fmt::format("{} has {} points a curve, {} has {}", table.name, table.width,
                                                tables.front().name, tables.front().width));
-    if (auto s = numbers ? add_numbers(table, columns, collection)
-                         : add_lines(table, columns, out.unit, collection);
+    if (auto s =
+            numbers ? add_numbers(table, columns, collection) : add_lines(table, columns, out, collection);
         !s)
       return std::unexpected(s.error());
   }

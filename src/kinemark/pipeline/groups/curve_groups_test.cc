@@ -54,6 +54,20 @@ TEST(CurveGroups, CurvesOfASubjectAreAveragedOverThoseThatAreThere) {
               ElementsAre("6 curves are averaged to 5, one for each subject in each group"));
 }
 
+TEST(CurveGroups, TheMeanOfCyclesIsNoFurtherCurve) {
+  const auto table = table_of(
+      "curve,cycle,percent,value\nknee,1,0,1\nknee,1,100,2\nknee,2,0,3\nknee,2,100,6\n"
+      "knee,mean,0,2\nknee,mean,100,4\n");
+  const auto groups = make_curve_groups({table}, {});
+  ASSERT_TRUE(groups) << groups.error().message;
+  EXPECT_THAT(groups->curves[0].cycles, ElementsAre("1 knee", "2 knee"));
+  EXPECT_THAT(groups->warnings, ElementsAre(HasSubstr("lines of the mean of cycles are left out")));
+  const auto mean = make_curve_groups({table}, {.where = {"cycle=mean"}});
+  ASSERT_TRUE(mean) << mean.error().message;
+  EXPECT_THAT(mean->curves[0].cycles, ElementsAre("mean knee"));
+  EXPECT_TRUE(mean->warnings.empty());
+}
+
 TEST(CurveGroups, WithoutASubjectEachCurveStandsForItself) {
   const auto groups = make_curve_groups({table_of(kWalks)}, {.group = "when"});
   ASSERT_TRUE(groups);

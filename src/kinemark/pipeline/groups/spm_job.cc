@@ -24,6 +24,12 @@ Design design_of(const SpmJob& job, std::size_t groups) {
   return groups == 2 ? Design::two_sample : Design::one_way;
 }
 
+// What is so if nothing is to be found.
+std::string_view null_of(const analysis::Mapping& mapping) {
+  return mapping.options.design == Design::one_sample ? "the mean is 0 everywhere"
+                                                      : "the groups do not differ";
+}
+
 // Where a place between points lies, on the scale of the curves.
 double place(const CurveGroups& groups, double point) {
   const auto last = static_cast<double>(groups.at.size() - 1);
@@ -67,6 +73,9 @@ Result<SpmOutcome> run_spm(const SpmJob& job) {
   if (job.paired)
     if (auto s = pair_curves(*groups); !s) return std::unexpected(s.error());
   options.design = design_of(job, groups->names.size());
+  if (job.one_sided && options.design == Design::one_way)
+    return fail(Code::usage, fmt::format("F has no sides: --one-sided takes one group or two; there are {}",
+                                         groups->names.size()));
   auto mapping = analysis::map_curves(groups->curves, options);
   if (!mapping) return std::unexpected(mapping.error());
   SpmOutcome outcome;
@@ -86,16 +95,17 @@ std::string spm_text(const SpmOutcome& outcome) {
   if (!mapping.remark.empty()) return out + fmt::format("Nothing can be found: {}.\n", mapping.remark);
   const bool magnitude = mapping.statistic == "t" && mapping.options.two_sided;
   out += fmt::format(
-      "{} beyond {}{:.4g} anywhere with probability {:g} at most if the groups do not differ ({} of {:.6g} "
-      "arrangements, seed {})\n",
+      "{} beyond {}{:.4g} anywhere with probability {:g} at most if {} ({} of {:.6g} arrangements, seed "
+      "{})\n",
       degrees_of_freedom(mapping), magnitude ? "+-" : "", mapping.threshold, mapping.options.alpha,
-      mapping.arrangements, mapping.possible, mapping.options.seed);
+      null_of(mapping), mapping.arrangements, mapping.possible, mapping.options.seed);
   for (const auto& stretch : mapping.stretches)
     out += fmt::format("  {} {:.4g} to {:.4g}: {} up to {:.3g}, p = {:.3g}\n", outcome.groups.at_name,
                        place(outcome.groups, stretch.first), place(outcome.groups, stretch.last),
                        mapping.statistic, stretch.extreme, stretch.p);
   if (mapping.stretches.empty())
-    out += fmt::format("No difference is found: largest {} {:.3g}, p = {:.3g}\n", mapping.statistic,
+    out += fmt::format("No difference{} is found: largest {} {:.3g}, p = {:.3g}\n",
+                       mapping.options.design == Design::one_sample ? " from 0" : "", mapping.statistic,
                        largest(mapping), mapping.p);
   if (mapping.not_tested > 0)
     out += fmt::format("{} points are not tested: a curve is missing there, or all are equal\n",

@@ -61,7 +61,16 @@ TEST_F(SpmJobTest, NoDifferenceIsSaidWhereThereIsNone) {
   const auto outcome = run_spm({.inputs = {write("a.csv", 3, 0.0), write("b.csv", 4, 0.0)}});
   ASSERT_TRUE(outcome);
   EXPECT_THAT(spm_text(*outcome), HasSubstr("No difference is found: largest t "));
+  EXPECT_THAT(spm_text(*outcome), HasSubstr("at most if the groups do not differ ("));
   EXPECT_EQ(outcome->exit_status(), 0);
+}
+
+TEST_F(SpmJobTest, OneGroupIsComparedWithZeroAndSaysSo) {
+  const auto outcome = run_spm({.inputs = {write("a.csv", 3, 0.0)}});
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(spm_text(*outcome), HasSubstr("at most if the mean is 0 everywhere ("));
+  EXPECT_THAT(spm_text(*outcome), HasSubstr("No difference from 0 is found: largest t "));
+  EXPECT_THAT(spm_text(*outcome), Not(HasSubstr("groups")));
 }
 
 TEST_F(SpmJobTest, DesignsFollowFromTheGroups) {
@@ -73,6 +82,7 @@ TEST_F(SpmJobTest, DesignsFollowFromTheGroups) {
   EXPECT_EQ(one_way->mapping.statistic, "F");
   EXPECT_THAT(spm_text(*one_way), HasSubstr("F(2, 27) beyond "));
   EXPECT_EQ(run_spm({.inputs = {a, b, c}, .paired = true}).error().code, Code::bad_input);
+  EXPECT_EQ(run_spm({.inputs = {a, b, c}, .one_sided = true}).error().code, Code::usage);
 }
 
 TEST_F(SpmJobTest, JsonHoldsAllAndStretchesAreInPercent) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/io/edits/edit_line.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
@@ -39,6 +40,7 @@ std::string offset_sentence(const motion::IkResult& result, const IkJob& job, co
       1e3 * result.fit.rms_error_m);
 }
 
+constexpr const char* kOrSetup = " or a --setup that names one";
 constexpr double kMostFramesOff = 5.0;  // %: frames that fit worse than a recording may as a whole
 
 /// Gates of single frames and samples, which the RMS of a whole recording hides.
@@ -92,17 +94,18 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
     if (auto s = internal::add_input(run, "setup part", part); !s) return std::unexpected(s.error());
   if (auto s = internal::add_input(run, "tasks", job.tasks); !s) return std::unexpected(s.error());
   const auto& o = job.options;
-  run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
   const char* losses[] = {"square", "huber", "cauchy"};
-  run.options = {
-      {"loss", losses[static_cast<int>(o.loss)]},
-      {"loss scale", fmt::format("{} m", o.loss_scale_m)},
-      {"limits of clamped coordinates", o.limits ? "kept" : "ignored"},
-      {"marker noise", o.marker_noise_sd_m > 0.0 ? fmt::format("{} m per axis, given", o.marker_noise_sd_m)
-                                                 : "estimated from the residuals, per marker and segment"},
-      {"outliers", o.judge_samples ? "left out" : "kept"},
-      {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
-      {"starts of the first frame", std::to_string(o.starts)}};
+  run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
+  run.options.insert(
+      run.options.end(),
+      {{"loss", losses[static_cast<int>(o.loss)]},
+       {"loss scale", fmt::format("{} m", o.loss_scale_m)},
+       {"limits of clamped coordinates", o.limits ? "kept" : "ignored"},
+       {"marker noise", o.marker_noise_sd_m > 0.0 ? fmt::format("{} m per axis, given", o.marker_noise_sd_m)
+                                                  : "estimated from the residuals, per marker and segment"},
+       {"outliers", o.judge_samples ? "left out" : "kept"},
+       {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
+       {"starts of the first frame", std::to_string(o.starts)}});
   if (job.images.any()) run.options.emplace_back("images in place of markers", describe_images(job.images));
   run.solve_s = result.solve_seconds;
   internal::add_fit(run, result.fit, result.motion.time);
@@ -114,7 +117,7 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
 /// Fill in what a setup names and what options follow from others, and check that it is enough.
 Status complete(IkJob& job) {
   if (auto s = apply_setup(job); !s) return s;
-  if (auto s = internal::check_named(job, " or a --setup that names one"); !s) return s;
+  if (auto s = internal::check_named(job, kOrSetup); !s) return s;
   if (job.images.any() && job.estimator != Estimator::smoother)
     return fail(Code::usage, "least squares cannot use images; give --estimator smoother");
   job.options.threads = job.threads;
@@ -134,41 +137,81 @@ Result<Staging> stage_files(const IkJob& job) {
   return internal::stage(job, {"_sd.sto", "_marker_errors.sto", "_report.json"}, further, read);
 }
 
+/// A solution that was judged, and the markers that it is of.
+struct Solved {
+  IkOutcome outcome;
+  data::Trajectories markers;  ///< that were used, without what was left out
+};
+
+Result<Solved> solve(const IkJob& job, const internal::MotionInputs& inputs) {
+  auto estimate = estimate_motion(job, inputs.model, inputs.trial.markers,
+                                  inputs.images ? &*inputs.images : nullptr, inputs.axes);
+  if (!estimate) return std::unexpected(estimate.error());
+  Solved solved;
+  auto& result = solved.outcome.result = std::move(estimate->ik);
+  solved.markers = internal::solved_markers(inputs.trial.markers, result.fit, result.motion);
+  auto run = describe_run(job, inputs, result, estimate->torques);
+  if (!run) return std::unexpected(run.error());
+  run->warnings.insert(run->warnings.begin(), job.setup_notes.begin(), job.setup_notes.end());
+  if (auto s = internal::judge(std::move(*run), result.motion, &solved.markers, solved.outcome); !s)
+    return std::unexpected(s.error());
+  return solved;
+}
+
 }  // namespace
 
 Result<IkOutcome> run_ik(IkJob job) {
   // Prepare: options, model and markers, tasks, where results go.
   if (auto s = complete(job); !s) return std::unexpected(s.error());
+  if (auto s = internal::check_output_named(job, kOrSetup); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
-  const auto& [model, trial, axes, images, read] = *inputs;
-  if (auto s = apply_tasks(job, model, trial.markers); !s) return std::unexpected(s.error());
+  const auto& model = inputs->model;
+  if (auto s = apply_tasks(job, model, inputs->trial.markers); !s) return std::unexpected(s.error());
   auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
-  // Solve.
-  auto estimate = estimate_motion(job, model, trial.markers, images ? &*images : nullptr, axes);
-  if (!estimate) return std::unexpected(estimate.error());
-  // Judge.
-  IkOutcome outcome;
-  outcome.result = std::move(estimate->ik);
+  // Solve and judge.
+  auto solved = solve(job, *inputs);
+  if (!solved) return std::unexpected(solved.error());
+  auto& outcome = solved->outcome;
   const auto& motion = outcome.result.motion;
-  const data::Trajectories solved = internal::solved_markers(trial.markers, outcome.result.fit, motion);
-  auto run = describe_run(job, *inputs, outcome.result, estimate->torques);
-  if (!run) return std::unexpected(run.error());
-  run->warnings.insert(run->warnings.begin(), job.setup_notes.begin(), job.setup_notes.end());
-  if (auto s = internal::judge(std::move(*run), motion, &solved, outcome); !s)
-    return std::unexpected(s.error());
   // Write.
   auto files = internal::motion_files(job, motion, outcome.summary);
   if (job.marker_locations)
     files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
-    files.push_back(text_file(
-        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved, trial); }));
+    files.push_back(text_file(job.report, [&] {
+      return internal::motion_page(model, outcome.summary, motion, &solved->markers, inputs->trial);
+    }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
-  return outcome;
+  return std::move(outcome);
+}
+
+Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
+  if (auto s = complete(job); !s) return std::unexpected(s.error());
+  const auto inputs = internal::read_inputs(job);
+  if (!inputs) return std::unexpected(inputs.error());
+  const auto& markers = inputs->trial.markers;
+  if (markers.frames() * markers.markers() > most_samples)
+    return fail(
+        Code::not_supported,
+        fmt::format("{}: {} frames of {} markers are more than is solved here; take 'kinemark ik', or "
+                    "crop the recording",
+                    job.markers.filename().string(), markers.frames(), markers.markers()));
+  if (auto s = apply_tasks(job, inputs->model, markers); !s) return std::unexpected(s.error());
+  const auto solved = solve(job, *inputs);
+  if (!solved) return std::unexpected(solved.error());
+  const auto& [outcome, used] = *solved;
+  const auto& motion = outcome.result.motion;
+  if (job.progress && !job.progress(motion.frames(), motion.frames()))
+    return fail(Code::cancelled, "inverse kinematics was stopped");
+  return IkPage{.html = internal::motion_page(inputs->model, outcome.summary, motion, &used, inputs->trial),
+                .summary = outcome.summary,
+                .set = internal::name_set(motion, outcome.summary.run),
+                .edits = inputs->edits.in_force,
+                .digest = inputs->edits.file ? inputs->edits.digest : io::digest_of({})};
 }
 
 }  // namespace kinemark::pipeline

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/motion/ik.h"
@@ -38,5 +40,19 @@ struct IkOutcome : MotionOutcome {
 /// Read, solve, judge and write. Either all files appear or, on a failure, none. Threads and seed of the
 /// options are the job's. Progress counts frames.
 [[nodiscard]] Result<IkOutcome> run_ik(IkJob job);
+
+/// A solution that is on no disk: its page, and what tells it from others.
+struct IkPage {
+  std::string html;           ///< as run_ik() writes to IkJob::report
+  report::IkSummary summary;  ///< findings included
+  std::string set;            ///< that the files of run_ik() would name: other numbers, another set
+  std::size_t edits = 0;      ///< operations in force that were applied
+  std::string digest;         ///< of what they do, io::digest_of()
+};
+
+/// What run_ik() computes, with nothing written; output and report of the job are not used. Fails as
+/// run_ik(), and with Code::not_supported for more than `most_samples` (frames times markers of the
+/// recording).
+[[nodiscard]] Result<IkPage> ik_page(IkJob job, std::int64_t most_samples);
 
 }  // namespace kinemark::pipeline

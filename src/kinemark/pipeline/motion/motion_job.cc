@@ -50,9 +50,13 @@ Status add_images(const MotionJob& job, MotionInputs& inputs) {
 Status check_named(const MotionJob& job, std::string_view or_else) {
   if (job.model.empty()) return fail(Code::usage, fmt::format("no model; give --model{}", or_else));
   if (job.markers.empty()) return fail(Code::usage, fmt::format("no marker file; give --markers{}", or_else));
-  if (job.output.empty()) return fail(Code::usage, fmt::format("no output; give --output{}", or_else));
   if (auto s = job.axes.check(); !s) return s;
   return job.images.check();
+}
+
+Status check_output_named(const MotionJob& job, std::string_view or_else) {
+  if (!job.output.empty()) return {};
+  return fail(Code::usage, fmt::format("no output; give --output{}", or_else));
 }
 
 Result<MotionInputs> read_inputs(const MotionJob& job) {
@@ -60,6 +64,13 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
   if (!model) return std::unexpected(model.error());
   auto markers = read_marker_input({.path = job.markers, .rate_hz = job.rate_hz, .record = true});
   if (!markers) return std::unexpected(markers.error());
+  auto edits = take_edits({.edits = job.edits,
+                           .recording = job.markers,
+                           .force = job.force,
+                           .seed = job.seed,
+                           .threads = job.threads},
+                          markers->trial);
+  if (!edits) return std::unexpected(edits.error());
   auto axes = bring_into_axes(job.axes, job.markers, markers->trial, model->model);
   if (!axes) return std::unexpected(axes.error());
   if (job.images.any() && !axes->model_from_recording.isIdentity(0.0))
@@ -68,9 +79,11 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
         "images are seen in the axes of their rig, which --up and --rotate do not turn; turn the model");
   MotionInputs inputs{.model = std::move(model->model),
                       .trial = std::move(markers->trial),
+                      .edits = std::move(*edits),
                       .axes = std::move(*axes),
                       .images = {},
                       .files = {std::move(model->file), std::move(markers->file)}};
+  if (inputs.edits.file) inputs.files.push_back(*inputs.edits.file);
   if (auto s = add_images(job, inputs); !s) return std::unexpected(s.error());
   return inputs;
 }
@@ -85,7 +98,9 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   run.seed = job.seed;
   run.threads = job.threads;
   run.inputs = inputs.files;
+  run.options = edit_options(inputs.edits);
   run.warnings = inputs.trial.warnings;
+  run.warnings.insert(run.warnings.end(), inputs.edits.notes.begin(), inputs.edits.notes.end());
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());
   for (const auto& coordinate : model.coordinates)
     if (coordinate.locked)
@@ -173,7 +188,7 @@ Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suff
   std::vector<fs::path> targets{job.output};
   for (const auto& suffix : suffixes) targets.push_back(beside(job.output, suffix));
   targets.insert(targets.end(), further.begin(), further.end());
-  std::vector<fs::path> inputs{job.model, job.markers, job.forces, job.images.rig};
+  std::vector<fs::path> inputs{job.model, job.markers, job.edits, job.forces, job.images.rig};
   for (const auto& camera : job.images.cameras) inputs.push_back(camera.points);
   inputs.insert(inputs.end(), also_read.begin(), also_read.end());
   return Staging::create(std::move(targets), job.force, inputs);

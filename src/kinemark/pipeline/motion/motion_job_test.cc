@@ -25,9 +25,11 @@ TEST(MotionRun, AsksForTheFirstFileThatIsNotNamed) {
   job.model = "m.osim";
   EXPECT_EQ(internal::check_named(job, " or else").error().message, "no marker file; give --markers or else");
   job.markers = "m.c3d";
-  EXPECT_EQ(internal::check_named(job).error().code, Code::usage);
-  job.output = "q.mot";
   EXPECT_TRUE(internal::check_named(job));
+  EXPECT_EQ(internal::check_output_named(job).error().message, "no output; give --output");
+  EXPECT_EQ(internal::check_output_named(job).error().code, Code::usage);
+  job.output = "q.mot";
+  EXPECT_TRUE(internal::check_output_named(job));
 }
 
 TEST(MotionRun, AModelWithoutMarkersIsRefusedBeforeTheRecordingIsRead) {

@@ -14,6 +14,8 @@
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
@@ -53,6 +55,15 @@ RotationNames rotations(const Json& json) {
   return names;
 }
 
+/// The edits of a run applied to its recording once more; false where their journal is another by now.
+bool edit_again(const report::IkRun& run, const fs::path& recording, data::Trial& trial) {
+  const auto was = std::ranges::find(run.inputs, "edits", &data::InputFile::role);
+  if (was == run.inputs.end()) return true;
+  const auto is = record_input("edits", was->path);
+  return is && is->bytes == was->bytes && is->hash == was->hash &&
+         take_edits({.edits = was->path, .recording = recording, .seed = run.seed}, trial).has_value();
+}
+
 /// What is still known of a recording.
 struct Recorded {
   data::Trajectories states;  ///< on the solved frames
@@ -63,8 +74,8 @@ struct Recorded {
 std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointMotion& motion) {
   for (const auto& input : run.inputs) {
     if (input.role != "markers") continue;
-    const auto markers = read_marker_input({.path = input.path});
-    if (!markers) return std::nullopt;
+    auto markers = read_marker_input({.path = input.path});
+    if (!markers || !edit_again(run, input.path, markers->trial)) return std::nullopt;
     const auto& recorded = markers->trial.markers;
     const auto first = recorded.time.nearest_frame(motion.time.t0_s);
     if (first < 0 || first + motion.frames() > recorded.frames()) return std::nullopt;

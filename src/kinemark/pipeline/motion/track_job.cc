@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -45,7 +46,7 @@ Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionIn
                                    const motion::TrackResult& result, const TorqueAccount& torques) {
   auto run = internal::begin_run(job, inputs);
   run.method = "direct marker control";
-  run.options = describe_options(job, result);
+  std::ranges::move(describe_options(job, result), std::back_inserter(run.options));
   run.solve_s = result.solve_seconds;
   internal::add_fit(run, result.fit, result.motion.time);
   run.locked_coordinates.insert(run.locked_coordinates.end(), result.locked_coordinates.begin(),
@@ -139,6 +140,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
   job.options.threads = job.threads;
   job.options.seed = job.seed;
   if (auto s = internal::check_named(job); !s) return std::unexpected(s.error());
+  if (auto s = internal::check_output_named(job); !s) return std::unexpected(s.error());
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());

@@ -225,12 +225,14 @@ class Planner {
       if (known.insert(folder / frame.filename()).second) inputs.push_back(folder / frame.filename());
   }
 
-  /// The journal beside a step's recording, if there is one: a step is due again when it comes or goes.
+  /// Journals beside what a step reads, if there are any: a step is due again when one comes or goes.
   void add_edits(std::vector<fs::path>& inputs) const {
-    std::error_code absent;
-    if (inputs.empty()) return;
-    const auto journal = edits_of(inputs.front());
-    if (fs::is_regular_file(base_ / journal, absent)) inputs.push_back(journal);
+    const auto read = inputs;
+    for (const auto& input : read) {
+      std::error_code absent;
+      const auto journal = edits_of(input);
+      if (fs::is_regular_file(base_ / journal, absent)) inputs.push_back(journal);
+    }
   }
 
   /// With its options behind its own words; every value that names a file is an input.

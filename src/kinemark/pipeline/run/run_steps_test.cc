@@ -205,6 +205,14 @@ TEST_F(PlanSteps, TheJournalBesideARecordingIsAnInput) {
   EXPECT_THAT(steps.at(0).inputs, ElementsAre("S/run.c3d", "S/run_edits.jsonl"));
 }
 
+TEST_F(PlanSteps, TheJournalIsAnInputOfASolverThatReadsTheRecordingItself) {
+  ASSERT_TRUE(io::write_text(scratch_ / "S/run_edits.jsonl", "{}", false));
+  const auto steps = plan(
+      "steps = [\"ik\"]\n[ik]\nmodel = \"human.osim\"\nedits = \"beside\"\n[[subject]]\nname = \"A\"\n"
+      "trials = [\"S/run.c3d\"]\n");
+  EXPECT_THAT(steps.value().at(0).inputs, Contains(fs::path("S/run_edits.jsonl")).Times(1));
+}
+
 TEST_F(PlanSteps, FramesOfOpenPoseAreInputsEachAndOneStandsForAll) {
   fs::create_directories(scratch_ / "frames");
   for (const char* name : {"frames/v_0_keypoints.json", "frames/v_1_keypoints.json"})

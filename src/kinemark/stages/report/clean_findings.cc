@@ -132,10 +132,10 @@ void add_open_gaps(const CleanReport& r, std::vector<Notice>& out) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   }
   if (longest == nullptr) return;
-  const std::string why = longest->why_open.empty() ? "" : fmt::format(" {}", longest->why_open);
+  const std::string why = longest->why_open.empty() ? "" : fmt::format(": {}", longest->why_open);
   const std::string marker = r.account.name_of(longest->marker);
   add(out, Verdict::good, "gap", marker,
-      fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}.{}",
+      fmt::format("{} left open ({:.3g} s in all, in {}); the longest lasts {:.3g} s in {}{}.",
                   count_text(number, "gap was", "gaps were"), sum_s, join_names(names, kNamesListed),
                   length_s(*longest, r.time), marker, why),
       r.time.time_s(longest->first_frame));

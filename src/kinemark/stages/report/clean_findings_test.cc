@@ -150,14 +150,14 @@ TEST(CleanFindings, UncertainFillsAreReportedMarkerByMarkerWithTheWorst) {
 TEST(CleanFindings, OpenGapsAreSummedWithTheLongestAndItsReason) {
   CleanReport r = faultless();
   r.account.gaps = {gap(kA, 0, 9), gap(kC, 200, 499), gap(kA, 700, 709)};
-  r.account.gaps[1].why_open = "The gap is longer than 2 s.";
+  r.account.gaps[1].why_open = "3 s long; at most 2 s are filled";
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(1));
   EXPECT_EQ(findings[0].level, Verdict::good);
-  EXPECT_EQ(
-      findings[0].text,
-      "3 gaps were left open (3.2 s in all, in A and C); the longest lasts 3 s in C. The gap is longer than "
-      "2 s.");
+  EXPECT_EQ(findings[0].text,
+            "3 gaps were left open (3.2 s in all, in A and C); the longest lasts 3 s in C: 3 s long; at most "
+            "2 s are "
+            "filled.");
   EXPECT_DOUBLE_EQ(findings[0].time_s, 2.0);
 }
 

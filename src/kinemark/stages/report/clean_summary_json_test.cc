@@ -111,7 +111,7 @@ TEST(CleanSummaryJson, AGapTellsItsStory) {
   EXPECT_FALSE(finger["filled"]);
   EXPECT_EQ(finger["how"], "");
   EXPECT_TRUE(finger["sd_mm"].is_null());
-  EXPECT_EQ(finger["why_open"], "The gap is longer than 2 s.");
+  EXPECT_EQ(finger["why_open"], "2.5 s long; at most 2 s are filled");
 }
 
 TEST(CleanSummaryJson, AMarkerTellsWhatTheRecorderDidToIt) {

@@ -141,7 +141,7 @@ void cut_hole(ExampleClean& e, const Hole& hole) {
     gap.window_s = static_cast<double>(last - first + 1) / kRateHz;
     gap.predictors = {"R.Forearm.1", "R.Forearm.2", "R.Elbow.Lat"};
   } else {
-    gap.why_open = "The gap is longer than 2 s.";
+    gap.why_open = "2.5 s long; at most 2 s are filled";
   }
   if (hole.method == "auto")
     gap.weights = {{"regression, tied", 0.61, 0.0021, false},

@@ -104,10 +104,10 @@ std::vector<data::SampleState> states_of(const Keywords& found, data::Trial& tri
     if (type == "mixed" || type == "edited") mixed.push_back("'" + excerpt(found.names[i]) + "'");
   }
   if (!mixed.empty())
-    trial.warnings.push_back(
-        fmt::format("trajectories of {} markers are mixed or edited, where filled samples "
-                    "cannot be kept apart from measured ones: {}",
-                    mixed.size(), join_some(mixed, kNamesInWarning)));
+    trial.warnings.push_back(fmt::format(
+        "filled samples cannot be kept apart from measured ones in trajectories that are mixed or "
+        "edited: {}",
+        join_some(mixed, kNamesInWarning)));
   return out;
 }
 

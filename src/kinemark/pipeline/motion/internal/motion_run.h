@@ -14,6 +14,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
+#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/pipeline/motion/torques.h"
@@ -23,17 +24,20 @@ namespace kinemark::pipeline::internal {
 struct MotionInputs {
   model::Model model;
   data::Trial trial;                        ///< in the model's axes
+  EditsTaken edits;                         ///< what was applied to it before
   Axes axes;                                ///< how it came there
   std::optional<data::ImageTracks> images;  ///< at the frames of the trial
   std::vector<data::InputFile> files;       ///< all that were read, for the record
 };
 
-/// Model, markers and output are named, images as they must be. `or_else` ends the advice: " or a --setup
-/// that names one".
+/// Model and markers are named, images as they must be. `or_else` ends the advice: " or a --setup that names
+/// one".
 [[nodiscard]] Status check_named(const MotionJob& job, std::string_view or_else = "");
+/// The output is named.
+[[nodiscard]] Status check_output_named(const MotionJob& job, std::string_view or_else = "");
 [[nodiscard]] Result<MotionInputs> read_inputs(const MotionJob& job);
 
-/// What is known of a run before anything is solved.
+/// What is known of a run before anything is solved; its options are those of the edits.
 [[nodiscard]] report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs);
 /// Files of forces, and what there is to tell of the torques.
 [[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);

@@ -19,6 +19,7 @@ namespace {
 constexpr std::int64_t kLeastSamples = 30;  // measured, for a smoother to be chosen
 constexpr std::int64_t kLeastStretch = 5;   // samples of a stretch
 constexpr double kLowestCutOff_hz = 0.4;    // of those tried
+constexpr double kMemoryCycles = 6.0;       // of the cut-off, beyond which a smoothed sample feels nothing
 constexpr double kEdge_s = 0.08;            // at both ends, where a smoother knows one side only
 constexpr double kNoiseDisagrees = 0.15;    // of the stated noise
 
@@ -101,7 +102,7 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
   if (!choice) return std::unexpected(fmt::format("no smoother fits the samples of {}", out.name_));
   recording.choice = *choice;
   out.less_ = smoothed(recording, kLessSmooth);
-  out.least_ = smoothed(recording, kLeastSmooth);
+  if (options.refits > 0) out.least_ = smoothed(recording, kLeastSmooth);
   return out;
 }
 
@@ -125,35 +126,63 @@ MeasuredPath::Stretch MeasuredPath::stretch_of(const data::Region& region) const
 bool MeasuredPath::below_noise(const Stretch& stretch) const {
   // About the mean of a second around each sample.
   const std::int64_t half = std::llround(0.5 * recording_.rate_hz), n = recording_.x.rows();
+  std::int64_t begin = std::max<std::int64_t>(0, stretch.first - half), end = begin;
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   double squares = 0.0;
   std::int64_t count = 0;
   for (std::int64_t i = stretch.first; i < stretch.first + stretch.count; ++i) {
+    for (; end < std::min(n, i + half + 1); ++end) sum += less_.row(end) - less_.row(0);
+    for (; begin < i - half; ++begin) sum -= less_.row(begin) - less_.row(0);
     if (!recording_.seen[at(i)]) continue;
-    const std::int64_t begin = std::max<std::int64_t>(0, i - half), end = std::min(n, i + half + 1);
-    Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-    for (std::int64_t k = begin; k < end; ++k) mean += less_.row(k);
-    squares += (recording_.x.row(i) - mean / static_cast<double>(end - begin)).squaredNorm();
+    const Eigen::RowVector3d mean = less_.row(0) + sum / static_cast<double>(end - begin);
+    squares += (recording_.x.row(i) - mean).squaredNorm();
     count += 3;
   }
   const double noise = recording_.noise_sd_m * recording_.noise_sd_m;
   return count > 0 && squares / static_cast<double>(count) - noise <= 0.25 * noise;
 }
 
-// Values of every measure that is asked for: of what was recorded, of the pilot, and of the refits.
+// Values of every measure that is asked for: of what was recorded, of the pilot, and of the refits; NaN where
+// a measure is not taken of such a path.
 struct MeasuredPath::Refits {
   std::vector<const PathDefinition*> definitions;
   std::vector<double> less, least, raw, pilot;                 // one for each definition
   std::vector<std::vector<double>> by_less, by_least, by_raw;  // deviations of the refits
 
-  std::vector<double> values(const PathFacts& facts) const {
+  // Which paths a measure is taken of.
+  static bool of_less(Pivot pivot) { return pivot != Pivot::raw_squared; }
+  static bool of_least(Pivot pivot) { return pivot == Pivot::of_derivative; }
+  static bool of_raw(Pivot pivot) { return pivot == Pivot::raw_squared; }
+
+  std::vector<double> values(const PathSamples& path, const PathFrame& frame, bool (*taken)(Pivot)) const {
+    const PathFacts facts(path, frame);
     std::vector<double> out;
-    for (const auto* definition : definitions) out.push_back(definition->value(facts));
+    for (const auto* definition : definitions)
+      out.push_back(taken(definition->pivot) ? definition->value(facts) : kNaN);
     return out;
   }
-  bool any(Pivot pivot) const {
-    return std::ranges::any_of(definitions, [pivot](const auto* d) { return d->pivot == pivot; });
+  bool any(bool (*taken)(Pivot)) const {
+    return std::ranges::any_of(definitions, [taken](const auto* d) { return taken(d->pivot); });
   }
 };
+
+// A stretch with as much before and behind it as its smoothed samples depend on, and samples enough.
+MeasuredPath::Neighbourhood MeasuredPath::around(const Stretch& stretch) const {
+  const std::int64_t n = recording_.x.rows();
+  auto margin = static_cast<std::int64_t>(std::ceil(kMemoryCycles / recording_.choice.half_power));
+  for (;; margin *= 2) {
+    const std::int64_t first = std::max<std::int64_t>(0, stretch.first - margin);
+    const std::int64_t end = std::min(n, stretch.first + stretch.count + margin);
+    const auto begin = recording_.seen.begin();
+    if (std::count(begin + first, begin + end, true) < kLeastSamples && end - first < n) continue;
+    return {.first = first,
+            .recording = {.x = recording_.x.middleRows(first, end - first),
+                          .seen = {begin + first, begin + end},
+                          .rate_hz = recording_.rate_hz,
+                          .noise_sd_m = recording_.noise_sd_m,
+                          .choice = recording_.choice}};
+  }
+}
 
 PathCurves MeasuredPath::curves_of(const PathSamples& path, const PathFrame& frame, const Stretch& stretch,
                                    const CurveSpread& spread) const {
@@ -174,6 +203,40 @@ PathCurves MeasuredPath::curves_of(const PathSamples& path, const PathFrame& fra
   return out;
 }
 
+// Deviations of refits around the pilot path; `spread`, where there is one, gets their curves.
+void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, const SeriesMatrix& pilot,
+                         const PathFrame& frame, Refits& refits, CurveSpread* spread) const {
+  const auto stream = mix64(static_cast<std::uint64_t>(marker_) + 1);
+  const auto part = [&](const SeriesMatrix& x) {
+    return differentiate(x, stretch.first - near.first, stretch.count, recording_.rate_hz);
+  };
+  const bool least_too = refits.any(Refits::of_least), raw_too = refits.any(Refits::of_raw);
+  if (least_too)
+    refits.least = refits.values(differentiate(least_, stretch.first, stretch.count, recording_.rate_hz),
+                                 frame, Refits::of_least);
+  refits.pilot = refits.values(part(pilot), frame, Refits::of_less);
+  const SeriesMatrix raw = raw_path(near.recording, less_.middleRows(near.first, near.recording.x.rows()));
+  const auto visit = [&](std::int64_t number, const SeriesMatrix& less, const SeriesMatrix& least) {
+    const PathSamples less_part = part(less);
+    if (spread != nullptr) spread->add(less_part);
+    const auto a = refits.values(less_part, frame, Refits::of_less);
+    const auto b = least_too ? refits.values(part(least), frame, Refits::of_least) : a;
+    const auto c = raw_too ? refits.values(part(with_noise(raw, near.recording.seen, recording_.noise_sd_m,
+                                                           options_.seed, stream, number)),
+                                           frame, Refits::of_raw)
+                           : a;
+    for (std::size_t i = 0; i < refits.definitions.size(); ++i) {
+      const Pivot pivot = refits.definitions[i]->pivot;
+      const double base = refits.pilot[i];
+      if (Refits::of_less(pivot))
+        refits.by_less[i].push_back(pivot == Pivot::squared ? a[i] * a[i] - base * base : a[i] - base);
+      if (Refits::of_least(pivot)) refits.by_least[i].push_back(b[i] - base);
+      if (Refits::of_raw(pivot)) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
+    }
+  };
+  for_each_refit(near.recording, pilot, options_.refits, options_.seed, stream, visit);
+}
+
 std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(const data::Region& region,
                                                                              PathCurves* curves) const {
   const Stretch stretch = stretch_of(region);
@@ -181,50 +244,37 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
     return std::unexpected(fmt::format("{} frames without the edges of {:g} ms; need {} at least",
                                        stretch.count, 1e3 * kEdge_s, kLeastStretch));
   const double rate = recording_.rate_hz;
-  const auto part = [&](const SeriesMatrix& x) {
-    return differentiate(x, stretch.first, stretch.count, rate);
-  };
-  // The same noise for the same marker, whichever regions and measures are asked for.
+  const PathSamples less = differentiate(less_, stretch.first, stretch.count, rate);
+  // The same noise for the same marker and region, whatever else is asked for.
   const auto stream = mix64(static_cast<std::uint64_t>(marker_) + 1);
-  const SeriesMatrix pilot = pilot_path(recording_, stretch.first, stretch.count, options_.seed, stream);
-  const PathSamples pilot_part = part(pilot);
+  const bool intervals = options_.refits > 0;
+  const auto near = intervals ? around(stretch) : Neighbourhood{};
+  const auto part = [&](const SeriesMatrix& x) {
+    return differentiate(x, stretch.first - near.first, stretch.count, rate);
+  };
+  const SeriesMatrix pilot =
+      intervals ? pilot_path(near.recording, stretch.first - near.first, stretch.count, options_.seed, stream)
+                : SeriesMatrix{};
+  const PathSamples pilot_part = intervals ? part(pilot) : less;
   PathFrame frame = recognise(pilot_part);
   frame.start_s = first_s_ + static_cast<double>(stretch.first) / rate;
 
   Refits refits;
   for (const auto& definition : path_definitions())
     if (is_asked(definition, options_, frame)) refits.definitions.push_back(&definition);
-  const auto values_of = [&](const SeriesMatrix& x) {
-    const PathSamples samples = part(x);
-    return refits.values(PathFacts(samples, frame));
-  };
-  refits.less = values_of(less_);
-  refits.least = values_of(least_);
-  refits.pilot = values_of(pilot);
-  const bool raw_too = refits.any(Pivot::raw_squared);
-  const SeriesMatrix raw = raw_path(recording_, less_);
-  if (raw_too) refits.raw = values_of(raw);
   const std::size_t count = refits.definitions.size();
   refits.by_less.resize(count), refits.by_least.resize(count), refits.by_raw.resize(count);
+  refits.less = refits.values(less, frame, Refits::of_less);
+  refits.least.assign(count, kNaN), refits.raw.assign(count, kNaN);
+  const bool raw_too = refits.any(Refits::of_raw);
+  if (raw_too)
+    refits.raw = refits.values(differentiate(raw_path(recording_, less_), stretch.first, stretch.count, rate),
+                               frame, Refits::of_raw);
   CurveSpread spread(pilot_part);
-  for_each_refit(recording_, pilot, options_.refits, options_.seed, stream,
-                 [&](std::int64_t number, const SeriesMatrix& less, const SeriesMatrix& least) {
-                   if (curves != nullptr) spread.add(part(less));
-                   const auto a = values_of(less), b = values_of(least);
-                   const auto c = raw_too ? values_of(with_noise(raw, recording_.seen, recording_.noise_sd_m,
-                                                                 options_.seed, stream, number))
-                                          : std::vector<double>{};
-                   for (std::size_t i = 0; i < count; ++i) {
-                     const bool square = refits.definitions[i]->pivot == Pivot::squared;
-                     const double base = refits.pilot[i];
-                     refits.by_less[i].push_back(square ? a[i] * a[i] - base * base : a[i] - base);
-                     refits.by_least[i].push_back(b[i] - base);
-                     if (raw_too) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
-                   }
-                 });
+  if (intervals) refit(stretch, near, pilot, frame, refits, curves != nullptr ? &spread : nullptr);
 
   if (curves != nullptr) {
-    *curves = curves_of(part(less_), frame, stretch, spread);
+    *curves = curves_of(less, frame, stretch, spread);
     curves->region = region.name;
   }
 
@@ -234,7 +284,7 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
                                .end_s = frame.start_s + static_cast<double>(stretch.count - 1) / rate,
                                .share_not_measured = stretch.share_not_measured,
                                .longest_gap_s = stretch.longest_gap_s,
-                               .below_noise = below_noise(stretch),
+                               .below_noise = intervals && below_noise(stretch),
                                .noise_sd_m = recording_.noise_sd_m,
                                .cut_off_hz = recording_.choice.half_power * rate,
                                .order = recording_.choice.order,

@@ -39,12 +39,20 @@ class MeasuredPath {
     double share_not_measured = 0.0;    // of the samples
     double longest_gap_s = 0.0;         // in it
   };
+  // A part of the recording, from its sample `first` on.
+  struct Neighbourhood {
+    std::int64_t first = 0;
+    Recording recording;
+  };
   struct Refits;
 
   [[nodiscard]] PathCurves curves_of(const PathSamples& path, const PathFrame& frame, const Stretch& stretch,
                                      const CurveSpread& spread) const;
 
   [[nodiscard]] Stretch stretch_of(const data::Region& region) const;
+  [[nodiscard]] Neighbourhood around(const Stretch& stretch) const;
+  void refit(const Stretch& stretch, const Neighbourhood& near, const SeriesMatrix& pilot,
+             const PathFrame& frame, Refits& refits, CurveSpread* spread) const;
   [[nodiscard]] bool below_noise(const Stretch& stretch) const;
 
   std::string name_, warning_;
@@ -53,7 +61,7 @@ class MeasuredPath {
   std::int64_t first_number_ = 0;  // of its frame, in the file
   PathMeasureOptions options_;
   Recording recording_;
-  SeriesMatrix less_, least_;  // smoothed by kLessSmooth, kLeastSmooth
+  SeriesMatrix less_, least_;  // smoothed by kLessSmooth, kLeastSmooth; the latter for intervals alone
 };
 
 }  // namespace kinemark::analysis

@@ -38,6 +38,13 @@ double drift_of(const PathSamples& path, double time_s) {
   return speed * time_s / (level.colwise().maxCoeff() - level.colwise().minCoeff()).norm();
 }
 
+// What `make` makes, made once.
+template <class Value, class Make>
+const Value& once(std::optional<Value>& value, const Make& make) {
+  if (!value) value = make();
+  return *value;
+}
+
 }  // namespace
 
 bool hardly_changes(const Eigen::VectorXd& values) {
@@ -69,14 +76,36 @@ PathFacts::PathFacts(const PathSamples& samples, const PathFrame& settled)
     : path(samples),
       frame(settled),
       speed(speed_of(samples)),
-      window(movement_window(speed, samples.rate_hz)),
-      movement(settled.discrete ? moving_part(samples, window) : samples),
-      moving_speed(speed_of(movement)),
-      principal(principal_axes(samples.x)),
-      along(along_axes(samples.x, principal)),
-      cycles(cycles_along(samples.x, settled.cycle_axis, samples.rate_hz)),
-      ellipse(settled.closed ? ellipse_axes(along) : EllipseAxes{.major = kNaN, .minor = kNaN}),
-      distances(diameters(samples.x)),
-      box(smallest_box(samples.x)) {}
+      window(movement_window(speed, samples.rate_hz)) {
+  if (settled.discrete) part_ = moving_part(samples, window);
+}
+
+const Eigen::VectorXd& PathFacts::moving_speed() const {
+  if (!part_) return speed;
+  return once(moving_speed_, [this] { return speed_of(*part_); });
+}
+const PrincipalAxes& PathFacts::principal() const {
+  return once(principal_, [this] { return principal_axes(path.x); });
+}
+const SeriesMatrix& PathFacts::along() const {
+  return once(along_, [this] { return along_axes(path.x, principal()); });
+}
+const Cycles& PathFacts::cycles() const {
+  return once(cycles_, [this] { return cycles_along(path.x, frame.cycle_axis, path.rate_hz); });
+}
+const EllipseAxes& PathFacts::ellipse() const {
+  return once(ellipse_, [this] {
+    return frame.closed ? ellipse_axes(along()) : EllipseAxes{.major = kNaN, .minor = kNaN};
+  });
+}
+const Diameters& PathFacts::distances() const {
+  return once(distances_, [this] { return diameters(path.x); });
+}
+const Eigen::Vector3d& PathFacts::box() const {
+  return once(box_, [this] { return smallest_box(path.x); });
+}
+const Periodogram& PathFacts::periodogram() const {
+  return once(periodogram_, [this] { return periodogram_of(path.x, path.rate_hz); });
+}
 
 }  // namespace kinemark::analysis

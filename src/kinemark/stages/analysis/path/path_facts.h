@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "kinemark/stages/analysis/path/path_samples.h"
 #include "kinemark/stages/analysis/path/shape.h"
@@ -33,23 +34,38 @@ struct PathFrame {
 /// extent.
 [[nodiscard]] PathFrame recognise(const PathSamples& path);
 
-/// Values that measures share.
-struct PathFacts {
-  /// Both must outlive it. Cost: n log n, and all distances of 240 samples.
+/// Values that measures share, each computed when it is first asked for. Not for several threads at once.
+class PathFacts {
+ public:
+  /// Both must outlive it. Cost: n.
   PathFacts(const PathSamples& samples, const PathFrame& settled);
 
   const PathSamples& path;  ///< the stretch
   const PathFrame& frame;   ///< what was settled
   Eigen::VectorXd speed;    ///< of the stretch, m/s
   MovementWindow window;    ///< onset and end, s from the first sample of the stretch
-  PathSamples movement;  ///< of a discrete movement the part from 50 ms before onset to 50 ms behind the end
-  Eigen::VectorXd moving_speed;  ///< of the movement, m/s
-  PrincipalAxes principal;       ///< of the stretch
-  SeriesMatrix along;            ///< the stretch along its principal axes, m
-  Cycles cycles;                 ///< along the settled axis
-  EllipseAxes ellipse;           ///< in the best-fit plane
-  Diameters distances;           ///< between samples
-  Eigen::Vector3d box;           ///< the smallest, descending
+
+  /// Of a discrete movement the part from 50 ms before onset to 50 ms behind the end; else the stretch.
+  [[nodiscard]] const PathSamples& movement() const { return part_ ? *part_ : path; }
+  [[nodiscard]] const Eigen::VectorXd& moving_speed() const;  ///< of the movement, m/s
+  [[nodiscard]] const PrincipalAxes& principal() const;       ///< of the stretch
+  [[nodiscard]] const SeriesMatrix& along() const;            ///< the stretch along its principal axes, m
+  [[nodiscard]] const Cycles& cycles() const;                 ///< along the settled axis
+  [[nodiscard]] const EllipseAxes& ellipse() const;           ///< in the best-fit plane; NaN of open paths
+  [[nodiscard]] const Diameters& distances() const;           ///< between samples
+  [[nodiscard]] const Eigen::Vector3d& box() const;           ///< the smallest, descending, m
+  [[nodiscard]] const Periodogram& periodogram() const;       ///< of the stretch
+
+ private:
+  std::optional<PathSamples> part_;
+  mutable std::optional<Eigen::VectorXd> moving_speed_;
+  mutable std::optional<PrincipalAxes> principal_;
+  mutable std::optional<SeriesMatrix> along_;
+  mutable std::optional<Cycles> cycles_;
+  mutable std::optional<EllipseAxes> ellipse_;
+  mutable std::optional<Diameters> distances_;
+  mutable std::optional<Eigen::Vector3d> box_;
+  mutable std::optional<Periodogram> periodogram_;
 };
 
 }  // namespace kinemark::analysis

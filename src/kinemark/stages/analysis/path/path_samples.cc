@@ -18,13 +18,21 @@ constexpr Stencil kFirst{{0.0, 4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280}, -1.0};
 constexpr Stencil kSecond{{-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560}, 1.0};
 constexpr Stencil kThird{{0.0, -61.0 / 30, 169.0 / 120, -3.0 / 10, 7.0 / 240}, -1.0};
 
-SeriesMatrix apply(const Stencil& stencil, const SeriesMatrix& x, std::int64_t first, std::int64_t count,
-                   double scale) {
-  SeriesMatrix out = stencil.weight[0] * x.middleRows(first, count);
-  for (std::int64_t k = 1; k <= kDerivativeMargin; ++k)
-    out += stencil.weight[static_cast<std::size_t>(k)] *
-           (x.middleRows(first + k, count) + stencil.before * x.middleRows(first - k, count));
-  return scale * out;
+template <const Stencil& kStencil>
+SeriesMatrix apply(const SeriesMatrix& x, std::int64_t first, std::int64_t count, double scale) {
+  // Rows lie one behind the other, so that a step of k samples is one of k columns() numbers.
+  const std::int64_t step = x.cols();
+  SeriesMatrix out(count, step);
+  const double* here = x.data() + first * step;
+  double* to = out.data();
+  for (std::int64_t i = 0; i < count * step; ++i) {
+    double sum = kStencil.weight[0] * here[i];
+    for (std::int64_t k = 1; k <= kDerivativeMargin; ++k)
+      sum += kStencil.weight[static_cast<std::size_t>(k)] *
+             (here[i + k * step] + kStencil.before * here[i - k * step]);
+    to[i] = scale * sum;
+  }
+  return out;
 }
 
 }  // namespace
@@ -34,9 +42,9 @@ PathSamples differentiate(const SeriesMatrix& x, std::int64_t first, std::int64_
         "a stretch needs four samples before and behind it");
   return {.rate_hz = rate_hz,
           .x = x.middleRows(first, count),
-          .v = apply(kFirst, x, first, count, rate_hz),
-          .a = apply(kSecond, x, first, count, rate_hz * rate_hz),
-          .j = apply(kThird, x, first, count, rate_hz * rate_hz * rate_hz)};
+          .v = apply<kFirst>(x, first, count, rate_hz),
+          .a = apply<kSecond>(x, first, count, rate_hz * rate_hz),
+          .j = apply<kThird>(x, first, count, rate_hz * rate_hz * rate_hz)};
 }
 
 }  // namespace kinemark::analysis

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/path/shape.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -32,7 +32,61 @@ std::vector<std::int64_t> moving(const PathSamples& path) {
 }
 
 double curvature(const PathSamples& path, std::int64_t i) {
-  return row(path.v, i).cross(row(path.a, i)).norm() / std::pow(path.v.row(i).norm(), 3);
+  const double squared = path.v.row(i).squaredNorm();
+  return row(path.v, i).cross(row(path.a, i)).norm() / (squared * std::sqrt(squared));
+}
+
+// The first two coordinates about their mean, over the largest of them.
+struct PlanePoints {
+  PlanePoints(const SeriesMatrix& in_plane, std::int64_t every)
+      : of(&in_plane), step(every), mean(in_plane.leftCols<2>().colwise().mean()) {
+    scale = (in_plane.leftCols<2>().rowwise() - mean).cwiseAbs().maxCoeff();
+  }
+  [[nodiscard]] PlanePoints every(std::int64_t k) const {
+    PlanePoints out = *this;
+    out.step = k;
+    return out;
+  }
+  [[nodiscard]] std::int64_t count() const { return (of->rows() + step - 1) / step; }
+  Eigen::Vector2d operator[](std::int64_t i) const {
+    return Eigen::Vector2d((*of)(i * step, 0) - mean[0], (*of)(i * step, 1) - mean[1]) / scale;
+  }
+
+  const SeriesMatrix* of;
+  std::int64_t step;
+  Eigen::RowVector2d mean;
+  double scale = 0.0;
+};
+
+constexpr std::int64_t kManyOfCircle = 4096;  // points from which a part of them finds the way first
+
+// Least squared distances from a circle (centre and radius) by Newton's steps where they go down, else by
+// those of Gauss and Newton.
+void fit_circle(const PlanePoints& points, Eigen::Vector3d& circle) {
+  for (int step = 0; step < 20; ++step) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), second = normal;
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::int64_t i = 0; i < points.count(); ++i) {
+      const Eigen::Vector2d ray = points[i] - circle.head<2>();
+      const double distance = ray.norm();
+      if (!(distance > 0.0)) return;
+      const Eigen::Vector2d along = ray / distance;
+      const Eigen::Vector3d slope(-along.x(), -along.y(), -1.0);
+      const double rest = distance - circle[2], across = rest / distance;
+      normal += slope * slope.transpose();
+      second(0, 0) += across * along.y() * along.y();
+      second(1, 0) -= across * along.x() * along.y();
+      second(1, 1) += across * along.x() * along.x();
+      right -= slope * rest;
+    }
+    second(0, 1) = second(1, 0);
+    const Eigen::LLT<Eigen::Matrix3d> newton(normal + second);
+    const Eigen::Vector3d change = newton.info() == Eigen::Success
+                                       ? Eigen::Vector3d(newton.solve(right))
+                                       : Eigen::Vector3d(normal.ldlt().solve(right));
+    circle += change;
+    if (change.norm() < 1e-13 * std::max(1e-300, std::abs(circle[2]))) return;
+  }
 }
 
 }  // namespace
@@ -62,6 +116,8 @@ PrincipalAxes principal_axes(const SeriesMatrix& x) {
     if (along.maxCoeff() < -along.minCoeff()) out.axes.col(k) *= -1.0;
   }
   out.axes.col(2) = out.axes.col(0).cross(out.axes.col(1));
+  // Not by the eigenvalue, which of a flat path is the rounding of the largest.
+  out.variance[2] = (centred * out.axes.col(2)).squaredNorm() / static_cast<double>(x.rows());
   return out;
 }
 
@@ -71,56 +127,58 @@ SeriesMatrix along_axes(const SeriesMatrix& x, const PrincipalAxes& axes) {
 
 Diameters diameters(const SeriesMatrix& x) {
   const std::int64_t step = std::max<std::int64_t>(1, (x.rows() + kDistances - 1) / kDistances);
-  std::vector<double> farthest;
-  for (std::int64_t i = 0; i < x.rows(); i += step) {
-    double most = 0.0;
-    for (std::int64_t k = 0; k < x.rows(); k += step)
-      most = std::max(most, (x.row(i) - x.row(k)).squaredNorm());
-    farthest.push_back(std::sqrt(most));
-  }
+  const std::int64_t count = (x.rows() + step - 1) / step;
+  std::vector<double> farthest(static_cast<std::size_t>(count), 0.0);  // squared
+  for (std::int64_t i = 0; i < count; ++i)
+    for (std::int64_t k = 0; k < i; ++k) {
+      const double squared = (row(x, i * step) - row(x, k * step)).squaredNorm();
+      auto& one = farthest[static_cast<std::size_t>(i)];
+      auto& other = farthest[static_cast<std::size_t>(k)];
+      one = std::max(one, squared), other = std::max(other, squared);
+    }
+  for (double& distance : farthest) distance = std::sqrt(distance);
   return {.median_farthest = math::median(farthest), .largest = *std::ranges::max_element(farthest)};
 }
 
 double circle_diameter(const SeriesMatrix& in_plane) {
+  constexpr double kStraight = 1e-14;  // least over largest eigenvalue of what is no arc
   const std::int64_t n = in_plane.rows();
   if (n < 3) return kNaN;
-  Eigen::MatrixXd left(n, 3);
-  left << 2.0 * in_plane.leftCols(2), Eigen::VectorXd::Ones(n);
-  const Eigen::VectorXd squares = in_plane.leftCols(2).rowwise().squaredNorm();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(left);
-  if (qr.rank() < 3) return kNaN;
-  const Eigen::Vector3d start = qr.solve(squares);
-  Eigen::RowVector2d centre = start.head<2>().transpose();
-  double radius = std::sqrt(std::max(0.0, start[2] + centre.squaredNorm()));
-  for (int step = 0; step < 20; ++step) {
-    const Eigen::MatrixXd ray = in_plane.leftCols(2).rowwise() - centre;
-    const Eigen::VectorXd distance = ray.rowwise().norm();
-    if (distance.minCoeff() <= 0.0) break;
-    Eigen::MatrixXd jacobian(n, 3);
-    jacobian << (ray.array().colwise() / -distance.array()).matrix(), -Eigen::VectorXd::Ones(n);
-    const Eigen::Vector3d change = (jacobian.transpose() * jacobian)
-                                       .ldlt()
-                                       .solve(-jacobian.transpose() * (distance.array() - radius).matrix());
-    centre += change.head<2>().transpose();
-    radius += change[2];
-    if (change.norm() < 1e-14 * std::max(1e-300, std::abs(radius))) break;
+  const PlanePoints all(in_plane, 1);
+  if (!(all.scale > 0.0)) return kNaN;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d p = all[i];
+    const Eigen::Vector3d left(2.0 * p.x(), 2.0 * p.y(), 1.0);
+    normal += left * left.transpose();
+    right += left * p.squaredNorm();
   }
-  return 2.0 * radius;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal, Eigen::EigenvaluesOnly);
+  if (!(solver.eigenvalues()[0] > kStraight * solver.eigenvalues()[2])) return kNaN;
+  const Eigen::Vector3d start = normal.ldlt().solve(right);
+  Eigen::Vector3d circle(start[0], start[1],
+                         std::sqrt(std::max(0.0, start[2] + start.head<2>().squaredNorm())));
+  if (n > kManyOfCircle) fit_circle(all.every((n + kManyOfCircle - 1) / kManyOfCircle), circle);
+  fit_circle(all, circle);
+  return 2.0 * all.scale * circle[2];
 }
 
 EllipseAxes ellipse_axes(const SeriesMatrix& in_plane) {
   const EllipseAxes none{.major = kNaN, .minor = kNaN};
   const std::int64_t n = in_plane.rows();
   if (n < 6) return none;
-  const Eigen::RowVector2d mean = in_plane.leftCols(2).colwise().mean();
-  const double scale = (in_plane.leftCols(2).rowwise() - mean).cwiseAbs().maxCoeff();
+  const Eigen::RowVector2d mean = in_plane.leftCols<2>().colwise().mean();
+  const double scale = (in_plane.leftCols<2>().rowwise() - mean).cwiseAbs().maxCoeff();
   if (!(scale > 0.0)) return none;
-  const Eigen::ArrayXXd p = ((in_plane.leftCols(2).rowwise() - mean) / scale).array();
-  Eigen::MatrixXd quadratic(n, 3), linear(n, 3);
-  quadratic << p.col(0).square().matrix(), (p.col(0) * p.col(1)).matrix(), p.col(1).square().matrix();
-  linear << p.matrix(), Eigen::VectorXd::Ones(n);
-  const Eigen::Matrix3d s1 = quadratic.transpose() * quadratic, s2 = quadratic.transpose() * linear,
-                        s3 = linear.transpose() * linear;
+  Eigen::Matrix3d s1 = Eigen::Matrix3d::Zero(), s2 = s1, s3 = s1;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double u = (in_plane(i, 0) - mean[0]) / scale, w = (in_plane(i, 1) - mean[1]) / scale;
+    const Eigen::Vector3d quadratic(u * u, u * w, w * w), linear(u, w, 1.0);
+    s1 += quadratic * quadratic.transpose();
+    s2 += quadratic * linear.transpose();
+    s3 += linear * linear.transpose();
+  }
   const Eigen::Matrix3d t = -s3.ldlt().solve(s2.transpose());
   Eigen::Matrix3d inverse_constraint;
   inverse_constraint << 0.0, 0.0, 0.5, 0.0, -1.0, 0.0, 0.5, 0.0, 0.0;

@@ -39,7 +39,7 @@ struct Diameters {
 [[nodiscard]] Diameters diameters(const SeriesMatrix& x);
 
 /// Diameter of the circle of least squared distances, m, in the plane of two coordinates (n x 2 or more
-/// columns, the first two count). Algebraic start (Kasa 1976), then Gauss-Newton.
+/// columns, the first two count). Algebraic start (Kasa 1976), then Newton's method.
 [[nodiscard]] double circle_diameter(const SeriesMatrix& in_plane);
 
 /// Axes of the ellipse fitted to the first two columns by direct least squares (Halir & Flusser 1998), m.

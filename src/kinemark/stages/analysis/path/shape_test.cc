@@ -65,6 +65,9 @@ TEST(Plane, DistanceAndAxesOfATiltedRectangleOfPoints) {
   EXPECT_NEAR(std::sqrt(axes.variance[0] / axes.variance[1]), 3.0, 1e-9);
   EXPECT_NEAR(std::abs(axes.axes.col(2).dot(kTilt.col(2))), 1.0, 1e-12);
   EXPECT_NEAR(axes.axes.determinant(), 1.0, 1e-12);
+  // A flat path has no thickness, not that of the rounding of its length.
+  x.col(2).setZero();
+  EXPECT_LT(std::sqrt(principal_axes(x).variance[2]), 1e-15);
 }
 
 TEST(Circle, DiameterOfAnArcAndOfTheWholeInATiltedPlane) {
@@ -75,6 +78,20 @@ TEST(Circle, DiameterOfAnArcAndOfTheWholeInATiltedPlane) {
     EXPECT_NEAR(circle_diameter(along_axes(path.x, principal_axes(path.x))), 0.34, 1e-9) << share;
   }
   EXPECT_TRUE(std::isnan(circle_diameter(SeriesMatrix::Zero(10, 3))));
+}
+
+TEST(Circle, OfScatteredPointsIsThatOfLeastSquaredDistances) {
+  // At the minimum a wider and a narrower circle are worse by the same; many points, of which a part goes
+  // first.
+  Random random(5, 0);
+  SeriesMatrix x(5000, 2);
+  for (std::int64_t i = 0; i < x.rows(); ++i) {
+    const double angle = kTurn * random.uniform(), radius = 0.2 + 0.03 * random.gaussian();
+    x.row(i) = Eigen::RowVector2d(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  const double diameter = circle_diameter(x);
+  // Its radius is the mean distance from its centre, which lies near 0.
+  EXPECT_NEAR(diameter, 2.0 * x.rowwise().norm().mean(), 2e-5);
 }
 
 TEST(Ellipse, AxesOfATiltedOneAndNoneOfALine) {
@@ -118,6 +135,26 @@ TEST(SmallestBox, OfAFlatPathIsItsSmallestRectangle) {
   const auto sides = smallest_box(x);
   EXPECT_NEAR(sides[0] * sides[1], 0.12, 1e-9);
   EXPECT_NEAR(sides[2], 0.0, 1e-9);
+}
+
+TEST(SmallestBox, OfManySamplesIsThatOfTheirCorners) {
+  // What lies inside is left out before the sides are turned; the corners alone have the same box.
+  Random random(6, 0);
+  const std::int64_t n = 40000;
+  SeriesMatrix x(n, 3);
+  for (std::int64_t i = 0; i < n; ++i) {
+    Eigen::Vector3d p(random.uniform(), random.uniform(), random.uniform());
+    if (i < 8) p = Eigen::Vector3d(i & 1 ? 1.0 : 0.0, i & 2 ? 1.0 : 0.0, i & 4 ? 1.0 : 0.0);
+    x.row(i) = (kPlace + kTilt * p.cwiseProduct(Eigen::Vector3d(0.5, 0.3, 0.1))).transpose();
+  }
+  EXPECT_LT((smallest_box(x) - Eigen::Vector3d(0.5, 0.3, 0.1)).norm(), 1e-9);
+  // Of a flat one nothing lies inside.
+  for (std::int64_t i = 0; i < n; ++i)
+    x.row(i) = Eigen::RowVector3d(0.4 * std::cos(static_cast<double>(i)),
+                                  0.4 * std::sin(static_cast<double>(i)), 0.0);
+  const auto flat = smallest_box(x);
+  EXPECT_NEAR(flat[0], 0.8, 1e-6);
+  EXPECT_NEAR(flat[2], 0.0, 1e-12);
 }
 
 TEST(SmallestBox, IsNeverLargerThanThatOfThePrincipalAxes) {

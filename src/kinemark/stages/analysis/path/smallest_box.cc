@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "kinemark/core/index.h"
@@ -12,6 +13,9 @@ namespace kinemark::analysis {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
+
+constexpr std::int64_t kMany = 4000;       // samples from which those well inside are left out first
+constexpr std::int64_t kVeryMany = 30000;  // for which a finer hull pays
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -56,12 +60,88 @@ Eigen::Vector2d best_side(const Points& hull) {
   return best;
 }
 
+// A plane that has all points of a set on one side: normal . p <= distance.
+struct Face {
+  Eigen::Vector3d normal;
+  double distance = 0.0;
+};
+
+// The faces of the hull of a few points, each perhaps several times: of every three, whether the others lie
+// on one side.
+std::vector<Face> faces_of(const std::vector<Eigen::Vector3d>& corners) {
+  constexpr double kFlat = 1e-9;
+  std::vector<Face> out;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        Eigen::Vector3d normal = (corners[j] - corners[i]).cross(corners[k] - corners[i]);
+        if (!(normal.norm() > kFlat)) continue;
+        normal.normalize();
+        double least = 0.0, most = 0.0;
+        for (const auto& corner : corners) {
+          const double side = normal.dot(corner - corners[i]);
+          least = std::min(least, side), most = std::max(most, side);
+          if (least < -kFlat && most > kFlat) break;
+        }
+        if (most <= kFlat) out.push_back({.normal = normal, .distance = normal.dot(corners[i])});
+        if (least >= -kFlat) out.push_back({.normal = -normal, .distance = -normal.dot(corners[i])});
+      }
+  return out;
+}
+
+// The farthest rows along axes to a grid's points on a half of a cube, both ways: 13 of a grid from -1 to 1,
+// 62 of one from -2 to 2.
+std::vector<std::int64_t> farthest_both_ways(const SeriesMatrix& points, int grid) {
+  std::vector<Eigen::Vector3d> axes;
+  for (int x = -grid; x <= grid; ++x)
+    for (int y = -grid; y <= grid; ++y)
+      for (int z = -grid; z <= grid; ++z)
+        if (std::tuple(x, y, z) > std::tuple(0, 0, 0)) axes.emplace_back(x, y, z);
+  std::vector<double> least(axes.size(), INFINITY), most(axes.size(), -INFINITY);
+  std::vector<std::int64_t> out(2 * axes.size(), 0);
+  for (std::int64_t i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d p = points.row(i).transpose();
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      const double along = p.dot(axes[k]);
+      if (along < least[k]) least[k] = along, out[2 * k] = i;
+      if (along > most[k]) most[k] = along, out[2 * k + 1] = i;
+    }
+  }
+  std::ranges::sort(out);
+  out.erase(std::ranges::unique(out).begin(), out.end());
+  return out;
+}
+
+// Of many points about 0 those that do not lie well inside the hull of the farthest along a grid's axes: all
+// corners of their own hull are among them.
+SeriesMatrix outer(const SeriesMatrix& centred, int grid, std::int64_t many) {
+  constexpr double kInside = 1e-6;  // of the extent
+  const double scale = centred.cwiseAbs().maxCoeff();
+  if (centred.rows() < many || !(scale > 0.0)) return centred;
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto i : farthest_both_ways(centred, grid))
+    corners.emplace_back(centred.row(i).transpose() / scale);
+  const auto faces = faces_of(corners);
+  if (faces.size() < 4) return centred;
+  double ball = INFINITY;  // that all faces have inside
+  for (const auto& face : faces) ball = std::min(ball, face.distance - kInside);
+  SeriesMatrix out(centred.rows(), 3);
+  std::int64_t kept = 0;
+  for (std::int64_t i = 0; i < centred.rows(); ++i) {
+    const Eigen::Vector3d p = centred.row(i).transpose() / scale;
+    if (ball > 0.0 && p.squaredNorm() < ball * ball) continue;
+    const auto inside = [&p](const Face& face) { return face.normal.dot(p) < face.distance - kInside; };
+    if (!std::ranges::all_of(faces, inside)) out.row(kept++) = centred.row(i);
+  }
+  return out.topRows(kept);
+}
+
 }  // namespace
 
 Eigen::Vector3d smallest_box(const SeriesMatrix& x) {
   const PrincipalAxes principal = principal_axes(x);
   Eigen::Matrix3d axes = principal.axes;
-  const SeriesMatrix centred = x.rowwise() - principal.mean;
+  const SeriesMatrix centred = outer(outer(x.rowwise() - principal.mean, 1, kMany), 2, kVeryMany);
   const auto sides = [&centred](const Eigen::Matrix3d& along) -> Eigen::Vector3d {
     const SeriesMatrix p = centred * along;
     return (p.colwise().maxCoeff() - p.colwise().minCoeff()).transpose();
@@ -71,7 +151,7 @@ Eigen::Vector3d smallest_box(const SeriesMatrix& x) {
     // The rectangle across axis k, in the plane of the two others.
     const Eigen::Vector3d first = axes.col((k + 1) % 3), second = axes.col((k + 2) % 3);
     Points points;
-    for (std::int64_t i = 0; i < x.rows(); ++i)
+    for (std::int64_t i = 0; i < centred.rows(); ++i)
       points.emplace_back(centred.row(i).dot(first), centred.row(i).dot(second));
     const Eigen::Vector2d side = best_side(hull_of(std::move(points)));
     Eigen::Matrix3d turned = axes;

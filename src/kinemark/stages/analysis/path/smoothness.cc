@@ -23,11 +23,12 @@ SpectralArc spectral_arc(const Eigen::VectorXd& speed, double rate_hz) {
   std::int64_t power = 1;
   while (power < n) power *= 2;
   const std::int64_t length = power << kPadding;
-  const Eigen::VectorXd spectrum = amplitudes(speed, length);
-  const double scale = 1.0 / spectrum.maxCoeff();
   const auto highest = std::min<std::int64_t>(
       length / 2,
       static_cast<std::int64_t>(std::floor(kHighest_hz * static_cast<double>(length) / rate_hz + 1e-9)));
+  // Speeds are not negative, so that none of the amplitudes is above that of 0 Hz.
+  const Eigen::VectorXd spectrum = low_amplitudes(speed, length, highest);
+  const double scale = 1.0 / spectrum.maxCoeff();
   std::int64_t first = -1, last = -1;
   for (std::int64_t k = 0; k <= highest; ++k)
     if (spectrum[k] * scale >= kThreshold) {
@@ -37,8 +38,10 @@ SpectralArc spectral_arc(const Eigen::VectorXd& speed, double rate_hz) {
   if (last <= first) return out;
   const double step = 1.0 / static_cast<double>(last - first);
   double length_of_arc = 0.0;
-  for (std::int64_t k = first + 1; k <= last; ++k)
-    length_of_arc += std::hypot(step, (spectrum[k] - spectrum[k - 1]) * scale);
+  for (std::int64_t k = first + 1; k <= last; ++k) {
+    const double rise = (spectrum[k] - spectrum[k - 1]) * scale;
+    length_of_arc += std::sqrt(step * step + rise * rise);
+  }
   out.value = -length_of_arc;
   out.last_hz = static_cast<double>(last) * rate_hz / static_cast<double>(length);
   return out;

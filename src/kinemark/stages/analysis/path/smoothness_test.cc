@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/path/smoothness.h"
+#include "kinemark/core/random.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "kinemark/stages/analysis/path/spectrum.h"
 #include "kinemark/stages/analysis/path/testing/known_path.h"
 
 namespace kinemark::analysis {
@@ -100,6 +102,19 @@ TEST(Smoothness, CircleAtConstantSpeedHasTheJerkOfItsTurns) {
     }
     EXPECT_NEAR(log_dimensionless_jerk(path), value, 1e-9) << turns;
   }
+}
+
+TEST(LowAmplitudes, OfALongSeriesAreThoseOfTheWholeTransform) {
+  Random random(3, 0);
+  Eigen::VectorXd speed(9000);
+  for (Eigen::Index i = 0; i < speed.size(); ++i)
+    speed[i] = 1.0 + 0.5 * std::sin(0.01 * static_cast<double>(i)) + 0.2 * random.uniform();
+  constexpr std::int64_t kLength = 1 << 15, kHighest = kLength / 24;
+  const Eigen::VectorXd all = amplitudes(speed, kLength), low = low_amplitudes(speed, kLength, kHighest);
+  ASSERT_EQ(low.size(), kHighest + 1);
+  EXPECT_LT((low - all.head(kHighest + 1)).cwiseAbs().maxCoeff(), 1e-9 * all.maxCoeff());
+  // What lies above a third of a cycle per sample cannot be thinned out.
+  EXPECT_EQ(low_amplitudes(speed, kLength, kLength / 2), all);
 }
 
 TEST(Smoothness, IsNotDeterminedOfNothing) {

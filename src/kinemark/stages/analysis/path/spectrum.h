@@ -12,4 +12,11 @@ namespace kinemark::analysis {
 /// @param length  at least the length of the series
 [[nodiscard]] Eigen::VectorXd amplitudes(const Eigen::VectorXd& series, std::int64_t length);
 
+/// The first of them: of the frequencies 0 to highest / length. Of a long series whose frequencies are low,
+/// every 2^k-th sample of a low-pass that lets them through, within 1e-9 of the largest.
+/// @param length   a power of two, at least twice the length of a long series
+/// @param highest  at most length / 2
+[[nodiscard]] Eigen::VectorXd low_amplitudes(const Eigen::VectorXd& series, std::int64_t length,
+                                             std::int64_t highest);
+
 }  // namespace kinemark::analysis

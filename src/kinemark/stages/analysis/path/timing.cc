@@ -18,19 +18,14 @@ Eigen::VectorXd centred_index(std::int64_t n) {
   return Eigen::VectorXd::LinSpaced(n, -0.5 * static_cast<double>(n - 1), 0.5 * static_cast<double>(n - 1));
 }
 
-// |FFT|^2 of windowed positions, axes added; frequencies k rate / n, k = 0 .. n / 2.
-Eigen::VectorXd periodogram(const SeriesMatrix& x, double* window_power) {
-  const std::int64_t n = x.rows();
-  const Eigen::VectorXd window = (0.5 - 0.5 * ((centred_index(n).array() + 0.5 * static_cast<double>(n - 1)) *
-                                               (2.0 * M_PI / static_cast<double>(n - 1)))
-                                                  .cos())
-                                     .matrix();
-  *window_power = window.squaredNorm();
-  const SeriesMatrix level = without_trend(x);
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(n / 2 + 1);
-  for (Eigen::Index axis = 0; axis < x.cols(); ++axis)
-    out += amplitudes(level.col(axis).cwiseProduct(window), n).array().square().matrix();
-  return out;
+// The least even number from n on without a prime factor above 5: its transform is quick.
+std::int64_t quick_length(std::int64_t n) {
+  for (std::int64_t length = n + n % 2;; length += 2) {
+    std::int64_t rest = length;
+    for (const std::int64_t prime : {2, 3, 5})
+      while (rest % prime == 0) rest /= prime;
+    if (rest == 1) return length;
+  }
 }
 
 }  // namespace
@@ -125,26 +120,37 @@ Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double r
   return out;
 }
 
-double band_rms(const SeriesMatrix& x, double rate_hz, double low_hz, double high_hz) {
+Periodogram periodogram_of(const SeriesMatrix& x, double rate_hz) {
   const std::int64_t n = x.rows();
-  if (n < 8) return kNaN;
-  double window_power = 0.0;
-  const Eigen::VectorXd power = periodogram(x, &window_power);
-  double sum = 0.0;
-  for (std::int64_t k = 0; k < power.size(); ++k) {
-    const double frequency = static_cast<double>(k) * rate_hz / static_cast<double>(n);
-    if (frequency >= low_hz && frequency <= high_hz) sum += power[k];
-  }
-  return std::sqrt(2.0 * sum / (window_power * static_cast<double>(n)));
+  if (n < 8) return {};
+  const Eigen::VectorXd window = (0.5 - 0.5 * ((centred_index(n).array() + 0.5 * static_cast<double>(n - 1)) *
+                                               (2.0 * M_PI / static_cast<double>(n - 1)))
+                                                  .cos())
+                                     .matrix();
+  const std::int64_t length = quick_length(n);
+  const SeriesMatrix level = without_trend(x);
+  Periodogram out{.step_hz = rate_hz / static_cast<double>(length),
+                  .per_mean_square = 2.0 / (window.squaredNorm() * static_cast<double>(length)),
+                  .power = Eigen::VectorXd::Zero(length / 2 + 1)};
+  for (Eigen::Index axis = 0; axis < x.cols(); ++axis)
+    out.power += amplitudes(level.col(axis).cwiseProduct(window), length).array().square().matrix();
+  return out;
 }
 
-double peak_frequency(const SeriesMatrix& x, double rate_hz, double low_hz) {
-  const std::int64_t n = x.rows();
-  if (n < 8) return kNaN;
-  double window_power = 0.0;
-  const Eigen::VectorXd power = periodogram(x, &window_power);
-  const auto first =
-      std::max<std::int64_t>(1, std::llround(std::ceil(low_hz * static_cast<double>(n) / rate_hz)));
+double band_rms(const Periodogram& of, double low_hz, double high_hz) {
+  if (of.power.size() == 0) return kNaN;
+  double sum = 0.0;
+  for (std::int64_t k = 0; k < of.power.size(); ++k) {
+    const double frequency = static_cast<double>(k) * of.step_hz;
+    if (frequency >= low_hz && frequency <= high_hz) sum += of.power[k];
+  }
+  return std::sqrt(of.per_mean_square * sum);
+}
+
+double peak_frequency(const Periodogram& of, double low_hz) {
+  if (of.power.size() == 0) return kNaN;
+  const auto& power = of.power;
+  const auto first = std::max<std::int64_t>(1, std::llround(std::ceil(low_hz / of.step_hz)));
   if (first + 1 >= power.size()) return kNaN;
   Eigen::Index at = 0;
   power.segment(first, power.size() - 1 - first).maxCoeff(&at);
@@ -154,7 +160,7 @@ double peak_frequency(const SeriesMatrix& x, double rate_hz, double low_hz) {
   const double second_difference = before - 2.0 * here + after;
   const double shift =
       second_difference < 0.0 ? std::clamp(0.5 * (before - after) / second_difference, -0.5, 0.5) : 0.0;
-  return (static_cast<double>(k) + shift) * rate_hz / static_cast<double>(n);
+  return (static_cast<double>(k) + shift) * of.step_hz;
 }
 
 }  // namespace kinemark::analysis

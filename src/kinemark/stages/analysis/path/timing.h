@@ -55,13 +55,22 @@ struct Cycles {
 /// The direction in which positions freed of their straight trend spread most.
 [[nodiscard]] Eigen::Vector3d detrended_axis(const SeriesMatrix& x);
 
-/// Root of the mean square over the samples, axes added, of what lies between two frequencies, m: straight
-/// trend taken off, Hann window, periodogram.
-[[nodiscard]] double band_rms(const SeriesMatrix& x, double rate_hz, double low_hz, double high_hz);
+/// Squared amplitudes of positions by frequency, axes added: straight trend taken off, Hann window, samples
+/// that are 0 appended until their number has no prime factor above 5.
+struct Periodogram {
+  double step_hz = 0.0;          ///< from one value to the next; the first is of 0 Hz
+  double per_mean_square = 0.0;  ///< what turns a sum of values into a mean square over the samples
+  Eigen::VectorXd power;         ///< m^2 times the samples' number squared; empty below 8 samples
+};
+/// Cost: n log n.
+[[nodiscard]] Periodogram periodogram_of(const SeriesMatrix& x, double rate_hz);
 
-/// Frequency of the largest value of the periodogram above `low_hz`, Hz, by a parabola through its logarithm
-/// and those beside it; trend and window as band_rms().
-[[nodiscard]] double peak_frequency(const SeriesMatrix& x, double rate_hz, double low_hz);
+/// Root of the mean square over the samples, axes added, of what lies between two frequencies, m.
+[[nodiscard]] double band_rms(const Periodogram& of, double low_hz, double high_hz);
+
+/// Frequency of the largest value above `low_hz`, Hz, by a parabola through its logarithm and those beside
+/// it.
+[[nodiscard]] double peak_frequency(const Periodogram& of, double low_hz);
 
 /// Positions without the straight line of least squares through them, axis by axis.
 [[nodiscard]] SeriesMatrix without_trend(const SeriesMatrix& x);

@@ -81,16 +81,30 @@ TEST(BandRms, OfASineInTheBandIsItsRms) {
   const auto x = testing::sampled(1000, 100.0, [](double t) {
     return Eigen::Vector3d(0.002 * std::sin(kTurn * 8.0 * t), 0.001 * std::cos(kTurn * 8.0 * t), 0.05 * t);
   });
-  EXPECT_NEAR(band_rms(x, 100.0, 4.0, 12.0), std::sqrt(0.5 * (4e-6 + 1e-6)), 1e-6);
-  EXPECT_LT(band_rms(x, 100.0, 15.0, 30.0), 2e-5);
-  EXPECT_TRUE(std::isnan(band_rms(x.topRows(7), 100.0, 4.0, 12.0)));
+  EXPECT_NEAR(band_rms(periodogram_of(x, 100.0), 4.0, 12.0), std::sqrt(0.5 * (4e-6 + 1e-6)), 1e-6);
+  EXPECT_LT(band_rms(periodogram_of(x, 100.0), 15.0, 30.0), 2e-5);
+  EXPECT_TRUE(std::isnan(band_rms(periodogram_of(x.topRows(7), 100.0), 4.0, 12.0)));
+}
+
+TEST(Periodogram, HoldsTheMeanSquareWhateverTheNumberOfSamples) {
+  // 997 is a prime: three zeros make it 1,000.
+  for (const std::int64_t n : {1000, 997}) {
+    const auto x =
+        testing::sampled(n, 100.0, [](double t) { return Eigen::Vector3d(std::sin(kTurn * 7.0 * t), 0, 0); });
+    const auto found = periodogram_of(x, 100.0);
+    EXPECT_EQ(found.power.size(), 501);
+    EXPECT_NEAR(found.step_hz, 0.1, 1e-12);
+    EXPECT_NEAR(band_rms(found, 0.0, 50.0), std::sqrt(0.5), 2e-3) << n;
+    EXPECT_NEAR(peak_frequency(found, 0.3), 7.0, 0.01) << n;
+  }
+  EXPECT_EQ(periodogram_of(SeriesMatrix::Zero(7, 3), 100.0).power.size(), 0);
 }
 
 TEST(PeakFrequency, IsFoundBetweenTheLinesOfThePeriodogram) {
   const auto x = testing::sampled(
       500, 100.0, [](double t) { return Eigen::Vector3d(std::sin(kTurn * 5.137 * t), 0.0, 2.0 * t); });
-  EXPECT_NEAR(peak_frequency(x, 100.0, 0.3), 5.137, 0.02);
-  EXPECT_TRUE(std::isnan(peak_frequency(x.topRows(5), 100.0, 0.3)));
+  EXPECT_NEAR(peak_frequency(periodogram_of(x, 100.0), 0.3), 5.137, 0.02);
+  EXPECT_TRUE(std::isnan(peak_frequency(periodogram_of(x.topRows(5), 100.0), 0.3)));
 }
 
 TEST(Recognise, TellsReachesFromCycles) {
@@ -132,10 +146,10 @@ TEST(PathFacts, MovementOfAReachIsBetweenItsRests) {
   const auto path = testing::path_of(170, 100.0, testing::reach);
   const auto frame = recognise(path);
   const PathFacts facts(path, frame);
-  EXPECT_NEAR(static_cast<double>(facts.movement.count()) / 100.0, 0.7 + 0.1 - 0.08, 0.03);
+  EXPECT_NEAR(static_cast<double>(facts.movement().count()) / 100.0, 0.7 + 0.1 - 0.08, 0.03);
   const auto cyclic = testing::path_of(400, 100.0, testing::ellipse);
   const auto cyclic_frame = recognise(cyclic);
-  EXPECT_EQ(PathFacts(cyclic, cyclic_frame).movement.count(), cyclic.count());
+  EXPECT_EQ(PathFacts(cyclic, cyclic_frame).movement().count(), cyclic.count());
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <tuple>
+#include <vector>
 
 #include "kinemark/core/index.h"
 
@@ -22,23 +23,31 @@ std::int64_t find_sound_frame(const Problem& problem, const data::Trajectories& 
                               const SolvedFrames& solved) {
   const std::int64_t F = problem.frames;
   std::vector<int> seen(at(F), 0), changes(at(F), 0);  // in number; from the frame before
+  std::vector<std::uint8_t> left_out(at(F), 0);        // 1: a sample was
   for (std::int64_t f = 0; f < F; ++f)
     for (const int d : problem.data_marker) {
       const bool present = markers.present(problem.first_frame + f, d);
       seen[at(f)] += present;
+      if (markers.state[markers.index(problem.first_frame + f, d)] == data::SampleState::rejected)
+        left_out[at(f)] = 1;
       changes[at(f)] += f > 0 && present != markers.present(problem.first_frame + f - 1, d);
     }
   const int best = *std::ranges::max_element(seen);
   std::int64_t found = 0;
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  auto cheapest = std::pair(true, kNone);  // whether the markers change, what the dearest frame costs
+  // Whether the frames are bad, samples were left out (a frame costs less without them), markers change; what
+  // the dearest frame costs.
+  auto cheapest = std::tuple(true, true, true, kNone);
   for (std::int64_t f = 0; f < F; ++f) {
-    auto dearest = std::pair(false, 0.0);
+    auto dearest = std::tuple(false, false, false, 0.0);
+    auto& [bad, lacks, changed, cost] = dearest;
     const std::int64_t from = std::max<std::int64_t>(0, f - kSoundBeside);
     for (auto g = from; g <= std::min(F - 1, f + kSoundBeside); ++g) {
       const bool good = 20 * seen[at(g)] >= 19 * best && solved.status[at(g)] == data::FrameStatus::converged;
-      dearest.first = dearest.first || !good || (g > from && changes[at(g)] > 0);
-      dearest.second = std::max(dearest.second, good ? solved.cost[at(g)] : kNone);
+      bad = bad || !good;
+      lacks = lacks || left_out[at(g)] != 0;
+      changed = changed || (g > from && changes[at(g)] > 0);
+      cost = std::max(cost, good ? solved.cost[at(g)] : kNone);
     }
     if (dearest < cheapest) {
       cheapest = dearest;

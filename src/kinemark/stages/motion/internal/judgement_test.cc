@@ -103,6 +103,14 @@ TEST_F(RecordingJudgement, DoesNotBeginWhereAMarkerComesAndGoes) {
   }
 }
 
+TEST_F(RecordingJudgement, DoesNotBeginWhereSamplesWereLeftOut) {
+  for (std::int64_t f = 40; f < 60; ++f) markers.set_missing(f, 7, data::SampleState::rejected);
+  EXPECT_TRUE(sound_frame() == 37 || sound_frame() == 62)
+      << sound_frame() << ": the cheapest ones lack a sample";
+  for (std::int64_t f = 0; f < kRecordedFrames; ++f) markers.set_missing(f, 7, data::SampleState::rejected);
+  EXPECT_EQ(sound_frame(), 50) << "where all do, it must begin somewhere";
+}
+
 TEST_F(RecordingJudgement, JudgesWhereMarkersComeAndGoInEveryFrame) {
   for (std::int64_t f = 0; f < kRecordedFrames; ++f) markers.set_missing(f, f % markers.markers());
   markers.x(57, 4) += Vector3d(0.1, 0.1, 0.0);

@@ -14,6 +14,7 @@
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/choose.h"
 #include "kinemark/stages/trajectory/smoothing/internal/error_bars.h"
+#include "kinemark/stages/trajectory/smoothing/internal/gap_correction.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
 #include "kinemark/stages/trajectory/smoothing/internal/refine.h"
 
@@ -28,10 +29,11 @@ std::vector<Series> parts_of(const std::vector<Series>& all) {
 }
 
 /// Variance of a derivative in noise units, scaled to what the data show.
-double scaled(double variance, int derivative, const BarScale& scale) {
+/// @param left  factor on what a gap or an end adds
+double scaled(double variance, int derivative, const BarScale& scale, double left) {
   const auto d = static_cast<std::size_t>(derivative);
   const double around = std::min(variance, scale.interior[d]);
-  return scale.seen[d] * around + scale.added[d] * (variance - around);
+  return scale.seen[d] * around + left * scale.added[d] * (variance - around);
 }
 
 class Writer {
@@ -48,13 +50,15 @@ class Writer {
   }
 
   /// Results of the axes from `first_axis` on, at all frames.
+  /// @param left  frames x 4, factor on what gaps add; empty: 1
   void take(const Series& series, int first_axis, const std::vector<double>& state,
-            const std::vector<double>& variance, const BarScale& scale) {
+            const std::vector<double>& variance, const BarScale& scale, const std::vector<double>& left) {
     Array<double>* const values[4] = {&result_.x, &result_.velocity, &result_.acceleration, &result_.jerk};
     Array<double>* const sds[4] = {nullptr, &result_.velocity_sd, &result_.acceleration_sd, &result_.jerk_sd};
     for (std::int64_t f = 0; f < series.frames; ++f) {
       for (int d = 0; d < 4; ++d) {
-        const double v = noise_variance_ * scaled(variance[static_cast<std::size_t>(4 * f + d)], d, scale);
+        const auto i = static_cast<std::size_t>(4 * f + d);
+        const double v = noise_variance_ * scaled(variance[i], d, scale, left.empty() ? 1.0 : left[i]);
         for (int axis = 0; axis < series.axes; ++axis) {
           const auto to = static_cast<std::size_t>(3 * f + first_axis + axis);
           (*values[d])[to] = state[static_cast<std::size_t>((f * series.axes + axis) * 4 + d)];
@@ -148,8 +152,24 @@ std::string describe_choice(const Choice& choice, const SmoothOptions& options, 
                      mine > 0.0 ? 100.0 * (mine - its) / mine : 0.0, criterion);
 }
 
+/// "; N gaps are corrected ...", over the axes where these have filters of their own.
+std::string describe_correction(const std::vector<GapCorrection>& corrections) {
+  std::int64_t gaps = 0, hidden = std::numeric_limits<std::int64_t>::max();
+  double left = 0.0;
+  for (const GapCorrection& one : corrections) {
+    gaps = std::max(gaps, one.gaps);
+    hidden = std::min(hidden, one.hidden);
+    left = std::max(left, one.error_left);
+  }
+  return fmt::format(
+      "; {} {} corrected by what {} or more stretches like {} show when hidden, where {:.0f} % of the error "
+      "in "
+      "velocity or less is left",
+      gaps, gaps == 1 ? "gap is" : "gaps are", hidden, gaps == 1 ? "it" : "them", std::ceil(100.0 * left));
+}
+
 void describe(const Choice& choice, double cutoff_hz, const SmoothOptions& options,
-              data::MarkerAccount& account) {
+              const std::vector<GapCorrection>& corrections, data::MarkerAccount& account) {
   const bool gcv = options.method == FilterMethod::gcv;
   account.criterion_name = options.order > 0 && options.cutoff_hz > 0.0 ? "" : gcv ? "GCV, m^2" : "SURE, m^2";
   account.candidates = choice.candidates;
@@ -168,6 +188,7 @@ void describe(const Choice& choice, double cutoff_hz, const SmoothOptions& optio
   if (cutoff_hz != choice.cutoff_hz)
     account.description += fmt::format(
         "; for positions alone {:.3g} Hz, moved towards the best for velocities", choice.cutoff_hz);
+  if (!corrections.empty()) account.description += describe_correction(corrections);
   account.description += ".";
 }
 
@@ -192,19 +213,26 @@ void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, c
     if (samples.has_covariance) choice.noise_sd_m = samples.typical_sd_m;
   }
   const double noise = choice.noise_sd_m;
-  if (choosing.criterion == Criterion::sure && choice.enough && noise > 0.0 && options.cutoff_hz == 0.0)
-    cutoff_hz = refine_cutoff(judged, choice.order, choice.cutoff_hz, noise);
+  const bool free =
+      choosing.criterion == Criterion::sure && choice.enough && noise > 0.0 && options.cutoff_hz == 0.0;
+  if (free) cutoff_hz = refine_cutoff(judged, choice.order, choice.cutoff_hz, noise);
   BarScale scale;
   scale.interior.fill(std::numeric_limits<double>::infinity());
   if (choice.enough && noise > 0.0) scale = scale_bars(judged, choice.order, cutoff_hz, noise);
 
   Writer writer(samples, result, noise);
+  std::vector<GapCorrection> corrections;
   int axis = 0;
   for (const Series& series : samples.series(samples.present, columns)) {
     std::vector<double> state(static_cast<std::size_t>(series.frames * series.axes * 4));
     std::vector<double> variance(static_cast<std::size_t>(series.frames * 4));
     smooth_series(series, choice.order, cutoff_hz, {state.data(), variance.data()});
-    writer.take(series, axis, state, variance, scale);
+    GapCorrection corrected;
+    if (free)
+      corrected = correct_gaps(judged, series, choice.order, cutoff_hz,
+                               static_cast<std::int64_t>(options.max_bridge_s / samples.interval_s), state);
+    writer.take(series, axis, state, variance, scale, corrected.left);
+    if (corrected.gaps > 0) corrections.push_back(std::move(corrected));
     axis += series.axes;
   }
   writer.correlate(samples.has_covariance ? &in : nullptr);
@@ -219,7 +247,7 @@ void smooth_kalman(const MarkerSamples& samples, const data::Trajectories& in, c
     account.bar_scale[d] = std::sqrt(scale.seen[d]);
     account.gap_bar_scale[d] = std::sqrt(scale.added[d]);
   }
-  describe(choice, cutoff_hz, options, account);
+  describe(choice, cutoff_hz, options, corrections, account);
 }
 
 }  // namespace kinemark::trajectory::smoothing

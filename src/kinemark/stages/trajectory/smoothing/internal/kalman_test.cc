@@ -196,6 +196,61 @@ TEST(SmoothKalman, BridgesOnlyWhatLiesBetweenSamplesAndIsShortAndSureEnough) {
   check(smoothed(t, options), 0);
 }
 
+/// A tremor of 4 mm and 6 Hz in noise of 0.1 mm; with `gap` > 0 so many samples are missing in every 150.
+Trajectories gappy_tremor(std::int64_t gap, std::uint64_t seed) {
+  Random random(seed, 11);
+  Trajectories t = marker_of(600, [&](std::int64_t f) {
+    const double phase = 2.0 * M_PI * 6.0 * 0.01 * static_cast<double>(f);
+    return Vector3d(Vector3d(std::sin(phase), std::sin(phase + 1.0), std::sin(phase + 2.0)) * 4e-3 +
+                    1e-4 * noise(random));
+  });
+  for (std::int64_t at = 70; at + gap < 600; at += 150)
+    for (std::int64_t f = at; f < at + gap; ++f) t.set_missing(f, 0);
+  return t;
+}
+
+TEST(SmoothKalman, SaysWhichGapsHiddenStretchesCorrected) {
+  SmoothOptions options{.method = FilterMethod::kalman};
+  options.max_bridge_s = 1.0;
+  options.max_bridge_sd_m = 1.0;
+  const std::string sentence = "4 gaps are corrected by what ";
+  const auto said = smoothed(gappy_tremor(16, 1), options);
+  EXPECT_NE(said.account.description.find(sentence), std::string::npos) << said.account.description;
+  const auto whole = smoothed(gappy_tremor(0, 1), options);
+  EXPECT_EQ(whole.account.description.find("corrected"), std::string::npos) << "no gaps";
+  const auto open = smoothed(gappy_tremor(16, 1), {.method = FilterMethod::kalman});
+  EXPECT_EQ(open.account.description.find("corrected"), std::string::npos) << "none is bridged";
+  options.cutoff_hz = 9.0;
+  const auto asked = smoothed(gappy_tremor(16, 1), options);
+  EXPECT_EQ(asked.account.description.find("corrected"), std::string::npos) << "the filter as asked";
+}
+
+TEST(SmoothKalman, BarsInCorrectedGapsAreWhatIsLeftOfTheError) {
+  SmoothOptions options{.method = FilterMethod::kalman};
+  options.max_bridge_s = 1.0;
+  options.max_bridge_sd_m = 1.0;
+  double inside_1 = 0.0, inside_2 = 0.0, count = 0.0, bar = 0.0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Trajectories in = gappy_tremor(16, seed);
+    const auto r = smoothed(in, options);
+    for (std::int64_t f = 0; f < 600; ++f) {
+      if (in.present(f, 0)) continue;
+      const double phase = 2.0 * M_PI * 6.0 * 0.01 * static_cast<double>(f);
+      const double speed = 4e-3 * 2.0 * M_PI * 6.0 * std::cos(phase);
+      const double sd = r.velocity_sd[static_cast<std::size_t>(3 * f)];
+      const double z = std::abs(row(r.velocity, f).x() - speed) / sd;
+      inside_1 += z < 1.0 ? 1.0 : 0.0;
+      inside_2 += z < 2.0 ? 1.0 : 0.0;
+      bar += sd;
+      count += 1.0;
+    }
+  }
+  EXPECT_GT(inside_1 / count, 0.55);
+  EXPECT_LT(inside_1 / count, 0.90);
+  EXPECT_GT(inside_2 / count, 0.85);
+  EXPECT_LT(bar / count, 0.02) << "an eighth of the tremor's speed";
+}
+
 TEST(SmoothKalman, SaysWhatItChoseAndWhatItWasGiven) {
   const auto asked = smoothed(noisy_path(200, 9), fixed(4, 6.0));
   EXPECT_EQ(asked.account.description, "order 4, cut-off 6 Hz: as asked.");
