@@ -5,11 +5,13 @@
 import csv
 import json
 import math
+import re
 
 from support import CommandTest, real_file
 from test_measures import wobble, write_trc
 
 STRIDE_S, STRIDE_MM = 1.1, 1400.0
+DATA_OF_PAGE = re.compile(r'id="kinemark-data">(.*?)</script>', re.S)
 
 
 def foot(t, later, y):
@@ -105,6 +107,31 @@ class Gait(CommandTest):
         roles.write_text('left_heel = "A"\nleft_toe = "B"\nright_heel = "C"\nright_toe = "D"\nsacrum = "E"\n')
         reported = self.measures(self.folder / "other.trc", "--measures", "cadence", "--gait-marker", roles)
         self.assertAlmostEqual(reported["measures"][0]["value"], 120 / STRIDE_S, delta=1)
+
+    def test_page_of_angles_has_cycles_where_events_mark_them(self):
+        walk_file, model = (real_file(f"opensim-gait2354/subject01_{name}") for name in ("walk1.trc", "simbody.osim"))
+        marked = self.folder / "marked.c3d"
+        result = self.run_in("analyze", walk_file, "--measures", "gait", "--refits", "0", "--write-events", marked)
+        self.assertEqual(result.status, 0, result.err)
+
+        def cycles(markers):
+            page = self.folder / f"{markers.stem}.html"
+            motion = self.folder / f"{markers.stem}.mot"
+            solved = self.run_in("ik", "--model", model, "--markers", markers, "--output", motion, "--report", page)
+            self.assertIn(solved.status, (0, 1), solved.err)
+            again = self.folder / "again.html"
+            self.assertEqual(self.run_in("report", motion, "-o", again, "--force").status, 0)
+            first, second = (json.loads(DATA_OF_PAGE.search(p.read_text())[1])["cycles"] for p in (page, again))
+            self.assertEqual(first is None, second is None)
+            return first
+
+        self.assertIsNone(cycles(walk_file))
+        found = cycles(marked)
+        self.assertEqual(found["points"], 101)
+        of = {(c["coordinate"], c["side"]): c for c in found["curves"]}
+        self.assertNotIn(("knee_angle_r", "Left"), of)
+        for key in (("knee_angle_r", "Right"), ("knee_angle_l", "Left"), ("pelvis_tilt", "Left"), ("pelvis_tilt", "Right")):
+            self.assertEqual((of[key]["count"], of[key]["whole"]), (1, 1), key)
 
     def test_what_is_wrong_is_one_sentence(self):
         write_trc(self.folder / "no_toe.trc", [row[:1] for row in walk()], names=("LHEE",))

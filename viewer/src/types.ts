@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { EncodedCodes, EncodedCurve } from "./curves.ts";
+import type { EncodedCycles } from "./cycles.ts";
 import type { PackedScene } from "./scene/types.ts";
 
 /** What Q_report.json holds; src/kinemark/stages/report/README.md describes each field. Unknown numbers are null. */
@@ -132,6 +133,8 @@ export interface EncodedSeries {
 export interface PageData {
   summary: Summary;
   series: EncodedSeries;
+  /** Coordinates over the cycles that the recording's events mark; null, or not there in older pages: none. */
+  cycles?: EncodedCycles | null;
   /** null, or not there in older pages: positions are not known. */
   scene?: PackedScene | null;
 }

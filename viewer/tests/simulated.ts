@@ -8,6 +8,14 @@ export const base64 = (values: ArrayBufferView): string =>
 /** A text that would do harm if any part of the page took it for markup. */
 export const hostile = "</script><img src=x onerror=alert(1)>&lt;b&gt;";
 
+/** Three cycles on 101 points, the second without its middle, their mean and their spread, so much higher. */
+function swings(higher: number): { each: string; mean: string; sd: string } {
+  const swing = (p: number): number => higher + 10 * Math.sin((2 * Math.PI * p) / 100);
+  const over = (value: (p: number) => number): number[] => Array.from({ length: 101 }, (_, p) => value(p));
+  const packed = (values: number[]): string => base64(Float32Array.from(values));
+  return { each: packed([-1, 0, 1].flatMap((off) => over((p) => (off === 0 && p > 40 && p < 60 ? NaN : swing(p) + off)))), mean: packed(over(swing)), sd: packed(over(() => 1)) };
+}
+
 /**
  * A small made-up trial: three coordinates (one with a hidden stretch, frames 200 to 259), three used markers (B
  * missing there, C off by 40 mm in frame 100) and one left out.
@@ -95,6 +103,10 @@ export function simulated(frames = 400): PageData {
       marker_error_mm: [series(() => 2), series((f) => (hidden(f) ? NaN : 5)), series(errorC)],
       gaps: [codes(() => 0), codes((f) => (hidden(f) ? 2 : 0)), codes((f) => (f === 101 ? 3 : 0)), null],
       status: codes((f) => (hidden(f) ? 1 : 0)),
+    },
+    cycles: {
+      points: 101,
+      curves: (["Right", "Left"] as const).map((side) => ({ coordinate: "shoulder", side, count: 3, whole: 2, fewest: 2, most: 3, drawn: 3, ...swings(side === "Left" ? 4 : 0) })),
     },
   };
 }

@@ -26,7 +26,7 @@ export async function ikPage(data: PageData): Promise<Content> {
   const others = { legend: "on the model; the tie is the error", switch: "Model" };
   const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
   const forces = scene !== null && scene.forces.length > 0 ? [ground(scene, view)] : [];
-  const plots = [angles(trial, view), ...inSpace, compare(trial, view), ...forces, markers(trial, view), gaps(trial, view)];
+  const plots = [angles(trial, view), ...inSpace, compare(trial, view, null, data.cycles ?? null), ...forces, markers(trial, view), gaps(trial, view)];
   const jump = (finding: Finding, time: number): void => {
     const coordinate = summary.coordinates.findIndex((c) => c.name === finding.subject);
     if (finding.about === "coordinate" && coordinate >= 0) view.set({ coordinate });

@@ -5,6 +5,8 @@ import { number } from "../format.ts";
 import { csv } from "../save.ts";
 
 export interface FigureLine {
+  /** What it is, for the heading of its numbers; not there: the only one, or one of several without names. */
+  name?: string;
   colour: string;
   width: number;
   values: readonly (number | null | undefined)[];
@@ -17,7 +19,8 @@ export interface Figure {
   x: ArrayLike<number>;
   range: readonly [from: number, to: number];
   height: readonly [low: number, high: number];
-  bands: { colour: string; upper: readonly (number | null | undefined)[]; lower: readonly (number | null | undefined)[] }[];
+  /** Two standard deviations to each side of a line; `of` is its index among the lines. */
+  bands: { colour: string; upper: readonly (number | null | undefined)[]; lower: readonly (number | null | undefined)[]; of?: number }[];
   lines: FigureLine[];
   striped: readonly (readonly [from: number, to: number])[];
   /** What the page holds of the result; not there: all of it. */
@@ -113,16 +116,28 @@ export function figureSvg(figure: Figure): string {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="#1b2730">${parts.join("")}</svg>\n`;
 }
 
-/** The numbers of a figure, a row an instant; what the page holds of them stands in the heading. */
+/** Standard deviation that a band of two of them to each side shows; empty where there is none. */
+function deviationText({ upper, lower }: Figure["bands"][number], i: number): string {
+  const [high, low] = [upper[i], lower[i]];
+  return typeof high === "number" && typeof low === "number" ? String(Number(((high - low) / 4).toPrecision(3))) : "";
+}
+
+/** The numbers of a figure, a row an instant: each line, and its SD where a band shows one; what the page holds of them stands in the heading. */
 export function figureCsv(figure: Figure): string {
   const { step = null } = figure.precision ?? {};
   const held = figure.precision === undefined ? "" : precisionWords(figure.precision, "");
   const text = (v: number): string => String(Number(step === null ? v.toPrecision(9) : v.toFixed(decimalsOfStep(step))));
-  const heading = ["time (s)", ...figure.lines.map((_, i) => `${figure.unit}${i === 0 ? "" : ` ${i + 1}`}${held === "" ? "" : `, ${held}`}`)];
+  // What has no value has no column.
+  const columns = figure.lines.flatMap((line, i) => (line.values.some((v) => typeof v === "number") ? [{ line, band: figure.bands.find((b) => b.of === i) }] : []));
+  const heading = ["time (s)", ...columns.flatMap(({ line, band }, i) => {
+    const name = line.name === undefined ? `${figure.unit}${i === 0 ? "" : ` ${i + 1}`}` : `${figure.unit}, ${line.name}`;
+    return [`${name}${held === "" ? "" : `, ${held}`}`, ...(band === undefined ? [] : [`SD of ${name}`])];
+  })];
   const rows: string[][] = [];
   for (let i = 0; i < figure.x.length; ++i) {
     if (figure.x[i]! < figure.range[0] - 1e-9 || figure.x[i]! > figure.range[1] + 1e-9) continue;
-    rows.push([String(Number(figure.x[i]!.toFixed(9))), ...figure.lines.map((l) => (typeof l.values[i] === "number" ? text(l.values[i]!) : ""))]);
+    const value = (v: number | null | undefined): string => (typeof v === "number" ? text(v) : "");
+    rows.push([String(Number(figure.x[i]!.toFixed(9))), ...columns.flatMap(({ line, band }) => [value(line.values[i]), ...(band === undefined ? [] : [deviationText(band, i)])])]);
   }
   return csv([heading, ...rows]);
 }

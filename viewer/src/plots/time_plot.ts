@@ -14,8 +14,9 @@ export interface TimePlotOptions {
   label: string;
   height: number;
   /** Lines above the first, which is the time. The colours are asked for at every redraw. */
-  series: { stroke: (dense: boolean) => string; width: number; hidden?: boolean; dash?: number[] }[];
-  bands?: { series: [upper: number, lower: number]; fill: () => string }[];
+  series: { name?: string; stroke: (dense: boolean) => string; width: number; hidden?: boolean; dash?: number[] }[];
+  /** Two standard deviations to each side of the line `of`. */
+  bands?: { series: [upper: number, lower: number]; of: number; fill: () => string }[];
   unit: () => string;
   fromZero?: boolean;
   /** Stretches to hatch, in s. */
@@ -139,6 +140,7 @@ export class TimePlot {
   }
 
   #figure(options: TimePlotOptions): Figure {
+    const lines = options.series.flatMap((s, i) => (s.width === 0 ? [] : [i]));
     const [x, ...all] = this.plot.data;
     const { min, max } = this.plot.scales["y"]!;
     return {
@@ -147,8 +149,11 @@ export class TimePlot {
       x,
       range: this.#view.range,
       height: [min ?? 0, max ?? 1],
-      bands: (options.bands ?? []).map((b) => ({ colour: b.fill(), upper: [...all[b.series[0] - 1]!], lower: [...all[b.series[1] - 1]!] })),
-      lines: options.series.flatMap((s, i) => (s.width === 0 ? [] : [{ colour: s.stroke(false), width: s.width, values: [...all[i]!] }])),
+      bands: (options.bands ?? []).map((b) => ({ colour: b.fill(), upper: [...all[b.series[0] - 1]!], lower: [...all[b.series[1] - 1]!], of: lines.indexOf(b.of - 1) })),
+      lines: lines.map((i) => {
+        const { name, stroke, width } = options.series[i]!;
+        return { ...(name === undefined ? {} : { name }), colour: stroke(false), width, values: [...all[i]!] };
+      }),
       striped: options.hatched(),
       ...(options.precision === undefined ? {} : { precision: options.precision() }),
     };

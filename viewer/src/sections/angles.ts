@@ -99,7 +99,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
         { stroke: () => "transparent", width: 0, hidden: true },
         { stroke: (dense) => (dense ? palette().dense : palette().line), width: 1.8 },
       ],
-      bands: [{ series: [1, 2], fill: () => palette().band }],
+      bands: [{ series: [1, 2], of: 3, fill: () => palette().band }],
       unit: () => (coordinates[view.coordinate]?.unit === "m" ? "position (m)" : "angle (deg)"),
       hatched: () => hatched,
       precision: () => ({ step: trial.coordinates[view.coordinate]?.step ?? null, framesOfPair: framesOfPair(trial.frameStep) }),

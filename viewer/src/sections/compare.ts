@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { band } from "../band.ts";
 import { coarsest, framesOfPair, inflateAll } from "../curves.ts";
+import { decodeCycles, type EncodedCycles, type Overlay } from "../cycles.ts";
 import { decode, type CoordinateSeries, type Trial } from "../decode.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
@@ -11,6 +12,7 @@ import { TimePlot } from "../plots/time_plot.ts";
 import { palette } from "../theme.ts";
 import type { PageData } from "../types.ts";
 import type { View } from "../view.ts";
+import { cycleFigure } from "./cycles.ts";
 
 /** Plots that stand there at first. */
 const firstShown = 4;
@@ -42,8 +44,8 @@ export interface Over {
   first: readonly string[];
 }
 
-/** Coordinates beside each other, both sides in one plot, and a second result over the first: one that is given, or a file. */
-export function compare(trial: Trial, view: View, over: Over | null = null): { node: HTMLElement; start: () => void } {
+/** Coordinates beside each other, both sides in one plot, over time or over the cycle, and a second result over the first: one that is given, or a file. */
+export function compare(trial: Trial, view: View, over: Over | null = null, cycles: EncodedCycles | null = null): { node: HTMLElement; start: () => void } {
   const { coordinates } = trial.summary;
   const pairs = pairsOf(coordinates.map((c) => c.name)).filter((p) => !coordinates[p.right]!.locked);
   const hasTorques = trial.torques.some((t) => t !== null);
@@ -51,10 +53,13 @@ export function compare(trial: Trial, view: View, over: Over | null = null): { n
   let torques = false;
   let perMass = false;
   let second: Trial | null = over?.trial ?? null;
+  /** Over the cycle; null: over time. */
+  let overlays: readonly Overlay[] | null = null;
   // Both sides first: they are what people compare.
   const wanted = (over?.first ?? []).flatMap((name) => pairs.filter((p) => [p.right, p.left].some((i) => i >= 0 && coordinates[i]!.name === name)));
   const chosen = new Set<Pair>([...new Set([...wanted, ...pairs.filter((p) => p.left >= 0), ...pairs.filter((p) => p.left < 0)])].slice(0, firstShown));
   const grid = el("div", { class: "side-by-side" });
+  const cycleGrid = el("div", { class: "side-by-side", hidden: true });
   const plots = new Map<Pair, { box: HTMLElement; plot: TimePlot }>();
   const note = el("p", { class: "facts", id: "second-result", "aria-live": "polite" });
 
@@ -89,6 +94,16 @@ export function compare(trial: Trial, view: View, over: Over | null = null): { n
     const [right2, left2] = second === null ? [lines(trial, -1), lines(trial, -1)] : [lines(second, other("right")), lines(second, other("left"))];
     entry.plot.setData([trial.time, ...right, ...left, right2[2]!, left2[2]!] as never);
   };
+  const addCycles = (pair: Pair, of: readonly Overlay[]): void => {
+    const names = [pair.right, pair.left].filter((i) => i >= 0).map((i) => coordinates[i]!.name);
+    const own = of.filter((o) => names.includes(o.coordinate));
+    const unit = coordinates[pair.right]!.unit === "deg" ? "angle (deg)" : "position (m)";
+    cycleGrid.append(own.length > 0 ? cycleFigure(pair.title, own, unit) : el("figure", {}, el("figcaption", {}, pair.title), el("p", { class: "facts" }, "No cycle has a value of it.")));
+  };
+  const layCycles = (): void => {
+    cycleGrid.replaceChildren();
+    for (const pair of pairs) if (chosen.has(pair) && overlays !== null) addCycles(pair, overlays);
+  };
   const add = (pair: Pair): void => {
     const box = el("div", { class: "plot axis" });
     const side = (text: string, kind: string): HTMLElement => el("span", { class: `key ${kind}` }, text);
@@ -103,8 +118,17 @@ export function compare(trial: Trial, view: View, over: Over | null = null): { n
     const plot = new TimePlot(box, view, {
       label: `${pair.title} over time${pair.left < 0 ? "" : ", right and left"}`,
       height: 190,
-      series: [hidden, hidden, { stroke: () => palette().line, width: 1.7 }, hidden, hidden, { stroke: () => palette().second, width: 1.7 }, { stroke: () => palette().line, width: 1.3, dash: [5, 4] }, { stroke: () => palette().second, width: 1.3, dash: [5, 4] }],
-      bands: [{ series: [1, 2], fill: () => palette().band }, { series: [4, 5], fill: () => palette().secondBand }],
+      series: [
+        hidden,
+        hidden,
+        { name: pair.left < 0 ? "this result" : "right", stroke: () => palette().line, width: 1.7 },
+        hidden,
+        hidden,
+        { name: "left", stroke: () => palette().second, width: 1.7 },
+        { name: pair.left < 0 ? "second result" : "right, second result", stroke: () => palette().line, width: 1.3, dash: [5, 4] },
+        { name: "left, second result", stroke: () => palette().second, width: 1.3, dash: [5, 4] },
+      ],
+      bands: [{ series: [1, 2], of: 3, fill: () => palette().band }, { series: [4, 5], of: 6, fill: () => palette().secondBand }],
       unit: () => unitOf(pair),
       hatched: () => [],
       precision: () => ({
@@ -131,7 +155,16 @@ export function compare(trial: Trial, view: View, over: Over | null = null): { n
     return button;
   };
   const boxes = pairs.map((pair) => {
-    const box = el("input", { type: "checkbox", ...(chosen.has(pair) ? { checked: true } : {}), change: () => (box.checked ? add(pair) : remove(pair)) });
+    const box = el("input", { type: "checkbox", ...(chosen.has(pair) ? { checked: true } : {}), change: () => {
+      if (box.checked) {
+        chosen.add(pair);
+        add(pair);
+      } else {
+        chosen.delete(pair);
+        remove(pair);
+      }
+      layCycles();
+    } });
     return el("label", { class: "tick" }, box, pair.title, pair.left < 0 ? null : el("small", {}, " right, left"));
   });
   if (over !== null) note.textContent = `Dashed over it: the solution ${over.words}, ${differences(trial, over.trial)}.`;
@@ -151,20 +184,35 @@ export function compare(trial: Trial, view: View, over: Over | null = null): { n
     }
     all();
   }
+  const overTime = el("div", { class: "controls" },
+    hasTorques ? toggle("Torques", (on) => { torques = on; }) : null,
+    hasTorques && mass !== null ? toggle(`per kg (${number(mass, 1)} kg)`, (on) => { perMass = on; }) : null,
+    ...(over === null ? [el("label", { for: "second-file" }, "Second result"), file] : []),
+  );
+  const timeWords = el("p", { class: "facts" }, "Each with its band of two standard deviations. Dashed level lines are limits of the model.");
+  const cycleWords = el("p", { class: "facts", hidden: true }, "From foot strike to foot strike, as the recording's events mark them. Thin lines are cycles, the thick one is their mean, the band one standard deviation between them. Values that are not determined are left out.");
+  let unpacked: Promise<Overlay[]> | null = null;
+  const overCycle = async (button: HTMLElement): Promise<void> => {
+    const on = overlays === null;
+    overlays = on ? await (unpacked ??= decodeCycles(cycles!)) : null;
+    button.setAttribute("aria-pressed", String(on));
+    for (const node of [overTime, timeWords, note, grid]) node.hidden = on;
+    for (const node of [cycleWords, cycleGrid]) node.hidden = !on;
+    layCycles();
+  };
+  const cycleButton = cycles === null ? null : el("button", { type: "button", class: "choice", id: "over-cycle", "aria-pressed": "false", click: () => void overCycle(cycleButton!) }, "Over the cycle");
   const node = section(
     "compare",
     "Side by side",
-    "Both sides in one plot, each with its band of two standard deviations. Dashed level lines are limits of the model.",
-    el(
-      "div",
-      { class: "controls" },
-      hasTorques ? toggle("Torques", (on) => { torques = on; }) : null,
-      hasTorques && mass !== null ? toggle(`per kg (${number(mass, 1)} kg)`, (on) => { perMass = on; }) : null,
-      ...(over === null ? [el("label", { for: "second-file" }, "Second result"), file] : []),
-    ),
+    "Both sides in one plot.",
+    cycleButton === null ? null : el("div", { class: "controls" }, cycleButton),
+    overTime,
+    timeWords,
+    cycleWords,
     note,
     el("details", {}, el("summary", {}, "Choose coordinates"), el("div", { class: "ticks" }, ...boxes)),
     grid,
+    cycleGrid,
   );
   return { node, start: () => (over === null ? pairs.filter((p) => chosen.has(p)) : [...chosen]).forEach(add) };
 }

@@ -71,12 +71,12 @@ const checks: Record<string, (opened: Opened, server: Served) => Promise<void>> 
     await until(page, async () => (await value(page, "live-dropped")) > before);
     assert.equal(await page.locator("#live-state").textContent(), "Live");
   },
-  "readable by everybody in light, on a phone and in the dark": async ({ page }) => {
+  "readable by everybody in light, on a phone, in the dark and on paper": async ({ page }) => {
     await running(page);
     await page.waitForTimeout(3000);
-    for (const [name, width, scheme] of [["light", 1280, "light"], ["phone", 390, "light"], ["dark", 1280, "dark"]] as const) {
+    for (const [name, width, scheme] of [["light", 1280, "light"], ["phone", 390, "light"], ["dark", 1280, "dark"], ["paper", 794, "light"]] as const) {
       await page.setViewportSize({ width, height: 900 });
-      await page.emulateMedia({ colorScheme: scheme });
+      await page.emulateMedia({ colorScheme: scheme, media: name === "paper" ? "print" : "screen" });
       await settle(page);
       await keep(page, name);
       assert.deepEqual([...(await violations(page)), ...(await clipped(page))], [], name);

@@ -43,8 +43,11 @@ export const clipped = (page: Page): Promise<string[]> =>
     return out;
   });
 
-/** Open all folds, so that what is inside is judged too. */
-const unfold = (page: Page): Promise<void> => page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
+/** Open all folds and show cycles, so that what is inside is judged too. */
+const unfold = (page: Page): Promise<void> => page.evaluate(() => {
+    document.querySelectorAll("details").forEach((d) => (d.open = true));
+    document.querySelector<HTMLElement>('#over-cycle[aria-pressed="false"]')?.click();
+  });
 
 /** Light, dark, print, 390 px: no violation, nothing clipped. Gives what is wrong. */
 export async function judgeLooks(file: string, name: string): Promise<string[]> {

@@ -144,6 +144,21 @@ const ofSimulated: Record<string, Check> = {
     await page.getByRole("button", { name: "Whole trial" }).click();
     await settle(page);
   },
+  "coordinates over the cycle, both feet, with their number": async ({ page }) => {
+    await page.locator("#over-cycle").click();
+    await settle(page);
+    assert.equal(await page.locator("#over-cycle").getAttribute("aria-pressed"), "true");
+    const figure = page.locator(".cycle-figure");
+    assert.equal(await figure.count(), 1);
+    assert.equal(await figure.locator("path.cycle").count(), 6);
+    assert.match((await figure.textContent()) ?? "", /right: 3 cycles, 1 cycle with missing values, so that the mean is of 2 to 3/);
+    const top = async (foot: string): Promise<number> => (await figure.locator(`path.cycle-mean.${foot}`).boundingBox())!.y;
+    assert.ok((await top("left")) < (await top("right")) - 10, "4 deg higher");
+    assert.equal(await page.locator("#compare .u-over:visible").count(), 0);
+    await page.locator("#over-cycle").click();
+    await settle(page);
+    assert.ok((await page.locator("#compare .u-over:visible").count()) > 0);
+  },
   "tables hold the trial's numbers": async ({ page }) => {
     assert.deepEqual(await page.locator("#worst tbody tr").first().locator("th,td").allTextContents(),
       ["1.000", "100", "23.3", "C", "40.0", "3", "converged"]);

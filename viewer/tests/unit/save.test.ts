@@ -58,6 +58,11 @@ describe("a saved figure", () => {
   it("is the numbers of the range that is shown", () => {
     expect(figureCsv(figure)).toBe("time (s),x (mm)\r\n0,1\r\n1,\r\n2,5\r\n");
   });
+  it("has the SD that a band of two to each side shows, beside its line, and no column of what has no value", () => {
+    const lines = [{ name: "left", colour: "red", width: 1, values: [null, null, null] }, { name: "right", colour: "red", width: 1, values: [7, null, 9] }];
+    const bands = [{ colour: "", upper: [9, null, 9.5], lower: [5, null, 8.5], of: 1 }];
+    expect(figureCsv({ ...figure, lines, bands })).toBe('time (s),"x (mm), right","SD of x (mm), right"\r\n0,7,1\r\n1,,\r\n2,9,0.25\r\n');
+  });
 });
 
 describe("the numbers of a packed figure", () => {

@@ -22,7 +22,7 @@ function make(hatched: [number, number][] = []) {
       { stroke: (dense) => (dense ? "dense" : "line"), width: 2 },
       { stroke: () => "made", width: 3, hidden: true },
     ],
-    bands: [{ series: [1, 2], fill: () => "band" }],
+    bands: [{ series: [1, 2], of: 1, fill: () => "band" }],
     unit: () => "position (mm)",
     hatched: () => hatched,
   });

@@ -181,8 +181,9 @@ Result<IkOutcome> run_ik(IkJob job) {
     files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
-    files.push_back(text_file(
-        job.report, [&] { return internal::motion_page(model, outcome.summary, motion, &solved->markers); }));
+    files.push_back(text_file(job.report, [&] {
+      return internal::motion_page(model, outcome.summary, motion, &solved->markers, inputs->trial);
+    }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
   return std::move(outcome);
@@ -206,7 +207,7 @@ Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
   const auto& motion = outcome.result.motion;
   if (job.progress && !job.progress(motion.frames(), motion.frames()))
     return fail(Code::cancelled, "inverse kinematics was stopped");
-  return IkPage{.html = internal::motion_page(inputs->model, outcome.summary, motion, &used),
+  return IkPage{.html = internal::motion_page(inputs->model, outcome.summary, motion, &used, inputs->trial),
                 .summary = outcome.summary,
                 .set = internal::name_set(motion, outcome.summary.run),
                 .edits = inputs->edits.in_force,

@@ -8,6 +8,7 @@
 #include "kinemark/stages/report/ik_report.h"
 
 #include "kinemark/pipeline/motion/internal/body_positions.h"
+#include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 
 namespace kinemark::pipeline::internal {
@@ -31,10 +32,15 @@ data::Trajectories solved_markers(const data::Trajectories& recorded, const data
 }
 
 std::string motion_page(const model::Model& model, const report::IkSummary& summary,
-                        const data::JointMotion& motion, const data::Trajectories* markers) {
+                        const data::JointMotion& motion, const data::Trajectories* markers,
+                        const data::Trial& recording) {
   const auto bodies = body_positions(model, motion);
-  return report::report_html(
-      {.summary = summary, .motion = &motion, .markers = markers, .up = up_of(model), .bodies = &bodies});
+  return report::report_html({.summary = summary,
+                              .motion = &motion,
+                              .markers = markers,
+                              .up = up_of(model),
+                              .bodies = &bodies,
+                              .cycles = cycle_overlays(recording.events, recording.markers.time, motion)});
 }
 
 }  // namespace kinemark::pipeline::internal

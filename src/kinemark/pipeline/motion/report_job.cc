@@ -22,6 +22,7 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/internal/body_positions.h"
+#include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -63,8 +64,14 @@ bool edit_again(const report::IkRun& run, const fs::path& recording, data::Trial
          take_edits({.edits = was->path, .recording = recording, .seed = run.seed}, trial).has_value();
 }
 
-/// States of the recording on the solved frames, when the file is still there and fits; else nothing.
-std::optional<data::Trajectories> recorded_states(const report::IkRun& run, const data::JointMotion& motion) {
+/// What is still known of a recording.
+struct Recorded {
+  data::Trajectories states;  ///< on the solved frames
+  std::vector<report::CycleOverlay> cycles;
+};
+
+/// Of the file of markers, when it is still there and fits; else nothing.
+std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointMotion& motion) {
   for (const auto& input : run.inputs) {
     if (input.role != "markers") continue;
     auto markers = read_marker_input({.path = input.path});
@@ -82,7 +89,8 @@ std::optional<data::Trajectories> recorded_states(const report::IkRun& run, cons
       for (auto f = left_out.first_frame; marker >= 0 && f >= 0 && f <= last; ++f)
         states.set_missing(f, marker, data::SampleState::rejected);
     }
-    return states;
+    return Recorded{.states = std::move(states),
+                    .cycles = internal::cycle_overlays(markers->trial.events, recorded.time, motion)};
   }
   return std::nullopt;
 }
@@ -176,19 +184,22 @@ Result<Page> solved_page(const fs::path& solved) {
   motion->tau = torques_from(beside(base, "_tau.sto"), *motion, set_of(*json));
   if (!motion->tau.empty())
     motion->tau_sd = torques_from(beside(base, "_tau_sd.sto"), *motion, set_of(*json));
-  const auto states = recorded_states(*run, *motion);
+  const auto recorded = recorded_of(*run, *motion);
+  const auto* states = recorded ? &recorded->states : nullptr;
   const bool turned = std::ranges::any_of(
       run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });
   const auto model = model_of(*run);
   const auto bodies = bodies_of(model, *motion);
-  auto summary = report::summarize(std::move(*run), *motion, states ? &*states : nullptr);
+  auto summary = report::summarize(std::move(*run), *motion, states);
   if (!summary) return fail_at(base.string(), summary.error());
-  page.html = report::report_html({.summary = *summary,
-                                   .motion = &*motion,
-                                   .markers = states ? &*states : nullptr,
-                                   .in_model_axes = !turned,
-                                   .up = model ? up_of(*model) : std::nullopt,
-                                   .bodies = bodies ? &*bodies : nullptr});
+  page.html =
+      report::report_html({.summary = *summary,
+                           .motion = &*motion,
+                           .markers = states,
+                           .in_model_axes = !turned,
+                           .up = model ? up_of(*model) : std::nullopt,
+                           .bodies = bodies ? &*bodies : nullptr,
+                           .cycles = recorded ? recorded->cycles : std::vector<report::CycleOverlay>{}});
   return page;
 }
 

@@ -255,6 +255,7 @@ nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& 
       [&](const PlotPoints& thinned) { return pack_curves(curves, points.step(), thinned); });
   return {{"summary", summary_json(report.summary)},
           {"series", std::move(series)},
+          {"cycles", cycles_json(report.cycles)},
           {"scene", internal::ik_scene_json(report, options.max_data_bytes / 2)}};
 }
 

@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/report/cycle_overlay.h"
 #include "kinemark/stages/report/ik_summary.h"
 #include "kinemark/stages/report/scene.h"
 
@@ -26,6 +28,7 @@ struct IkReport {
   bool in_model_axes = true;
   std::optional<Eigen::Vector3d> up;    ///< against the model's gravity, length 1; none: the page finds it
   const SceneBodies* bodies = nullptr;  ///< of the model in this motion; nullptr: not known
+  std::vector<CycleOverlay> cycles;     ///< of its coordinates; empty: no events mark any
 };
 
 /// The data that the page draws: `{"summary": summary_json(), "series": {...}}`.

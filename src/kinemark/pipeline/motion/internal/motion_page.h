@@ -8,6 +8,7 @@
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/report/ik_summary.h"
 
@@ -17,8 +18,11 @@ namespace kinemark::pipeline::internal {
 [[nodiscard]] data::Trajectories solved_markers(const data::Trajectories& recorded,
                                                 const data::MarkerFit& fit, const data::JointMotion& motion);
 
-/// HTML with the model's bodies in space. @param markers  on the motion's clock; nullptr: not known
+/// HTML with the model's bodies in space, and over the cycles that the recording's events mark.
+/// @param markers    on the motion's clock; nullptr: not known
+/// @param recording  what was solved
 [[nodiscard]] std::string motion_page(const model::Model& model, const report::IkSummary& summary,
-                                      const data::JointMotion& motion, const data::Trajectories* markers);
+                                      const data::JointMotion& motion, const data::Trajectories* markers,
+                                      const data::Trial& recording);
 
 }  // namespace kinemark::pipeline::internal

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What a page shows of cycles: each of them, and their mean.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/data/measure.h"
+
+namespace kinemark::report {
+
+/// Cycles of one coordinate and one foot over each other.
+struct CycleOverlay {
+  data::CycleCurves curves;          ///< `id` names the coordinate, `context` the foot: "Left" or "Right"
+  std::vector<double> mean;          ///< P, over all cycles that have a value there; NaN of none
+  std::vector<double> sd;            ///< P, between cycles, N - 1; NaN of fewer than two
+  std::vector<std::int64_t> cycles;  ///< P, that have a value there
+};
+
+/// Cycles that a page draws of one overlay at most, evenly chosen; its mean is that of all.
+inline constexpr std::int64_t kMostCyclesDrawn = 20;
+
+/// As src/kinemark/stages/report/README.md describes it: `null` without overlays. Angles in deg, lengths in
+/// m.
+[[nodiscard]] nlohmann::ordered_json cycles_json(std::span<const CycleOverlay> overlays);
+
+}  // namespace kinemark::report
