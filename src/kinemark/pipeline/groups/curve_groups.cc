@@ -77,7 +77,8 @@ Result<std::vector<std::int64_t>> naming_columns(const io::TidyTable& table, con
   return out;
 }
 
-// Where a table holds cycles and their mean, as `analyze --write-cycles` writes it, the mean is no further curve.
+// Where a table holds cycles and their mean, as `analyze --write-cycles` writes it, the mean is no further
+// curve.
 void leave_out_means(const io::TidyTable& table, std::vector<std::int64_t>& rows,
                      std::vector<std::string>& warnings) {
   const auto cycle = table.find("cycle");
@@ -206,8 +207,8 @@ Result<CurveGroups> make_curve_groups(const std::vector<io::TidyTable>& tables, 
     if (numbers && table.width != tables.front().width)
       return fail(Code::bad_input, fmt::format("{} has {} points a curve, {} has {}", table.name, table.width,
                                                tables.front().name, tables.front().width));
-    if (auto s = numbers ? add_numbers(table, columns, collection)
-                         : add_lines(table, columns, out, collection);
+    if (auto s =
+            numbers ? add_numbers(table, columns, collection) : add_lines(table, columns, out, collection);
         !s)
       return std::unexpected(s.error());
   }

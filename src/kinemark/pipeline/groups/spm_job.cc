@@ -26,7 +26,8 @@ Design design_of(const SpmJob& job, std::size_t groups) {
 
 // What is so if nothing is to be found.
 std::string_view null_of(const analysis::Mapping& mapping) {
-  return mapping.options.design == Design::one_sample ? "the mean is 0 everywhere" : "the groups do not differ";
+  return mapping.options.design == Design::one_sample ? "the mean is 0 everywhere"
+                                                      : "the groups do not differ";
 }
 
 // Where a place between points lies, on the scale of the curves.
@@ -94,7 +95,8 @@ std::string spm_text(const SpmOutcome& outcome) {
   if (!mapping.remark.empty()) return out + fmt::format("Nothing can be found: {}.\n", mapping.remark);
   const bool magnitude = mapping.statistic == "t" && mapping.options.two_sided;
   out += fmt::format(
-      "{} beyond {}{:.4g} anywhere with probability {:g} at most if {} ({} of {:.6g} arrangements, seed {})\n",
+      "{} beyond {}{:.4g} anywhere with probability {:g} at most if {} ({} of {:.6g} arrangements, seed "
+      "{})\n",
       degrees_of_freedom(mapping), magnitude ? "+-" : "", mapping.threshold, mapping.options.alpha,
       null_of(mapping), mapping.arrangements, mapping.possible, mapping.options.seed);
   for (const auto& stretch : mapping.stretches)
