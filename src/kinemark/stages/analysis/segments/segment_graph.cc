@@ -19,7 +19,7 @@ namespace {
 // What a definition may ask of stack and memory; that of a whole body takes 15 and 500.
 constexpr std::size_t kMostInARow = 200;
 constexpr std::size_t kMostSteps = 20'000;
-constexpr int kDeepest = 1500;  // levels of formulas; one of 2000 letters may have half as many
+constexpr int kDeepest = 1200;  // levels of formulas; one of 2000 letters may have half as many
 
 std::string_view word_of(StepType type) {
   return type == StepType::number   ? "a number"

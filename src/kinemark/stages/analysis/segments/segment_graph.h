@@ -73,7 +73,7 @@ struct GraphOutput {
 /// Steps for some outputs of a definition. An output that needs a marker or a parameter that is not there has
 /// none, and its name is in `lacks`; formulas that make no sense are Code::bad_input: an unknown function, a
 /// wrong number or kind of arguments, an entry that needs itself, more than 200 entries that need each other
-/// in a row, 1500 levels of formulas within each other (a term of a sum is one) or 20,000 steps.
+/// in a row, 1200 levels of formulas within each other (a term of a sum is one) or 20,000 steps.
 ///
 /// A landmark is three parameters, NAME@x, NAME@y and NAME@z: where it is in its segment, m.
 [[nodiscard]] Result<SegmentGraph> build_graph(const SegmentDefinition& definition, const GraphNames& names,

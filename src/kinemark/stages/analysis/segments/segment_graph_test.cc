@@ -113,7 +113,7 @@ TEST(SegmentGraph, RefusesLongFormulasWithinEachOtherBeforeTheStackEnds) {
   const auto deep = graph_of("P0", StepType::vector, d);
   ASSERT_FALSE(deep);
   EXPECT_EQ(deep.error().code, Code::bad_input);
-  EXPECT_THAT(deep.error().message, HasSubstr("formulas stand more than 1500 levels deep"));
+  EXPECT_THAT(deep.error().message, HasSubstr("formulas stand more than 1200 levels deep"));
   EXPECT_TRUE(graph_of("up" + terms, StepType::vector, d));
 }
 

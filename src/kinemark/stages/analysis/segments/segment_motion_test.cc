@@ -361,7 +361,7 @@ TEST(SegmentMotion, RefusesOptionsAndDefinitionsThatMakeNoSense) {
   for (int i = 0; i < 40; ++i)
     d.parameters.push_back(
         {.name = "p" + std::to_string(i), .formula = of("p" + std::to_string(i + 1) + terms)});
-  EXPECT_THAT(compute_segments(d, {.markers = &markers}).error().message, HasSubstr("1500 levels deep"));
+  EXPECT_THAT(compute_segments(d, {.markers = &markers}).error().message, HasSubstr("1200 levels deep"));
   d = two_segments();
   d.values[0].formula = of("distance(P1, 3)");
   EXPECT_THAT(compute_segments(d, {.markers = &markers}).error().message,
