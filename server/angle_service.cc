@@ -68,22 +68,20 @@ Response AngleService::state_response(int status, const OfTrial& of, const Resul
   Json solutions = Json::object();
   for (std::size_t i = 0; i < kKinds; ++i) {
     const auto& solution = of.solutions[i];
-    solutions[kNames[i]] = !solution ? Json()
-                                     : Json{{"digest", solution->digest},
-                                            {"edits", solution->edits},
-                                            {"set", solution->set},
-                                            {"verdict", solution->verdict},
-                                            {"attentions", solution->attentions},
-                                            {"rms_mm", 1e3 * solution->rms_m}};
+    solutions[kNames[i]] = !solution ? Json() : Json{{"digest", solution->digest},
+                                                     {"edits", solution->edits},
+                                                     {"set", solution->set},
+                                                     {"verdict", solution->verdict},
+                                                     {"attentions", solution->attentions},
+                                                     {"rms_mm", 1e3 * solution->rms_m}};
   }
   const auto& said = model ? of.said : model.error().message;
-  return json_response(
-      status, {{"model", model ? Json(printable(model->filename().string(), 200)) : Json()},
-               {"state", kStates[static_cast<std::size_t>(of.state)]},
-               {"said", said.empty() ? Json() : Json(printable_sentence(said))},
-               {"done", of.done.load()},
-               {"of", of.of.load()},
-               {"solutions", std::move(solutions)}});
+  return json_response(status, {{"model", model ? Json(printable(model->filename().string(), 200)) : Json()},
+                                {"state", kStates[static_cast<std::size_t>(of.state)]},
+                                {"said", said.empty() ? Json() : Json(printable_sentence(said))},
+                                {"done", of.done.load()},
+                                {"of", of.of.load()},
+                                {"solutions", std::move(solutions)}});
 }
 
 Response AngleService::begin(const TrialFile& trial, const Result<fs::path>& model) {
@@ -153,8 +151,8 @@ Result<std::shared_ptr<const AngleService::Solution>> AngleService::solve_one(co
                  .set = solved->set,
                  .verdict = summary.verdict == report::Verdict::good ? "good" : "attention",
                  .edits = solved->edits,
-                 .attentions = static_cast<std::size_t>(std::ranges::count(
-                     summary.notices, report::Verdict::attention, &report::Notice::level)),
+                 .attentions = static_cast<std::size_t>(
+                     std::ranges::count(summary.notices, report::Verdict::attention, &report::Notice::level)),
                  .rms_m = summary.rms_error_m});
   } catch (const std::bad_alloc&) {
     return fail(Code::io, fmt::format("{}: does not fit into memory", name));

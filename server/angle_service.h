@@ -30,7 +30,7 @@ struct AngleServiceOptions {
   std::filesystem::path model;            ///< of all recordings; empty: find_model() finds one beside each
   int threads = 0;                        ///< 0: all cores. Any number gives the same bits.
   std::uint64_t seed = 1;                 ///< as `kinemark ik --seed`
-  std::int64_t most_samples = 20'000'000;  ///< frames times markers of a recording that is solved here
+  std::int64_t most_samples = 4'000'000;  ///< frames times markers of a recording that is solved here
   std::size_t most_waiting = 8;           ///< recordings that wait for the one that is being solved
   std::size_t most_bytes = 256UL << 20;   ///< of all pages that are kept, but for those solved last
   /// Solves one job; pipeline::ik_page() unless a test has another.

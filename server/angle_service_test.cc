@@ -49,7 +49,8 @@ class AngleServiceThread : public ::testing::Test {
     if (!job.progress(3, 10)) return fail(Code::cancelled, "stopped");
     const std::string edits = job.edits.empty() ? "0" : io::read_text(scratch_ / "edits").value_or("0");
     if (edits == "throw") throw std::runtime_error("a contract");
-    if (edits == "bad" || (job.edits.empty() && unsolvable_)) return fail(Code::bad_input, "no marker <fits>");
+    if (edits == "bad" || (job.edits.empty() && unsolvable_))
+      return fail(Code::bad_input, "no marker <fits>");
     pipeline::IkPage page{.html = "<p>" + edits + page_padding_,
                           .set = "set of " + edits,
                           .edits = static_cast<std::size_t>(std::stoi(edits)),
@@ -246,11 +247,12 @@ TEST_F(AngleServiceThread, TheOldestGoesWhereThereIsNoRoom) {
 }
 
 TEST_F(AngleServiceThread, WhatAsksNothingIsRefused) {
-  for (const char* body : {"", "{", "[]", "{}", R"({"do":"explode"})", R"({"do":1})", R"({"do":"solve","x":1})",
-                           "\xff\xfe"})
+  for (const char* body :
+       {"", "{", "[]", "{}", R"({"do":"explode"})", R"({"do":1})", R"({"do":"solve","x":1})", "\xff\xfe"})
     EXPECT_EQ(post(body).status, 400) << body;
-  EXPECT_EQ(service_->answer({.method = "POST", .type = "text/plain", .body = R"({"do":"solve"})"}, trial()).status,
-            415);
+  EXPECT_EQ(
+      service_->answer({.method = "POST", .type = "text/plain", .body = R"({"do":"solve"})"}, trial()).status,
+      415);
   EXPECT_EQ(state()["state"], "none");
 }
 
@@ -270,7 +272,8 @@ TEST(AngleServiceAlone, WhatCannotBeReadIsTheReadersSentence) {
   ASSERT_TRUE(io::write_text(scratch / "walk.osim", "no model", false));
   AngleService service{{}};
   const TrialFile trial{.number = 1, .path = scratch / "walk.c3d"};
-  EXPECT_EQ(service.answer({.method = "POST", .type = "application/json", .body = R"({"do":"solve"})"}, trial).status,
+  EXPECT_EQ(service.answer({.method = "POST", .type = "application/json", .body = R"({"do":"solve"})"}, trial)
+                .status,
             202);
   json now;
   do {

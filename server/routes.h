@@ -9,19 +9,19 @@ namespace kinemark::server {
 
 /// What can be asked for.
 enum class Target : std::uint8_t {
-  none,         ///< nothing that there is
-  list_page,    ///< /
-  list_json,    ///< /api/trials
-  trial_page,   ///< /trial/N
-  trial_edits,  ///< /api/trial/N/edits
-  trial_data,   ///< /api/trial/N/data
+  none,             ///< nothing that there is
+  list_page,        ///< /
+  list_json,        ///< /api/trials
+  trial_page,       ///< /trial/N
+  trial_edits,      ///< /api/trial/N/edits
+  trial_data,       ///< /api/trial/N/data
   trial_angles,     ///< /api/trial/N/angles
   angles_now,       ///< /trial/N/angles/now
   angles_before,    ///< /trial/N/angles/before
   angles_recorded,  ///< /trial/N/angles/recorded
-  style,        ///< /style.css
-  list_style,   ///< /list.css
-  list_script,  ///< /list.js
+  style,            ///< /style.css
+  list_style,       ///< /list.css
+  list_script,      ///< /list.js
 };
 
 /// A target, and for a trial its number.

@@ -43,8 +43,9 @@ TEST(Routes, OfAnglesStandBehindTheNumber) {
   EXPECT_EQ(find_route("/trial/12/angles/before").target, Target::angles_before);
   EXPECT_EQ(find_route("/trial/12/angles/recorded").target, Target::angles_recorded);
   EXPECT_EQ(find_route("/trial/12/angles/recorded").number, 12U);
-  for (const char* target : {"/trial/1/angles", "/trial/1/angles/", "/trial//angles/now", "/trial/0/angles/now",
-                             "/api/trial/1/angles/now", "/trial/1/angles/then", "/trial/1/angles/now/"})
+  for (const char* target :
+       {"/trial/1/angles", "/trial/1/angles/", "/trial//angles/now", "/trial/0/angles/now",
+        "/api/trial/1/angles/now", "/trial/1/angles/then", "/trial/1/angles/now/"})
     EXPECT_EQ(find_route(target).target, Target::none) << target;
 }
 

@@ -38,10 +38,11 @@ Result<fs::path> find_model(const fs::path& recording, const fs::path& given) {
   if (models.size() == 1) return models.front();
   const auto name = printable(recording.filename().string(), 200);
   if (models.empty())
-    return fail(Code::not_supported,
-                fmt::format("No body model is known for {}: start 'kinemark serve' with --model FILE.osim, or "
-                            "put an .osim beside the recording",
-                            name));
+    return fail(
+        Code::not_supported,
+        fmt::format("No body model is known for {}: start 'kinemark serve' with --model FILE.osim, or "
+                    "put an .osim beside the recording",
+                    name));
   return fail(Code::not_supported,
               fmt::format("{} body models lie beside {} and none has its name: start 'kinemark serve' with "
                           "--model FILE.osim, or call one {}.osim",

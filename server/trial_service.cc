@@ -221,7 +221,8 @@ void TrialService::send_angles(const Request& request, const Route& route, const
                      : route.target == Target::angles_before ? AnglesOf::before
                                                              : AnglesOf::recorded;
   if (const auto page = angles_.page(*trial, which)) return send_page(*page, reply);
-  send_sentence(404, "Not found", "There are no such angles now; the page of the recording solves them.", reply);
+  send_sentence(404, "Not found", "There are no such angles now; the page of the recording solves them.",
+                reply);
 }
 
 void TrialService::make_page(const TrialFile& trial, const Reply& reply) {

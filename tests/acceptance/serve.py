@@ -5,7 +5,8 @@
 
     serve.py            attack a server of its own, on a simulated recording
     serve.py sockets    attack the WebSocket of a live source
-    serve.py --attack KIND PORT COOKIE   what the attackers run, in processes of their own, until they are ended
+    serve.py tls        attack a server with a certificate, which openssl makes
+    serve.py --attack TABLE KIND PORT COOKIE   what the attackers run, in processes of their own, until they are ended
 
 Loopback only. Prints rows "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
@@ -14,6 +15,7 @@ import contextlib
 import os
 import signal
 import socket
+import ssl
 import struct
 import subprocess
 import sys
@@ -159,9 +161,30 @@ SOCKET_ATTACKS = {
 }
 
 
+def flood_handshakes(port):
+    """One whole handshake after the other, and nothing asked."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    while True:
+        with contextlib.suppress(OSError):
+            with socket.create_connection(("127.0.0.1", port), timeout=5) as connection, context.wrap_socket(connection):
+                pass
+
+
+# On a server with a certificate.
+TLS_ATTACKS = {
+    "300 handshakes that send a letter at a time": lambda port: hold(port, 300, True, b"\x16\x03\x01\x02\x00\x01"),
+    "1,000 connections that say nothing": lambda port: hold(port, 1000, drip=False),
+    "handshakes one after the other": flood_handshakes,
+    "plain HTTP": lambda port: flood(port, request(port)),
+    "noise": lambda port: flood(port, os.urandom(4096)),
+}
+TABLES = {"pages": ATTACKS, "sockets": SOCKET_ATTACKS, "tls": TLS_ATTACKS}
+
+
 @contextlib.contextmanager
-def attackers(kind, port, count=2, cookie=""):
-    running = [subprocess.Popen([sys.executable, __file__, "--attack", kind, str(port), cookie]) for _ in range(count)]
+def attackers(table, kind, port, count=2, cookie=""):
+    running = [subprocess.Popen([sys.executable, __file__, "--attack", table, kind, str(port), cookie]) for _ in range(count)]
     time.sleep(1.0)  # they are to be at it
     try:
         yield
@@ -210,9 +233,9 @@ def check_refusals(server):
         row(asked == measured, check, asked, measured)
 
 
-def check_attack(server, kind):
+def check_attack(server, kind, table="pages"):
     page, most = [], 0
-    with attackers(kind, server.port):
+    with attackers(table, kind, server.port):
         for _ in range(REQUESTS):
             most = max(most, descriptors_of(server))
             page.append(timed(server, "/"))
@@ -314,11 +337,11 @@ def check_socket_refusals(server):
                 row(getattr(end, "code", 0) in (code, 0), f"WebSocket: {check}", f"ended, {code}", f"ended, {getattr(end, 'code', 'reset')}")
 
 
-def check_socket_attack(server, kind):
+def check_socket_attack(server, kind, count=2):
     rightful = Rightful(server)
     rightful.start()
     page, most = [], 0
-    with attackers(kind, server.port, cookie=server.exchanged()):
+    with attackers("sockets", kind, server.port, count, server.exchanged()):
         begun = len(rightful.ages)
         for _ in range(REQUESTS):
             most = max(most, descriptors_of(server))
@@ -340,16 +363,35 @@ def sockets(scratch):
     with Server(PROGRAM, "sim:walk?rate=240&seconds=600", "--no-open", cwd=scratch) as server:
         check_socket_refusals(server)
         most = 0.0
+        check_socket_attack(server, "nobody attacks", count=0)
         for kind in SOCKET_ATTACKS:
             check_socket_attack(server, kind)
             most = max(most, memory_mb(server.process.pid))
         row(most <= MOST_MEMORY_MB, "memory during all that", f"<= {MOST_MEMORY_MB} MB", f"{most:.0f} MB")
 
 
+def tls(scratch):
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2", "-subj", "/CN=test", "-addext",
+                    "subjectAltName=IP:127.0.0.1", "-keyout", scratch / "key.pem", "-out", scratch / "cert.pem"], check=True, capture_output=True)  # fmt: skip
+    subprocess.run([PROGRAM, "simulate", "subject", "-o", scratch / "recorded", "--duration", "10", "--quiet"], check=True)
+    with Server(PROGRAM, scratch / "recorded", "--no-open", "--certificate", "cert.pem", "--key", "key.pem", cwd=scratch, trusted=scratch / "cert.pem") as server:
+        for check, asked, measured in (
+            ("no token", 401, server.request(known=False)[0]),
+            ("foreign Host", 421, server.request(Host="evil.example")[0]),
+            ("POST from our name by http", 403, server.request(method="POST", Origin=f"http://{server.name}")[0]),
+            ("ours", 200, server.request()[0]),
+        ):
+            row(asked == measured, f"over TLS: {check}", asked, measured)
+        for kind in TLS_ATTACKS:
+            check_attack(server, kind, "tls")
+        memory = memory_mb(server.process.pid)
+        row(memory <= MOST_MEMORY_MB, "memory after all that", f"<= {MOST_MEMORY_MB} MB", f"{memory:.0f} MB")
+
+
 def main():
-    if sys.argv[1:] == ["sockets"]:
+    if sys.argv[1:] in (["sockets"], ["tls"]):
         with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
-            sockets(Path(scratch))
+            (sockets if sys.argv[1] == "sockets" else tls)(Path(scratch))
         return 1 if failed else 0
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         scratch = Path(scratch)
@@ -370,8 +412,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--attack"]:
-        port, cookie = int(sys.argv[3]), sys.argv[4]
-        if cookie:
-            SOCKET_ATTACKS[sys.argv[2]](port, cookie)
-        ATTACKS[sys.argv[2]](port)
+        table, kind, port, cookie = *sys.argv[2:4], int(sys.argv[4]), sys.argv[5]
+        TABLES[table][kind](port, *([cookie] if table == "sockets" else []))
     sys.exit(main())

@@ -34,6 +34,11 @@ enum class Quantity : std::uint8_t {
   angular_momentum,      ///< kg m^2/s
   rate,                  ///< 1/s, such as cadence: shown per minute
   voltage,               ///< V
+  impulse,               ///< N s
+  force_rate,            ///< N/s
+  moment_per_mass,       ///< N m/kg
+  power_per_mass,        ///< W/kg
+  energy_per_mass,       ///< J/kg
   ratio,                 ///< no unit
   share,                 ///< 0 to 1: shown in per cent
   count,                 ///< a whole number

@@ -50,8 +50,9 @@ struct IkPage {
   std::string digest;         ///< of what they do, io::digest_of()
 };
 
-/// What run_ik() computes, with nothing written; output and report of the job are not used. Fails as run_ik(),
-/// and with Code::not_supported for more than `most_samples` (frames times markers of the recording).
+/// What run_ik() computes, with nothing written; output and report of the job are not used. Fails as
+/// run_ik(), and with Code::not_supported for more than `most_samples` (frames times markers of the
+/// recording).
 [[nodiscard]] Result<IkPage> ik_page(IkJob job, std::int64_t most_samples);
 
 }  // namespace kinemark::pipeline

@@ -16,7 +16,8 @@ namespace kinemark::pipeline {
 /// What `kinemark ik` and `track` are asked alike.
 struct MotionJob : JobSettings {
   std::filesystem::path model, markers;  ///< .osim; and any marker file
-  std::filesystem::path edits;   ///< journal applied to the markers first; "beside": theirs, where there is one
+  std::filesystem::path
+      edits;  ///< journal applied to the markers first; "beside": theirs, where there is one
   std::filesystem::path output;  ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   AxesChoice axes;               ///< how recording and forces are turned into the model's axes

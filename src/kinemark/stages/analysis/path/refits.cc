@@ -32,12 +32,13 @@ std::int64_t batch_of(std::int64_t samples) {
   return std::clamp<std::int64_t>(kBatchSamples / std::max<std::int64_t>(1, samples), 1, kBatch);
 }
 
-// Recordings first .. first + count side by side, three columns each.
+// Recordings first .. first + count side by side, as many columns each as the path has.
 SeriesMatrix simulated(const Recording& recording, const SeriesMatrix& path, std::int64_t first,
                        std::int64_t count, std::uint64_t seed, std::uint64_t stream) {
-  SeriesMatrix out(path.rows(), 3 * count);
+  const auto axes = path.cols();
+  SeriesMatrix out(path.rows(), axes * count);
   for (std::int64_t k = 0; k < count; ++k)
-    out.middleCols(3 * k, 3) =
+    out.middleCols(axes * k, axes) =
         with_noise(path, recording.seen, recording.noise_sd_m, seed, stream, first + k);
   return out;
 }
@@ -91,26 +92,27 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   SeriesMatrix fit = recording.x;
   smoother.smooth(fit);
   const std::int64_t n = fit.rows();
+  const auto axes = fit.cols();
   const SeriesMatrix increments = fit.bottomRows(n - 1) - fit.topRows(n - 1);
   const Eigen::VectorXd energy = increments.rowwise().squaredNorm();
-  const Eigen::RowVector3d mean = fit.middleRows(first, count).colwise().mean();
+  const Eigen::RowVectorXd mean = fit.middleRows(first, count).colwise().mean();
   const SeriesMatrix stretch = fit.middleRows(first, count).rowwise() - mean;
-  const Eigen::Matrix3d spread =
+  const Eigen::MatrixXd spread =
       stretch.transpose() * stretch / static_cast<double>(std::max<std::int64_t>(1, count - 1));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spread);
 
   // What deviations of refits from the path they were made of have: energy of increments, and variance along
   // the principal components of the stretch.
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(n - 1);
-  Eigen::Vector3d noise_variance = Eigen::Vector3d::Zero();
+  Eigen::VectorXd noise_variance = Eigen::VectorXd::Zero(axes);
   const std::int64_t batch = batch_of(n);
   for (std::int64_t begin = 0; begin < kPilotRefits; begin += batch) {
     const std::int64_t in_batch = std::min(batch, kPilotRefits - begin);
     SeriesMatrix deviations = simulated(recording, fit, begin, in_batch, seed, stream ^ kPilotStream);
     smoother.smooth(deviations);
     for (std::int64_t k = 0; k < in_batch; ++k) {
-      deviations.middleCols(3 * k, 3) -= fit;
-      const SeriesMatrix part = deviations.block(first, 3 * k, count, 3) * solver.eigenvectors();
+      deviations.middleCols(axes * k, axes) -= fit;
+      const SeriesMatrix part = deviations.block(first, axes * k, count, axes) * solver.eigenvectors();
       const SeriesMatrix level = part.rowwise() - part.colwise().mean().eval();
       noise_variance += level.colwise().squaredNorm().transpose() / static_cast<double>(count * kPilotRefits);
     }
@@ -129,13 +131,13 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   pilot.rowwise() += mean - pilot.middleRows(first, count).colwise().mean();
 
   // Principal components, less the variance that noise has along them.
-  Eigen::Vector3d kept;
-  for (int axis = 0; axis < 3; ++axis) {
+  Eigen::VectorXd kept(axes);
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
     const double variance = solver.eigenvalues()[axis];
     kept[axis] =
         variance > 0.0 ? std::sqrt(std::clamp(1.0 - noise_variance[axis] / variance, 0.0, 1.0)) : 0.0;
   }
-  const Eigen::Matrix3d shrink =
+  const Eigen::MatrixXd shrink =
       solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
   return ((pilot.rowwise() - mean) * shrink).rowwise() + mean;
 }
@@ -152,7 +154,9 @@ void for_each_refit(
     SeriesMatrix b = a;
     less.smooth(a);
     least.smooth(b);
-    for (std::int64_t k = 0; k < count; ++k) visit(first + k, a.middleCols(3 * k, 3), b.middleCols(3 * k, 3));
+    const auto axes = path.cols();
+    for (std::int64_t k = 0; k < count; ++k)
+      visit(first + k, a.middleCols(axes * k, axes), b.middleCols(axes * k, axes));
   }
 }
 

@@ -20,12 +20,12 @@ inline constexpr double kLessSmooth = 1.5;
 /// For intervals of third derivatives.
 inline constexpr double kLeastSmooth = 2.5;
 
-/// One recording of a point and how it is smoothed.
+/// One recording of a point or of another series and how it is smoothed.
 struct Recording {
-  SeriesMatrix x;                ///< n x 3, m; missing samples hold any finite number
+  SeriesMatrix x;  ///< n x 3, m (a coordinate: n x 1, its unit); missing samples hold any finite number
   std::vector<bool> seen;        ///< n
   double rate_hz = 0.0;          ///< above 0
-  double noise_sd_m = 0.0;       ///< per axis, above 0
+  double noise_sd_m = 0.0;       ///< per axis, in the unit of x, above 0
   math::SmoothingChoice choice;  ///< of least expected error
 };
 

@@ -1,0 +1,355 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/emg/emg_measures.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <unsupported/Eigen/FFT>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/parallel.h"
+#include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/path/pivot.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::Quantity;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kSmooth_hz = 4.0;          // of the spectrum, to both sides
+constexpr double kOnsetEnvelope_hz = 50.0;  // fast enough for an onset (Hodges & Bui 1996)
+constexpr double kInstant = 0.25;           // of the stretch, the widest interval of an instant
+constexpr std::string_view kEmg = "emg", kDefinition = "definition";
+constexpr std::string_view kHodges = "Hodges & Bui 1996";
+
+enum Which : std::uint8_t { kMean, kPeak, kPeakTime, kRms, kMedian, kOnset, kEnd, kActive, kRest, kCount };
+
+constexpr std::array<data::MeasureDefinition, kCount> kDefinitions{{
+    {"emg_mean", kEmg, Quantity::voltage, "Mean of the envelope",
+     "rectified, low-passed; with what it is at rest", kDefinition},
+    {"emg_peak", kEmg, Quantity::voltage, "Peak of the envelope", "sqrt(max^2 - rest^2)", kDefinition},
+    {"emg_peak_time", kEmg, Quantity::time, "Time of the peak", "from the beginning of the stretch",
+     kDefinition},
+    {"emg_rms", kEmg, Quantity::voltage, "Root mean square", "of the band: sqrt(mean square - that at rest)",
+     "Merletti 1999"},
+    {"emg_median_frequency", kEmg, Quantity::frequency, "Median frequency", "halves the power of the band",
+     "De Luca 1984"},
+    {"emg_onset", kEmg, Quantity::time, "Onset of the first burst",
+     "envelope of 50 Hz over rest + 3 SD for 50 ms, from the beginning of the stretch", kHodges},
+    {"emg_end", kEmg, Quantity::time, "End of the last burst", "likewise", kHodges},
+    {"emg_active", kEmg, Quantity::share, "Share of the time active", "of the samples within bursts",
+     kHodges},
+    {"emg_rest", kEmg, Quantity::voltage, "Envelope at rest", "mean of the quietest stretch", kDefinition},
+}};
+
+/// A channel, prepared.
+struct Prepared {
+  VectorXd band, envelope, quick;  // `quick` for instants
+  RestLevel rest, quick_rest;
+};
+
+double root_of_difference(double value, double rest) {
+  return std::sqrt(std::max(0.0, value * value - rest * rest));
+}
+
+/// Noise of the spectrum that a series has, of its length and unit variance. The spectrum is that of the
+/// series as it is, phases are drawn; a longer transform is cut to length.
+class SpectralNoise {
+ public:
+  SpectralNoise(const VectorXd& series, double rate_hz) : samples_(series.size()) {
+    length_ = 8;
+    while (length_ < samples_) length_ *= 2;
+    std::vector<std::complex<double>> padded(at(length_)), spectrum;
+    for (Index i = 0; i < samples_; ++i) padded[at(i)] = series[i];
+    transform_.fwd(spectrum, padded);
+    for (Index k = 0; k <= length_ / 2; ++k) amplitude_.push_back(std::abs(spectrum[at(k)]));
+    // Power over neighbouring frequencies: that of one is a draw itself.
+    const auto half =
+        std::max<Index>(8, static_cast<Index>(kSmooth_hz * static_cast<double>(length_) / rate_hz));
+    std::vector<double> smooth(amplitude_.size());
+    for (Index k = 0; k <= length_ / 2; ++k) {
+      double sum = 0.0, count = 0.0;
+      for (Index j = std::max<Index>(0, k - half); j <= std::min(length_ / 2, k + half); ++j)
+        sum += amplitude_[at(j)] * amplitude_[at(j)], count += 1.0;
+      smooth[at(k)] = std::sqrt(sum / count);
+    }
+    amplitude_ = std::move(smooth);
+    double power = 0.0;
+    for (Index k = 0; k <= length_ / 2; ++k)
+      power += (k == 0 || 2 * k == length_ ? 1.0 : 2.0) * amplitude_[at(k)] * amplitude_[at(k)];
+    for (double& a : amplitude_) a *= power > 0.0 ? static_cast<double>(length_) / std::sqrt(power) : 0.0;
+  }
+
+  [[nodiscard]] VectorXd draw(std::uint64_t seed, std::uint64_t stream, std::int64_t k) {
+    Random random(seed, mix64(stream) ^ static_cast<std::uint64_t>(k));
+    std::vector<std::complex<double>> spectrum(at(length_)), series;
+    for (Index i = 0; i <= length_ / 2; ++i) {
+      const double re = random.gaussian(), im = random.gaussian();
+      const bool real = i == 0 || 2 * i == length_;
+      const std::complex<double> value =
+          real ? std::complex<double>(re, 0.0) : std::complex<double>(re, im) / std::numbers::sqrt2;
+      spectrum[at(i)] = amplitude_[at(i)] * value;
+      if (!real) spectrum[at(length_ - i)] = std::conj(spectrum[at(i)]);
+    }
+    transform_.inv(series, spectrum);
+    VectorXd out(samples_);
+    for (Index i = 0; i < samples_; ++i) out[i] = series[at(i)].real();
+    return out;
+  }
+
+ private:
+  Index samples_, length_ = 0;
+  std::vector<double> amplitude_;
+  Eigen::FFT<double> transform_;
+};
+
+class EmgMeasurement {
+ public:
+  EmgMeasurement(double rate_hz, double t0_s, const EmgOptions& options, std::vector<EmgStretch> stretches)
+      : rate_hz_(rate_hz), t0_s_(t0_s), options_(options), stretches_(std::move(stretches)) {}
+
+  void measure(const EmgChannel& channel, std::uint64_t stream, EmgMeasures& out) const {
+    const auto found = prepare(channel.volts);
+    const double most = options_.to_maximum ? found.envelope.maxCoeff() : channel.most_volts;
+    out.names.push_back(channel.name);
+    out.envelopes.push_back(std::isnan(most) ? found.envelope : VectorXd(found.envelope / most));
+    if (!(found.envelope.maxCoeff() > 0.0)) {
+      out.notes.push_back(fmt::format("{} holds no signal", channel.name));
+      return;
+    }
+    const auto values = values_of(found);
+    std::vector<std::vector<double>> deviations(values.size(),
+                                                std::vector<double>(at(options_.refits), kNaN));
+    if (options_.refits > 0) {
+      // The signal over its own envelope is noise without muscle; beside a burst the filter's envelope
+      // undershoots rest.
+      const VectorXd strength =
+          found.envelope.cwiseMax(std::max(found.rest.mean, 1e-6 * found.envelope.maxCoeff()));
+      SpectralNoise noise(found.band.cwiseQuotient(strength), rate_hz_);
+      const double gain = std::sqrt(found.band.cwiseQuotient(strength).array().square().mean());
+      for (std::int64_t k = 0; k < options_.refits; ++k) {
+        const VectorXd drawn = gain * strength.cwiseProduct(noise.draw(options_.seed, stream, k));
+        auto version = prepare_band(drawn);
+        version.rest = found.rest, version.quick_rest = found.quick_rest;
+        const auto again = values_of(version);
+        for (std::size_t i = 0; i < again.size(); ++i) deviations[i][at(k)] = again[i] - values[i];
+      }
+    }
+    for (std::size_t s = 0; s < stretches_.size(); ++s)
+      for (int which = 0; which < kCount; ++which) {
+        const std::size_t i = s * kCount + static_cast<std::size_t>(which);
+        if (is_asked(which)) state(which, channel.name, stretches_[s], values[i], deviations[i], most, out);
+      }
+  }
+
+ private:
+  [[nodiscard]] bool is_asked(int which) const {
+    const auto& asked = options_.measures;
+    return asked.empty() || std::ranges::find(asked, kDefinitions[at(which)].id) != asked.end();
+  }
+
+  [[nodiscard]] Prepared prepare(const VectorXd& volts) const {
+    const VectorXd level = volts.array() - volts.mean();
+    Prepared out = prepare_band(band_passed(level, rate_hz_, options_.envelope));
+    out.rest = rest_level(out.band, out.envelope, rate_hz_, options_.rest_s);
+    out.quick_rest = rest_level(out.band, out.quick, rate_hz_, options_.rest_s);
+    return out;
+  }
+  [[nodiscard]] Prepared prepare_band(VectorXd band) const {
+    Prepared out{.band = std::move(band)};
+    out.envelope = envelope_of(out.band, rate_hz_, options_.envelope);
+    out.quick = envelope_of(out.band, rate_hz_,
+                            {.envelope_hz = std::max(kOnsetEnvelope_hz, options_.envelope.envelope_hz)});
+    return out;
+  }
+
+  // Of all stretches, one after the other.
+  [[nodiscard]] std::vector<double> values_of(const Prepared& channel) const {
+    std::vector<double> out;
+    const auto& rest = channel.rest;
+    const auto bursts =
+        find_bursts(channel.quick, channel.quick_rest.mean + options_.onset_sd * channel.quick_rest.sd,
+                    rate_hz_, options_.burst_s);
+    for (const auto& stretch : stretches_) {
+      const auto envelope = channel.envelope.segment(stretch.first, stretch.count);
+      const VectorXd band = channel.band.segment(stretch.first, stretch.count);
+      Index peak = 0;
+      const double most = envelope.maxCoeff(&peak);
+      const double begin = static_cast<double>(stretch.first),
+                   end = static_cast<double>(stretch.first + stretch.count - 1);
+      double onset = kNaN, last = kNaN, active = 0.0;
+      for (const auto& burst : bursts) {
+        if (burst.end <= begin || burst.onset >= end) continue;
+        if (std::isnan(onset) && burst.onset > begin) onset = (burst.onset - begin) / rate_hz_;
+        if (burst.end < end) last = (burst.end - begin) / rate_hz_;
+        active += std::min(burst.end, end) - std::max(burst.onset, begin);
+      }
+      std::array<double, kCount> values{};
+      values[kMean] = envelope.mean();
+      values[kPeak] = root_of_difference(most, rest.mean);
+      values[kPeakTime] = static_cast<double>(peak) / rate_hz_;
+      values[kRms] =
+          root_of_difference(std::sqrt(band.squaredNorm() / static_cast<double>(band.size())), rest.rms);
+      values[kMedian] = median_frequency(band, rate_hz_);
+      values[kOnset] = onset;
+      values[kEnd] = last;
+      values[kActive] = active / (end - begin);
+      values[kRest] = rest.mean;
+      out.insert(out.end(), values.begin(), values.end());
+    }
+    return out;
+  }
+
+  void state(int which, const std::string& name, const EmgStretch& stretch, double value,
+             const std::vector<double>& deviations, double most, EmgMeasures& out) const {
+    const auto& definition = kDefinitions[at(which)];
+    data::Measure measure{.id = std::string(definition.id),
+                          .subject = name,
+                          .context = stretch.context,
+                          .region = stretch.name,
+                          .cycle = stretch.cycle,
+                          .start_s = t0_s_ + static_cast<double>(stretch.first) / rate_hz_,
+                          .end_s = t0_s_ + static_cast<double>(stretch.first + stretch.count - 1) / rate_hz_,
+                          .quantity = definition.quantity};
+    measure.interval.level = options_.level;
+    const auto& e = options_.envelope;
+    measure.method = fmt::format("{:g} to {:g} Hz, {}", e.high_pass_hz, e.low_pass_hz,
+                                 e.rms_window_s > 0.0 ? fmt::format("RMS of {:g} s", e.rms_window_s)
+                                                      : fmt::format("envelope {:g} Hz", e.envelope_hz));
+    const bool in_volts = which == kMean || which == kPeak || which == kRest;
+    const double unit = in_volts && std::isfinite(most) ? 1.0 / most : 1.0;
+    if (unit != 1.0) measure.quantity = Quantity::share;
+    if (!std::isfinite(value)) {
+      measure.remark =
+          which == kMedian ? "the stretch is too short" : "no burst begins or ends in the stretch";
+      out.measures.push_back(std::move(measure));
+      return;
+    }
+    measure.value = measure.uncorrected = unit * value;
+    if (options_.refits == 0) {
+      measure.remark = "no interval was asked for";
+    } else if (which == kRest) {
+      measure.remark = "no interval: it is the least of many stretches";
+    } else if (const auto found = pivot(value, deviations, options_.level); std::isfinite(found.value)) {
+      put_interval(which, stretch, value, unit, found, measure);
+    } else {
+      measure.remark = "no interval: more than a tenth of the simulated channels do not determine it";
+    }
+    out.measures.push_back(std::move(measure));
+  }
+
+  void put_interval(int which, const EmgStretch& stretch, double value, double unit, const Pivoted& found,
+                    data::Measure& measure) const {
+    const bool instant = which == kPeakTime || which == kOnset || which == kEnd;
+    const double last = static_cast<double>(stretch.count - 1) / rate_hz_;
+    if (instant &&
+        (found.high - found.low > kInstant * last || !(found.low <= value && value <= found.high))) {
+      measure.remark = "no interval: other instants are nearly as good";
+      return;
+    }
+    const auto bounded = [&](double x) {
+      return instant ? std::clamp(x, 0.0, last) : unit * std::max(0.0, x);
+    };
+    if (!instant) measure.value = bounded(found.value);
+    measure.sd = unit * found.sd;
+    measure.interval = {.kind = data::IntervalKind::two_sided,
+                        .low = bounded(found.low),
+                        .high = bounded(found.high),
+                        .level = options_.level,
+                        .approximate = true};
+    measure.method += fmt::format(", {} draws", options_.refits);
+    if (which != kPeak) return;
+    measure.interval.kind = data::IntervalKind::at_most;
+    measure.interval.low = kNaN;
+    measure.remark = "chance can only raise it";
+  }
+
+  double rate_hz_, t0_s_;
+  const EmgOptions& options_;
+  std::vector<EmgStretch> stretches_;
+};
+
+// Cut to the samples; those of fewer than eight are left out. The whole recording where none is asked for.
+std::vector<EmgStretch> stretches_within(const std::vector<EmgStretch>& asked, std::int64_t samples) {
+  if (asked.empty()) return {{.count = samples}};
+  std::vector<EmgStretch> out;
+  for (auto stretch : asked) {
+    const auto end = std::min<std::int64_t>(samples, stretch.first + stretch.count);
+    stretch.first = std::max<std::int64_t>(0, stretch.first);
+    stretch.count = end - stretch.first;
+    if (stretch.count >= 8) out.push_back(std::move(stretch));
+  }
+  return out;
+}
+
+Status check(const EmgOptions& options) {
+  if (auto s = options.envelope.check(); !s) return s;
+  if (options.refits != 0 && options.refits < 39)
+    return fail(
+        Code::usage,
+        fmt::format("{} refits are too few for an interval; need 39 or more, or 0 for none", options.refits));
+  if (!(options.rest_s > 0.0) || !(options.onset_sd > 0.0) || !(options.burst_s >= 0.0))
+    return fail(
+        Code::usage,
+        fmt::format(
+            "rest of {:g} s, an onset at {:g} SD and bursts of {:g} s; need the first two above 0 and "
+            "the last not negative",
+            options.rest_s, options.onset_sd, options.burst_s));
+  for (const auto& id : options.measures)
+    if (find_emg_definition(id) == nullptr)
+      return fail(Code::usage, fmt::format("there is no measure '{}' of an EMG", id));
+  return {};
+}
+
+}  // namespace
+
+std::span<const data::MeasureDefinition> emg_definitions() { return kDefinitions; }
+
+const data::MeasureDefinition* find_emg_definition(std::string_view id) {
+  for (const auto& definition : kDefinitions)
+    if (definition.id == id) return &definition;
+  return nullptr;
+}
+
+Result<EmgMeasures> measure_emg(const std::vector<EmgChannel>& channels, double rate_hz, double t0_s,
+                                const EmgOptions& options) {
+  if (auto s = check(options); !s) return std::unexpected(s.error());
+  const auto least = static_cast<Index>(std::ceil(0.5 * rate_hz));
+  std::vector<EmgMeasures> parts(channels.size());
+  parallel_for(std::ssize(channels), 1, options.threads, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t c = begin; c < end; ++c) {
+      const auto& channel = channels[at(c)];
+      const auto samples = channel.volts.size();
+      if (samples < least || !channel.volts.allFinite()) {
+        parts[at(c)].notes.push_back(
+            samples < least ? fmt::format("{} is shorter than half a second", channel.name)
+                            : fmt::format("{} has missing samples, and is not measured", channel.name));
+        continue;
+      }
+      EmgMeasurement(rate_hz, t0_s, options, stretches_within(options.stretches, samples))
+          .measure(channel, static_cast<std::uint64_t>(c) + 1, parts[at(c)]);
+    }
+  });
+  EmgMeasures out;
+  for (auto& part : parts) {
+    std::ranges::move(part.measures, std::back_inserter(out.measures));
+    std::ranges::move(part.names, std::back_inserter(out.names));
+    std::ranges::move(part.envelopes, std::back_inserter(out.envelopes));
+    std::ranges::move(part.notes, std::back_inserter(out.notes));
+  }
+  if (out.names.empty())
+    return fail(Code::bad_input,
+                out.notes.empty() ? std::string("there is no channel of an EMG") : out.notes.front());
+  return out;
+}
+
+}  // namespace kinemark::analysis

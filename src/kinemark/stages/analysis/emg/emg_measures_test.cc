@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/emg/emg_measures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::IntervalKind;
+using data::Measure;
+using Eigen::VectorXd;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+constexpr double kEmg_hz = 1000.0;
+constexpr double kStrong = 1e-3, kQuiet = 2e-5;
+
+/// Band-passed white noise, of a muscle that is active from 1.5 to 2.5 s of 4 s.
+EmgChannel burst(std::uint64_t seed) {
+  Random random(seed, 0);
+  VectorXd white(4000);
+  for (double& x : white) x = random.gaussian();
+  VectorXd band = band_passed(white, kEmg_hz, {.low_pass_hz = 300.0});
+  band /= std::sqrt(band.squaredNorm() / 4000.0);
+  for (int i = 0; i < 4000; ++i) {
+    const double active = i >= 1500 && i < 2500 ? kStrong : 0.0;
+    band[i] *= std::sqrt(active * active + kQuiet * kQuiet);
+  }
+  return {.name = "EMG1", .volts = band.array() + 0.02};
+}
+
+const Measure& get(const EmgMeasures& out, const std::string& id, const std::string& region = "") {
+  static const Measure none{};
+  for (const auto& m : out.measures)
+    if (m.id == id && m.region == region) return m;
+  ADD_FAILURE() << id << " is not there";
+  return none;
+}
+
+TEST(EmgMeasures, ABurstIsFoundAndMeasured) {
+  const auto out = measure_emg({burst(3)}, kEmg_hz, 10.0, {.refits = 0}).value();
+  EXPECT_NEAR(get(out, "emg_rms").value, kStrong * 0.5, 0.05 * kStrong)
+      << "a quarter of the time at full power";
+  EXPECT_NEAR(get(out, "emg_active").value, 0.25, 0.06);
+  EXPECT_NEAR(get(out, "emg_onset").value, 1.5, 0.1);
+  EXPECT_NEAR(get(out, "emg_end").value, 2.5, 0.1);
+  EXPECT_LT(get(out, "emg_rest").value, 3.0 * kQuiet);
+  EXPECT_EQ(get(out, "emg_mean").start_s, 10.0);
+  EXPECT_THAT(get(out, "emg_mean").method, HasSubstr("20 to 450 Hz, envelope 6 Hz"));
+  ASSERT_EQ(out.envelopes.size(), 1u);
+  EXPECT_EQ(out.envelopes[0].size(), 4000);
+  for (const auto& m : out.measures) EXPECT_TRUE(m.validate()) << m.id;
+}
+
+TEST(EmgMeasures, IntervalsHoldTheStrengthOfTheMuscle) {
+  const EmgOptions options{.measures = {"emg_rms", "emg_mean"},
+                           .stretches = {{.name = "on", .first = 1600, .count = 800}},
+                           .refits = 39};
+  int rms = 0, mean = 0;
+  constexpr int kTrials = 10;
+  const double rectified = kStrong * std::sqrt(2.0 / M_PI);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto out =
+        measure_emg({burst(50 + static_cast<std::uint64_t>(trial))}, kEmg_hz, 0.0, options).value();
+    const auto &r = get(out, "emg_rms", "on"), &m = get(out, "emg_mean", "on");
+    ASSERT_EQ(r.interval.kind, IntervalKind::two_sided);
+    EXPECT_TRUE(r.interval.approximate);
+    rms += r.interval.low <= kStrong && kStrong <= r.interval.high;
+    mean += m.interval.low <= rectified && rectified <= m.interval.high;
+    EXPECT_LT(r.interval.high - r.interval.low, 0.5 * kStrong);
+  }
+  EXPECT_GE(rms, 8);
+  EXPECT_GE(mean, 8);
+}
+
+TEST(EmgMeasures, ToAMaximumValuesAreShares) {
+  auto channel = burst(4);
+  const EmgOptions options{.measures = {"emg_peak", "emg_median_frequency"}, .to_maximum = true, .refits = 0};
+  const auto out = measure_emg({channel}, kEmg_hz, 0.0, options).value();
+  EXPECT_NEAR(get(out, "emg_peak").value, 1.0, 0.01);
+  EXPECT_EQ(get(out, "emg_peak").quantity, data::Quantity::share);
+  EXPECT_EQ(get(out, "emg_median_frequency").quantity, data::Quantity::frequency);
+  EXPECT_NEAR(out.envelopes[0].maxCoeff(), 1.0, 1e-12);
+  channel.most_volts = 2.0 * kStrong;
+  const auto half = measure_emg({channel}, kEmg_hz, 0.0, {.measures = {"emg_peak"}, .refits = 0}).value();
+  EXPECT_LT(get(half, "emg_peak").value, 0.7);
+}
+
+TEST(EmgMeasures, WhatCannotBeMeasuredIsSaid) {
+  auto gap = burst(5);
+  gap.name = "EMG2";
+  gap.volts[7] = kNaN;
+  EmgChannel silent{.name = "EMG3", .volts = VectorXd::Zero(4000)};
+  const auto out = measure_emg({burst(5), gap, silent}, kEmg_hz, 0.0,
+                               {.stretches = {{.name = "rest", .first = 200, .count = 400}}, .refits = 0})
+                       .value();
+  EXPECT_THAT(out.notes, Contains("EMG2 has missing samples, and is not measured"));
+  EXPECT_THAT(out.notes, Contains("EMG3 holds no signal"));
+  EXPECT_EQ(get(out, "emg_onset", "rest").remark, "no burst begins or ends in the stretch");
+  EXPECT_THAT(measure_emg({gap}, kEmg_hz, 0.0, {}).error().message, HasSubstr("EMG2 has missing samples"));
+  EXPECT_THAT(measure_emg({}, kEmg_hz, 0.0, {}).error().message, HasSubstr("no channel"));
+  EXPECT_THAT(measure_emg({}, kEmg_hz, 0.0, {.measures = {"emg_mena"}}).error().message,
+              HasSubstr("'emg_mena'"));
+  EXPECT_EQ(measure_emg({}, kEmg_hz, 0.0, {.refits = 5}).error().code, Code::usage);
+  EXPECT_EQ(measure_emg({}, kEmg_hz, 0.0, {.rest_s = 0.0}).error().code, Code::usage);
+}
+
+}  // namespace
+}  // namespace kinemark::analysis
