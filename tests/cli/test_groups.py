@@ -67,7 +67,7 @@ class Groups(CommandTest):
             rows += [("reach", f"S{i}", j, value, "mm") for j, value in enumerate(line)]
         result = self.run_in("groups", "retest", self.write("t.csv", rows))
         self.assertEqual(result.status, 0, result.err)
-        self.assertRegex(result.out, r"reach: 6 subjects\n  ICC\(2,1\) 0\.29 \[0\.0\d+ to 0\.7\d+\], ICC\(3,1\) 0\.71")
+        self.assertRegex(result.out, r"reach: 6 subjects; intervals of 95 %\n  ICC\(2,1\) 0\.29 \[0\.0\d+ to 0\.7\d+\], ICC\(3,1\) 0\.71")
 
     def test_what_is_wrong_is_one_sentence(self):
         good = self.write("good.csv", curves(1, 0.0))

@@ -168,10 +168,11 @@ std::string retest_text(const RetestOutcome& outcome) {
     const auto& r = measure.reliability;
     const std::string unit = measure.unit.empty() ? "" : " " + measure.unit;
     out +=
-        fmt::format("{}: {} subjects{}\n", printable(measure.name, 60), r.subjects,
-                    r.left_out > 0 ? fmt::format(" ({} with a value missing are left out)", r.left_out) : "");
+        fmt::format("{}: {} subjects{}; intervals of {:g} %\n", printable(measure.name, 60), r.subjects,
+                    r.left_out > 0 ? fmt::format(" ({} with a value missing are left out)", r.left_out) : "",
+                    100.0 * r.level);
     out += fmt::format("  ICC(2,1) {}, ICC(3,1) {}\n", bounded(r.agreement), bounded(r.consistency));
-    out += fmt::format("  SEM {}{}, MDC {:.3g}{}\n", bounded(r.sem), unit, r.mdc, unit);
+    out += fmt::format("  SEM {}{}, MDC95 {:.3g}{}\n", bounded(r.sem), unit, r.mdc, unit);
     if (std::isfinite(r.noise))
       out += fmt::format("  measurement noise {:.3g}{}; without it SEM {:.3g}{}, ICC(3,1) {:.3g}\n", r.noise,
                          unit, r.sem_movement, unit, r.consistency_movement);

@@ -49,8 +49,8 @@ TEST_F(RetestJobTest, NumbersOfShroutAndFleiss) {
   EXPECT_NEAR(r.consistency.value, 0.71, 0.005);
   EXPECT_TRUE(std::isnan(r.noise));
   const auto text = retest_text(*outcome);
-  EXPECT_THAT(text, HasSubstr("length: 6 subjects\n  ICC(2,1) 0.29"));
-  EXPECT_THAT(text, HasSubstr(" mm, MDC "));
+  EXPECT_THAT(text, HasSubstr("length: 6 subjects; intervals of 95 %\n  ICC(2,1) 0.29"));
+  EXPECT_THAT(text, HasSubstr(" mm, MDC95 "));
   EXPECT_THAT(text, Not(HasSubstr("measurement noise")));
   EXPECT_THAT(io::read_text(scratch_ / "o.csv").value(), HasSubstr("\nlength,mm,6,0,"));
 }

@@ -67,12 +67,12 @@ void add_curve(FigurePanel& panel, const std::string& name, const std::string& c
     panel.lines.push_back({.colour = kGrey, .x = x, .y = part_of(y, measured, false)});
 }
 
-void add_box(FigurePanel& panel, const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+void add_extent(FigurePanel& panel, const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
   const double left = x.minCoeff(), right = x.maxCoeff(), low = y.minCoeff(), high = y.maxCoeff();
   Eigen::VectorXd around(5), beside(5);
   around << left, right, right, left, left;
   beside << low, low, high, high, low;
-  panel.lines.push_back({.name = fmt::format("box {:.4g} x {:.4g} mm", right - left, high - low),
+  panel.lines.push_back({.name = fmt::format("extent {:.4g} x {:.4g} mm", right - left, high - low),
                          .colour = kGrey,
                          .x = around,
                          .y = beside,
@@ -103,7 +103,7 @@ NamedFigure path_figure(const PathCurves& curves, const std::string& stem) {
                         z = kMm * curves.along.col(2);
   FigurePanel plane{
       .x_label = "along the first axis (mm)", .y_label = "along the second axis (mm)", .equal = true};
-  add_box(plane, x, y);
+  add_extent(plane, x, y);
   add_axes(plane, x, y);
   add_curve(plane, "path", kBlue, x, y, curves.measured);
   FigurePanel height{.x_label = "along the first axis (mm)", .y_label = "from the plane (mm)"};

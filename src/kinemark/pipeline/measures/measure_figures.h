@@ -19,7 +19,7 @@ struct NamedFigure {
   report::Figure figure;  ///< what it shows
 };
 
-/// Figures of a stretch: the path in its best-fit plane with axes and box, and its height over that plane;
+/// Figures of a stretch: the path in its best-fit plane with axes and extent, and its height over that plane;
 /// speed and tangential acceleration over time with one standard deviation, onset, end and cycles; of a
 /// periodic movement the cycles over each other with their mean.
 [[nodiscard]] std::vector<NamedFigure> measure_figures(const analysis::PathCurves& curves);

@@ -39,7 +39,7 @@ TEST(MeasureFigures, ThePathIsShownInItsPlaneWithAxesAndBox) {
   EXPECT_EQ(figures[0].name, "R_FIN_1_path");
   const auto svg = report::figure_svg(figures[0].figure);
   EXPECT_THAT(svg, HasSubstr("R FIN/1, 0.500 to 3.490 s: path in its best-fit plane"));
-  EXPECT_THAT(svg, HasSubstr("box 200 x 200 mm"));
+  EXPECT_THAT(svg, HasSubstr("extent 200 x 200 mm"));
   EXPECT_THAT(svg, HasSubstr("smoothed to 8 Hz<"));
   ASSERT_EQ(figures[0].figure.panels.size(), 2u);
   EXPECT_TRUE(figures[0].figure.panels[0].equal);

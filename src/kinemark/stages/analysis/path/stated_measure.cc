@@ -126,14 +126,13 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
     remark(out, "no interval: too many of the refits do not determine it");
     return out;
   }
-  out.sd = pivoted.sd;
   Pivoted ends = pivoted;
   if (definition.pivot == Pivot::of_derivative)
     ends = pivot(numbers.estimate_of_interval, numbers.deviations_of_interval, stretch.level);
+  out.sd = std::isfinite(ends.low) ? ends.sd : pivoted.sd;  // of the interval that stands beside it
   if (definition.pivot == Pivot::of_derivative && !(ends.low <= out.value && out.value <= ends.high)) {
     out.value = at_least_none(definition, ends.value);  // as the interval has it
     out.uncorrected = numbers.estimate_of_interval;
-    out.sd = ends.sd;
     remark(out, "depends on how strongly the path is smoothed: value and interval of the weaker smoothing");
   }
   if (std::isfinite(ends.low)) put_interval(out, definition, ends, frame);

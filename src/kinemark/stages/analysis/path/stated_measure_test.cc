@@ -137,6 +137,7 @@ TEST_F(StatedMeasure, IntervalsOfJerkComeFromTheLeastSmoothed) {
       {.estimate = 5.0, .estimate_of_interval = 5.2, .deviations = near, .deviations_of_interval = far});
   EXPECT_NEAR(m.value, 5.0, 1e-12);
   EXPECT_NEAR(0.5 * (m.interval.low + m.interval.high), 5.2, 1e-9);
+  EXPECT_NEAR(m.sd, 0.4 * std::sqrt(50.0 * 99.0 / (3.0 * 49.0 * 98.0)), 1e-9);  // of 99 equal steps, N - 1
   EXPECT_EQ(m.method, "order 4, 7.5 Hz, interval 12.5 Hz, 99 refits");
 }
 

@@ -17,9 +17,9 @@ constexpr std::int64_t kFewest = 10;
 
 }  // namespace
 
-bool CrossTalk::suspicious() const {
-  return correlation * correlation >= 0.5 && std::abs(carried_rad) >= 5.0 * kDegree;
-}
+bool CrossTalk::follows() const { return correlation * correlation >= 0.5; }
+
+bool CrossTalk::suspicious() const { return follows() && std::abs(carried_rad) >= 5.0 * kDegree; }
 
 std::string CrossTalk::sentence(const std::string& name) const {
   const auto figures =
@@ -27,6 +27,7 @@ std::string CrossTalk::sentence(const std::string& name) const {
                   std::abs(carried_rad) / kDegree, flexion_rad / kDegree);
   if (suspicious())
     return fmt::format("{}: varus follows flexion ({}): the knee's axis is probably turned.", name, figures);
+  if (follows()) return fmt::format("{}: varus follows flexion, by less than 5 deg ({}).", name, figures);
   return fmt::format("{}: varus does not follow flexion ({}).", name, figures);
 }
 

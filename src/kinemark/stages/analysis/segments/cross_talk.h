@@ -18,8 +18,10 @@ struct CrossTalk {
   double carried_rad = 0.0;  ///< what the second changes over that range on the line of least squares
   std::int64_t frames = 0;   ///< with both
 
-  /// The line explains at least half of the second component's variance, and 5 deg of it at least (Baudet et
-  /// al. 2014 take an axis for wrong that leaves varus correlated with flexion).
+  /// The line explains at least half of the second component's variance.
+  [[nodiscard]] bool follows() const;
+  /// It follows(), and by 5 deg at least (Baudet et al. 2014 take an axis for wrong that leaves
+  /// varus correlated with flexion).
   [[nodiscard]] bool suspicious() const;
   /// What to say of it, a sentence; it claims cross-talk where it is suspicious() alone.
   [[nodiscard]] std::string sentence(const std::string& name) const;

@@ -19,6 +19,7 @@ namespace {
 // What a definition may ask of stack and memory; that of a whole body takes 15 and 500.
 constexpr std::size_t kMostInARow = 200;
 constexpr std::size_t kMostSteps = 20'000;
+constexpr int kDeepest = 1200;  // levels of formulas; one of 2000 letters may have half as many
 
 std::string_view word_of(StepType type) {
   return type == StepType::number   ? "a number"
@@ -39,7 +40,8 @@ struct Made {
 
 class Builder {
  public:
-  Builder(const SegmentDefinition& definition, const GraphNames& names) : d_(definition), names_(names) {}
+  Builder(const SegmentDefinition& definition, const GraphNames& names)
+      : d_(definition), names_(names), levels_(names.levels != nullptr ? *names.levels : own_levels_) {}
 
   Result<Made> output(const GraphOutput& wanted) {
     if (wanted.angle == nullptr) {
@@ -126,6 +128,15 @@ class Builder {
   }
 
   Result<Made> formula(const Formula& f) {
+    if (levels_ >= kDeepest)
+      return fail(Code::bad_input,
+                  fmt::format("formulas stand more than {} levels deep within each other", kDeepest));
+    ++levels_;
+    auto made = made_of(f);
+    --levels_;
+    return made;
+  }
+  Result<Made> made_of(const Formula& f) {
     switch (f.kind) {
       case Formula::Kind::number:
         return constant(StepType::number, {f.value});
@@ -274,6 +285,8 @@ class Builder {
   std::map<std::string, Made> made_;
   std::set<std::string> open_;
   std::map<std::string, int> marker_steps_, parameter_steps_;
+  int own_levels_ = 0;
+  int& levels_;
 };
 
 }  // namespace

@@ -59,6 +59,7 @@ struct GraphNames {
   std::optional<Eigen::Matrix3d> progression;             ///< axes of "progression" in the laboratory
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();          ///< what "up" is in the laboratory
   bool static_trial = false;                              ///< which entries count
+  int* levels = nullptr;  ///< of formulas within each other so far, where graphs are made for graphs; null: 0
 };
 
 /// An output to make steps for.
@@ -72,7 +73,7 @@ struct GraphOutput {
 /// Steps for some outputs of a definition. An output that needs a marker or a parameter that is not there has
 /// none, and its name is in `lacks`; formulas that make no sense are Code::bad_input: an unknown function, a
 /// wrong number or kind of arguments, an entry that needs itself, more than 200 entries that need each other
-/// in a row or 20,000 steps.
+/// in a row, 1200 levels of formulas within each other (a term of a sum is one) or 20,000 steps.
 ///
 /// A landmark is three parameters, NAME@x, NAME@y and NAME@z: where it is in its segment, m.
 [[nodiscard]] Result<SegmentGraph> build_graph(const SegmentDefinition& definition, const GraphNames& names,

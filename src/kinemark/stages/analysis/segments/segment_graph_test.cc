@@ -104,5 +104,18 @@ TEST(SegmentGraph, RefusesEntriesThatNeedThemselves) {
   EXPECT_THAT(graph_of("P", StepType::vector, d).error().message, HasSubstr("Q: the formula gives a number"));
 }
 
+TEST(SegmentGraph, RefusesLongFormulasWithinEachOtherBeforeTheStackEnds) {
+  SegmentDefinition d;
+  std::string terms;
+  for (int i = 0; i < 600; ++i) terms += "+up";
+  for (int i = 0; i < 190; ++i)
+    d.points.push_back({.name = "P" + std::to_string(i), .formula = of("P" + std::to_string(i + 1) + terms)});
+  const auto deep = graph_of("P0", StepType::vector, d);
+  ASSERT_FALSE(deep);
+  EXPECT_EQ(deep.error().code, Code::bad_input);
+  EXPECT_THAT(deep.error().message, HasSubstr("formulas stand more than 1200 levels deep"));
+  EXPECT_TRUE(graph_of("up" + terms, StepType::vector, d));
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

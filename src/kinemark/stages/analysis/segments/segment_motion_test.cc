@@ -356,6 +356,13 @@ TEST(SegmentMotion, RefusesOptionsAndDefinitionsThatMakeNoSense) {
     d.parameters.push_back({.name = "p" + std::to_string(i), .formula = of("1 + p" + std::to_string(i + 1))});
   EXPECT_THAT(compute_segments(d, {.markers = &markers}).error().message, HasSubstr("parameter in a row"));
   d = two_segments();
+  std::string terms;
+  for (int i = 0; i < 600; ++i) terms += "+pi";
+  for (int i = 0; i < 40; ++i)
+    d.parameters.push_back(
+        {.name = "p" + std::to_string(i), .formula = of("p" + std::to_string(i + 1) + terms)});
+  EXPECT_THAT(compute_segments(d, {.markers = &markers}).error().message, HasSubstr("1200 levels deep"));
+  d = two_segments();
   d.values[0].formula = of("distance(P1, 3)");
   EXPECT_THAT(compute_segments(d, {.markers = &markers}).error().message,
               HasSubstr("value reach: distance() does not take"));

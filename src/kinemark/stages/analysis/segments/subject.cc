@@ -90,6 +90,7 @@ class Finder {
       find_parameter(name);
       return subject_.parameters.contains(name);
     };
+    names.levels = &levels_;
     auto out = mean_over(d_, {.formula = &formula, .type = type, .what = what_}, names, subject_, trial);
     if (out) return *out;
     if (status_) status_ = std::unexpected(out.error());
@@ -196,7 +197,7 @@ class Finder {
   Status status_;
   std::set<std::string> begun_;
   std::string what_;  // begins a failure
-  int depth_ = 0;
+  int depth_ = 0, levels_ = 0;
 };
 
 }  // namespace
