@@ -224,6 +224,12 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
                     "is not known, and there are no intervals",
                     job.cutoff_hz));
   }
+  if (options.refits > 0 &&
+      std::ranges::none_of(read->motion.q_sd, [](double sd) { return std::isfinite(sd); }))
+    out.warnings.push_back(fmt::format(
+        "no standard deviations lie beside {} ({}_sd.sto): intervals hold the errors that its samples "
+        "show, not those of skin and markers",
+        job.motion.filename().string(), job.motion.stem().string()));
   if (auto s = choose(job, input->record, options); !s) return std::unexpected(s.error());
   auto stretches = stretches_of(job, read->motion.time, out);
   if (!stretches) return std::unexpected(stretches.error());

@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The coordinates that a simulated subject had.
 class RunMotionMeasures : public testing::RecordedTest<IkJob> {
@@ -85,6 +86,11 @@ TEST_F(RunMotionMeasures, IntervalsOfAnIkMotionAndItsFiles) {
   EXPECT_THAT(text, HasSubstr("file,subject,context,region,cycle"));
   EXPECT_THAT(text, HasSubstr("Q.mot,hip_flexion_r and knee_angle_r,"));
   EXPECT_EQ(outcome->inputs.size(), 3u) << "model, motion, deviations";
+  EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("no standard deviations"))));
+  std::filesystem::remove(at("Q_sd.sto"));
+  job.output.clear();
+  EXPECT_THAT(run_motion_measures(job)->warnings,
+              Contains(HasSubstr("no standard deviations lie beside Q.mot (Q_sd.sto)")));
   const auto json = motion_measures_json(*outcome);
   EXPECT_EQ(json["measures"].size(), 3u);
   EXPECT_EQ(json["inputs"][0]["role"], "model");

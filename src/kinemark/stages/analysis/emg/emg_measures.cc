@@ -147,7 +147,9 @@ class EmgMeasurement {
     for (std::size_t s = 0; s < stretches_.size(); ++s)
       for (int which = 0; which < kCount; ++which) {
         const std::size_t i = s * kCount + static_cast<std::size_t>(which);
-        if (is_asked(which)) state(which, channel.name, stretches_[s], values[i], deviations[i], most, out);
+        const bool active = values[s * kCount + kActive] > 0.0;
+        if (is_asked(which))
+          state(which, channel.name, stretches_[s], active, values[i], deviations[i], most, out);
       }
   }
 
@@ -209,7 +211,7 @@ class EmgMeasurement {
     return out;
   }
 
-  void state(int which, const std::string& name, const EmgStretch& stretch, double value,
+  void state(int which, const std::string& name, const EmgStretch& stretch, bool active, double value,
              const std::vector<double>& deviations, double most, EmgMeasures& out) const {
     const auto& definition = kDefinitions[at(which)];
     data::Measure measure{.id = std::string(definition.id),
@@ -239,6 +241,9 @@ class EmgMeasurement {
       measure.remark = "no interval was asked for";
     } else if (which == kRest) {
       measure.remark = "no interval: it is the least of many stretches";
+    } else if (!active) {
+      // What is simulated then is rest, with the strength of chance: its bias is not that of a muscle.
+      measure.remark = "no interval: no burst rises above rest";
     } else if (const auto found = pivot(value, deviations, options_.level); std::isfinite(found.value)) {
       put_interval(which, stretch, value, unit, found, measure);
     } else {

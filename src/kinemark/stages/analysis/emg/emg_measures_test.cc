@@ -23,14 +23,14 @@ constexpr double kEmg_hz = 1000.0;
 constexpr double kStrong = 1e-3, kQuiet = 2e-5;
 
 /// Band-passed white noise, of a muscle that is active from 1.5 to 2.5 s of 4 s.
-EmgChannel burst(std::uint64_t seed) {
+EmgChannel burst(std::uint64_t seed, double strength = kStrong) {
   Random random(seed, 0);
   VectorXd white(4000);
   for (double& x : white) x = random.gaussian();
   VectorXd band = band_passed(white, kEmg_hz, {.low_pass_hz = 300.0});
   band /= std::sqrt(band.squaredNorm() / 4000.0);
   for (int i = 0; i < 4000; ++i) {
-    const double active = i >= 1500 && i < 2500 ? kStrong : 0.0;
+    const double active = i >= 1500 && i < 2500 ? strength : 0.0;
     band[i] *= std::sqrt(active * active + kQuiet * kQuiet);
   }
   return {.name = "EMG1", .volts = band.array() + 0.02};
@@ -78,6 +78,24 @@ TEST(EmgMeasures, IntervalsHoldTheStrengthOfTheMuscle) {
   }
   EXPECT_GE(rms, 8);
   EXPECT_GE(mean, 8);
+}
+
+TEST(EmgMeasures, WithoutABurstNothingIsFreedOfABias) {
+  const EmgOptions options{.stretches = {{.name = "before", .first = 0, .count = 1200}, {.count = 4000}},
+                           .refits = 39};
+  const auto silent = measure_emg({burst(5, 0.0)}, kEmg_hz, 0.0, options).value();
+  for (const std::string id : {"emg_mean", "emg_peak", "emg_rms", "emg_median_frequency", "emg_active"}) {
+    const auto& m = get(silent, id);
+    EXPECT_EQ(m.value, m.uncorrected) << id;
+    EXPECT_EQ(m.interval.kind, IntervalKind::none) << id;
+    EXPECT_THAT(m.remark, HasSubstr("no burst rises above rest")) << id;
+  }
+  EXPECT_EQ(get(silent, "emg_active").value, 0.0);
+  EXPECT_GE(get(silent, "emg_mean").value, get(silent, "emg_rest").value)
+      << "rest is the quietest part of it";
+  const auto loud = measure_emg({burst(5)}, kEmg_hz, 0.0, options).value();
+  EXPECT_THAT(get(loud, "emg_mean", "before").remark, HasSubstr("no burst rises above rest"));
+  EXPECT_EQ(get(loud, "emg_mean").interval.kind, IntervalKind::two_sided);
 }
 
 TEST(EmgMeasures, ToAMaximumValuesAreShares) {
