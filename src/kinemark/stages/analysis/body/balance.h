@@ -16,6 +16,7 @@ namespace kinemark::analysis {
 /// Two horizontal directions, e1 x e2 = up. e1 is the world axis next to level that comes first.
 struct Level {
   Eigen::Vector3d e1, e2;  ///< length 1
+  /// Along e1 and e2.
   [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector3d& x) const { return {e1.dot(x), e2.dot(x)}; }
 };
 /// @param up  length 1

@@ -28,7 +28,8 @@ struct EmgStretch {
   std::string name;         ///< empty: the whole recording
   std::string context;      ///< "Left", "Right" of a cycle, or empty
   std::int64_t cycle = -1;  ///< from 0; -1: it is none
-  std::int64_t first = 0, count = 0;
+  std::int64_t first = 0;   ///< its first sample
+  std::int64_t count = 0;   ///< samples in it
 };
 
 /// What is measured, and how.

@@ -45,7 +45,8 @@ struct RestLevel {
 
 /// One burst, samples; instants between them.
 struct Burst {
-  double onset = 0.0, end = 0.0;
+  double onset = 0.0;  ///< where it begins
+  double end = 0.0;    ///< where it ends, > onset
 };
 /// Stretches above a threshold, linear between samples. Spikes shorter than half of `least_s` are left out,
 /// interruptions shorter than it closed, and bursts shorter than it left out (Hodges & Bui 1996; Bonato,

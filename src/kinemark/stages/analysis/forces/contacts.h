@@ -23,7 +23,9 @@ struct PlateContact {
 
 /// The two humps of a walking step, N; NaN where the load has one hump only.
 struct LoadHumps {
-  double first = kNaN, valley = kNaN, second = kNaN;
+  double first = kNaN;   ///< N
+  double valley = kNaN;  ///< the least between them, N
+  double second = kNaN;  ///< N
 };
 /// The largest load before and behind the middle of the contact, and the least between them. NaN all where
 /// the least is not below 0.97 of both: running, jumping, standing (Winter 2009, ch. 5).
@@ -36,7 +38,8 @@ struct LoadHumps {
 
 /// Time integrals of a force along the direction of travel, N s: of what is against it, and of what is along.
 struct BrakingPropulsion {
-  double braking = kNaN, propulsion = kNaN;
+  double braking = kNaN;     ///< against the travel, N s; <= 0
+  double propulsion = kNaN;  ///< along it, N s; >= 0
 };
 /// @param along  force along the direction of travel in a contact, N
 [[nodiscard]] BrakingPropulsion braking_propulsion(const Eigen::VectorXd& along, double rate_hz);

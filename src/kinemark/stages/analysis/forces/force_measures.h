@@ -31,7 +31,7 @@ struct ForceView {
   Eigen::VectorXd load;         ///< n, N, against gravity; of a step
   Eigen::Vector3d travel;       ///< direction in which the step goes; 0: not known
   math::SeriesMatrix pressure;  ///< n x 2, horizontal centre of pressure, m; of standing
-  double rate_hz = 0.0;
+  double rate_hz = 0.0;         ///< of all of them
 };
 
 /// One measure of plates.
