@@ -92,8 +92,8 @@ struct Mechanism {
   data::JointMotion shape;               // names, clock, determined
   std::optional<data::Wrenches> forces;  // on the motion's clock
   bool torques = false, has_mass = false;
-  std::vector<motion::BodyPoint> points;  // of both feet
-  std::vector<data::Side> sides;          // of each point
+  std::vector<motion::PointOnBody> points;  // of both feet
+  std::vector<data::Side> sides;            // of each point
 
   Status operator()(analysis::BodySeries& series) const {
     data::JointMotion moved = shape;

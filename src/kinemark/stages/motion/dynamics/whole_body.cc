@@ -49,7 +49,7 @@ void add_frame(const model::Model& model, const model::Workspace& w, std::int64_
 }  // namespace
 
 Result<WholeBody> whole_body(const model::Model& model, const data::JointMotion& motion,
-                             const std::vector<BodyPoint>& points) {
+                             const std::vector<PointOnBody>& points) {
   if (motion.size() != model.coordinate_count() || motion.qd.size() != motion.q.size())
     return fail(Code::bad_input,
                 fmt::format("the motion has {} coordinates and {} speeds, the model {} of "

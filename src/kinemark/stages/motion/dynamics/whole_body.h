@@ -14,8 +14,8 @@
 
 namespace kinemark::motion {
 
-/// A point that is fixed in a body.
-struct BodyPoint {
+/// A point, fixed in a body, whose path is asked for.
+struct PointOnBody {
   int body = data::kGround;                     ///< index in Model::bodies(), or data::kGround
   Eigen::Vector3d x_in_body = {0.0, 0.0, 0.0};  ///< m
 };
@@ -37,6 +37,6 @@ struct WholeBody {
 /// @return Code::bad_input for a motion that is not of the model or has no speeds, and for a model without
 ///         mass. About 5 us a frame of a whole body.
 [[nodiscard]] Result<WholeBody> whole_body(const model::Model& model, const data::JointMotion& motion,
-                                           const std::vector<BodyPoint>& points = {});
+                                           const std::vector<PointOnBody>& points = {});
 
 }  // namespace kinemark::motion

@@ -135,7 +135,7 @@ TEST(WholeBody, TheMomentumIsThatOfItsPartsByTheirPoints) {
   // Each body as six points of equal mass on its principal axes has the body's own inertia.
   const auto model = acrobat();
   auto motion = flight(model, 2);
-  std::vector<BodyPoint> points;
+  std::vector<PointOnBody> points;
   std::vector<double> masses;
   for (int b = 0; b < 3; ++b) {
     const auto& body = model.bodies()[static_cast<std::size_t>(b)];
