@@ -109,7 +109,7 @@ TEST_F(IkOfEdits, WithoutFilesThePageIsOfTheSameSolution) {
   const auto page = ik_page(edited(""), kMany);
   ASSERT_TRUE(page) << page.error().message;
   ASSERT_TRUE(run_ik(edited("files.mot")));
-  EXPECT_EQ(page->set, report_of(at("files.mot"))["kinemark_set"]);
+  EXPECT_EQ(page->set, report_of(at("files.mot"))["kinemark_set"].get<std::string>());
   EXPECT_EQ(page->edits, 3U);
   const auto session = EditSession::open(recording_).value();
   EXPECT_EQ(page->digest, io::digest_of(session.outcome().in_force));

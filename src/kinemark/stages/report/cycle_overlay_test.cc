@@ -42,9 +42,10 @@ TEST(CycleOverlay, AnglesInDegreesCycleAfterCycle) {
   EXPECT_EQ(curve["drawn"], 3);
   const auto each = internal::unpack_curve(curve["each"]);
   ASSERT_EQ(each.size(), 33U);
-  for (std::size_t i = 0; i < each.size(); ++i)
-    EXPECT_NEAR(each[i], kDegPerRad * (static_cast<double>(i / 11) + 0.01 * static_cast<double>(i % 11)),
-                0.03);
+  for (std::size_t cycle = 0; cycle < 3; ++cycle)
+    for (std::size_t i = 0; i < 11; ++i)
+      EXPECT_NEAR(each[11 * cycle + i],
+                  kDegPerRad * (static_cast<double>(cycle) + 0.01 * static_cast<double>(i)), 0.03);
   EXPECT_NEAR(internal::unpack_curve(curve["mean"])[5], 0.5 * kDegPerRad, 0.02);
   EXPECT_NEAR(internal::unpack_curve(curve["sd"])[5], 0.1 * kDegPerRad, 0.1);
 }

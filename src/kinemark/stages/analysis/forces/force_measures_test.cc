@@ -17,7 +17,6 @@ namespace {
 
 using data::IntervalKind;
 using data::Measure;
-using ::testing::Contains;
 using ::testing::HasSubstr;
 
 constexpr double kPlates_hz = 200.0;
