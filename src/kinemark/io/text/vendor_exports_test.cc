@@ -91,7 +91,7 @@ TEST(QtmText, ColumnsOfFramesAndTimesMayBeAbsent) {
 
 TEST(QtmText, MixedTrajectoriesAreSaid) {
   const auto trial = good_export(with(kQtm, "Measured\tVirtual", "Measured\tMixed"), VendorExport::qtm);
-  EXPECT_THAT(trial.warnings, Contains(HasSubstr("cannot be kept apart from measured ones: 'B'")));
+  EXPECT_THAT(trial.warnings, Contains(HasSubstr("in trajectories that are mixed or edited: 'B'")));
   EXPECT_THAT(good_export(kQtm, VendorExport::qtm).warnings, testing::Not(Contains(HasSubstr("kept apart"))));
 }
 

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 
+#include "kinemark/stages/analysis/body/body_definitions.h"
+#include "kinemark/stages/analysis/emg/emg_measures.h"
+#include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 
@@ -71,7 +74,9 @@ TEST(MeasuresText, RoundsToWhatTheIntervalSupports) {
 
 TEST(MeasureList, HasALineForEachWithFormulaAndSource) {
   const std::string text = measure_list();
-  const auto all = analysis::path_definitions().size() + analysis::gait_definitions().size();
+  const auto all = analysis::path_definitions().size() + analysis::gait_definitions().size() +
+                   analysis::force_definitions().size() + analysis::emg_definitions().size() +
+                   analysis::body_definitions().size();
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), all);
   EXPECT_NE(text.find("sum of |x[i+1] - x[i]|"), std::string::npos);
   EXPECT_NE(text.find("(Poizner, Wooten & Salot 1986)"), std::string::npos);
