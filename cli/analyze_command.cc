@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.h"
@@ -82,7 +85,23 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
   print_result(json.dump(2) + "\n");
 }
 
-int run_command(const CommonOptions& common, AnalyzeArguments& arguments) {
+// Options that say nothing of the other kind of input: taken silently, they would seem to have been heeded.
+constexpr std::array kOfMarkers{
+    "--drop",         "--rate",    "--noise",       "--figures",          "--report",        "--edits",
+    "--keep-defects", "--events",  "--gait-marker", "--angles",           "--write-events",  "--write-cycles",
+    "--emg",          "--emg-max", "--write-emg",   "--write-emg-cycles", "--figure-formats"};
+constexpr std::array kOfMotions{"--couple", "--normalize", "--bodies", "--point", "--torques", "--cutoff"};
+
+Status check_options(const CLI::App& command, std::span<const char* const> of_others,
+                     const AnalyzeArguments& arguments, std::string_view needed, std::string_view given) {
+  for (const char* name : of_others)
+    if (!arguments.job.motion.empty() && command.count(name) > 0)
+      return fail(Code::usage, fmt::format("{} is an option for {}; {} is {}", name, needed,
+                                           arguments.job.motion.filename().string(), given));
+  return {};
+}
+
+int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArguments& arguments) {
   if (!arguments.segments.definition.empty()) {
     auto& selection = arguments.measures.job.selection;
     selection.first_time_s = arguments.job.first_time_s;
@@ -91,7 +110,11 @@ int run_command(const CommonOptions& common, AnalyzeArguments& arguments) {
     arguments.segments.output = arguments.job.output;
     return run_segments_command(common, arguments.segments, arguments.measures);
   }
-  if (is_of_markers(arguments)) {
+  const bool of_markers = is_of_markers(arguments);
+  const auto fitting = of_markers ? check_options(command, kOfMotions, arguments, "motions", "a recording")
+                                  : check_options(command, kOfMarkers, arguments, "recordings", "a motion");
+  if (!fitting) return report_error(fitting.error());
+  if (of_markers) {
     auto& job = arguments.measures.job;
     job.input = arguments.job.motion;
     job.output = arguments.job.output;
@@ -176,8 +199,9 @@ void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
   add_measures_options(*command, arguments->measures);
   add_motion_measures_options(*command, arguments->motion);
   add_segments_options(*command, arguments->segments);
-  command->callback(
-      [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
+  command->callback([&common, command, arguments, &run] {
+    run = [&common, command, arguments] { return run_command(common, *command, *arguments); };
+  });
 }
 
 }  // namespace kinemark::cli
