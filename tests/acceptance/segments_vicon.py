@@ -150,7 +150,8 @@ def loads(folder, theirs):
         for line in csv.DictReader(file):
             found.setdefault(line["name"], {}).setdefault(line["component"], []).append(float(line["value"]) if line["value"] else math.nan)
     # Of Vicon's three numbers of a power the last is one.
-    kinds = (("Moment", "moments", 1000, "N mm/kg", 20), ("Force", "forces", 1, "N/kg", 0.3), ("Power", "powers", 1, "W/kg", 0.3))
+    # Bounds: 1.5 % of the largest moment, 1 % of the largest force, 8 % of the largest power.
+    kinds = (("Moment", "moments", 1000, "N mm/kg", 25), ("Force", "forces", 1, "N/kg", 0.1), ("Power", "powers", 1, "W/kg", 0.3))
     for kind, plural, scale, unit, bound in kinds:
         joints, worst, squares, number, peak = 0, (0.0, ""), 0.0, 0, 0.0
         for name, components in found.items():
@@ -166,7 +167,7 @@ def loads(folder, theirs):
                     squares += error * error
                     number += 1
                     peak = max(peak, *map(abs, point))
-        row(joints == 6 and number > 1500 and worst[0] <= bound, f"Plug-in Gait {plural}, PiG_Motion3_FF",
+        row(joints == 6 and number > 1000 and worst[0] <= bound, f"Plug-in Gait {plural}, PiG_Motion3_FF",
             f"ankles, knees and hips within {bound} {unit} of Vicon's",
             f"{joints} of 6, {number} numbers, largest difference {worst[0]:.3f} {unit} ({worst[1]}), RMS {math.sqrt(squares / max(1, number)):.3f}, "
             f"largest number {peak:.0f}")
