@@ -13,6 +13,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/many_inputs.h"
 #include "cli/measures_options.h"
 #include "cli/motion_measures_options.h"
 #include "cli/segments_options.h"
@@ -24,6 +25,7 @@ namespace kinemark::cli {
 namespace {
 
 struct AnalyzeArguments {
+  std::vector<std::filesystem::path> inputs;
   pipeline::AnalysisJob job;
   MeasuresArguments measures;
   MotionMeasuresArguments motion;
@@ -46,7 +48,7 @@ bool is_measured(const AnalyzeArguments& arguments) {
   const auto& job = arguments.job;
   const auto ending = pipeline::ending_of(job.output);
   if (!job.setup.empty() || !job.bodies.empty() || !arguments.points.empty()) return false;
-  return job.output.empty() || ending == ".csv" || ending == ".json" ||
+  return job.output.empty() || ending == ".csv" || ending == ".json" || ending == ".nwb" ||
          !arguments.measures.job.measures.empty();
 }
 
@@ -86,22 +88,71 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
 }
 
 // Options that say nothing of the other kind of input: taken silently, they would seem to have been heeded.
-constexpr std::array kOfMarkers{
-    "--drop",         "--rate",    "--noise",       "--figures",          "--report",        "--edits",
-    "--keep-defects", "--events",  "--gait-marker", "--angles",           "--write-events",  "--write-cycles",
-    "--emg",          "--emg-max", "--write-emg",   "--write-emg-cycles", "--figure-formats"};
+constexpr std::array kOfMarkers{"--drop",
+                                "--rate",
+                                "--noise",
+                                "--figures",
+                                "--report",
+                                "--edits",
+                                "--keep-defects",
+                                "--events",
+                                "--gait-marker",
+                                "--angles",
+                                "--write-events",
+                                "--write-cycles",
+                                "--emg",
+                                "--emg-max",
+                                "--write-emg",
+                                "--write-emg-cycles",
+                                "--figure-formats",
+                                "--participants",
+                                "--jobs"};
 constexpr std::array kOfMotions{"--couple", "--normalize", "--bodies", "--point", "--torques", "--cutoff"};
+// Options that say what is measured; tables of the whole motion have no use for them.
+constexpr std::array kOfMeasures{"--select", "--region", "--between",  "--refits",
+                                 "--level",  "--couple", "--normalize"};
 
 Status check_options(const CLI::App& command, std::span<const char* const> of_others,
                      const AnalyzeArguments& arguments, std::string_view needed, std::string_view given) {
   for (const char* name : of_others)
-    if (!arguments.job.motion.empty() && command.count(name) > 0)
+    if (!arguments.inputs.empty() && command.count(name) > 0)
       return fail(Code::usage, fmt::format("{} is an option for {}; {} is {}", name, needed,
-                                           arguments.job.motion.filename().string(), given));
+                                           arguments.inputs.front().filename().string(), given));
+  return {};
+}
+
+// What many recordings are measured by alone.
+Status check_many(const AnalyzeArguments& arguments) {
+  const auto& job = arguments.job;
+  for (const auto& [option, path] : {std::pair{"--model", &job.model}, std::pair{"--setup", &job.setup},
+                                     std::pair{"--forces", &job.forces}})
+    if (!path->empty())
+      return fail(
+          Code::usage,
+          fmt::format("{} {} belongs to one motion; several recordings of markers are measured without",
+                      option, path->string()));
+  if (!arguments.segments.definition.empty())
+    return fail(Code::usage, "--segments takes one recording; give them one by one");
+  for (const auto& input : arguments.inputs)
+    if (const auto ending = pipeline::ending_of(input); ending == ".mot" || ending == ".sto")
+      return fail(Code::usage,
+                  fmt::format("{}: is a motion; several recordings are of markers", input.string()));
   return {};
 }
 
 int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArguments& arguments) {
+  if (are_many(arguments.inputs)) {
+    auto fitting = check_many(arguments);
+    if (fitting)
+      fitting = check_options(command, kOfMotions, arguments, "motions", "one of several recordings");
+    if (!fitting) return report_error(fitting.error());
+    auto& job = arguments.measures.job;
+    job.output = arguments.job.output;
+    job.selection.first_time_s = arguments.job.first_time_s;
+    job.selection.last_time_s = arguments.job.last_time_s;
+    return run_many_measures_command(common, arguments.measures, arguments.inputs);
+  }
+  if (!arguments.inputs.empty()) arguments.job.motion = arguments.inputs.front();
   if (!arguments.segments.definition.empty()) {
     auto& selection = arguments.measures.job.selection;
     selection.first_time_s = arguments.job.first_time_s;
@@ -125,6 +176,14 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
   arguments.job.error_bars = !arguments.no_error_bars;
   if (is_measured(arguments))
     return run_motion_measures_command(common, arguments.job, arguments.measures.job, arguments.motion);
+  for (const char* name : kOfMeasures)
+    if (command.count(name) > 0)
+      return report_error(
+          {.code = Code::usage,
+           .message = fmt::format(
+               "{} says what is measured; tables in a folder are of the whole motion: need -o FILE.csv or "
+               "--measures with it, or neither (--start and --end choose rows)",
+               name)});
   auto job = arguments.job;
   for (const auto& text : arguments.points) {
     auto point = parse_point(text);
@@ -136,10 +195,10 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
 
 void add_options(CLI::App& command, AnalyzeArguments& a) {
   auto& job = a.job;
-  command.add_option("IN", job.motion,
-                     "Markers, whose paths are measured; or a motion: .mot or .sto of coordinates, with "
-                     "Q_sd.sto beside it if "
-                     "there is one");
+  command.add_option(
+      "IN", a.inputs,
+      "Markers, whose paths are measured: a recording, several, or a folder of them; or a motion: .mot "
+      "or .sto of coordinates, with Q_sd.sto beside it if there is one");
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command
       .add_option("--forces", job.forces,
@@ -152,7 +211,8 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
   command.add_option("--start", job.first_time_s, "First time to write or to measure, s")->group("Input");
   command.add_option("--end", job.last_time_s, "Last time to write or to measure, s")->group("Input");
   command
-      .add_option("-o,--output", job.output, "Folder for the results; for measures a table, .csv or .json")
+      .add_option("-o,--output", job.output,
+                  "Folder for the results; for measures a table, .csv, .json or .nwb")
       ->type_name("PATH")
       ->group("Output");
   command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations")->group("Output");
@@ -185,7 +245,9 @@ void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Of a recording of markers: shape, timing and smoothness of each path, freed of the bias of noise, "
       "with 95 % "
-      "intervals\n(docs/stages/measures.md); --list tells what there is.\nWith --segments: joint centres and "
+      "intervals\n(docs/stages/measures.md); --list tells what there is. Of several recordings, or of a "
+      "folder of them, in one "
+      "table\n(docs/stages/many-recordings.md).\nWith --segments: joint centres and "
       "angles by a definition "
       "(docs/stages/segments.md).\nOf a motion with --model: ranges, peaks, power and work of joints, "
       "mass centre, stability, angular momentum (docs/stages/motion-measures.md).\nWith a folder: writes "

@@ -8,7 +8,9 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
   const char* what = "Walking";
   command
       .add_option("--events", request.events,
-                  "Whose foot strikes and leavings: best (plates, else markers), plates, kinematics, file")
+                  "Whose events: of feet best (plates, else markers), plates, kinematics, file; movement: of "
+                  "each marker's own "
+                  "movement")
       ->type_name("WHOSE")
       ->capture_default_str()
       ->group(what);
@@ -22,13 +24,16 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
       ->group(what);
   command
       .add_option("--write-events", request.write_events,
-                  "Foot strikes and leavings: .csv, or .c3d, the recording with these events")
+                  "Foot strikes and leavings, or starts and ends of movements and cycles where no foot "
+                  "steps: .csv, or "
+                  ".c3d, the recording with these events")
       ->type_name("FILE")
       ->group(what);
   command
-      .add_option(
-          "--write-cycles", request.write_cycles,
-          "Angles over each cycle and their mean, 0 to 100 %, .csv: of the recording's own, or of --angles")
+      .add_option("--write-cycles", request.write_cycles,
+                  "Angles over each stride and their mean, 0 to 100 %, .csv: of the recording's own, or of "
+                  "--angles; where no foot "
+                  "steps, places and speeds over each repetition")
       ->type_name("FILE")
       ->group(what);
   command

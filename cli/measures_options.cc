@@ -5,7 +5,9 @@
 #include "cli/console.h"
 #include "cli/emg_options.h"
 #include "cli/gait_options.h"
+#include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/pipeline/measures/many_measures_job.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 
 namespace kinemark::cli {
@@ -17,8 +19,22 @@ void print_measures(const CommonOptions& common, const pipeline::MeasuresOutcome
     print_result(pipeline::json_text(pipeline::measures_outcome_json(outcome)) + "\n");
   else if (outcome.written.empty())
     print_result((outcome.gait ? pipeline::events_text(*outcome.gait) + "\n" : "") +
+                 (outcome.rhythms.empty() ? "" : pipeline::rhythms_text(outcome.rhythms) + "\n") +
                  pipeline::measures_text(outcome.measures));
   say_written(common, outcome);
+}
+
+int print_many(const CommonOptions& common, const pipeline::ManyMeasuresOutcome& outcome) {
+  for (const auto& note : outcome.notes) say(common, "note: " + note);
+  for (const auto& trial : outcome.trials)
+    if (trial.status == pipeline::TrialStatus::failed)
+      (void)report_error({.code = Code::bad_input, .message = trial.said});
+  if (common.json)
+    print_result(pipeline::json_text(pipeline::many_measures_json(outcome)) + "\n");
+  else if (!common.quiet)
+    print_result(pipeline::trial_table(outcome));
+  for (const auto& path : outcome.written) say(common, fmt::format("wrote {}", path.string()));
+  return outcome.exit_status();
 }
 
 }  // namespace
@@ -87,6 +103,18 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->group(what);
   command.add_flag("--keep-defects", job.keep_defects, "Measure spikes, swaps and stuck samples too")
       ->group(what);
+  const char* several = "Several recordings";
+  command
+      .add_option(
+          "--participants", job.participants_file,
+          "Table whose columns are joined to the rows, by participant_id or by file: participants.tsv")
+      ->type_name("FILE")
+      ->group(several);
+  command.add_option("--jobs", a.jobs, "Recordings at a time; 0: one for each core. The bits are the same.")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str()
+      ->group(several);
   add_gait_options(command, job.gait);
   add_emg_options(command, job.emg);
 }
@@ -100,6 +128,24 @@ int run_measures_command(const CommonOptions& common, MeasuresArguments& argumen
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
   return run_job(common, "markers", job, pipeline::run_measures, print_measures);
+}
+
+int run_many_measures_command(const CommonOptions& common, MeasuresArguments& arguments,
+                              const std::vector<std::filesystem::path>& inputs) {
+  pipeline::ManyMeasuresJob job;
+  static_cast<pipeline::MeasuresJob&>(job) = arguments.job;
+  job.noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.inputs = inputs;
+  job.jobs = arguments.jobs;
+  if (job.output.empty() && !job.gait.writes() && !common.json)
+    return report_error(
+        {.code = Code::usage,
+         .message = "several recordings need a table for their measures: -o FILE.csv, .json or .nwb (or "
+                    "--json, --write-events, --write-cycles)"});
+  settle(common, "recordings", job);
+  const auto outcome = pipeline::run_many_measures(job);
+  if (!outcome) return report_error(outcome.error());
+  return print_many(common, *outcome);
 }
 
 }  // namespace kinemark::cli

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "kinemark/pipeline/measures/measures_job.h"
@@ -16,6 +17,7 @@ struct MeasuresArguments {
   pipeline::MeasuresJob job;
   double noise_mm = 0.0;
   bool list = false;  ///< tell what measures there are
+  int jobs = 1;       ///< of several recordings
 };
 
 /// The options that belong to markers alone, in groups of their own.
@@ -23,5 +25,9 @@ void add_measures_options(CLI::App& command, MeasuresArguments& arguments);
 
 /// Measure, or list; the exit status. The table goes to standard output.
 [[nodiscard]] int run_measures_command(const CommonOptions& common, MeasuresArguments& arguments);
+
+/// Measure several recordings, folders among them, into one table; the exit status, the worst of theirs.
+[[nodiscard]] int run_many_measures_command(const CommonOptions& common, MeasuresArguments& arguments,
+                                            const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace kinemark::cli

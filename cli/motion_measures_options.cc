@@ -41,22 +41,12 @@ int run_motion_measures_command(const CommonOptions& common, const pipeline::Ana
                                 const pipeline::MeasuresJob& measures,
                                 const MotionMeasuresArguments& arguments) {
   pipeline::MotionMeasuresJob job;
-  job.motion = analysis.motion;
-  job.model = analysis.model;
-  job.forces = analysis.forces;
-  job.torques = analysis.torques;
-  job.cutoff_hz = analysis.cutoff_hz;
-  job.first_time_s = analysis.first_time_s;
-  job.last_time_s = analysis.last_time_s;
-  job.output = analysis.output;
-  job.measures = measures.measures;
+  static_cast<pipeline::MotionFiles&>(job) = analysis;
+  static_cast<pipeline::MeasureChoice&>(job) = measures;
   job.select = measures.selection.select;
   job.couple = arguments.couple;
-  job.regions = measures.regions;
-  job.between = measures.between;
   job.normalize = arguments.normalize;
-  job.refits = analysis.error_bars ? measures.refits : 0;
-  job.level = measures.level;
+  if (!analysis.error_bars) job.refits = 0;
   return run_job(common, "motion", job, pipeline::run_motion_measures, print_motion_measures);
 }
 

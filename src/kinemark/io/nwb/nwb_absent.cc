@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/nwb/nwb_tables.h"
 #include "kinemark/io/nwb/pose_table.h"
 
 namespace kinemark::io {
@@ -32,6 +33,11 @@ Result<PoseTable> read_pose_table(const std::filesystem::path& path) { return ab
 Status write_nwb(const std::filesystem::path& path, const data::Trajectories& /*trajectories*/,
                  const data::Derivatives* /*derivatives*/, const NwbMetadata& /*metadata*/,
                  const NwbWriteOptions& /*options*/) {
+  return absent(path);
+}
+
+Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> /*tables*/,
+                        const NwbMetadata& /*metadata*/, bool /*force*/) {
   return absent(path);
 }
 

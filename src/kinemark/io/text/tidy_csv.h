@@ -34,11 +34,16 @@ struct TidyTable {
   [[nodiscard]] Result<double> number(std::int64_t row, std::int64_t column) const;
 };
 
+/// Whether a spreadsheet would take the text for a formula, were it not for apostrophes before it: after any
+/// number of these it begins with =, +, - or @.
+[[nodiscard]] bool is_like_formula(std::string_view text);
+
 /// Read comma-separated values (RFC 4180; semicolons, tabs or blanks where there is no comma in the first
 /// line). A first line of numbers alone is a row: the file has no names. Blank lines and lines that begin
-/// with # are passed over. Code::bad_input, with the line, for a row of another width, a quote that is not
-/// closed, a column that occurs twice or has no name, and a file without rows; Code::io as InputFile.
-/// Memory: 40 bytes a cell beside the text.
+/// with # are passed over. An apostrophe that keeps a text from being taken for a formula (is_like_formula())
+/// is taken off. Code::bad_input, with the line, for a row of another width, a quote that is not closed, a
+/// column that occurs twice or has no name, and a file without rows; Code::io as InputFile. Memory: 40 bytes
+/// a cell beside the text.
 [[nodiscard]] Result<TidyTable> read_tidy_csv(const std::filesystem::path& path);
 /// The same from memory; `name` stands in messages.
 [[nodiscard]] Result<TidyTable> parse_tidy_csv(std::string_view text, const std::string& name);

@@ -79,6 +79,8 @@ Status parse_rows(std::string_view text, TidyTable& table) {
       separator = separator_of(line);
     }
     if (!split(line, separator, cells)) return wrong("a quote is not closed");
+    for (std::string& cell : cells)
+      if (cell.starts_with('\'') && is_like_formula(cell)) cell.erase(0, 1);
     if (is_first) {
       table.width = std::ssize(cells);
       if (table.width > kMostColumns) return wrong(fmt::format("has more than {} columns", kMostColumns));
@@ -98,6 +100,11 @@ Status parse_rows(std::string_view text, TidyTable& table) {
 }
 
 }  // namespace
+
+bool is_like_formula(std::string_view text) {
+  const auto first = text.find_first_not_of('\'');
+  return first != std::string_view::npos && std::string_view("=+-@").contains(text[first]);
+}
 
 std::int64_t TidyTable::find(std::string_view column) const {
   const auto at = std::ranges::find(columns, column);

@@ -45,6 +45,16 @@ TEST(TidyCsv, NumbersAloneAreRowsWhateverSeparatesThem) {
   }
 }
 
+TEST(TidyCsv, AnApostropheBeforeAFormulaIsNoneOfTheText) {
+  const auto table = parse_tidy_csv("name,value\n'=A1,1\n''-x,2\n'toe,3\n", "t.csv");
+  ASSERT_TRUE(table);
+  EXPECT_EQ((*table)(0, 0), "=A1");
+  EXPECT_EQ((*table)(1, 0), "'-x");
+  EXPECT_EQ((*table)(2, 0), "'toe");
+  EXPECT_TRUE(is_like_formula("@x") && is_like_formula("''+1"));
+  EXPECT_FALSE(is_like_formula("x=1") || is_like_formula("'") || is_like_formula(""));
+}
+
 TEST(TidyCsv, BlankCellsAreNotDetermined) {
   const auto table = parse_tidy_csv("a;b\n;2\n", "t.csv");
   ASSERT_TRUE(table);

@@ -19,8 +19,11 @@
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/pipeline/measures/measures_job.h"
+#include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/body/body_measures.h"
@@ -29,9 +32,7 @@ namespace kinemark::pipeline {
 namespace {
 
 Status check(const MotionMeasuresJob& job) {
-  const auto ending = ending_of(job.output);
-  if (!job.output.empty() && ending != ".csv" && ending != ".json")
-    return fail(Code::usage, fmt::format("{}: measures are written as .csv or .json", job.output.string()));
+  if (auto s = check_measures_output(job.output); !s) return s;
   if (job.motion.empty()) return fail(Code::usage, "no motion: give a .mot or .sto");
   if (job.model.empty()) return fail(Code::usage, "no model: give --model");
   if (!job.between.empty() && ending_of(job.forces) != ".c3d")
@@ -109,7 +110,8 @@ Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionM
   };
   if (!std::ranges::all_of(job.between, two)) {
     if (auto gait = measure_gait(job.forces, trial, {.refits = 0})) {
-      trial = with_events(std::move(trial), *gait);
+      const auto of_feet = pipeline::events_of(*gait, trial.markers.time);
+      trial = with_events(std::move(trial), of_feet);
       out.warnings.push_back(
           fmt::format("the events of feet are those that were found in {}", job.forces.filename().string()));
     }
@@ -245,11 +247,12 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
                                              "--forces or --torques, coupling needs --couple",
                                              job.motion.string()));
   if (job.output.empty()) return out;
-  const bool table = ending_of(job.output) == ".csv";
-  const auto file =
-      table
-          ? text_file(job.output, [&] { return measures_csv(out.measures, job.motion.filename().string()); })
-          : json_file(job.output, [&] { return motion_measures_json(out); });
+  const auto ending = ending_of(job.output);
+  const auto name = name_of_recording(job.motion);
+  const auto file = ending == ".csv" ? text_file(job.output, [&] { return measures_csv(out.measures, name); })
+                    : ending == ".json"
+                        ? json_file(job.output, [&] { return motion_measures_json(out); })
+                        : nwb_file(job.output, {{.name = name, .measures = out.measures}}, out.inputs, job);
   auto written = write_results(*staging, {file}, {}, "the measures");
   if (!written) return std::unexpected(written.error());
   out.written = std::move(*written);

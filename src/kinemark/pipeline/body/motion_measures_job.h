@@ -3,9 +3,6 @@
 // Measures of a motion: of its joints, of the body, of how two coordinates move together.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -14,28 +11,18 @@
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
-#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/measures/measure_choice.h"
+#include "kinemark/pipeline/motion/motion_files.h"
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze MOTION --model M` is asked to measure. Paths that are empty are not used.
-struct MotionMeasuresJob : JobSettings {
-  std::filesystem::path motion;  ///< .mot or .sto of coordinates; Q_sd.sto beside it is read if it is there
-  std::filesystem::path model;   ///< .osim
-  std::filesystem::path forces;  ///< .c3d with plates or ExternalLoads .xml: torques, and what feet stand on
-  bool torques = false;          ///< inverse dynamics without forces too
-  double cutoff_hz = 0.0;        ///< low-pass of the coordinates beforehand; 0: none
-  double first_time_s = -std::numeric_limits<double>::infinity();  ///< of the whole that is measured
-  double last_time_s = std::numeric_limits<double>::infinity();    ///< included
-  std::vector<std::string> measures;  ///< ids of analysis::body_definitions(); empty: all that apply
-  std::vector<std::string> select;    ///< coordinates; * is any text, ? any letter; empty: all that can move
-  std::vector<std::string> couple;    ///< "A,B": coordinates whose coupling is measured
-  std::vector<std::string> regions;   ///< parse_region(); rows count from 1
-  std::vector<std::string> between;   ///< labels of events in the .c3d of `forces`, or found of its feet
-  bool normalize = false;             ///< kinetics per mass, momentum over mass, speed and height
-  std::filesystem::path output;       ///< .csv or .json
-  std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
-  double level = 0.95;                ///< of the intervals
+/// What `kinemark analyze MOTION --model M` is asked to measure: ids of analysis::body_definitions(), regions
+/// whose rows count from 1, between events in the .c3d of `forces` or found of its feet. The output is a
+/// .csv, .json or .nwb.
+struct MotionMeasuresJob : MotionFiles, MeasureChoice {
+  std::vector<std::string> select;  ///< coordinates; * is any text, ? any letter; empty: all that can move
+  std::vector<std::string> couple;  ///< "A,B": coordinates whose coupling is measured
+  bool normalize = false;           ///< kinetics per mass, momentum over mass, speed and height
 };
 
 /// Warnings: what was left out or taken otherwise.
@@ -47,7 +34,7 @@ struct MotionMeasuresOutcome : JobOutcome {
 /// Read, compute, measure, write (docs/stages/motion-measures.md). Progress counts nothing.
 ///
 /// Code::usage for a measure, coordinate or region that is none, for events without a .c3d and for another
-/// ending than .csv and .json; Code::bad_input as the readers, regions_between() and
+/// ending than .csv, .json and .nwb; Code::bad_input as the readers, regions_between() and
 /// analysis::measure_body().
 [[nodiscard]] Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job);
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/io/text/tidy_csv.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -24,6 +25,20 @@ TEST(TableCell, TextIsQuotedWhereItMustBe) {
   EXPECT_EQ(table_cell(std::string("plain text")), "plain text");
   EXPECT_EQ(table_cell(std::string("a,\"b\"")), "\"a,\"\"b\"\"\"");
   EXPECT_EQ(table_cell(std::string("two\nlines")), "\"two\nlines\"");
+}
+
+TEST(TableCell, ANameIsNoFormula) {
+  for (const char* name : {"=1+1", "+toe", "-x", "@heel", "'=x", "''@x"})
+    EXPECT_EQ(table_cell(std::string(name)), std::string("'") + name);
+  EXPECT_EQ(table_cell(std::string("=A1,B1")), "\"'=A1,B1\"");
+  for (const char* name : {"-1.5", "+3", "'toe", "a=b", "", "'"})
+    EXPECT_EQ(table_cell(std::string(name)), name);
+  // What reads our tables gets the names back.
+  for (const char* name : {"=1+1", "+toe", "-x", "@heel", "'=x", "''@x", "'toe", "-1.5"}) {
+    const auto table = io::parse_tidy_csv("a,b\n" + table_cell(std::string(name)) + ",1\n", "t.csv");
+    ASSERT_TRUE(table);
+    EXPECT_EQ((*table)(0, 0), name);
+  }
 }
 
 }  // namespace

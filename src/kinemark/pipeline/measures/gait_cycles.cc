@@ -90,7 +90,10 @@ Result<std::vector<data::CycleCurves>> gait_curves(const data::Trial& trial,
   else if (auto s = add_motion(motion, series); !s)
     return std::unexpected(s.error());
   if (series.empty())
-    return fail(Code::bad_input, "the recording holds no angles to cut into cycles; need --angles FILE.mot");
+    return fail(Code::bad_input,
+                "the recording holds no angles to cut into cycles of walking; need --angles FILE.mot, or "
+                "--events movement "
+                "for the markers' own movements");
   std::vector<data::CycleCurves> out;
   for (const auto& one : series) {
     const auto side = side_of(one.id);
@@ -103,22 +106,45 @@ Result<std::vector<data::CycleCurves>> gait_curves(const data::Trial& trial,
   return out;
 }
 
-std::string curves_csv(const std::vector<data::CycleCurves>& curves, const std::string& file) {
-  std::string out = "file,curve,context,cycle,percent,value,sd,unit\n";
-  for (const auto& one : curves) {
-    const auto unit = data::shown_unit(one.quantity);
-    const auto row = [&](const std::string& cycle, std::int64_t p, double value, double sd) {
-      out += fmt::format("{},{},{},{},{:g},{},{},{}\n", table_cell(file), table_cell(one.id), one.context,
-                         cycle, 100.0 * static_cast<double>(p) / static_cast<double>(one.points - 1),
-                         table_cell(unit.per_si * value), table_cell(unit.per_si * sd), unit.name);
-    };
-    for (std::int64_t c = 0; c < one.count(); ++c)
-      for (std::int64_t p = 0; p < one.points; ++p)
-        row(fmt::to_string(c + 1), p, one(c, p), one.sd.empty() ? kNaN : one.sd[at(c * one.points + p)]);
-    const auto mean = analysis::mean_of_cycles(one);
-    for (std::int64_t p = 0; p < one.points; ++p) row("mean", p, mean.mean[at(p)], mean.sd[at(p)]);
-  }
+std::string curves_csv_columns(const RecordingName& recording) {
+  return name_columns() + ",subject,curve,context,region,cycle,percent,value,sd,sd_between,unit" +
+         more_columns(recording) + "\n";
+}
+
+std::string curves_csv_rows(const std::vector<RegionCurves>& curves, const RecordingName& recording) {
+  const auto first = name_cells(recording), last = more_cells(recording);
+  std::string out;
+  for (const auto& [region, all] : curves)
+    for (const auto& one : all) {
+      const auto unit = data::shown_unit(one.quantity);
+      const auto row = [&](const std::string& cycle, std::int64_t p, double value, double sd,
+                           double between) {
+        out += fmt::format("{},{},{},{},{},{},{:g},{},{},{},{}{}\n", first, table_cell(one.subject),
+                           table_cell(one.id), one.context, table_cell(region), cycle,
+                           100.0 * static_cast<double>(p) / static_cast<double>(one.points - 1),
+                           table_cell(unit.per_si * value), table_cell(unit.per_si * sd),
+                           table_cell(unit.per_si * between), unit.name, last);
+      };
+      const auto sd = [&](std::int64_t c, std::int64_t p) {
+        return one.sd.empty() ? kNaN : one.sd[at(c * one.points + p)];
+      };
+      for (std::int64_t c = 0; c < one.count(); ++c)
+        for (std::int64_t p = 0; p < one.points; ++p)
+          row(fmt::to_string(c + 1), p, one(c, p), sd(c, p), kNaN);
+      const auto mean = analysis::mean_of_cycles(one);
+      for (std::int64_t p = 0; p < one.points; ++p) {
+        double squares = 0.0;
+        std::int64_t count = 0;
+        for (std::int64_t c = 0; c < one.count(); ++c)
+          if (std::isfinite(one(c, p))) squares += sd(c, p) * sd(c, p), ++count;
+        row("mean", p, mean.mean[at(p)], std::sqrt(squares) / static_cast<double>(count), mean.sd[at(p)]);
+      }
+    }
   return out;
+}
+
+std::string curves_csv(const std::vector<RegionCurves>& curves, const RecordingName& recording) {
+  return curves_csv_columns(recording) + curves_csv_rows(curves, recording);
 }
 
 }  // namespace kinemark::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Angles over the course of walking cycles, as a table.
+// Curves over the course of cycles, as a table.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/pipeline/measures/recording_name.h"
 #include "kinemark/stages/analysis/gait/gait_facts.h"
 
 namespace kinemark::pipeline {
@@ -24,8 +25,21 @@ namespace kinemark::pipeline {
     const data::Trial& trial, const std::vector<analysis::GaitCycle>& cycles,
     const std::filesystem::path& motion);
 
-/// One row for each curve, cycle and point, and of the mean: file, curve, context, cycle (1, 2, ... or
-/// "mean"), percent, value, sd (of the value; of the mean: between cycles), unit. RFC 4180.
-[[nodiscard]] std::string curves_csv(const std::vector<data::CycleCurves>& curves, const std::string& file);
+/// Curves of one stretch.
+struct RegionCurves {
+  std::string region;                     ///< its name; empty: the whole recording
+  std::vector<data::CycleCurves> curves;  ///< of it
+};
+
+/// One row for each curve, cycle and point, and of the mean: file, participant, session, trial, subject,
+/// curve, context, region, cycle (1, 2, ... or "mean"), percent, value, sd (of noise, of the value; of the
+/// mean where all have one), sd_between (of the mean's rows: between cycles, N - 1), unit, and the columns of
+/// the participants' table. RFC 4180.
+[[nodiscard]] std::string curves_csv(const std::vector<RegionCurves>& curves, const RecordingName& recording);
+/// Its first line alone.
+[[nodiscard]] std::string curves_csv_columns(const RecordingName& recording);
+/// Its other lines.
+[[nodiscard]] std::string curves_csv_rows(const std::vector<RegionCurves>& curves,
+                                          const RecordingName& recording);
 
 }  // namespace kinemark::pipeline

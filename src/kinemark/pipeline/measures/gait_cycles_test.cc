@@ -75,7 +75,8 @@ TEST_F(GaitCyclesTest, DeviationsBesideAMotionBelongToItsCurves) {
   const auto curves = gait_curves({}, cycles_, path).value();
   ASSERT_EQ(curves[0].sd.size(), 2u * 101u);
   EXPECT_TRUE(curves[1].sd.empty());  // the deviations have no such column
-  EXPECT_THAT(curves_csv({curves[0]}, "q.mot"), HasSubstr("q.mot,knee_angle_l,Left,2,50,12,"));
+  EXPECT_THAT(curves_csv({{"", {curves[0]}}}, {.file = "q.mot"}),
+              HasSubstr("q.mot,,,,,knee_angle_l,Left,,2,50,12,2,,deg\n"));
   EXPECT_TRUE(curves[0].validate());
   // Deviations of another length are of another motion.
   motion("q_sd.sto", "inDegrees=yes\n", 2.0, 0.0, "\tknee_angle_l", 1, 12);
@@ -86,18 +87,37 @@ TEST_F(GaitCyclesTest, ATableHasEmptyCellsForWhatIsMissingAndQuotesNames) {
   data::CycleCurves curve{.id = "knee, left", .context = "Left", .points = 3, .cycles = {"Left 1", "Left 2"}};
   curve.values = {0.1, kNaN, 0.3, 0.3, kNaN, 0.5};
   for (double& value : curve.values) value *= kRadPerDeg;
-  EXPECT_EQ(curves_csv({curve}, "a.c3d"),
-            "file,curve,context,cycle,percent,value,sd,unit\n"
-            "a.c3d,\"knee, left\",Left,1,0,0.1,,deg\n"
-            "a.c3d,\"knee, left\",Left,1,50,,,deg\n"
-            "a.c3d,\"knee, left\",Left,1,100,0.3,,deg\n"
-            "a.c3d,\"knee, left\",Left,2,0,0.3,,deg\n"
-            "a.c3d,\"knee, left\",Left,2,50,,,deg\n"
-            "a.c3d,\"knee, left\",Left,2,100,0.5,,deg\n"
-            "a.c3d,\"knee, left\",Left,mean,0,0.2,0.141421356,deg\n"
-            "a.c3d,\"knee, left\",Left,mean,50,,,deg\n"
-            "a.c3d,\"knee, left\",Left,mean,100,0.4,0.141421356,deg\n");
-  EXPECT_EQ(curves_csv({}, "a.c3d"), "file,curve,context,cycle,percent,value,sd,unit\n");
+  const RecordingName name{.file = "a.c3d", .participant = "sub-1", .trial = "a", .more = {{"sex", "F"}}};
+  const std::string columns =
+      "file,participant,session,trial,subject,curve,context,region,cycle,percent,value,sd,sd_between,unit,"
+      "sex\n";
+  EXPECT_EQ(curves_csv({{"all", {curve}}}, name),
+            columns +
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,1,0,0.1,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,1,50,,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,1,100,0.3,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,2,0,0.3,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,2,50,,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,2,100,0.5,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,mean,0,0.2,,0.141421356,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,mean,50,,,,deg,F\n"
+                "a.c3d,sub-1,,a,,\"knee, left\",Left,all,mean,100,0.4,,0.141421356,deg,F\n");
+  EXPECT_EQ(curves_csv({}, name), columns);
+}
+
+TEST_F(GaitCyclesTest, TheMeanHasANoiseOfItsOwnBesideWhatDiffersBetweenCycles) {
+  data::CycleCurves curve{.id = "speed",
+                          .subject = "RFIN",
+                          .context = "cycle",
+                          .quantity = data::Quantity::speed,
+                          .points = 2,
+                          .cycles = {"cycle 1", "cycle 2"},
+                          .values = {1.0, 2.0, 1.2, 2.0},
+                          .sd = {0.03, 0.02, 0.04, kNaN}};
+  const auto text = curves_csv({{"", {curve}}}, {.file = "a.c3d"});
+  EXPECT_THAT(text, HasSubstr("a.c3d,,,,RFIN,speed,cycle,,1,0,1000,30,,mm/s\n"));
+  EXPECT_THAT(text, HasSubstr("a.c3d,,,,RFIN,speed,cycle,,mean,0,1100,25,141.421356,mm/s\n"));
+  EXPECT_THAT(text, HasSubstr("a.c3d,,,,RFIN,speed,cycle,,mean,100,2000,,0,mm/s\n"));
 }
 
 TEST_F(GaitCyclesTest, RefuseWhatCannotBeCut) {
@@ -107,7 +127,9 @@ TEST_F(GaitCyclesTest, RefuseWhatCannotBeCut) {
   EXPECT_EQ(none.error().code, Code::bad_input);
   EXPECT_EQ(none.error().message, "there is no cycle from strike to strike");
   EXPECT_EQ(gait_curves({}, cycles_, {}).error().message,
-            "the recording holds no angles to cut into cycles; need --angles FILE.mot");
+            "the recording holds no angles to cut into cycles of walking; need --angles FILE.mot, or "
+            "--events movement "
+            "for the markers' own movements");
   const auto absent = gait_curves({}, cycles_, scratch_ / "absent.mot");
   ASSERT_FALSE(absent);
   EXPECT_THAT(absent.error().message, HasSubstr("absent.mot"));

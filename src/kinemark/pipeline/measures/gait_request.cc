@@ -11,7 +11,6 @@
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/settings_file.h"
-#include "kinemark/pipeline/files/table_cell.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -35,8 +34,14 @@ Result<std::vector<analysis::MarkerRole>> read_roles(const std::filesystem::path
 }  // namespace
 
 Status GaitRequest::check() const {
-  if (const auto choice = analysis::parse_event_choice(events); !choice)
-    return std::unexpected(choice.error());
+  if (of_movement()) {
+    if (!markers.empty() || !angles.empty())
+      return fail(
+          Code::usage,
+          "--events movement takes the markers' own movements; --gait-marker and --angles are of walking");
+  } else if (const auto choice = analysis::parse_event_choice(events); !choice) {
+    return fail(Code::usage, choice.error().message + ", and movement for that of the markers themselves");
+  }
   const auto ending = ending_of(write_events);
   if (!write_events.empty() && ending != ".csv" && ending != ".c3d")
     return fail(Code::usage, fmt::format("{}: events are written as .csv or .c3d", write_events.string()));
@@ -50,7 +55,7 @@ Status GaitRequest::check() const {
 Result<analysis::GaitOptions> gait_options(const GaitRequest& request) {
   if (auto s = request.check(); !s) return std::unexpected(s.error());
   analysis::GaitOptions out;
-  out.choice = analysis::parse_event_choice(request.events).value();
+  if (!request.of_movement()) out.choice = analysis::parse_event_choice(request.events).value();
   for (const auto& text : request.markers) {
     if (ending_of(text) == ".toml" && text.find('=') == std::string::npos) {
       auto roles = read_roles(text);
@@ -73,32 +78,6 @@ Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const dat
       .plates = plates ? &*plates : nullptr, .corners = {}, .events = trial.events};
   for (const auto& plate : trial.force_plates) evidence.corners.push_back(plate.corners_in_world);
   return analysis::analyze_gait(trial.markers, evidence, options);
-}
-
-std::string events_csv(const analysis::Gait& gait, const TimeBase& time, const std::string& file) {
-  std::string out = "file,context,label,time_s,frame,sd_s,source,method\n";
-  for (const auto& event : gait.events)
-    out +=
-        fmt::format("{},{},{},{:.6f},{},{},{},{}\n", table_cell(file), data::to_string(event.side),
-                    data::to_string(event.what), event.time_s, time.number(time.nearest_frame(event.time_s)),
-                    std::isfinite(event.sd_s) ? fmt::format("{:.6f}", event.sd_s) : "",
-                    data::to_string(event.source), table_cell(event.method));
-  return out;
-}
-
-data::Trial with_events(data::Trial trial, const analysis::Gait& gait) {
-  std::erase_if(trial.events, [&](const data::Event& event) {
-    const std::vector<data::Event> one{event};
-    TimeBase all = trial.markers.time;
-    all.t0_s = event.time_s, all.frames = 1;
-    return !analysis::events_of_file(one, all).events.empty();
-  });
-  for (const auto& event : gait.events)
-    trial.events.push_back({.label = std::string(data::to_string(event.what)),
-                            .context = std::string(data::to_string(event.side)),
-                            .time_s = event.time_s});
-  std::ranges::stable_sort(trial.events, {}, &data::Event::time_s);
-  return trial;
 }
 
 nlohmann::ordered_json gait_json(const analysis::Gait& gait) {

@@ -14,18 +14,23 @@
 
 namespace kinemark::pipeline {
 
-/// What is asked about walking. Paths that are empty are not used.
+/// What is asked about walking, and which events and cycles are written. Paths that are empty are not used.
 struct GaitRequest {
-  std::string events = "best";         ///< whose: "best", "plates", "kinematics", "file"
+  std::string events =
+      "best";  ///< whose: "best", "plates", "kinematics", "file"; "movement": the markers' own
   std::vector<std::string> markers;    ///< ROLE=NAME, or a .toml of lines like role = "NAME"
-  std::filesystem::path write_events;  ///< .csv, or .c3d: the recording with these events of feet
+  std::filesystem::path write_events;  ///< .csv, or .c3d: the recording with these events
   std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written
   std::filesystem::path write_cycles;  ///< .csv: curves over the cycle
 
   /// Whether walking is asked about by more than being there.
   [[nodiscard]] bool wanted() const {
-    return events != "best" || !markers.empty() || !write_events.empty() || !write_cycles.empty();
+    return (events != "best" && !of_movement()) || !markers.empty() || !angles.empty();
   }
+  /// Whether events and cycles are those of the markers' own movements, even where feet step.
+  [[nodiscard]] bool of_movement() const { return events == "movement"; }
+  /// Whether events or cycles are written.
+  [[nodiscard]] bool writes() const { return !write_events.empty() || !write_cycles.empty(); }
   /// Names and endings: Code::usage.
   [[nodiscard]] Status check() const;
 };
@@ -37,14 +42,6 @@ struct GaitRequest {
 /// Code::bad_input as analysis::analyze_gait().
 [[nodiscard]] Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,
                                                   const analysis::GaitOptions& options);
-
-/// The events, one a row: file, context, label, time_s, frame (number in the file, of the nearest), sd_s,
-/// source, method. RFC 4180.
-[[nodiscard]] std::string events_csv(const analysis::Gait& gait, const TimeBase& time,
-                                     const std::string& file);
-
-/// The trial with these events of feet instead of its own; events of other kinds stay.
-[[nodiscard]] data::Trial with_events(data::Trial trial, const analysis::Gait& gait);
 
 /// "treadmill", "belt_speed" (mm/s; null over ground), "events".
 [[nodiscard]] nlohmann::ordered_json gait_json(const analysis::Gait& gait);

@@ -31,6 +31,13 @@ TEST(GaitRequest, RefusesWhatIsNone) {
             "a.xlsx: events are written as .csv or .c3d");
   EXPECT_FALSE(GaitRequest{.write_cycles = "a.c3d"}.check());
   EXPECT_FALSE(GaitRequest{.angles = "Q.mot"}.check());
+  EXPECT_FALSE(GaitRequest{.write_events = "a.csv"}.wanted());
+  EXPECT_TRUE(GaitRequest{.events = "movement"}.check());
+  EXPECT_FALSE(GaitRequest{.events = "movement"}.wanted());
+  EXPECT_TRUE(GaitRequest{.events = "movement"}.of_movement());
+  const auto both = GaitRequest{.events = "movement", .markers = {"left_heel=A"}}.check();
+  ASSERT_FALSE(both);
+  EXPECT_EQ(both.error().code, Code::usage);
 }
 
 TEST(GaitOptions, ReadsRoles) {
@@ -40,25 +47,6 @@ TEST(GaitOptions, ReadsRoles) {
   EXPECT_EQ(options->markers, (std::vector<analysis::MarkerRole>{{"left_heel", "A=B"}}));
   EXPECT_EQ(gait_options({.markers = {"LHEE"}}).error().code, Code::usage);
   EXPECT_FALSE(gait_options({.markers = {"nowhere.toml"}}));
-}
-
-TEST(EventsCsv, HasOneRowEach) {
-  EXPECT_EQ(events_csv(two_events(), kWalkTime, "walk.c3d"),
-            "file,context,label,time_s,frame,sd_s,source,method\n"
-            "walk.c3d,Left,Foot Strike,1.250000,126,0.006000,plate,\"plate 1, east\"\n"
-            "walk.c3d,Right,Foot Off,1.400000,141,,file,the file\n");
-}
-
-TEST(WithEvents, ReplacesEventsOfFeetAlone) {
-  data::Trial trial;
-  trial.markers.time = kWalkTime;
-  trial.events = {{"jump", "Left", 1.0}, {"Foot Strike", "Left", 1.2}, {"RTO", "", 9.0}};
-  const auto out = with_events(trial, two_events());
-  ASSERT_EQ(out.events.size(), 3u);
-  EXPECT_EQ(out.events[0].label, "jump");
-  EXPECT_EQ(out.events[1].label, "Foot Strike");
-  EXPECT_EQ(out.events[1].time_s, 1.25);
-  EXPECT_EQ(out.events[2].context, "Right");
 }
 
 TEST(GaitJson, HasNullWhereNothingIsKnown) {
@@ -86,9 +74,9 @@ TEST(GaitCurves, AreCutByTheCyclesOfTheirSide) {
   ASSERT_TRUE(curves);
   ASSERT_EQ(curves->size(), 9u);  // three components: left knee by one foot, pelvis by two
   EXPECT_EQ((*curves)[0].id, "LKneeAngles x");
-  const auto csv = curves_csv({(*curves)[0]}, "walk.c3d");
-  EXPECT_NE(csv.find("walk.c3d,LKneeAngles x,Left,1,50,10,,deg\n"), std::string::npos);
-  EXPECT_NE(csv.find("walk.c3d,LKneeAngles x,Left,mean,100,10,,deg\n"), std::string::npos);
+  const auto csv = curves_csv({{"", {(*curves)[0]}}}, {.file = "walk.c3d"});
+  EXPECT_NE(csv.find("walk.c3d,,,,,LKneeAngles x,Left,,1,50,10,,,deg\n"), std::string::npos);
+  EXPECT_NE(csv.find("walk.c3d,,,,,LKneeAngles x,Left,,mean,100,10,,,deg\n"), std::string::npos);
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 * 101);
   EXPECT_FALSE(gait_curves(trial, {}, {}));
   trial.channels = {};

@@ -14,12 +14,14 @@
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 bool is_path_measure(const std::string& id) {
-  return std::ranges::any_of(analysis::path_definitions(), [&](const auto& d) { return d.what.id == id; });
+  return std::ranges::any_of(analysis::path_definitions(), [&](const auto& d) { return d.what.id == id; }) ||
+         analysis::find_rhythm_definition(id) != nullptr;
 }
 
 Status unknown_measure(const std::string& id) {
@@ -29,6 +31,7 @@ Status unknown_measure(const std::string& id) {
         fmt::format("{} is measured of a motion, not of markers; need a .mot or .sto with --model", id));
   std::vector<std::string> known{"gait", "plates", "emg"};
   for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::rhythm_definitions()) known.emplace_back(definition.id);
   for (const auto& definition : analysis::gait_definitions()) known.emplace_back(definition.what.id);
   for (const auto& definition : analysis::force_definitions()) known.emplace_back(definition.what.id);
   for (const auto& definition : analysis::emg_definitions()) known.emplace_back(definition.id);
@@ -72,7 +75,7 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
   out.by_name =
       all_of_walking || !out.gait.measures.empty() || job.gait.wanted() || !job.emg.write_cycles.empty();
   out.paths = job.measures.empty() || !out.path.measures.empty();
-  out.walking = out.by_name || job.measures.empty();
+  out.walking = (out.by_name || job.measures.empty() || job.gait.writes()) && !job.gait.of_movement();
   if (all_of_walking) out.gait.measures.clear();
   out.forces_by_name = all_of_plates || !out.plates.measures.empty();
   out.forces = out.forces_by_name || job.measures.empty();

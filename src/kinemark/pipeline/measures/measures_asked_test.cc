@@ -51,13 +51,31 @@ TEST(AskedMeasures, AllOfWalkingIsMoreThanOneOfIt) {
   }
 }
 
-TEST(AskedMeasures, EventsThatAreToBeWrittenAskForWalking) {
+TEST(AskedMeasures, EventsThatAreToBeWrittenLookForWalkingFirst) {
   MeasuresJob job;
   job.measures = {"path_length"};
   job.gait.write_events = "events.csv";
+  auto asked = asked_measures(job);
+  ASSERT_TRUE(asked);
+  EXPECT_TRUE(asked->paths && asked->walking);
+  EXPECT_FALSE(asked->by_name);  // where there is none, they are those of the markers
+  job.gait.angles = "Q.mot";
+  job.gait.write_cycles = "cycles.csv";
+  EXPECT_TRUE(asked_measures(job)->by_name);
+  job.gait = {.events = "movement", .write_events = "events.csv"};
+  asked = asked_measures(job);
+  ASSERT_TRUE(asked);
+  EXPECT_FALSE(asked->walking);
+}
+
+TEST(AskedMeasures, MeasuresOfRepetitionsAreOfPaths) {
+  MeasuresJob job;
+  job.measures = {"cycle_duration"};
   const auto asked = asked_measures(job);
   ASSERT_TRUE(asked);
-  EXPECT_TRUE(asked->paths && asked->walking && asked->by_name);
+  EXPECT_TRUE(asked->paths);
+  EXPECT_FALSE(asked->walking);
+  EXPECT_THAT(asked->path.measures, ::testing::ElementsAre("cycle_duration"));
 }
 
 TEST(AskedMeasures, BothKindsHaveTheIntervalsOfTheJob) {

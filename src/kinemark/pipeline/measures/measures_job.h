@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -16,31 +17,31 @@
 #include "kinemark/pipeline/files/selection.h"
 #include "kinemark/pipeline/measures/emg_request.h"
 #include "kinemark/pipeline/measures/gait_request.h"
+#include "kinemark/pipeline/measures/measure_choice.h"
+#include "kinemark/pipeline/measures/recording_name.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze` is asked to do with a recording of markers. Paths that are empty are not used.
-struct MeasuresJob : JobSettings {
+/// What `kinemark analyze` is asked to do with a recording of markers: ids of paths, of walking ("gait": all
+/// of these), of plates ("plates") and of EMG ("emg"), regions beside those of the journal. Paths that are
+/// empty are not used.
+struct MeasuresJob : JobSettings, MeasureChoice {
   std::filesystem::path input;  ///< marker file
   double rate_hz = 0.0;         ///< for a file that tells none; 0: not given
   std::filesystem::path
       edits;            ///< journal, applied first; "beside": the one beside the recording, if there is one
   Selection selection;  ///< which markers, which frames
-  /// ids, of paths, of walking ("gait": all of these), of plates ("plates") and of EMG ("emg"); empty: those
-  /// that apply
-  std::vector<std::string> measures;
-  std::vector<std::string> regions;  ///< parse_region(); beside those of the journal
-  std::vector<std::string> between;  ///< labels of events: regions_between()
-  std::filesystem::path output;      ///< .csv or .json
-  std::filesystem::path figures;     ///< folder for figures; empty: none are written
-  std::string figure_formats;        ///< as parse_figure_formats(); empty: all that this program can write
-  std::filesystem::path report;      ///< page to write as well, .html
-  std::int64_t refits = 99;          ///< behind each interval; 0: no intervals
-  double noise_sd_m = 0.0;           ///< per axis; 0: found from the samples
-  double level = 0.95;               ///< of the intervals
-  bool keep_defects = false;         ///< measure what screening calls spikes, swaps, stuck too
-  GaitRequest gait;                  ///< walking
-  EmgRequest emg;                    ///< electromyograms
+  std::filesystem::path output;   ///< .csv, .json or .nwb
+  std::filesystem::path figures;  ///< folder for figures; empty: none are written
+  std::string figure_formats;     ///< as parse_figure_formats(); empty: all that this program can write
+  std::filesystem::path report;   ///< page to write as well, .html
+  double noise_sd_m = 0.0;        ///< per axis; 0: found from the samples
+  bool keep_defects = false;      ///< measure what screening calls spikes, swaps, stuck too
+  GaitRequest gait;               ///< walking
+  EmgRequest emg;                 ///< electromyograms
+  std::filesystem::path participants_file;           ///< table to join to the rows, as read_participants()
+  std::shared_ptr<const Participants> participants;  ///< the same, read; null: run_measures() reads it
 };
 
 /// Warnings: what was left out, and markers that could not be measured.
@@ -50,6 +51,8 @@ struct MeasuresOutcome : JobOutcome {
       measures;  ///< of walking, plates, EMG, then markers in the recording's order, their regions
   std::optional<analysis::Gait> gait;        ///< walking, where it was asked for or is there
   std::optional<analysis::EmgMeasures> emg;  ///< electromyograms, likewise
+  std::vector<analysis::PathRhythm>
+      rhythms;  ///< what repeats in the paths, where events or cycles of them are asked for
 };
 
 /// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are
@@ -58,11 +61,15 @@ struct MeasuresOutcome : JobOutcome {
 /// nothing.
 ///
 /// Code::usage as analysis::PathMeasureOptions::check(), parse_region(), parse_figure_formats() and for
-/// another ending than .csv and .json; Code::bad_input as the readers, take_selection(), regions_between()
-/// and analysis::measure_paths(), and where no marker can be measured.
+/// another ending than .csv, .json and .nwb; Code::bad_input as the readers, take_selection(),
+/// regions_between() and analysis::measure_paths(), and where no marker can be measured.
 [[nodiscard]] Result<MeasuresOutcome> run_measures(const MeasuresJob& job);
 
-/// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "written",
+/// Code::usage for a table of measures of another ending than .csv, .json and .nwb.
+[[nodiscard]] Status check_measures_output(const std::filesystem::path& output);
+
+/// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "rhythms"
+/// (rhythms_json(), where movements of markers are looked at), "written",
 /// "warnings".
 [[nodiscard]] nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome);
 

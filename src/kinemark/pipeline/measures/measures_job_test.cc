@@ -56,7 +56,7 @@ TEST_F(MeasuresJobTest, MeasuresEveryMarkerAndWritesATable) {
   ASSERT_EQ(outcome->measures.size(), 4u);
   EXPECT_EQ(outcome->measures[0].subject, "RFIN");
   EXPECT_NEAR(outcome->measures[1].value, 1.875 * std::hypot(0.3, 0.05) / 0.7, 0.02);
-  EXPECT_THAT(io::read_text(job_.output).value(), HasSubstr("signs.c3d,RFIN,"));
+  EXPECT_THAT(io::read_text(job_.output).value(), HasSubstr("signs.c3d,,,signs,RFIN,"));
   EXPECT_EQ(outcome->written, std::vector{job_.output});
   const auto again = run_measures(job_);
   ASSERT_FALSE(again);
@@ -114,13 +114,85 @@ TEST_F(MeasuresJobTest, SaysInOneSentenceWhatIsWrong) {
   EXPECT_THAT(says([](auto& job) { job.measures = {"peek_speed"}; }),
               HasSubstr("no measure 'peek_speed' (nearest: peak_speed"));
   EXPECT_THAT(says([](auto& job) { job.output = "a.xlsx"; }),
-              HasSubstr("a.xlsx: measures are written as .csv or .json"));
+              HasSubstr("a.xlsx: measures are written as .csv, .json or .nwb"));
   EXPECT_THAT(says([](auto& job) { job.selection.select = {"NOSE"}; }), HasSubstr("NOSE"));
   EXPECT_THAT(says([](auto& job) { job.between = {"Strike"}; }),
               HasSubstr("no two events of one side are called 'Strike'; the recording has Turn"));
   EXPECT_THAT(says([](auto& job) { job.regions = {"late=900-950"}; }),
               HasSubstr("frames 900 to 950, lies outside the recording, whose frames are 41 to 340"));
   EXPECT_THAT(says([](auto& job) { job.input = "none.c3d"; }), HasSubstr("none.c3d"));
+}
+
+std::int64_t count(const std::string& text, const std::string& part) {
+  std::int64_t out = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++out;
+  return out;
+}
+
+TEST_F(MeasuresJobTest, WhereNoFootStepsEventsAndCyclesAreThoseOfTheMarkers) {
+  job_.measures = {"cycle_duration", "cycle_variation", "repetition_duration"};
+  job_.gait.write_events = scratch_ / "events.csv";
+  job_.gait.write_cycles = scratch_ / "cycles.csv";
+  const auto outcome = run_measures(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->rhythms.size(), 2u);
+  EXPECT_TRUE(outcome->rhythms[1].periodic);
+  EXPECT_THAT(outcome->warnings, ::testing::Contains(HasSubstr("RFIN: not periodic")));
+  EXPECT_THAT(outcome->warnings, ::testing::Contains(HasSubstr("own movements, as there is no walking: ")));
+  const auto events = io::read_text(job_.gait.write_events).value();
+  EXPECT_EQ(count(events, ",RFIN,,,Movement Start,"), 1);
+  EXPECT_EQ(count(events, ",RFIN,,,Movement End,"), 1);
+  EXPECT_GE(count(events, ",RELB,,,Cycle Start,"), 2);
+  const auto cycles = io::read_text(job_.gait.write_cycles).value();
+  EXPECT_EQ(count(cycles, ",RFIN,speed,movement,,1,"), 101);
+  EXPECT_EQ(count(cycles, ",RELB,x,cycle,,mean,"), 101);
+  EXPECT_EQ(measures_outcome_json(*outcome)["rhythms"].size(), 2u);
+}
+
+TEST_F(MeasuresJobTest, EventsOfMovementsAreFoundWhereTheyAreAskedFor) {
+  EXPECT_TRUE(run_measures(job_)->rhythms.empty());
+  job_.gait.events = "movement";
+  EXPECT_EQ(run_measures(job_)->rhythms.size(), 2u);
+}
+
+TEST_F(MeasuresJobTest, EventsOfOneMarkerFitIntoTheRecording) {
+  job_.gait.write_events = scratch_ / "marked.c3d";
+  const auto several = run_measures(job_);
+  ASSERT_FALSE(several);
+  EXPECT_EQ(several.error().code, Code::usage);
+  EXPECT_THAT(several.error().message, HasSubstr("choose one with --select"));
+  job_.selection.select = {"RFIN"};
+  ASSERT_TRUE(run_measures(job_));
+  const auto marked = io::read_markers(job_.gait.write_events).value();
+  std::vector<std::string> labels;
+  for (const auto& event : marked.events) labels.push_back(event.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"Turn", "Movement Start", "Movement End", "Turn", "Turn"}));
+  EXPECT_EQ(marked.markers.markers(), 2);  // the whole recording
+}
+
+TEST_F(MeasuresJobTest, WithoutRepetitionsNoCyclesAreWritten) {
+  job_.selection.select = {"RFIN"};
+  job_.selection.frames = "100-200";  // within the reach
+  job_.gait.write_cycles = scratch_ / "cycles.csv";
+  const auto outcome = run_measures(job_);
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, Code::bad_input);
+  EXPECT_THAT(outcome.error().message, HasSubstr("no movement repeats: RFIN: not periodic"));
+  EXPECT_FALSE(std::filesystem::exists(job_.gait.write_cycles));
+}
+
+TEST_F(MeasuresJobTest, TablesOfNwbAndNamesOfParticipants) {
+  job_.output = scratch_ / "signs.nwb";
+  ASSERT_TRUE(run_measures(job_));
+  EXPECT_GT(std::filesystem::file_size(job_.output), 1000u);
+  job_.output = scratch_ / "named.csv";
+  job_.participants_file = scratch_ / "files.tsv";
+  ASSERT_TRUE(
+      io::write_text(job_.participants_file, "file\tparticipant\thand\nsigns.c3d\tAnn\tleft\n", false));
+  ASSERT_TRUE(run_measures(job_));
+  const auto text = io::read_text(job_.output).value();
+  EXPECT_THAT(text, HasSubstr("signs.c3d,Ann,,signs,RFIN,"));
+  EXPECT_THAT(text, HasSubstr(",left\n"));
 }
 
 TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {

@@ -14,26 +14,18 @@
 #include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const data::MeasureDefinition* definition_of(std::string_view id) {
-  for (const auto& definition : analysis::path_definitions())
-    if (definition.what.id == id) return &definition.what;
-  if (const auto* of_body = analysis::find_body_definition(id)) return &of_body->what;
-  if (const auto* of_plates = analysis::find_force_definition(id)) return &of_plates->what;
-  if (const auto* of_emg = analysis::find_emg_definition(id)) return of_emg;
-  const auto* of_walking = analysis::find_gait_definition(id);
-  return of_walking != nullptr ? &of_walking->what : nullptr;
-}
-
 // All, in the order in which they are shown.
 std::vector<data::MeasureDefinition> all_definitions() {
   std::vector<data::MeasureDefinition> out;
   for (const auto& definition : analysis::path_definitions()) out.push_back(definition.what);
+  for (const auto& definition : analysis::rhythm_definitions()) out.push_back(definition);
   for (const auto& definition : analysis::gait_definitions()) out.push_back(definition.what);
   for (const auto& definition : analysis::force_definitions()) out.push_back(definition.what);
   for (const auto& definition : analysis::emg_definitions()) out.push_back(definition);
@@ -87,23 +79,44 @@ std::string value_text(const data::Measure& measure) {
 
 }  // namespace
 
-std::string measures_csv(std::span<const data::Measure> measures, const std::string& file) {
-  std::string out =
-      "file,subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,"
-      "approximate,sd,"
-      "uncorrected,share_not_measured,method,remark\n";
+const data::MeasureDefinition* find_measure_definition(std::string_view id) {
+  for (const auto& definition : analysis::path_definitions())
+    if (definition.what.id == id) return &definition.what;
+  if (const auto* of_rhythm = analysis::find_rhythm_definition(id)) return of_rhythm;
+  if (const auto* of_body = analysis::find_body_definition(id)) return &of_body->what;
+  if (const auto* of_plates = analysis::find_force_definition(id)) return &of_plates->what;
+  if (const auto* of_emg = analysis::find_emg_definition(id)) return of_emg;
+  const auto* of_walking = analysis::find_gait_definition(id);
+  return of_walking != nullptr ? &of_walking->what : nullptr;
+}
+
+std::string measures_csv_columns(const RecordingName& recording) {
+  return name_columns() +
+         ",subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,approximate,"
+         "sd,"
+         "uncorrected,share_not_measured,method,remark" +
+         more_columns(recording) + "\n";
+}
+
+std::string measures_csv_rows(std::span<const data::Measure> measures, const RecordingName& recording) {
+  const auto first = name_cells(recording), last = more_cells(recording);
+  std::string out;
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
     const auto shown = [&unit](double si) { return table_cell(unit.per_si * si); };
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}\n", table_cell(file),
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}{}\n", first,
                        table_cell(m.subject), table_cell(m.context), table_cell(m.region),
                        m.cycle < 0 ? "" : fmt::to_string(m.cycle), table_cell(m.start_s), table_cell(m.end_s),
                        m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
                        m.interval.level, data::to_string(m.interval.kind),
                        m.interval.approximate ? "yes" : "no", shown(m.sd), shown(m.uncorrected),
-                       table_cell(m.share_not_measured), table_cell(m.method), table_cell(m.remark));
+                       table_cell(m.share_not_measured), table_cell(m.method), table_cell(m.remark), last);
   }
   return out;
+}
+
+std::string measures_csv(std::span<const data::Measure> measures, const RecordingName& recording) {
+  return measures_csv_columns(recording) + measures_csv_rows(measures, recording);
 }
 
 nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
@@ -137,7 +150,7 @@ nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
 std::string shown_value(const data::Measure& measure) { return value_text(measure); }
 
 std::string title_of_measure(const std::string& id) {
-  const auto* definition = definition_of(id);
+  const auto* definition = find_measure_definition(id);
   return definition ? std::string(definition->title) : id;
 }
 

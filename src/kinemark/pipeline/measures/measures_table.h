@@ -6,16 +6,24 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "kinemark/data/measure.h"
+#include "kinemark/pipeline/measures/recording_name.h"
 
 namespace kinemark::pipeline {
 
-/// A tidy table, one measure a row: file, subject, context, region, cycle, start_s, end_s, measure, value,
-/// unit, low, high, level, interval, approximate, sd, uncorrected, share_not_measured, method, remark. Values
-/// in the unit of the row, nine digits; empty where not determined. RFC 4180.
-/// @param file  name of the recording, in every row
-[[nodiscard]] std::string measures_csv(std::span<const data::Measure> measures, const std::string& file);
+/// A tidy table, one measure a row: file, participant, session, trial, subject, context, region, cycle,
+/// start_s, end_s, measure, value, unit, low, high, level, interval, approximate, sd, uncorrected,
+/// share_not_measured, method, remark, and the columns of the participants' table. Values in the unit of the
+/// row, nine digits; empty where not determined. RFC 4180.
+[[nodiscard]] std::string measures_csv(std::span<const data::Measure> measures,
+                                       const RecordingName& recording);
+/// Its first line alone.
+[[nodiscard]] std::string measures_csv_columns(const RecordingName& recording);
+/// Its other lines.
+[[nodiscard]] std::string measures_csv_rows(std::span<const data::Measure> measures,
+                                            const RecordingName& recording);
 
 /// The same as a list of objects; null where not determined.
 [[nodiscard]] nlohmann::ordered_json measures_json(std::span<const data::Measure> measures);
@@ -30,6 +38,9 @@ namespace kinemark::pipeline {
 [[nodiscard]] std::string title_of_measure(const std::string& id);
 /// The same with its side: "Stride time, Left".
 [[nodiscard]] std::string title_of_measure(const data::Measure& measure);
+
+/// Its definition; null where there is none of this id.
+[[nodiscard]] const data::MeasureDefinition* find_measure_definition(std::string_view id);
 
 /// What each measure of a path is, one line each: id, what it is, unit, formula, source.
 [[nodiscard]] std::string measure_list();

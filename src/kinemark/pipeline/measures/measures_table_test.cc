@@ -11,6 +11,7 @@
 #include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -39,11 +40,14 @@ std::vector<data::Measure> measures() {
 }
 
 TEST(MeasuresCsv, HasOneRowEachInTheUnitOfTheField) {
-  const std::string text = measures_csv(measures(), "walk.c3d");
+  const std::string text = measures_csv(
+      measures(), {.file = "walk.c3d", .participant = "sub-1", .trial = "walk", .more = {{"age", "34"}}});
   EXPECT_EQ(std::ranges::count(text, '\n'), 4);
-  EXPECT_NE(text.find("walk.c3d,\"R, "
+  EXPECT_TRUE(text.starts_with("file,participant,session,trial,subject,context,region,cycle,")) << text;
+  EXPECT_NE(text.find(",method,remark,age\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("walk.c3d,sub-1,,walk,\"R, "
                       "\"\"FIN\"\"\",,reach,,0.5,1.2,path_length,304.123457,mm,303.3,304.9,0.95,two-sided,no,"
-                      "0.4,305,0.125,\"order 4, 7.5 Hz, 99 refits\",\n"),
+                      "0.4,305,0.125,\"order 4, 7.5 Hz, 99 refits\",,34\n"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("plane_sd,0.2,mm,,0.8,0.95,at most,no,"), std::string::npos) << text;
@@ -74,9 +78,9 @@ TEST(MeasuresText, RoundsToWhatTheIntervalSupports) {
 
 TEST(MeasureList, HasALineForEachWithFormulaAndSource) {
   const std::string text = measure_list();
-  const auto all = analysis::path_definitions().size() + analysis::gait_definitions().size() +
-                   analysis::force_definitions().size() + analysis::emg_definitions().size() +
-                   analysis::body_definitions().size();
+  const auto all = analysis::path_definitions().size() + analysis::rhythm_definitions().size() +
+                   analysis::gait_definitions().size() + analysis::force_definitions().size() +
+                   analysis::emg_definitions().size() + analysis::body_definitions().size();
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), all);
   EXPECT_NE(text.find("sum of |x[i+1] - x[i]|"), std::string::npos);
   EXPECT_NE(text.find("(Poizner, Wooten & Salot 1986)"), std::string::npos);

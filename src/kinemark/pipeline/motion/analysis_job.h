@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +15,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/run_record.h"
-#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/motion/motion_files.h"
 
 namespace kinemark::pipeline {
 
@@ -27,19 +26,11 @@ struct AnalysisPoint {
 };
 
 /// What `kinemark analyze` is asked to do.
-struct AnalysisJob : JobSettings {
-  std::filesystem::path motion;  ///< .mot or .sto of coordinates; Q_sd.sto beside it is read if it is there
-  std::filesystem::path model;   ///< .osim
-  std::filesystem::path forces;  ///< external forces on the body, .c3d or ExternalLoads .xml; empty: none
-  std::filesystem::path setup;   ///< AnalyzeTool or InverseDynamicsTool; empty: none
-  std::filesystem::path output;  ///< folder
+struct AnalysisJob : MotionFiles {
+  std::filesystem::path setup;        ///< AnalyzeTool or InverseDynamicsTool; empty: none
   std::vector<std::string> bodies;    ///< to follow; empty: as the setup says, else all
   std::vector<AnalysisPoint> points;  ///< to follow, besides those of the setup
-  bool torques = false;               ///< inverse dynamics too; `forces` implies it
   bool error_bars = true;             ///< standard deviations too
-  double cutoff_hz = 0.0;  ///< low-pass of the coordinates beforehand; 0: as the setup says, else none
-  double first_time_s = -std::numeric_limits<double>::infinity();  ///< infinite: as the setup says
-  double last_time_s = std::numeric_limits<double>::infinity();    ///< infinite: as the setup says
 };
 
 /// What `kinemark analyze` answers.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -91,10 +90,8 @@ class GaitMeasurement {
       }
     });
     out.events = found_.events;
-    for (std::size_t i = 0; i < out.events.size() && refits > 0; ++i) {
-      const double squares = std::inner_product(noise[i].begin(), noise[i].end(), noise[i].begin(), 0.0);
-      out.events[i].sd_s = std::hypot(out.events[i].sd_s, std::sqrt(squares / static_cast<double>(refits)));
-    }
+    for (std::size_t i = 0; i < out.events.size() && refits > 0; ++i)
+      out.events[i].sd_s = std::hypot(out.events[i].sd_s, event_noise(noise[i]));
     for (std::size_t i = 0; i < slots_.size(); ++i) state(slots_[i], values[i], deviations[i], out);
   }
 
@@ -122,7 +119,8 @@ class GaitMeasurement {
     return out;
   }
 
-  // All values of a simulated recording; `noise` gets what its noise does to each event.
+  // All values of a simulated recording; `noise` gets what its noise does to each event, NaN where it is not
+  // found.
   std::vector<double> refit(std::int64_t k, std::vector<std::vector<double>>& noise) const {
     const auto paths = smoother_.with_noise(options_.seed, k);
     const auto ground = ground_velocity(paths, found_.swings);
@@ -148,10 +146,11 @@ class GaitMeasurement {
       const auto what = data::index_of(event.what);
       const auto& error = found_.chosen[what].error;
       const double frame = again[data::index_of(event.side)][what][at(found_.window[i])];
-      const double moved = paths.time_s(frame) - error.offset_s - event.time_s;
-      if (std::isfinite(moved)) noise[i][at(k)] = moved;
+      noise[i][at(k)] = paths.time_s(frame) - error.offset_s - event.time_s;
       event.time_s += noise[i][at(k)] + common[what] + error.event_sd_s * draw;
     }
+    // What this recording would not have shown, no cycle can begin or end with.
+    std::erase_if(events, [](const data::GaitEvent& event) { return !std::isfinite(event.time_s); });
     const double belt_error = found_.ground.sd * random.gaussian();
     auto cycles =
         find_cycles(paths, events, belt_of(is_belt(found_.ground) ? ground : found_.ground, belt_error));
@@ -227,6 +226,15 @@ void note_choice(const EventsFound& found, Gait& out) {
 }
 
 }  // namespace
+
+double event_noise(std::span<const double> moved_s) {
+  double squares = 0.0;
+  std::size_t found = 0;
+  for (const double moved : moved_s)
+    if (std::isfinite(moved)) squares += moved * moved, ++found;
+  const bool enough = found > 0 && 10 * (moved_s.size() - found) <= moved_s.size();
+  return enough ? std::sqrt(squares / static_cast<double>(found)) : kNaN;
+}
 
 Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                           const GaitOptions& options) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,5 +62,10 @@ struct Gait {
 ///          find_gait_markers() and GaitSmoother::create(), and where no foot steps.
 [[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                                         const GaitOptions& options);
+
+/// What noise does to the time of an event: root mean square over the refits that find it. NaN where more
+/// than a tenth do not: those that do are then no sample of all.
+/// @param moved_s  by how much each refit moves it, s; NaN: not found there
+[[nodiscard]] double event_noise(std::span<const double> moved_s);
 
 }  // namespace kinemark::analysis

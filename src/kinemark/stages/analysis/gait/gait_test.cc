@@ -137,6 +137,18 @@ TEST(Gait, RegionsHoldWholeCycles) {
   EXPECT_EQ(gait.measures[2].remark, "no stride was seen from strike to strike");
 }
 
+TEST(Gait, AnEventThatARefitDoesNotFindIsNoneThatDidNotMove) {
+  std::vector<double> moved(40, 0.01);
+  for (std::size_t i = 0; i < 20; ++i) moved[i] = -0.01;
+  EXPECT_NEAR(event_noise(moved), 0.01, 1e-12);
+  moved[3] = moved[4] = moved[5] = moved[39] = kNaN;  // a tenth
+  EXPECT_NEAR(event_noise(moved), 0.01, 1e-12);
+  moved[6] = kNaN;
+  EXPECT_TRUE(std::isnan(event_noise(moved)));
+  EXPECT_TRUE(std::isnan(event_noise({})));
+  EXPECT_EQ(event_noise(std::vector(40, 0.0)), 0.0);  // of a plate, which marker noise does not move
+}
+
 TEST(Gait, WhoStandsHasNone) {
   auto markers = KnownWalk{}.markers(0.0003, 3);
   for (std::int64_t f = 1; f < markers.frames(); ++f)

@@ -12,6 +12,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/analysis/path/path_facts.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
 #include "kinemark/stages/analysis/path/refits.h"
 
 namespace kinemark::analysis {
@@ -29,6 +30,9 @@ class MeasuredPath {
   /// @param curves  what they are taken of, where not null
   [[nodiscard]] std::expected<std::vector<data::Measure>, std::string> measure(
       const data::Region& region, PathCurves* curves = nullptr) const;
+
+  /// What repeats in a stretch, and when. Fails where the stretch is too short.
+  [[nodiscard]] std::expected<PathRhythm, std::string> rhythm(const data::Region& region) const;
 
   [[nodiscard]] const std::string& name() const { return name_; }        ///< of the marker
   [[nodiscard]] const std::string& warning() const { return warning_; }  ///< on the noise; may be empty

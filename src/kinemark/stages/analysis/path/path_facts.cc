@@ -7,6 +7,7 @@
 #include <span>
 
 #include "kinemark/math/statistics.h"
+#include "kinemark/stages/analysis/path/rhythm.h"
 
 namespace kinemark::analysis {
 namespace {
@@ -67,7 +68,8 @@ PathFrame recognise(const PathSamples& path) {
   out.discrete = window.onset_s >= hold_s && last_s - window.end_s >= hold_s;
   if (out.discrete) return out;
   const auto cycles = cycles_along(path.x, out.cycle_axis, path.rate_hz);
-  out.periodic = cycles.count >= kLeastCycles && cycles.sd_s < kRegularCycles * cycles.mean_s;
+  out.periodic = cycles.count >= kLeastCycles && cycles.sd_s < kRegularCycles * cycles.mean_s &&
+                 likeness_after(path.v, path.rate_hz, cycles.mean_s) >= kPeriodicLikeness;
   out.closed = out.periodic && drift_of(path, cycles.mean_s) < kComesBack;
   return out;
 }

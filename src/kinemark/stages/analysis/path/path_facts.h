@@ -30,8 +30,8 @@ struct PathFrame {
 
 /// Find out what kind of movement a smooth path is. Discrete: it rests for kMovingHold_s at least at both
 /// ends. Periodic: not discrete, at least two cycles along its main axis, whose standard deviation is below a
-/// quarter of their mean. Closed: its straight trend moves it in a cycle by less than a quarter of its
-/// extent.
+/// quarter of their mean, and a velocity that is like itself after one of them (kPeriodicLikeness). Closed:
+/// its straight trend moves it in a cycle by less than a quarter of its extent.
 [[nodiscard]] PathFrame recognise(const PathSamples& path);
 
 /// Values that measures share, each computed when it is first asked for. Not for several threads at once.

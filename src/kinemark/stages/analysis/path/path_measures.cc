@@ -53,17 +53,33 @@ PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t mark
   if (!path->warning().empty()) out.warnings.push_back(path->warning());
   const std::vector<data::Region> whole{
       {.first_frame = markers.time.number(0), .last_frame = markers.time.number(markers.frames() - 1)}};
+  const bool paths =
+      options.curves || options.measures.empty() || std::ranges::any_of(options.measures, find_definition);
+  const bool rhythms = options.rhythms || std::ranges::any_of(options.measures, find_rhythm_definition);
   for (const auto& region : options.regions.empty() ? whole : options.regions) {
-    PathCurves curves;
-    auto measures = path->measure(region, options.curves ? &curves : nullptr);
-    if (!measures) {
-      out.warnings.push_back(fmt::format(
-          "{}{}: {}", path->name(), region.name.empty() ? "" : fmt::format(" in region '{}'", region.name),
-          measures.error()));
+    const auto say = [&](const std::string& what) {
+      out.warnings.push_back(
+          fmt::format("{}{}: {}", path->name(),
+                      region.name.empty() ? "" : fmt::format(" in region '{}'", region.name), what));
+    };
+    if (paths) {
+      PathCurves curves;
+      auto measures = path->measure(region, options.curves ? &curves : nullptr);
+      if (!measures) {
+        say(measures.error());
+        continue;
+      }
+      std::ranges::move(*measures, std::back_inserter(out.measures));
+      if (options.curves) out.curves.push_back(std::move(curves));
+    }
+    if (!rhythms) continue;
+    auto rhythm = path->rhythm(region);
+    if (!rhythm) {
+      say(rhythm.error());
       continue;
     }
-    std::ranges::move(*measures, std::back_inserter(out.measures));
-    if (options.curves) out.curves.push_back(std::move(curves));
+    std::ranges::copy(rhythm->measures, std::back_inserter(out.measures));
+    out.rhythms.push_back(std::move(*rhythm));
   }
   return out;
 }
@@ -79,9 +95,10 @@ Status PathMeasureOptions::check() const {
     return fail(Code::usage,
                 fmt::format("a noise of {} m; need 0 (found from the data) or more", noise_sd_m));
   for (const auto& id : measures)
-    if (!find_definition(id)) {
+    if (find_definition(id) == nullptr && find_rhythm_definition(id) == nullptr) {
       std::vector<std::string> known;
       for (const auto& definition : path_definitions()) known.emplace_back(definition.what.id);
+      for (const auto& definition : rhythm_definitions()) known.emplace_back(definition.id);
       const auto nearest = nearest_names(id, known);
       return fail(Code::usage,
                   fmt::format("there is no measure '{}'{}; --list shows them all", id,
@@ -105,6 +122,7 @@ Result<PathMeasures> measure_paths(const data::Trajectories& markers, const Path
   for (auto& one : each) {
     std::ranges::move(one.measures, std::back_inserter(out.measures));
     std::ranges::move(one.curves, std::back_inserter(out.curves));
+    std::ranges::move(one.rhythms, std::back_inserter(out.rhythms));
     std::ranges::move(one.warnings, std::back_inserter(out.warnings));
   }
   return out;

@@ -12,12 +12,14 @@
 #include "kinemark/data/measure.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/analysis/path/path_curves.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::analysis {
 
 /// What is measured, and how.
 struct PathMeasureOptions {
-  std::vector<std::string> measures;  ///< ids of path_definitions(); empty: those that apply to the movement
+  std::vector<std::string> measures;  ///< ids of path_definitions() and rhythm_definitions(); empty: those
+                                      ///< that apply to the movement
   std::vector<data::Region> regions;  ///< stretches of frames; empty: the whole recording
   std::int64_t refits = 99;  ///< simulated recordings behind each interval: 0 (no intervals) or at least 39
   double noise_sd_m = 0.0;   ///< per axis, as known of the cameras; 0: found from the samples
@@ -25,6 +27,7 @@ struct PathMeasureOptions {
   std::uint64_t seed = 1;    ///< of the refits
   int threads = 1;           ///< 0: all cores; any number gives the same bits
   bool curves = false;       ///< keep what the measures are taken of, for figures
+  bool rhythms = false;  ///< find events and repetitions, too; measures of them that are asked for imply it
 
   /// Ranges as above, ids that exist (the nearest ones are told); Code::usage.
   [[nodiscard]] Status check() const;
@@ -33,8 +36,10 @@ struct PathMeasureOptions {
 /// What was measured of one recording.
 struct PathMeasures {
   std::vector<data::Measure>
-      measures;                       ///< markers in the recording's order, their regions, their definitions
-  std::vector<PathCurves> curves;     ///< of each marker and region, where asked for
+      measures;                     ///< markers in the recording's order, their regions, their definitions
+  std::vector<PathCurves> curves;   ///< of each marker and region, where asked for
+  std::vector<PathRhythm> rhythms;  ///< of each marker and region, where asked for; their measures are among
+                                    ///< those above, behind the others of their stretch
   std::vector<std::string> warnings;  ///< markers and regions that could not be measured, and noise that
                                       ///< disagrees with what was stated, a sentence each
 };

@@ -74,8 +74,9 @@ TEST(MeasurePaths, AreTheSameForAnyNumberOfThreadsAndWhateverElseIsMeasured) {
   ASSERT_EQ(single->measures.size(), threaded->measures.size());
   for (std::size_t i = 0; i < single->measures.size(); ++i) {
     EXPECT_EQ(single->measures[i].id, threaded->measures[i].id);
-    if (std::isfinite(single->measures[i].value))
+    if (std::isfinite(single->measures[i].value)) {
       EXPECT_EQ(single->measures[i].value, threaded->measures[i].value);
+    }
   }
   ASSERT_EQ(alone->measures.size(), 2u);
   EXPECT_EQ(find(*alone, "peak_speed").interval.high, find(*single, "peak_speed").interval.high);

@@ -47,11 +47,12 @@ TEST(Submovements, AreCountedByTheirPeaks) {
   Eigen::VectorXd speed = Eigen::VectorXd::Zero(300);
   for (int i = 0; i < 300; ++i)
     for (const double begin : {0.5, 1.0, 1.5})
-      speed[i] += testing::minimum_jerk_speed((0.01 * i - begin) / 0.6);
+      speed[i] += testing::minimum_jerk_speed((0.01 * static_cast<double>(i) - begin) / 0.6);
   EXPECT_EQ(count_submovements(speed), 3);
   EXPECT_EQ(count_submovements(reach_speed(100.0)), 1);
   Eigen::VectorXd ripple = reach_speed(100.0);
-  for (Eigen::Index i = 0; i < ripple.size(); ++i) ripple[i] += 0.02 * (i % 2);  // a hundredth of the peak
+  for (Eigen::Index i = 0; i < ripple.size(); ++i)
+    ripple[i] += i % 2 == 0 ? 0.0 : 0.02;  // a hundredth of the peak
   EXPECT_EQ(count_submovements(ripple), 1);
   Eigen::VectorXd flat(6);
   flat << 0, 1, 1, 1, 0, 0;  // a flat top is one peak

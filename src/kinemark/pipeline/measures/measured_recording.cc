@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/measured_recording.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/measures/measure_regions.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+Result<std::vector<data::Region>> regions_of(const MeasuresJob& job, const data::Trial& trial,
+                                             std::vector<data::Region> regions) {
+  for (const auto& text : job.regions) {
+    auto region = parse_region(text, trial.markers.time);
+    if (!region) return std::unexpected(region.error());
+    regions.push_back(std::move(*region));
+  }
+  for (const auto& label : job.between) {
+    auto cycles = regions_between(label, trial);
+    if (!cycles) return std::unexpected(cycles.error());
+    std::ranges::move(*cycles, std::back_inserter(regions));
+  }
+  return regions;
+}
+
+// Edits, selection, screening; the regions to measure.
+Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& trial,
+                                          MeasuresOutcome& outcome) {
+  auto taken = take_edits({.edits = job.edits,
+                           .recording = job.input,
+                           .force = job.force,
+                           .seed = job.seed,
+                           .threads = job.threads},
+                          trial);
+  if (!taken) return std::unexpected(taken.error());
+  std::ranges::move(taken->notes, std::back_inserter(outcome.warnings));
+  if (auto s = take_selection(job.selection, trial); !s) return std::unexpected(s.error());
+  if (auto s = leave_out_defects(trial, job.keep_defects, outcome.warnings); !s)
+    return std::unexpected(s.error());
+  return regions_of(job, trial, std::move(taken->regions));
+}
+
+// Steps and standing on plates.
+Status measure_plates(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+                      MeasuresOutcome& outcome) {
+  const auto plates = plates_of(job.input, trial);
+  if (!plates) return fail(Code::bad_input, "there are no force plates whose forces can be read");
+  auto options = asked.plates;
+  options.regions = asked.path.regions;
+  if (outcome.gait) options.events = outcome.gait->events;
+  auto measured = analysis::measure_forces(*plates, options);
+  if (!measured) return std::unexpected(measured.error());
+  std::ranges::move(measured->measures, std::back_inserter(outcome.measures));
+  std::ranges::move(measured->notes, std::back_inserter(outcome.warnings));
+  return {};
+}
+
+// Electromyograms, where channels are named or known by their names.
+Status measure_muscles(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+                       MeasuresOutcome& outcome) {
+  auto measured = measure_emg_of(trial, job.emg, asked.path.regions, asked.emg);
+  if (!measured) return std::unexpected(measured.error());
+  std::ranges::copy(measured->measures, std::back_inserter(outcome.measures));
+  std::ranges::copy(measured->notes, std::back_inserter(outcome.warnings));
+  outcome.emg = std::move(*measured);
+  return {};
+}
+
+// A failure of what was asked for by name ends the job where nothing else is measured, and is told else; what
+// was not asked for is simply not there.
+Status take_failure(const Status& status, const char* what, bool by_name, bool needed,
+                    MeasuresOutcome& outcome) {
+  if (status || !by_name) return {};
+  if (needed || status.error().code == Code::usage) return status;
+  outcome.warnings.push_back(fmt::format("{} are not measured: {}", what, status.error().message));
+  return {};
+}
+
+// The first sentence on why there is no measure.
+std::string why_nothing(const analysis::PathMeasures& measured) {
+  if (!measured.warnings.empty()) return measured.warnings.front();
+  if (!measured.rhythms.empty())
+    return fmt::format("{}: {}", measured.rhythms.front().subject, measured.rhythms.front().verdict);
+  return "no measure applies";
+}
+
+// Walking, plates, EMG, then paths; what fails is reported where something else is measured.
+Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+                   std::vector<analysis::PathCurves>& curves, MeasuresOutcome& outcome) {
+  const bool events_needed = job.gait.writes() || !job.emg.write_cycles.empty();
+  if (asked.walking) {
+    auto gait = measure_gait(job.input, trial, asked.gait);
+    if (gait) {
+      std::ranges::copy(gait->notes, std::back_inserter(outcome.warnings));
+      outcome.measures = gait->measures;
+      outcome.gait = std::move(*gait);
+    } else if (asked.by_name && (!asked.paths || events_needed || gait.error().code == Code::usage)) {
+      return std::unexpected(gait.error());
+    } else if (asked.by_name) {
+      outcome.warnings.push_back("Walking is not measured: " + gait.error().message);
+    } else if (job.gait.writes()) {
+      outcome.warnings.push_back(
+          "events and cycles are those of the markers' own movements, as there is no walking: " +
+          gait.error().message);
+    }
+  }
+  const bool others = asked.paths || asked.by_name;
+  if (asked.forces)
+    if (auto s = take_failure(measure_plates(job, asked, trial, outcome), "Force plates",
+                              asked.forces_by_name, !others && !asked.muscles_by_name, outcome);
+        !s)
+      return s;
+  if (asked.muscles)
+    if (auto s = take_failure(
+            measure_muscles(job, asked, trial, outcome), "EMG", asked.muscles_by_name,
+            (!others && outcome.measures.empty()) || !job.emg.write.empty() || !job.emg.write_cycles.empty(),
+            outcome);
+        !s)
+      return s;
+  // Where no foot steps, or nobody asks whether one does, events and cycles are those of the markers' own
+  // movements.
+  const bool own = (job.gait.writes() || job.gait.of_movement()) && !outcome.gait;
+  if (!asked.paths && !own) return {};
+  auto options = asked.path;
+  options.rhythms = own;
+  if (!asked.paths)
+    for (const auto& definition : analysis::rhythm_definitions())
+      options.measures.emplace_back(definition.id);
+  auto measured = analysis::measure_paths(trial.markers, options);
+  if (!measured) return std::unexpected(measured.error());
+  if (measured->measures.empty() && outcome.measures.empty())
+    return fail(Code::bad_input, fmt::format("nothing can be measured: {}", why_nothing(*measured)));
+  curves = std::move(measured->curves);
+  outcome.rhythms = std::move(measured->rhythms);
+  std::ranges::move(measured->measures, std::back_inserter(outcome.measures));
+  std::ranges::move(measured->warnings, std::back_inserter(outcome.warnings));
+  return {};
+}
+
+// Curves over strides, or over the repetitions of the markers' own movements.
+Result<std::vector<RegionCurves>> cycles_of(const MeasuresJob& job, const data::Trial& trial,
+                                            const MeasuresOutcome& outcome) {
+  std::vector<RegionCurves> out;
+  if (outcome.gait) {
+    auto cut = gait_curves(trial, outcome.gait->cycles, job.gait.angles);
+    if (!cut) return std::unexpected(cut.error());
+    out.push_back({.region = {}, .curves = std::move(*cut)});
+    return out;
+  }
+  for (const auto& rhythm : outcome.rhythms)
+    if (!rhythm.curves.empty()) out.push_back({.region = rhythm.region, .curves = rhythm.curves});
+  if (!out.empty()) return out;
+  if (outcome.rhythms.empty())
+    return fail(Code::bad_input, "there is no movement whose cycles could be written");
+  const auto& first = outcome.rhythms.front();
+  return fail(Code::bad_input, fmt::format("no movement repeats: {}: {}", first.subject, first.verdict));
+}
+
+// Which markers have no cycles, where cycles are asked for.
+void note_aimless(const MeasuresOutcome& outcome, std::vector<std::string>& notes) {
+  const auto is_aimless = [](const analysis::PathRhythm& rhythm) { return !rhythm.periodic; };
+  const auto first = std::ranges::find_if(outcome.rhythms, is_aimless);
+  const auto count = std::ranges::count_if(outcome.rhythms, is_aimless);
+  if (count == 1) notes.push_back(fmt::format("{}: {}", first->subject, first->verdict));
+  if (count > 1)
+    notes.push_back(fmt::format("{} paths of {} have no cycles, such as {}: {}", count,
+                                outcome.rhythms.size(), first->subject, first->verdict));
+}
+
+}  // namespace
+
+Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasures asked) {
+  auto input =
+      read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .needs_samples = true, .record = true});
+  if (!input) return std::unexpected(input.error());
+  MeasuredRecording out{.name = name_of_recording(job.input), .trial = std::move(input->trial)};
+  auto& outcome = out.outcome;
+  outcome.input = std::move(input->file);
+  outcome.warnings = std::move(out.trial.warnings);
+  if (job.participants && !take_participant(*job.participants, out.name))
+    outcome.warnings.push_back(fmt::format("{}: {} has no row for {}", out.name.file,
+                                           job.participants->table.name,
+                                           out.name.participant.empty() ? "it" : out.name.participant));
+  const std::string name = job.input.string();
+  if (ending_of(job.gait.write_events) == ".c3d") out.recorded = out.trial;
+  auto regions = prepare(job, out.trial, outcome);
+  if (!regions) return fail_at(name, regions.error());
+  asked.path.regions = asked.gait.regions = std::move(*regions);
+  if (auto s = measure_all(job, asked, out.trial, out.curves, outcome); !s) return fail_at(name, s.error());
+  const auto& time = out.trial.markers.time;
+  if (outcome.gait)
+    out.events = events_of(*outcome.gait, time);
+  else
+    out.events = events_of(outcome.rhythms, time);
+  if (job.gait.write_cycles.empty()) return out;
+  note_aimless(outcome, outcome.warnings);
+  auto cycles = cycles_of(job, out.trial, outcome);
+  if (!cycles) return fail_at(name, cycles.error());
+  out.cycles = std::move(*cycles);
+  return out;
+}
+
+}  // namespace kinemark::pipeline
