@@ -60,9 +60,10 @@ class Reader {
     if (shown && file_.number(shown, "representation", 3.0) == kHidden) return;
     const auto visible = appearance ? file_.flag(appearance, "visible", true) : true;
     if (!visible) return;
-    auto frame = frames_.socket(mesh, "frame");
-    // One without a name hangs on the frame that it stands in.
-    if (!frame) frame = frames_.resolve("..", mesh);
+    // One without a name adds no step to its path, and one without a socket hangs on what it stands in.
+    const bool is_named = !osim::name_of(mesh).empty();
+    auto frame = is_named ? frames_.socket(mesh, "frame") : std::nullopt;
+    if (!frame) frame = frames_.resolve(is_named ? ".." : ".", mesh);
     if (frame->body_idx == data::kGround) return;
     add(description_.bodies[static_cast<std::size_t>(frame->body_idx)].name, osim::text_of(mesh, "mesh_file"),
         file_.vector3(mesh, "scale_factors", Vector3d::Ones()), frame->body_from_frame);
@@ -75,9 +76,9 @@ class Reader {
     return {.rotation = math::from_body_xyz({v[0], v[1], v[2]}), .translation = {v[3], v[4], v[5]}};
   }
 
-  /// Before 4.0: shapes of a body, each with a scale and a pose within those of the whole.
+  /// Before 4.0: shapes of a body, each with a scale and a pose within those of the whole. The preference of
+  /// the whole does not hide them: OpenSim 4 shows such bodies too.
   void read_visible(pugi::xml_node visible) {
-    if (file_.number(visible, "display_preference", 4.0) == kHidden) return;
     const std::string body = osim::name_of(visible.parent());
     const Vector3d scale = file_.vector3(visible, "scale_factors", Vector3d::Ones());
     const math::SE3 whole = pose(visible);

@@ -14,7 +14,8 @@ namespace kinemark::io {
 
 /// The meshes that an OpenSim model shows on its bodies, in the order of the file: <attached_geometry> from
 /// 4.0 on, <VisibleObject> with its own scale and pose before, lists of file names before 2.0. What is hidden
-/// (display preference 0) and what is attached to the ground is left out. Their files are not looked at.
+/// by itself (display preference 0, not visible) and what is attached to the ground is left out. Their files
+/// are not looked at.
 ///
 /// @param model  what read_osim() made of the same file
 [[nodiscard]] Result<std::vector<data::ShownMesh>> read_shown_meshes(const std::filesystem::path& path,
