@@ -9,12 +9,15 @@ import { join, resolve } from "node:path";
 import { hostile, simulated } from "../simulated.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
-import { simulatedMarkers, simulatedScene } from "../simulated_markers.ts";
+import { simulatedMarkers, simulatedScene, simulatedWalk } from "../simulated_markers.ts";
 import { alwaysOfClean, ofSimulatedClean } from "./clean.ts";
+import { simulatedBodies } from "../simulated_meshes.ts";
 import { simulatedResults } from "../simulated_results.ts";
 import { alwaysOfResults, ofJoints, ofSimulatedResults, savesFigures } from "./results.ts";
 import { standsWhereItProjects } from "./projection.ts";
-import { alwaysOfMarkers, comparesInSpace, ofSimulatedMarkers, withoutWebGl } from "./space.ts";
+import { ofCameras, ofPair, ofRecording, ofRegions, simulatedPair } from "./features.ts";
+import { showsMeshes } from "./meshes.ts";
+import { alwaysOfMarkers, comparesInSpace, ofSimulatedMarkers, walksInCycles, withoutWebGl } from "./space.ts";
 
 /** True of every report that has angles with SDs and markers. */
 const always: Record<string, Check> = {
@@ -204,12 +207,17 @@ if (given.length === 0) {
     return file;
   };
   failed += await run(page("ik.html", { ...simulated(), scene: simulatedScene() }), { ...comparesInSpace("Model", "on the model; the tie is the error"), ...ofSimulated, ...always });
+  failed += await run(page("bodies.html", { ...simulated(), scene: { ...simulatedScene(), bodies: simulatedBodies(400) } }), showsMeshes);
+  const second = page("second.html", simulatedPair(1));
+  failed += await run(page("pair.html", simulatedPair()), ofPair(second));
   failed += await run(page("clean.html", simulatedClean()), { ...comparesInSpace("Before", "as it came in"), ...ofSimulatedClean, ...alwaysOfClean });
   const recording = page("markers.html", simulatedMarkers());
   failed += await run(recording, { "names stand where positions project to, to a pixel": standsWhereItProjects, ...ofSimulatedMarkers, ...alwaysOfMarkers });
   failed += await run(recording, withoutWebGl, false);
+  failed += await run(page("walk.html", simulatedWalk()), { ...walksInCycles, ...alwaysOfMarkers });
+  failed += await run(recording, ofRecording);
   for (const [kind, data] of Object.entries(simulatedResults())) {
-    const checks = { ...ofSimulatedResults, ...savesFigures, ...(kind === "joints" ? ofJoints : {}), ...alwaysOfResults };
+    const checks = { ...ofSimulatedResults, ...savesFigures, ...(kind === "joints" ? { ...ofRegions, ...ofJoints } : kind === "calibrate" || kind === "reconstruct" ? ofCameras : {}), ...alwaysOfResults };
     failed += await run(page(`${kind}.html`, data), checks);
   }
   failed += await run(page("unknown.html", { summary: { schema: "kinemark.other", schema_version: 9 }, series: {} }), ofUnknown);
