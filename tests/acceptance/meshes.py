@@ -104,6 +104,11 @@ def with_bones(model, folder):
     return count
 
 
+def scene_of(page):
+    text = re.search(r'id="kinemark-data">(.*?)</script>', page.read_text(encoding="utf-8"), re.DOTALL)[1]
+    return json.loads(text.replace("\\u003c", "<"))["scene"]
+
+
 def series(packed):
     raw = zlib.decompress(base64.b64decode(packed["data"]))
     count = packed["series"] * packed["points"]
@@ -139,13 +144,13 @@ def main():
         text = page.read_text(encoding="utf-8")
         mb = len(text.encode()) / 1e6
         row(mb <= 1.5, f"page of ik, 2,000 frames, {bodies} bodies with meshes", "<= 1.5 MB", f"{mb:.2f} MB ({len(plain.read_bytes()) / 1e6:.2f} without)")
-        scene = json.loads(re.search(r'id="kinemark-data">(.*?)</script>', text, re.DOTALL)[1].replace("\\u003c", "<"))["scene"]
-        row(scene["frame_step"] == 1, "frames that the scene holds", "every one", f"every {scene['frame_step']}.")
+        scene, without = scene_of(page), scene_of(plain)
+        row(scene["frame_step"] == without["frame_step"], "frames that the scene holds", "as many as without meshes", f"every {scene['frame_step']}. of 2,000, {without['frame_step']}. without")
         drawn = scene["bodies"]["meshes"]
         row(len(drawn["body"]) == bodies, "bodies that have a mesh", str(bodies), str(len(drawn["body"])))
         triangles = sum(drawn["triangles"])
         row(9000 <= triangles <= 12_000, "triangles of a page", "9,000 to 12,000", f"{triangles:,} of {bodies * 2 * AROUND * (ACROSS - 1):,}")
-        note = json.loads(re.search(r'id="kinemark-data">(.*?)</script>', plain.read_text(encoding="utf-8"), re.DOTALL)[1].replace("\\u003c", "<"))["scene"]["bodies"]["meshes_note"]
+        note = without["bodies"]["meshes_note"]
         row("none of the" in note and "--geometry FOLDER" in note, "without the folder, one sentence says where they were looked for", "it does", note[:60])
         judge_positions(scene, drawn)
     return 1 if failed else 0
