@@ -66,10 +66,10 @@ def vtp(points, faces):
         return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="3" format="ascii">{" ".join(values)}</DataArray>'
 
     corners = array("Int32", "connectivity", [str(c) for f in faces for c in f]) + array("Int32", "offsets", [str(3 * i + 3) for i in range(len(faces))])
-    places = array("Float32", "Points", [f"{v:.6g}" for p in points for v in p])
+    positions = array("Float32", "Points", [f"{v:.6g}" for p in points for v in p])
     return (
         f'<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="{len(points)}" NumberOfPolys="{len(faces)}">'
-        f"<Points>{places}</Points><Polys>{corners}</Polys></Piece></PolyData></VTKFile>"
+        f"<Points>{positions}</Points><Polys>{corners}</Polys></Piece></PolyData></VTKFile>"
     ).encode()
 
 
@@ -102,6 +102,11 @@ def with_bones(model, folder):
     text = re.sub(r'<Body name="([^"]*)">.*?</Body>', add, text, flags=re.DOTALL)
     model.write_text(text, encoding="utf-8")
     return count
+
+
+def scene_of(page):
+    text = re.search(r'id="kinemark-data">(.*?)</script>', page.read_text(encoding="utf-8"), re.DOTALL)[1]
+    return json.loads(text.replace("\\u003c", "<"))["scene"]
 
 
 def series(packed):
@@ -139,22 +144,22 @@ def main():
         text = page.read_text(encoding="utf-8")
         mb = len(text.encode()) / 1e6
         row(mb <= 1.5, f"page of ik, 2,000 frames, {bodies} bodies with meshes", "<= 1.5 MB", f"{mb:.2f} MB ({len(plain.read_bytes()) / 1e6:.2f} without)")
-        scene = json.loads(re.search(r'id="kinemark-data">(.*?)</script>', text, re.DOTALL)[1].replace("\\u003c", "<"))["scene"]
-        row(scene["frame_step"] == 1, "frames that the scene holds", "every one", f"every {scene['frame_step']}.")
+        scene, without = scene_of(page), scene_of(plain)
+        row(scene["frame_step"] == without["frame_step"], "frames that the scene holds", "as many as without meshes", f"every {scene['frame_step']}. of 2,000, {without['frame_step']}. without")
         drawn = scene["bodies"]["meshes"]
         row(len(drawn["body"]) == bodies, "bodies that have a mesh", str(bodies), str(len(drawn["body"])))
         triangles = sum(drawn["triangles"])
         row(9000 <= triangles <= 12_000, "triangles of a page", "9,000 to 12,000", f"{triangles:,} of {bodies * 2 * AROUND * (ACROSS - 1):,}")
-        note = json.loads(re.search(r'id="kinemark-data">(.*?)</script>', plain.read_text(encoding="utf-8"), re.DOTALL)[1].replace("\\u003c", "<"))["scene"]["bodies"]["meshes_note"]
+        note = without["bodies"]["meshes_note"]
         row("none of the" in note and "--geometry FOLDER" in note, "without the folder, one sentence says where they were looked for", "it does", note[:60])
-        judge_places(scene, drawn)
+        judge_positions(scene, drawn)
     return 1 if failed else 0
 
 
-def judge_places(scene, drawn):
+def judge_positions(scene, drawn):
     """The far end of a bone is where the next body begins: between the ends of upper arm and thigh in all frames."""
     names = scene["bodies"]["names"]
-    origin, turn, places = series(scene["bodies"]["origin_m"]), series(drawn["turn"]), series(drawn["places_m"])
+    origin, turn, positions = series(scene["bodies"]["origin_m"]), series(drawn["turn"]), series(drawn["positions_m"])
     worst, first = 0.0, {}
     at = 0
     for body, count in zip(drawn["body"], drawn["points"]):
@@ -163,7 +168,7 @@ def judge_places(scene, drawn):
     pairs = [(a, b) for a, b in (("femur_r", "tibia_r"), ("femur_l", "tibia_l"), ("humerus_r", "ulna_r")) if a in first and b in names]
     for upper, lower in pairs:
         begin, count, mesh, body = first[upper]
-        points = [[places[k][i] for k in range(3)] for i in range(begin, begin + count)]
+        points = [[positions[k][i] for k in range(3)] for i in range(begin, begin + count)]
         far = max(points, key=lambda p: math.hypot(*p))
         reach = math.hypot(*far)
         for f in range(0, scene["points"], 97):

@@ -135,7 +135,7 @@ class ReportTest(CommandTest):
         shown = body.replace("</Body>", f"<attached_geometry>{meshes}</attached_geometry></Body>")
         (self.folder / "model.osim").write_text(self.model.read_text().replace(body, shown))
 
-    def test_meshes_of_a_model_are_found_and_their_places_are_told(self):
+    def test_meshes_of_a_model_are_found_and_named(self):
         self.with_mesh("bone.obj")
         (self.folder / "bones").mkdir()
         (self.folder / "bones" / "Bone.OBJ").write_text("v 0 0 0\nv 0 -0.4 0\nv 0.05 0 0\nf 1 2 3\n")

@@ -44,7 +44,7 @@ export function packMeshes(body: number[], shapes: readonly Shape[], turn: reado
     body,
     points: shapes.map((m) => m.places.length / 3),
     triangles: shapes.map((m) => m.corners.length / 3),
-    places_m: pack([0, 1, 2].map((k) => shapes.flatMap((m) => m.places.filter((_, i) => i % 3 === k))), 1e-4),
+    positions_m: pack([0, 1, 2].map((k) => shapes.flatMap((m) => m.places.filter((_, i) => i % 3 === k))), 1e-4),
     corners: deflated(bytes),
     turn: pack(turn.flat(), 5e-4),
   };

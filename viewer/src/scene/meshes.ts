@@ -47,7 +47,7 @@ export function unpackCorners(bytes: Uint8Array, triangles: number): Uint16Array
 const sum = (numbers: readonly number[]): number => numbers.reduce((a, b) => a + b, 0);
 
 export async function unpackMeshes(packed: PackedMeshes, points: number): Promise<BodyMesh[]> {
-  const [places, turns, bytes] = await Promise.all([unpack(packed.places_m), unpack(packed.turn), inflated(packed.corners)]);
+  const [places, turns, bytes] = await Promise.all([unpack(packed.positions_m), unpack(packed.turn), inflated(packed.corners)]);
   const all = sum(packed.points);
   if (places.length !== 3 * all || turns.length !== 4 * packed.body.length * points) {
     throw new Error(`the space view needs ${all} places and ${packed.body.length} turns on ${points} points`);

@@ -29,7 +29,7 @@ export interface PackedMeshes {
   body: number[];
   points: number[];
   triangles: number[];
-  places_m: PackedSeries;
+  positions_m: PackedSeries;
   corners: string;
   turn: PackedSeries;
 }

@@ -78,12 +78,12 @@ TEST(Meshes, CornersOfAnObjMayCountFromTheEnd) {
 }
 
 TEST(Meshes, StripsTurnEverySecondTriangle) {
-  const std::string places =
+  const std::string positions =
       "<DataArray type=\"Float32\" NumberOfComponents=\"3\">0 0 0  1 0 0  0 1 0  1 1 0</DataArray>";
   const std::string strips =
       "<Strips><DataArray type=\"Int32\" Name=\"connectivity\">0 1 2 3</DataArray>"
       "<DataArray type=\"Int32\" Name=\"offsets\">4</DataArray></Strips>";
-  const auto read = parse_mesh(testing::vtp_around(4, 0, places, strips), "a.vtp");
+  const auto read = parse_mesh(testing::vtp_around(4, 0, positions, strips), "a.vtp");
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->triangles.size(), 2U);
   for (const auto& [a, b, c] : read->triangles)

@@ -20,11 +20,11 @@ struct Bad {
 };
 
 std::string triangle_vtp(const std::string& corners, const std::string& ends,
-                         const std::string& places = "0 0 0 1 0 0 0 1 0", const std::string& file = "") {
+                         const std::string& positions = "0 0 0 1 0 0 0 1 0", const std::string& file = "") {
   const auto array = [](const char* name, const std::string& values) {
     return fmt::format("<DataArray type=\"Int32\" Name=\"{}\" format=\"ascii\">{}</DataArray>", name, values);
   };
-  return testing::vtp_around(3, 1, array("Points", places),
+  return testing::vtp_around(3, 1, array("Points", positions),
                              "<Polys>" + array("connectivity", corners) + array("offsets", ends) + "</Polys>",
                              file);
 }

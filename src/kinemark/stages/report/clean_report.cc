@@ -32,9 +32,9 @@ constexpr std::int64_t kMostNumbers = 6'000'000;
 
 /// Places that all markers may have together in space, and what they may take of a page whose curves are
 /// thinned: extremes of axes were never together.
-constexpr std::int64_t kMostPlaces = 200'000;
-constexpr std::int64_t kPlacesBytes = 250'000;
-constexpr std::int64_t kPlacesShare = 8;  // and at most so small a part of all
+constexpr std::int64_t kMostPositions = 200'000;
+constexpr std::int64_t kPositionsBytes = 250'000;
+constexpr std::int64_t kPositionsShare = 8;  // and at most so small a part of all
 
 /// Points of the curves before they are packed: per marker eight triples.
 PlotPoints plot_grid(const TimeBase& time, std::int64_t markers, const ReportOptions& options) {
@@ -194,23 +194,24 @@ void keep_longest(Json& list) {
 }
 
 /// The result in space, in evenly chosen frames as they are.
-Json places_json(const CleanReport& report, std::int64_t most_bytes) {
+Json positions_json(const CleanReport& report, std::int64_t most_bytes) {
   const std::int64_t step = report.series.front().place_step;
   std::vector<std::string> names;
   for (const auto& marker : report.account.markers) names.push_back(marker.name);
-  const auto points = std::ssize(report.series.front().places);
-  auto places = Trajectories::all_missing(names, {.rate_hz = report.time.rate_hz / static_cast<double>(step),
-                                                  .t0_s = report.time.t0_s,
-                                                  .frames = points});
-  for (std::int64_t m = 0; m < places.markers(); ++m) {
+  const auto points = std::ssize(report.series.front().positions);
+  auto positions =
+      Trajectories::all_missing(names, {.rate_hz = report.time.rate_hz / static_cast<double>(step),
+                                        .t0_s = report.time.t0_s,
+                                        .frames = points});
+  for (std::int64_t m = 0; m < positions.markers(); ++m) {
     const auto& series = report.series[static_cast<std::size_t>(m)];
     for (std::int64_t p = 0; p < points; ++p) {
       const auto i = static_cast<std::size_t>(p);
-      places.state[places.index(p, m)] = series.place_state[i];
-      places.x(p, m) = series.places[i].cast<double>();
+      positions.state[positions.index(p, m)] = series.place_state[i];
+      positions.x(p, m) = series.positions[i].cast<double>();
     }
   }
-  Json out = scene_json({.markers = &places, .up = {}, .up_from = ""},
+  Json out = scene_json({.markers = &positions, .up = {}, .up_from = ""},
                         {.max_bytes = most_bytes, .max_bytes_long = most_bytes, .short_frames = 0});
   out["frame_step"] = step * out["frame_step"].get<std::int64_t>();
   out["worst"] = nullptr;  // of every frame, which the map of gaps shows
@@ -253,11 +254,11 @@ void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerAr
     result.values(d->acceleration, series.acceleration);
     result.deviations(d->acceleration_sd, series.acceleration_sd);
   }
-  const std::int64_t most = kMostPlaces / std::max<std::int64_t>(1, before.markers());
+  const std::int64_t most = kMostPositions / std::max<std::int64_t>(1, before.markers());
   series.place_step =
       std::max<std::int64_t>(1, (after.frames() + most - 1) / std::max<std::int64_t>(1, most));
   for (std::int64_t f = 0; f < after.frames(); f += series.place_step) {
-    series.places.emplace_back(after.x(f, arrays.after_marker).cast<float>());
+    series.positions.emplace_back(after.x(f, arrays.after_marker).cast<float>());
     series.place_state.push_back(after.state[after.index(f, arrays.after_marker)]);
   }
   report.account.markers.push_back(std::move(account));
@@ -288,13 +289,13 @@ nlohmann::ordered_json clean_report_json(const CleanReport& report, const Report
     });
   };
   const auto is_thinned = [](const Json& series) { return series["frame_step"].get<std::int64_t>() > 1; };
-  const std::int64_t places_bytes =
-      std::clamp<std::int64_t>(options.max_data_bytes / kPlacesShare, 1000, kPlacesBytes);
-  Json series = curves_within(options.max_data_bytes - (step > 1 ? places_bytes : 0));
+  const std::int64_t positions_bytes =
+      std::clamp<std::int64_t>(options.max_data_bytes / kPositionsShare, 1000, kPositionsBytes);
+  Json series = curves_within(options.max_data_bytes - (step > 1 ? positions_bytes : 0));
   Json scene = nullptr;
   if (is_thinned(series)) {
-    if (step == 1) series = curves_within(options.max_data_bytes - places_bytes);
-    scene = places_json(report, places_bytes);
+    if (step == 1) series = curves_within(options.max_data_bytes - positions_bytes);
+    scene = positions_json(report, positions_bytes);
   }
   return {{"summary", std::move(summary)}, {"series", std::move(series)}, {"scene", std::move(scene)}};
 }

@@ -54,7 +54,7 @@ struct CleanSeries {
   std::array<std::vector<float>, 3> change;    ///< raw - position where both are present, m
   std::vector<std::uint8_t> before, after;     ///< data::SampleState as ranked in README.md
   std::int64_t place_step = 1;                 ///< frames per place
-  std::vector<Eigen::Vector3f> places;         ///< of the result in every place_step-th frame, m; NaN: absent
+  std::vector<Eigen::Vector3f> positions;      ///< of the result in every place_step-th frame, m; NaN: absent
   std::vector<data::SampleState> place_state;  ///< likewise
 };
 

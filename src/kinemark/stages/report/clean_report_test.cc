@@ -239,7 +239,7 @@ TEST(CleanReportJson, AThinnedPageHoldsTheResultInSpaceAsItIs) {
   EXPECT_LE(scene.dump().size(), 260'000U);
   EXPECT_EQ(static_cast<std::int64_t>(scene["names"].size()), e.after.markers());
   EXPECT_TRUE(scene["worst"].is_null() && scene["before"].is_null());
-  const auto places = internal::unpack_series(scene["markers"]["positions_m"]);
+  const auto positions = internal::unpack_series(scene["markers"]["positions_m"]);
   const auto states = internal::inflate_base64(scene["markers"]["states"].get<std::string>());
   std::int64_t compared = 0;
   for (std::int64_t m = 0; m < e.after.markers(); ++m)
@@ -247,7 +247,7 @@ TEST(CleanReportJson, AThinnedPageHoldsTheResultInSpaceAsItIs) {
       if (!e.after.present(p * step, m)) continue;
       ++compared;
       for (std::int64_t k = 0; k < 3; ++k)
-        EXPECT_NEAR(places[static_cast<std::size_t>((3 * m + k) * points + p)], e.after.x(p * step, m)[k],
+        EXPECT_NEAR(positions[static_cast<std::size_t>((3 * m + k) * points + p)], e.after.x(p * step, m)[k],
                     3e-4);
       EXPECT_LT(states[static_cast<std::size_t>(m * points + p)], 4) << "there";
     }

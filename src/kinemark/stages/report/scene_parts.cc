@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/report/internal/scene_parts.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -106,16 +107,16 @@ Json meshes_json(const SceneBodies& bodies, std::int64_t step) {
     triangles.push_back(mesh.triangles.size());
     total += std::ssize(mesh.points);
   }
-  std::vector<double> places;
+  std::vector<double> positions;
   for (Eigen::Index k = 0; k < 3; ++k)
     for (const std::size_t body : drawn)
-      for (const auto& x : bodies.meshes[body].points) places.push_back(x[k]);
+      for (const auto& x : bodies.meshes[body].points) positions.push_back(x[k]);
   const auto turns = turns_of(bodies, drawn, step);
   return {
       {"body", drawn},
       {"points", std::move(points)},
       {"triangles", std::move(triangles)},
-      {"places_m", pack_series(places, total, kFinestMesh_m, kCoarsest_m)},
+      {"positions_m", pack_series(positions, total, kFinestMesh_m, kCoarsest_m)},
       {"corners", corners_of(bodies, drawn)},
       {"turn", pack_series(turns, std::ssize(turns) / (4 * std::ssize(drawn)), kFinestTurn, kFinestTurn)}};
 }

@@ -111,11 +111,11 @@ TEST(SceneParts, MeshesComeBackWithTheTurnsOfTheirBodies) {
   EXPECT_EQ(meshes["body"], nlohmann::ordered_json::parse("[1]"));
   EXPECT_EQ(meshes["points"], nlohmann::ordered_json::parse("[4]"));
   EXPECT_EQ(meshes["triangles"], nlohmann::ordered_json::parse("[2]"));
-  const auto places = unpack_series(meshes["places_m"]);
-  ASSERT_EQ(places.size(), 12U);
-  EXPECT_NEAR(places[1], 0.1, 1e-4) << "x of the second point";
-  EXPECT_NEAR(places[4 + 2], 0.2, 1e-4) << "y of the third";
-  EXPECT_NEAR(places[8 + 3], 0.3, 1e-4) << "z of the fourth";
+  const auto positions = unpack_series(meshes["positions_m"]);
+  ASSERT_EQ(positions.size(), 12U);
+  EXPECT_NEAR(positions[1], 0.1, 1e-4) << "x of the second point";
+  EXPECT_NEAR(positions[4 + 2], 0.2, 1e-4) << "y of the third";
+  EXPECT_NEAR(positions[8 + 3], 0.3, 1e-4) << "z of the fourth";
   const auto corners = inflate_base64(meshes["corners"].get<std::string>());
   ASSERT_EQ(corners.size(), 12U);
   std::uint16_t word = 0;

@@ -79,14 +79,14 @@ std::string file_of(const Way& way) {
                : fmt::format("<DataArray type=\"{}\" Name=\"{}\" format=\"appended\" offset=\"{}\"/>", type,
                              name, offset);
   };
-  const auto places =
+  const auto positions =
       array("Float64", "Points", bytes_of(std::vector{0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0, 2.5, 0.0}));
   const auto polys = "<Polys>" +
                      array("Int64", "connectivity", bytes_of(std::vector<std::int64_t>{0, 1, 2})) +
                      array("UInt8", "offsets", bytes_of(std::vector<std::uint8_t>{3})) + "</Polys>";
   std::string head = way.wide ? " header_type=\"UInt64\"" : " header_type=\"UInt32\"";
   if (way.packed) head += " compressor=\"vtkZLibDataCompressor\"";
-  auto text = testing::vtp_around(3, 1, places, polys, head);
+  auto text = testing::vtp_around(3, 1, positions, polys, head);
   if (way.where != Way::inline_base64)
     text.insert(text.find("</VTKFile>"), fmt::format("<AppendedData encoding=\"{}\">\n _",
                                                      way.where == Way::appended_raw ? "raw" : "base64") +
@@ -125,9 +125,9 @@ TEST(VtkArrays, DamageIsASentence) {
 
 TEST(VtkArrays, AHeaderThatLiesTakesNoMemory) {
   // 4 GB of doubles in eight letters.
-  const std::string places =
+  const std::string positions =
       "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">/////w==</DataArray>";
-  const auto mesh = parse_mesh(testing::vtp_around(3, 1, places, ""), "a.vtp");
+  const auto mesh = parse_mesh(testing::vtp_around(3, 1, positions, ""), "a.vtp");
   ASSERT_FALSE(mesh);
   EXPECT_THAT(mesh.error().message, HasSubstr("an array has 4294967295 bytes"));
   const std::string long_one =

@@ -96,26 +96,26 @@ inline std::string stl_bytes_of(const data::TriangleMesh& mesh, std::string head
 }
 
 /// @param polys  put between the points and the end
-inline std::string vtp_around(std::size_t points, std::size_t polygons, const std::string& places,
+inline std::string vtp_around(std::size_t points, std::size_t polygons, const std::string& positions,
                               const std::string& polys, const std::string& file = "") {
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"{}>\n"
       "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n<PointData Normals=\"Normals\"/>\n<Points>\n{}</Points>\n{}</Piece>\n"
       "</PolyData>\n</VTKFile>\n",
-      file, points, polygons, places, polys);
+      file, points, polygons, positions, polys);
 }
 
 inline std::string vtp_of(const data::TriangleMesh& mesh) {
-  std::string places = "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n";
-  for (const auto& x : mesh.points) places += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
+  std::string positions = "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n";
+  for (const auto& x : mesh.points) positions += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
   std::string corners = "<Polys>\n<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n";
   std::string ends = "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n";
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const auto corner : mesh.triangles[i]) corners += fmt::format("{} ", corner);
     ends += fmt::format("{} ", 3 * (i + 1));
   }
-  return vtp_around(mesh.points.size(), mesh.triangles.size(), places + "</DataArray>\n",
+  return vtp_around(mesh.points.size(), mesh.triangles.size(), positions + "</DataArray>\n",
                     corners + "</DataArray>\n" + ends + "</DataArray>\n</Polys>\n");
 }
 
