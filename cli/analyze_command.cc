@@ -86,10 +86,12 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
 }
 
 // Options that say nothing of the other kind of input: taken silently, they would seem to have been heeded.
-constexpr std::array kOfMarkers{
-    "--drop",         "--rate",    "--noise",       "--figures",          "--report",        "--edits",
-    "--keep-defects", "--events",  "--gait-marker", "--angles",           "--write-events",  "--write-cycles",
-    "--emg",          "--emg-max", "--write-emg",   "--write-emg-cycles", "--figure-formats"};
+constexpr std::array kOfMarkers{"--drop",   "--rate", "--noise",   "--edits",     "--keep-defects",
+                                "--angles", "--emg",  "--emg-max", "--write-emg", "--write-emg-cycles"};
+// Those of a gait report, which stands beside measures, not beside tables of a motion.
+constexpr std::array kOfReports{"--figures",      "--figure-formats", "--report",
+                                "--norm",         "--angle-angle",    "--write-events",
+                                "--write-cycles", "--gait-marker",    "--events"};
 constexpr std::array kOfMotions{"--couple", "--normalize", "--bodies", "--point", "--torques", "--cutoff"};
 
 Status check_options(const CLI::App& command, std::span<const char* const> of_others,
@@ -125,6 +127,12 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
   arguments.job.error_bars = !arguments.no_error_bars;
   if (is_measured(arguments))
     return run_motion_measures_command(common, arguments.job, arguments.measures.job, arguments.motion);
+  for (const char* name : kOfReports)
+    if (command.count(name) > 0)
+      return report_error(
+          {Code::usage, fmt::format("{} goes with measures of a motion; leave the folder, --bodies, "
+                                    "--point and --setup away",
+                                    name)});
   auto job = arguments.job;
   for (const auto& text : arguments.points) {
     auto point = parse_point(text);

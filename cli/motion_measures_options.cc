@@ -57,6 +57,10 @@ int run_motion_measures_command(const CommonOptions& common, const pipeline::Ana
   job.normalize = arguments.normalize;
   job.refits = analysis.error_bars ? measures.refits : 0;
   job.level = measures.level;
+  job.gait = measures.gait;
+  job.figures = measures.figures;
+  job.figure_formats = measures.figure_formats;
+  job.report = measures.report;
   return run_job(common, "motion", job, pipeline::run_motion_measures, print_motion_measures);
 }
 

@@ -15,6 +15,7 @@
 #include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/measures/gait_request.h"
 
 namespace kinemark::pipeline {
 
@@ -36,6 +37,10 @@ struct MotionMeasuresJob : JobSettings {
   std::filesystem::path output;       ///< .csv or .json
   std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
   double level = 0.95;                ///< of the intervals
+  GaitRequest gait;                   ///< whose events (of the .c3d of `forces`), norms, pairs, cycles
+  std::filesystem::path figures;      ///< folder for figures over the gait cycle
+  std::string figure_formats;         ///< as parse_figure_formats()
+  std::filesystem::path report;       ///< gait report, .html
 };
 
 /// Warnings: what was left out or taken otherwise.
@@ -45,6 +50,9 @@ struct MotionMeasuresOutcome : JobOutcome {
 };
 
 /// Read, compute, measure, write (docs/stages/motion-measures.md). Progress counts nothing.
+///
+/// A gait report draws coordinates, and with forces or torques moments and powers along them. Where the
+/// recording has no walking it is not there, which is a warning.
 ///
 /// Code::usage for a measure, coordinate or region that is none, for events without a .c3d and for another
 /// ending than .csv and .json; Code::bad_input as the readers, regions_between() and

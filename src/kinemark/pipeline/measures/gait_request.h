@@ -12,6 +12,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/data/wrenches.h"
+#include "kinemark/pipeline/gait/gait_report.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 
 namespace kinemark::pipeline {
@@ -21,19 +22,23 @@ struct GaitRequest {
   std::string events = "best";         ///< whose: "best", "plates", "kinematics", "file"
   std::vector<std::string> markers;    ///< ROLE=NAME, or a .toml of lines like role = "NAME"
   std::filesystem::path write_events;  ///< .csv, or .c3d: the recording with these events of feet
-  std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written
+  std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written and drawn
   std::filesystem::path write_cycles;  ///< .csv: curves over the cycle
+  GaitReportRequest sheet;             ///< norms and pairs of a gait report
 
   /// Whether walking is asked about by more than being there.
   [[nodiscard]] bool wanted() const {
-    return events != "best" || !markers.empty() || !write_events.empty() || !write_cycles.empty();
+    return events != "best" || !markers.empty() || !write_events.empty() || !write_cycles.empty() ||
+           !angles.empty() || !sheet.norms.empty() || !sheet.angle_angle.empty();
   }
   /// Names and endings: Code::usage.
-  [[nodiscard]] Status check() const;
+  /// @param drawn  whether figures or a page are made: else norms and pairs have no use
+  [[nodiscard]] Status check(bool drawn = false) const;
 };
 
 /// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.
-[[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request);
+/// @param drawn  as GaitRequest::check()
+[[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn = false);
 
 /// Forces of the plates of a .c3d on the trial's frames, which may be a part of the file's, not cut off at a
 /// threshold; none where there are none that can be read.

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/segments/subject_values.h"
@@ -57,6 +58,11 @@ std::string_view table_unit(const SegmentSeries& series) {
   return shown_unit(series.quantity);
 }
 
+data::Quantity quantity_of(const SegmentSeries& series) {
+  if (series.quantity == SubjectQuantity::angle) return data::Quantity::angle;
+  return series.quantity == SubjectQuantity::length ? data::Quantity::length : data::Quantity::ratio;
+}
+
 data::ChannelKind kind_of(const SegmentSeries& series) {
   return series.quantity == SubjectQuantity::angle ? data::ChannelKind::angle : data::ChannelKind::scalar;
 }
@@ -69,6 +75,23 @@ data::Table angles_table(const SegmentMotion& motion) {
 
 data::Table angle_deviations_table(const SegmentMotion& motion) {
   return table_of(motion, "angles_sd", &SegmentSeries::sd);
+}
+
+std::vector<analysis::CycleSeries> angle_series(const SegmentMotion& motion) {
+  std::vector<analysis::CycleSeries> out;
+  for_each_series(motion, [&](const SegmentSeries& series) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      analysis::CycleSeries one{.id = column(series, k), .quantity = quantity_of(series)};
+      for (std::int64_t f = 0; f < motion.time.frames; ++f) {
+        const auto i = static_cast<std::size_t>(f) * series.size() + k;
+        one.time_s.push_back(motion.time.time_s(f));
+        one.values.push_back(series.value[i]);
+        one.sd.push_back(series.sd[i]);
+      }
+      out.push_back(std::move(one));
+    }
+  });
+  return out;
 }
 
 std::string angles_csv(const SegmentMotion& motion) {

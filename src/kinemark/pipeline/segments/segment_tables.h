@@ -5,9 +5,11 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "kinemark/data/table.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/stages/analysis/gait/cycle_curves.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
 namespace kinemark::pipeline {
@@ -16,6 +18,9 @@ namespace kinemark::pipeline {
 [[nodiscard]] data::Table angles_table(const analysis::SegmentMotion& motion);
 /// One standard deviation of each, in a table of the same shape.
 [[nodiscard]] data::Table angle_deviations_table(const analysis::SegmentMotion& motion);
+
+/// Each column of angles_table() as a series with its deviations, in SI units.
+[[nodiscard]] std::vector<analysis::CycleSeries> angle_series(const analysis::SegmentMotion& motion);
 
 /// The same in long form (RFC 4180): time_s, name, component, value, sd, unit, state; a line each, missing
 /// ones too.

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/stages/analysis/segments/cross_talk.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
@@ -32,6 +34,12 @@ struct SegmentsJob : JobSettings {
   double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
   bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
   std::filesystem::path output;        ///< folder; empty: nothing is written
+  GaitRequest gait;                    ///< whose events, norms, pairs; files of events and cycles
+  std::filesystem::path figures;       ///< folder for figures over the gait cycle
+  std::string figure_formats;          ///< as parse_figure_formats()
+  std::filesystem::path report;        ///< gait report, .html
+  std::int64_t refits = 99;            ///< behind intervals of walking's measures; 0: none
+  double level = 0.95;                 ///< of these intervals
 };
 
 /// Warnings: what was left out or could not be computed.
@@ -40,11 +48,14 @@ struct SegmentsOutcome : JobOutcome {
   std::string title;                                                    ///< of the definition
   analysis::SegmentMotion motion;                                       ///< what it gives
   std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
+  std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
 };
 
 /// Read, screen, compute, write into the folder `output`: angles.mot and angles_sd.sto (degrees, metres),
 /// angles.csv with states, centres.csv with covariances, segments.c3d (the recording with angles and centres)
-/// and segments.json. Progress counts files.
+/// and segments.json. Progress counts files. Figures, page, events and cycles that are asked for need walking
+/// in the recording: without it they are not there, which is a warning, or Code::bad_input where nothing else
+/// is written.
 ///
 /// Code::usage for names and numbers that make no sense; Code::bad_input as the readers and
 /// analysis::compute_segments(); Code::io as Staging.
