@@ -88,25 +88,13 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
 }
 
 // Options that say nothing of the other kind of input: taken silently, they would seem to have been heeded.
-constexpr std::array kOfMarkers{"--drop",
-                                "--rate",
-                                "--noise",
-                                "--figures",
-                                "--report",
-                                "--edits",
-                                "--keep-defects",
-                                "--events",
-                                "--gait-marker",
-                                "--angles",
-                                "--write-events",
-                                "--write-cycles",
-                                "--emg",
-                                "--emg-max",
-                                "--write-emg",
-                                "--write-emg-cycles",
-                                "--figure-formats",
-                                "--participants",
-                                "--jobs"};
+constexpr std::array kOfMarkers{"--drop",      "--rate",   "--noise", "--edits", "--keep-defects",
+                                "--angles",    "--emg",    "--emg-max", "--write-emg", "--write-emg-cycles",
+                                "--participants", "--jobs"};
+// Those of a gait report, which stands beside measures, not beside tables of a motion.
+constexpr std::array kOfReports{"--figures",      "--figure-formats", "--report",
+                                "--norm",         "--angle-angle",    "--write-events",
+                                "--write-cycles", "--gait-marker",    "--events"};
 constexpr std::array kOfMotions{"--couple", "--normalize", "--bodies", "--point", "--torques", "--cutoff"};
 // Options that say what is measured; tables of the whole motion have no use for them.
 constexpr std::array kOfMeasures{"--select", "--region", "--between",  "--refits",
@@ -184,6 +172,12 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
                "{} says what is measured; tables in a folder are of the whole motion: need -o FILE.csv or "
                "--measures with it, or neither (--start and --end choose rows)",
                name)});
+  for (const char* name : kOfReports)
+    if (command.count(name) > 0)
+      return report_error(
+          {Code::usage, fmt::format("{} goes with measures of a motion; leave the folder, --bodies, "
+                                    "--point and --setup away",
+                                    name)});
   auto job = arguments.job;
   for (const auto& text : arguments.points) {
     auto point = parse_point(text);

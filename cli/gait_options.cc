@@ -41,6 +41,22 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
                   "Motion whose coordinates are cut into cycles, .mot or .sto; Q_sd.sto beside it counts too")
       ->type_name("FILE")
       ->group(what);
+  command
+      .add_option(
+          "--norm", request.sheet.norms,
+          "Bands to draw in grey and to compare with, .csv: of curves as 'groups band' writes them, of "
+          "measures. Repeatable.")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->group(what);
+  command
+      .add_option(
+          "--angle-angle", request.sheet.angle_angle,
+          "Two curves to draw against each other: hip_flexion:knee_flexion, across and up. Repeatable; hip "
+          "and knee, knee and ankle when absent")
+      ->type_name("A:B")
+      ->allow_extra_args(false)
+      ->group(what);
 }
 
 }  // namespace kinemark::cli

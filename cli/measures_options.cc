@@ -85,7 +85,9 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->group(what);
   command
       .add_option("--figures", job.figures,
-                  "Folder for figures of each path: in its plane, speed and acceleration, cycles")
+                  "Folder for figures: of each path in its plane, its speed and acceleration, its cycles; of "
+                  "walking, angles "
+                  "over the gait cycle")
       ->type_name("FOLDER")
       ->group("Output");
   command
@@ -93,7 +95,9 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
                   "svg, png or both with a comma between; what this program can write when absent")
       ->type_name("NAME")
       ->group("Output");
-  command.add_option("--report", job.report, "Page to write as well, .html: figures and the table")
+  command
+      .add_option("--report", job.report,
+                  "Page to write as well, .html: figures and tables; of walking alone, a gait report")
       ->type_name("FILE")
       ->group("Output");
   command

@@ -61,8 +61,8 @@ void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job) {
           ->type_name("AXIS");
   for (auto* option : {segments, still, vsk, subject, trial, up}) option->group("Segments of markers");
   for (auto* option : {still, vsk, subject, trial, up}) option->needs(segments);
-  for (const char* other :
-       {"--model", "--forces", "--setup", "--measures", "--region", "--between", "--edits", "--list"})
+  for (const char* other : {"--model", "--forces", "--setup", "--measures", "--region", "--between",
+                            "--edits", "--list", "--angles", "--emg", "--write-emg", "--write-emg-cycles"})
     segments->excludes(command.get_option(other));
 }
 
@@ -72,7 +72,12 @@ int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job
   job.selection = measures.job.selection;
   job.keep_defects = measures.job.keep_defects;
   job.noise_sd_m = 1e-3 * measures.noise_mm;
+  job.gait = measures.job.gait;
+  job.figures = measures.job.figures;
+  job.figure_formats = measures.job.figure_formats;
+  job.report = measures.job.report;
   job.refits = measures.job.refits;
+  job.level = measures.job.level;
   return run_job(common, "files", job, pipeline::run_segments, print_segments);
 }
 

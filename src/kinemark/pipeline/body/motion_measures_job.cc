@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "kinemark/core/name_pattern.h"
@@ -16,10 +17,14 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/pipeline/body/body_record.h"
+#include "kinemark/pipeline/body/motion_cycles.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/event_table.h"
+#include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
 #include "kinemark/pipeline/measures/measures_job.h"
@@ -31,12 +36,27 @@
 namespace kinemark::pipeline {
 namespace {
 
+GaitDrawingJob drawing_of(const MotionMeasuresJob& job) {
+  GaitDrawingJob out;
+  static_cast<JobSettings&>(out) = job;
+  out.gait = job.gait;
+  out.figures = job.figures;
+  out.figure_formats = job.figure_formats;
+  out.report = job.report;
+  out.refits = job.refits;
+  out.level = job.level;
+  return out;
+}
+
 Status check(const MotionMeasuresJob& job) {
   if (auto s = check_measures_output(job.output); !s) return s;
   if (job.motion.empty()) return fail(Code::usage, "no motion: give a .mot or .sto");
   if (job.model.empty()) return fail(Code::usage, "no model: give --model");
   if (!job.between.empty() && ending_of(job.forces) != ".c3d")
     return fail(Code::usage, "--between of a motion takes the events of a recording; need --forces FILE.c3d");
+  if (drawing_of(job).wanted() && ending_of(job.forces) != ".c3d")
+    return fail(Code::usage,
+                "cycles of a motion are cut at the foot strikes of a recording; need --forces FILE.c3d");
   if (job.first_time_s > job.last_time_s)
     return fail(Code::usage,
                 fmt::format("{:g} to {:g} s is no range of time", job.first_time_s, job.last_time_s));
@@ -190,6 +210,34 @@ Status add_inputs(const char* role, const std::vector<std::filesystem::path>& pa
   return {};
 }
 
+// The motion over the cycles of the recording's feet.
+Status draw_walking(const MotionMeasuresJob& job, const RatedMotion& read, const BodyInput& input,
+                    GaitDrawing& drawing, MotionMeasuresOutcome& out) {
+  const auto recording = read_marker_input({.path = job.forces, .needs_samples = true});
+  if (!recording) return std::unexpected(recording.error());
+  if (auto s = drawing.find_walking(job.forces, recording->trial); !s) {
+    if (s.error().code == Code::usage) return s;
+    out.warnings.push_back("walking is not drawn: " + s.error().message);
+    return {};
+  }
+  const auto& gait = *drawing.gait();
+  std::ranges::copy(gait.notes, std::back_inserter(out.warnings));
+  std::vector<SheetInput> inputs;
+  std::vector<data::CycleCurves> curves;
+  if (auto s = add_motion_cycles(read.motion, input, gait.cycles, inputs); !s) return s;
+  for (const auto& one : inputs)
+    if (one.curves.quantity == data::Quantity::angle || one.curves.quantity == data::Quantity::length)
+      curves.push_back(one.curves);
+  const auto plates = plates_of(job.forces, recording->trial);
+  const auto vertical = vertical_of_plates(recording->trial);
+  if (plates && vertical) add_ground_reaction(*plates, vertical->up, gait, inputs);
+  return drawing.write(job.forces, recording->trial, curves, inputs,
+                       {.angles_from = fmt::format("coordinates of {} in {}", job.model.filename().string(),
+                                                   job.motion.filename().string()),
+                        .inputs = out.inputs},
+                       out);
+}
+
 }  // namespace
 
 Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) {
@@ -198,6 +246,14 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
   if (!job.output.empty()) targets.push_back(job.output);
   auto staging = Staging::create(targets, job.force, {job.motion, job.model, job.forces});
   if (!staging) return std::unexpected(staging.error());
+  std::optional<GaitDrawing> drawing;
+  if (auto walking = drawing_of(job); walking.wanted()) {
+    auto begun = GaitDrawing::begin(std::move(walking), {job.motion, job.model, job.forces, job.output});
+    if (!begun) return std::unexpected(begun.error());
+    drawing.emplace(std::move(*begun));
+  } else if (auto s = job.gait.check(); !s) {
+    return std::unexpected(s.error());
+  }
   MotionMeasuresOutcome out;
   auto description = io::read_osim(job.model);
   if (!description) return std::unexpected(description.error());
@@ -246,6 +302,8 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
     return fail(Code::bad_input, fmt::format("{}: nothing of what is asked for can be measured; torques need "
                                              "--forces or --torques, coupling needs --couple",
                                              job.motion.string()));
+  if (drawing)
+    if (auto s = draw_walking(job, *read, *input, *drawing, out); !s) return std::unexpected(s.error());
   if (job.output.empty()) return out;
   const auto ending = ending_of(job.output);
   const auto name = name_of_recording(job.motion);
@@ -255,7 +313,7 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
                         : nwb_file(job.output, {{.name = name, .measures = out.measures}}, out.inputs, job);
   auto written = write_results(*staging, {file}, {}, "the measures");
   if (!written) return std::unexpected(written.error());
-  out.written = std::move(*written);
+  std::ranges::move(*written, std::back_inserter(out.written));
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
+#include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/measure_choice.h"
 #include "kinemark/pipeline/motion/motion_files.h"
 
@@ -23,6 +24,10 @@ struct MotionMeasuresJob : MotionFiles, MeasureChoice {
   std::vector<std::string> select;  ///< coordinates; * is any text, ? any letter; empty: all that can move
   std::vector<std::string> couple;  ///< "A,B": coordinates whose coupling is measured
   bool normalize = false;           ///< kinetics per mass, momentum over mass, speed and height
+  GaitRequest gait;                 ///< whose events (of the .c3d of `forces`), norms, pairs, cycles
+  std::filesystem::path figures;    ///< folder for figures over the gait cycle
+  std::string figure_formats;       ///< as parse_figure_formats()
+  std::filesystem::path report;     ///< gait report, .html
 };
 
 /// Warnings: what was left out or taken otherwise.
@@ -32,6 +37,9 @@ struct MotionMeasuresOutcome : JobOutcome {
 };
 
 /// Read, compute, measure, write (docs/stages/motion-measures.md). Progress counts nothing.
+///
+/// A gait report draws coordinates, and with forces or torques moments and powers along them. Where the
+/// recording has no walking it is not there, which is a warning.
 ///
 /// Code::usage for a measure, coordinate or region that is none, for events without a .c3d and for another
 /// ending than .csv, .json and .nwb; Code::bad_input as the readers, regions_between() and

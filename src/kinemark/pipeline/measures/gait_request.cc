@@ -33,7 +33,7 @@ Result<std::vector<analysis::MarkerRole>> read_roles(const std::filesystem::path
 
 }  // namespace
 
-Status GaitRequest::check() const {
+Status GaitRequest::check(bool drawn) const {
   if (of_movement()) {
     if (!markers.empty() || !angles.empty())
       return fail(
@@ -47,13 +47,18 @@ Status GaitRequest::check() const {
     return fail(Code::usage, fmt::format("{}: events are written as .csv or .c3d", write_events.string()));
   if (!write_cycles.empty() && ending_of(write_cycles) != ".csv")
     return fail(Code::usage, fmt::format("{}: cycles are written as .csv", write_cycles.string()));
-  if (!angles.empty() && write_cycles.empty())
-    return fail(Code::usage, "--angles has its cycles written; need --write-cycles FILE.csv too");
-  return {};
+  if (!angles.empty() && write_cycles.empty() && !drawn)
+    return fail(Code::usage,
+                "--angles has its cycles written or drawn; need --write-cycles FILE.csv, --figures "
+                "FOLDER or --report FILE.html too");
+  if (!drawn && (!sheet.norms.empty() || !sheet.angle_angle.empty()))
+    return fail(Code::usage, fmt::format("--{} is drawn; need --figures FOLDER or --report FILE.html too",
+                                         sheet.norms.empty() ? "angle-angle" : "norm"));
+  return sheet.check();
 }
 
-Result<analysis::GaitOptions> gait_options(const GaitRequest& request) {
-  if (auto s = request.check(); !s) return std::unexpected(s.error());
+Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn) {
+  if (auto s = request.check(drawn); !s) return std::unexpected(s.error());
   analysis::GaitOptions out;
   if (!request.of_movement()) out.choice = analysis::parse_event_choice(request.events).value();
   for (const auto& text : request.markers) {

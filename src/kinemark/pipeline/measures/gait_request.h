@@ -10,6 +10,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/pipeline/gait/gait_report.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 
 namespace kinemark::pipeline {
@@ -20,23 +21,27 @@ struct GaitRequest {
       "best";  ///< whose: "best", "plates", "kinematics", "file"; "movement": the markers' own
   std::vector<std::string> markers;    ///< ROLE=NAME, or a .toml of lines like role = "NAME"
   std::filesystem::path write_events;  ///< .csv, or .c3d: the recording with these events
-  std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written
+  std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written and drawn
   std::filesystem::path write_cycles;  ///< .csv: curves over the cycle
+  GaitReportRequest sheet;             ///< norms and pairs of a gait report
 
   /// Whether walking is asked about by more than being there.
   [[nodiscard]] bool wanted() const {
-    return (events != "best" && !of_movement()) || !markers.empty() || !angles.empty();
+    return (events != "best" && !of_movement()) || !markers.empty() || !angles.empty() ||
+           !sheet.norms.empty() || !sheet.angle_angle.empty();
   }
   /// Whether events and cycles are those of the markers' own movements, even where feet step.
   [[nodiscard]] bool of_movement() const { return events == "movement"; }
   /// Whether events or cycles are written.
   [[nodiscard]] bool writes() const { return !write_events.empty() || !write_cycles.empty(); }
   /// Names and endings: Code::usage.
-  [[nodiscard]] Status check() const;
+  /// @param drawn  whether figures or a page are made: else norms and pairs have no use
+  [[nodiscard]] Status check(bool drawn = false) const;
 };
 
 /// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.
-[[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request);
+/// @param drawn  as GaitRequest::check()
+[[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn = false);
 
 /// Walking in a trial: its markers as they are, the plates of its file where that is a .c3d, its events.
 /// Code::bad_input as analysis::analyze_gait().

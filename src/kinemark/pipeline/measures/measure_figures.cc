@@ -134,10 +134,11 @@ NamedFigure speed_figure(const PathCurves& curves, const std::string& stem) {
   add_curve(acceleration, "tangential acceleration", kBlue, t, a, curves.measured);
   std::vector<report::FigureMark> marks;
   if (std::isfinite(curves.window.onset_s))
-    marks.push_back({"onset", curves.start_s + curves.window.onset_s});
-  if (std::isfinite(curves.window.end_s)) marks.push_back({"end", curves.start_s + curves.window.end_s});
+    marks.push_back({.name = "onset", .x = curves.start_s + curves.window.onset_s});
+  if (std::isfinite(curves.window.end_s))
+    marks.push_back({.name = "end", .x = curves.start_s + curves.window.end_s});
   if (curves.cycles.size() <= kMostCycles)
-    for (const double start : curves.cycles) marks.push_back({"", curves.start_s + start});
+    for (const double start : curves.cycles) marks.push_back({.x = curves.start_s + start});
   speed.marks = acceleration.marks = marks;
   return {stem + "_speed",
           {.title = title_of(curves) + ": speed and acceleration",

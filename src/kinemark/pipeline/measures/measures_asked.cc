@@ -43,14 +43,15 @@ Status unknown_measure(const std::string& id) {
 }  // namespace
 
 Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
-  auto gait = gait_options(job.gait);
+  const bool drawn = !job.figures.empty() || !job.report.empty();
+  auto gait = gait_options(job.gait, drawn);
   if (!gait) return std::unexpected(gait.error());
   AskedMeasures out{.path = {.refits = job.refits,
                              .noise_sd_m = job.noise_sd_m,
                              .level = job.level,
                              .seed = job.seed,
                              .threads = job.threads,
-                             .curves = !job.figures.empty() || !job.report.empty()},
+                             .curves = drawn},
                     .gait = std::move(*gait)};
   if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
   bool all_of_walking = false, all_of_plates = false, all_of_emg = false;

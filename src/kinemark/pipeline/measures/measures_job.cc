@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/gait/sheet_inputs.h"
+#include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/measured_recording.h"
 #include "kinemark/pipeline/measures/measures_asked.h"
@@ -40,7 +43,8 @@ void make_unique(std::vector<NamedFigure>& figures) {
 }
 
 Status write_figures(const MeasuresJob& job, const std::vector<std::string>& formats,
-                     const std::vector<NamedFigure>& figures, MeasuresOutcome& outcome) {
+                     const std::vector<NamedFigure>& figures, const GaitReport* gait,
+                     MeasuresOutcome& outcome) {
   std::vector<std::string> names;
   std::vector<ResultFile> files;
   for (const auto& figure : figures)
@@ -54,6 +58,10 @@ Status write_figures(const MeasuresJob& job, const std::vector<std::string>& for
              return io::write_text(staged, *content, false);
            }});
     }
+  if (gait != nullptr) {
+    std::ranges::move(gait_report_files(*gait, formats), std::back_inserter(names));
+    std::ranges::move(gait_report_results(*gait, job.figures, formats), std::back_inserter(files));
+  }
   auto staging = Staging::create_in(job.figures, names, job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());
   auto written = write_results(*staging, files, {}, "the figures");
@@ -62,9 +70,18 @@ Status write_figures(const MeasuresJob& job, const std::vector<std::string>& for
   return {};
 }
 
+// What a page of walking alone says besides its sheet.
+GaitPageFacts page_facts(const MeasuresJob& job, const MeasuresOutcome& outcome) {
+  return {.angles_from = job.gait.angles.empty() ? "outputs of a model that the recording holds"
+                                                 : job.gait.angles.filename().string(),
+          .command_line = job.command_line,
+          .inputs = {outcome.input},
+          .warnings = outcome.warnings};
+}
+
 // The table and `files` with it, the figures, the page: what of them is asked for.
 Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats, MeasuredRecording& measured,
-                 std::vector<ResultFile> files, Staging& staging, PageFile& page) {
+                 const GaitReport* gait, std::vector<ResultFile> files, Staging& staging, PageFile& page) {
   auto& outcome = measured.outcome;
   std::vector<NamedFigure> figures;
   for (const auto& one : measured.curves)
@@ -84,9 +101,14 @@ Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats
     outcome.written = std::move(*written);
   }
   if (!job.figures.empty())
-    if (auto s = write_figures(job, formats, figures, outcome); !s) return s;
-  if (page.wanted()) return page.write(measures_page(job, outcome, figures), outcome);
-  return {};
+    if (auto s = write_figures(job, formats, figures, gait, outcome); !s) return s;
+  if (!page.wanted()) return {};
+  // Of walking alone; the page of measures shows others too.
+  if (gait != nullptr && measured.curves.empty() && outcome.measures.size() == outcome.gait->measures.size())
+    return page.write(gait_report_page(*gait, page_facts(job, outcome)), outcome);
+  if (gait != nullptr)
+    for (const auto& [name, figure] : gait->figures) figures.push_back({.name = name, .figure = figure});
+  return page.write(measures_page(job, outcome, figures), outcome);
 }
 
 // Tables of events and cycles, or the recording with its events; envelopes.
@@ -129,6 +151,25 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
   return out;
 }
 
+// Walking drawn, where there is some; what cannot be drawn is told.
+Result<std::unique_ptr<GaitReport>> draw_walking(const MeasuresJob& job, const data::Trial& trial,
+                                                 const GaitNorms& norms, MeasuresOutcome& outcome) {
+  if ((job.figures.empty() && job.report.empty()) || !outcome.gait) return nullptr;
+  std::vector<SheetInput> inputs;
+  if (const auto curves = gait_curves(trial, outcome.gait->cycles, job.gait.angles))
+    add_curves(*curves, inputs);
+  else if (!job.gait.angles.empty())
+    return std::unexpected(curves.error());
+  else if (job.gait.wanted() || !job.measures.empty())
+    outcome.warnings.push_back("no angles are drawn: " + curves.error().message);
+  add_recorded_kinetics(job.input, trial, *outcome.gait, inputs);
+  if (inputs.empty() && !job.gait.wanted() && job.measures.empty()) return nullptr;
+  auto report = make_gait_report(job.input.filename().string(), inputs, *outcome.gait, norms,
+                                 job.gait.sheet.angle_angle);
+  std::ranges::copy(report->sheet.remarks, std::back_inserter(outcome.warnings));
+  return report;
+}
+
 }  // namespace
 
 Status check_measures_output(const std::filesystem::path& output) {
@@ -154,8 +195,11 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   for (const auto& path :
        {job.output, job.gait.write_events, job.gait.write_cycles, job.emg.write, job.emg.write_cycles})
     if (!path.empty()) targets.push_back(path);
-  auto staging =
-      Staging::create(targets, job.force, {job.input, job.edits, job.gait.angles, job.participants_file});
+  auto read = job.gait.sheet.norms;
+  const auto norms = read_gait_norms(read);
+  if (!norms) return std::unexpected(norms.error());
+  for (const auto& path : {job.input, job.edits, job.gait.angles, job.participants_file}) read.push_back(path);
+  auto staging = Staging::create(targets, job.force, read);
   if (!staging) return std::unexpected(staging.error());
   auto page = PageFile::begin(job.report, {job.input, job.edits, job.output}, job.force);
   if (!page) return std::unexpected(page.error());
@@ -163,7 +207,9 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   if (!measured) return std::unexpected(measured.error());
   auto files = other_files(job, *measured);
   if (!files) return fail_at(job.input.string(), files.error());
-  if (auto s = write_all(job, *formats, *measured, std::move(*files), *staging, *page); !s)
+  const auto report = draw_walking(job, measured->trial, *norms, measured->outcome);
+  if (!report) return fail_at(job.input.string(), report.error());
+  if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging, *page); !s)
     return std::unexpected(s.error());
   return std::move(measured->outcome);
 }

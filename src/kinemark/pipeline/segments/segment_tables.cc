@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/segments/subject_values.h"
@@ -49,6 +50,11 @@ std::string_view table_unit(const SegmentSeries& series) {
   return shown_unit(series.quantity);
 }
 
+data::Quantity quantity_of(const SegmentSeries& series) {
+  if (series.quantity == SubjectQuantity::angle) return data::Quantity::angle;
+  return series.quantity == SubjectQuantity::length ? data::Quantity::length : data::Quantity::ratio;
+}
+
 data::ChannelKind kind_of(const SegmentSeries& series) {
   if (series.quantity == SubjectQuantity::angle) return data::ChannelKind::angle;
   if (series.unit.starts_with("N m")) return data::ChannelKind::moment;
@@ -78,6 +84,22 @@ data::Table series_table(const SeriesList& list, const TimeBase& time, const std
 
 data::Table deviations_table(const SeriesList& list, const TimeBase& time, const std::string& name) {
   return table_of(list, time, name, &SegmentSeries::sd);
+}
+
+std::vector<analysis::CycleSeries> cycle_series(const SeriesList& list, const TimeBase& time) {
+  std::vector<analysis::CycleSeries> out;
+  for (const auto* series : list)
+    for (std::size_t k = 0; k < series->size(); ++k) {
+      analysis::CycleSeries one{.id = column(*series, k), .quantity = quantity_of(*series)};
+      for (std::int64_t f = 0; f < time.frames; ++f) {
+        const auto i = static_cast<std::size_t>(f) * series->size() + k;
+        one.time_s.push_back(time.time_s(f));
+        one.values.push_back(series->value[i]);
+        one.sd.push_back(series->sd[i]);
+      }
+      out.push_back(std::move(one));
+    }
+  return out;
 }
 
 std::string series_csv(const SeriesList& list, const TimeBase& time) {

@@ -9,6 +9,7 @@
 
 #include "kinemark/data/table.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/stages/analysis/gait/cycle_curves.h"
 #include "kinemark/stages/analysis/kinetics/joint_loads.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
@@ -24,6 +25,9 @@ using SeriesList = std::vector<const analysis::SegmentSeries*>;
 /// One standard deviation of each, in a table of the same shape.
 [[nodiscard]] data::Table deviations_table(const SeriesList& list, const TimeBase& time,
                                            const std::string& name);
+
+/// Each column of series_table() as a series with its deviations, in SI units.
+[[nodiscard]] std::vector<analysis::CycleSeries> cycle_series(const SeriesList& list, const TimeBase& time);
 
 /// The same in long form (RFC 4180): time_s, name, component, value, sd, unit, state; a line each, missing
 /// ones too.

@@ -9,7 +9,9 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/file_set.h"
@@ -18,6 +20,7 @@
 #include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/segments/definition_file.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/subject_values.h"
@@ -174,12 +177,53 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
   return {};
 }
 
+GaitDrawingJob drawing_of(const SegmentsJob& job) {
+  GaitDrawingJob out;
+  static_cast<JobSettings&>(out) = job;
+  out.gait = job.gait;
+  out.figures = job.figures;
+  out.figure_formats = job.figure_formats;
+  out.report = job.report;
+  out.refits = job.refits;
+  out.level = job.level;
+  out.noise_sd_m = job.noise_sd_m;
+  return out;
+}
+
+// Angles and values over the cycle, and what else of them is drawn.
+Status draw_walking(const SegmentsJob& job, const data::Trial& recording, GaitDrawing& drawing,
+                    SegmentsOutcome& outcome) {
+  if (auto s = drawing.find_walking(job.input, recording); !s) {
+    if (s.error().code == Code::usage || job.output.empty()) return s;
+    outcome.warnings.push_back("walking is not drawn: " + s.error().message);
+    return {};
+  }
+  outcome.gait = drawing.gait();
+  std::ranges::copy(outcome.gait->notes, std::back_inserter(outcome.warnings));
+  std::vector<SheetInput> inputs;
+  for (const auto& series : angle_series(outcome.motion))
+    add_series(series, outcome.gait->cycles, "", inputs);
+  std::vector<data::CycleCurves> curves;
+  for (const auto& input : inputs) curves.push_back(input.curves);
+  add_recorded_kinetics(job.input, recording, *outcome.gait, inputs);
+  return drawing.write(job.input, recording, curves, inputs,
+                       {.angles_from = outcome.title, .inputs = outcome.inputs}, outcome);
+}
+
 }  // namespace
 
 Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
   const auto definition = find_definition(job.definition);
   if (!definition) return std::unexpected(definition.error());
+  std::optional<GaitDrawing> drawing;
+  if (auto walking = drawing_of(job); walking.wanted()) {
+    auto begun = GaitDrawing::begin(std::move(walking), {job.input, job.static_trial, job.vsk});
+    if (!begun) return std::unexpected(begun.error());
+    drawing.emplace(std::move(*begun));
+  } else if (auto s = job.gait.check(); !s) {
+    return std::unexpected(s.error());
+  }
   SegmentsOutcome outcome;
   outcome.title = definition->title.empty() ? job.definition : definition->title;
   const auto files = read_files(job, outcome);
@@ -199,8 +243,11 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
     return std::unexpected(s.error());
   std::ranges::copy(outcome.motion.warnings, std::back_inserter(outcome.warnings));
   find_cross_talk(*definition, outcome);
-  if (job.output.empty()) return outcome;
-  if (auto s = write_all(job, *files, outcome); !s) return std::unexpected(s.error());
+  if (!job.output.empty())
+    if (auto s = write_all(job, *files, outcome); !s) return std::unexpected(s.error());
+  if (drawing)
+    if (auto s = draw_walking(job, files->recording, *drawing, outcome); !s)
+      return fail_at(job.input.string(), s.error());
   return outcome;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/stages/analysis/kinetics/joint_loads.h"
 #include "kinemark/stages/analysis/segments/cross_talk.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
@@ -32,9 +34,14 @@ struct SegmentsJob : JobSettings {
   std::vector<std::string> subject;    ///< NAME=VALUE, mm, deg, kg
   std::string up;                      ///< "x", "y" or "z", also "-y"; empty: found, else z
   double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
-  std::int64_t refits = 99;            ///< behind deviations of loads: 0 (none) or at least 20
   bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
   std::filesystem::path output;        ///< folder; empty: nothing is written
+  GaitRequest gait;                    ///< whose events, norms, pairs; files of events and cycles
+  std::filesystem::path figures;       ///< folder for figures over the gait cycle
+  std::string figure_formats;          ///< as parse_figure_formats()
+  std::filesystem::path report;        ///< gait report, .html
+  std::int64_t refits = 99;            ///< behind deviations of loads and intervals of walking; 0: none
+  double level = 0.95;                 ///< of these intervals
 };
 
 /// Warnings: what was left out or could not be computed.
@@ -44,12 +51,14 @@ struct SegmentsOutcome : JobOutcome {
   analysis::SegmentMotion motion;       ///< what it gives
   analysis::JointLoads loads;           ///< where the definition has joints and the recording plates
   std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
+  std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
 };
 
 /// Read, screen, compute, write into the folder `output`: angles.mot and angles_sd.sto (degrees, metres),
 /// angles.csv with states, centres.csv with covariances, segments.c3d (the recording with angles, loads and
 /// centres) and segments.json; loads.sto, loads_sd.sto and loads.csv where there are loads. Progress counts
-/// files.
+/// files. Figures, page, events and cycles that are asked for need walking in the recording: without it they
+/// are not there, which is a warning, or Code::bad_input where nothing else is written.
 ///
 /// Code::usage for names and numbers that make no sense; Code::bad_input as the readers and
 /// analysis::compute_segments(); Code::io as Staging.

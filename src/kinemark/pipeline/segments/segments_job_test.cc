@@ -12,6 +12,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/segments/segment_tables.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -194,6 +195,40 @@ TEST_F(SegmentsJobTest, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refused([](auto& j) { j.definition = "nobody"; }), HasSubstr("no definition"));
   EXPECT_THAT(refused([](auto& j) { j.static_trial = "nothing.c3d"; }), HasSubstr("nothing.c3d"));
   EXPECT_THAT(refused([](auto& j) { j.noise_sd_m = -1.0; }), HasSubstr("noise"));
+}
+
+TEST_F(SegmentsJobTest, EachColumnIsASeriesWithItsDeviations) {
+  job_.output.clear();
+  job_.noise_sd_m = 0.001;
+  const auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto table = angles_table(outcome->motion);
+  const auto series = angle_series(outcome->motion);
+  ASSERT_EQ(series.size(), table.columns.size());
+  const auto knee = std::ranges::find(series, "knee_flexion", &analysis::CycleSeries::id);
+  ASSERT_NE(knee, series.end());
+  EXPECT_EQ(knee->quantity, data::Quantity::angle);
+  EXPECT_NEAR(knee->values[100] * 180.0 / std::numbers::pi, table(100, table.find("knee_flexion")), 1e-9);
+  EXPECT_NEAR(knee->time_s[100], 1.0, 1e-12);
+  EXPECT_GT(knee->sd[100], 0.0);
+  EXPECT_TRUE(std::isnan(knee->values[20]));
+  const auto length = std::ranges::find(series, "length", &analysis::CycleSeries::id);
+  ASSERT_NE(length, series.end());
+  EXPECT_EQ(length->quantity, data::Quantity::length);
+}
+
+TEST_F(SegmentsJobTest, AReportNeedsWalkingAndTheRestIsWrittenWithout) {
+  job_.report = scratch_ / "gait.html";
+  const auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("walking is not drawn: ")));
+  EXPECT_FALSE(outcome->gait);
+  EXPECT_FALSE(std::filesystem::exists(job_.report));
+  job_.output.clear();
+  EXPECT_EQ(run_segments(job_).error().code, Code::bad_input);
+  job_.report.clear();
+  job_.gait.sheet.norms = {"norm.csv"};
+  EXPECT_EQ(run_segments(job_).error().code, Code::usage);
 }
 
 }  // namespace

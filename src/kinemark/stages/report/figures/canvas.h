@@ -18,6 +18,7 @@ struct Stroke {
   std::string colour = "#000000";  ///< of the line
   double width = 1.2;              ///< pixels
   bool dashed = false;             ///< 6 pixels drawn, 4 left out
+  bool dotted = false;             ///< as long as wide drawn, twice that left out
 };
 
 /// Where a text's position lies in it.
@@ -29,6 +30,7 @@ struct Lettering {
   Anchor anchor = Anchor::start;   ///< of the position
   std::string colour = "#000000";  ///< of the letters
   bool upwards = false;            ///< reads from below to above
+  bool bold = false;               ///< heavy letters
 };
 
 /// A picture that is being drawn.

@@ -5,205 +5,195 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <memory>
-#include <utility>
+#include <span>
 
 #include "kinemark/core/check.h"
 #include "kinemark/stages/report/figures/canvas.h"
-#include "kinemark/stages/report/figures/plot_axis.h"
+#include "kinemark/stages/report/figures/internal/legend.h"
+#include "kinemark/stages/report/figures/internal/panel_drawing.h"
 
 namespace kinemark::report {
 namespace {
 
-constexpr double kWidth = 640.0, kLeft = 72.0, kRight = 20.0, kTitle = 34.0, kCaption = 30.0;
-constexpr double kPanelTop = 26.0, kPanelBottom = 44.0, kPlain = 210.0, kSquare = 400.0;  // heights
-constexpr double kLegendLine = 16.0, kLetter = 6.6;                                       // a letter's width
+using internal::Legend;
+using internal::PanelDrawing;
+using internal::PanelFrame;
+
+constexpr double kTitle = 34.0, kCaption = 30.0, kNoteLine = 14.0, kNoteSize = 11.0, kPanelNoteSize = 10.0,
+                 kBeforeNotes = 6.0;
+constexpr double kPlain = 210.0, kSquare = 400.0;  // heights of panels one below the other
 constexpr double kPngScale = 3.0;
-const std::string kInk = "#1a1a1a", kGrid = "#e3e3e3", kFrame = "#6b6b6b";
+const std::string kTitleInk = "#1a1a1a", kCaptionInk = "#6b6b6b";
 
-using Points = std::vector<Eigen::Vector2d>;
-
-// A number on an axis, with the minus sign of print.
-std::string tick_text(double value) {
-  return value < 0.0 ? fmt::format("\u2212{:.6g}", -value) : fmt::format("{:.6g}", value);
-}
-
-double inner_height(const FigurePanel& panel) { return panel.equal ? kSquare : kPlain; }
-
-// A name and how its line or band looks.
-struct Entry {
-  std::string name;
-  Stroke stroke;
-  bool band = false;
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+/// Room around the axes of a panel, and its letters.
+struct Layout {
+  double left = 72.0, right = 20.0, above = 26.0, below = 44.0, below_bare = 44.0;
+  double title = 0.0, note = 0.0;              // lines above the axes
+  double legend = 0.0, legend_to_axes = 16.0;  // more room where there is one; from its last line down
+  double label_left = 18.0, label_below = 36.0, tick_size = 11.0, label_size = 12.0;
 };
+constexpr Layout kSingle;
+constexpr Layout kGridded{.left = 50.0,
+                          .right = 14.0,
+                          .above = 14.0,
+                          .below = 38.0,
+                          .below_bare = 24.0,
+                          .title = 15.0,
+                          .note = 13.0,
+                          .legend = 8.0,
+                          .legend_to_axes = 4.0,
+                          .label_left = 14.0,
+                          .label_below = 31.0,
+                          .tick_size = 10.0,
+                          .label_size = 11.0};
 
-// Names beside each other, and below where they do not fit; how many lines they take.
-std::vector<Entry> legend_of(const FigurePanel& panel, double& lines) {
-  std::vector<Entry> out;
-  for (const auto& band : panel.bands)
-    if (!band.name.empty())
-      out.push_back({.name = band.name, .stroke = {.colour = band.colour}, .band = true});
-  for (const auto& line : panel.lines)
-    if (!line.name.empty())
-      out.push_back(
-          {.name = line.name, .stroke = {.colour = line.colour, .width = 2.0, .dashed = line.dashed}});
-  Eigen::Vector2d at(kLeft, 0.0);
-  for (auto& entry : out) {
-    const double width = 42.0 + kLetter * static_cast<double>(entry.name.size());
-    if (at.x() + width > kWidth - kRight && at.x() > kLeft) at = {kLeft, at.y() + kLegendLine};
-    entry.at = at;
-    at.x() += width;
-  }
-  lines = out.empty() ? 0.0 : at.y() / kLegendLine + 1.0;
-  return out;
-}
-
-double legend_height(const FigurePanel& panel) {
-  double lines = 0.0;
-  (void)legend_of(panel, lines);
-  return lines * kLegendLine;
-}
-
-// Calls visit(begin, end) for every run of points that are shown.
-template <class Shown, class Visit>
-void for_each_run(Eigen::Index count, const Shown& shown, const Visit& visit) {
-  for (Eigen::Index i = 0; i < count;) {
-    while (i < count && !shown(i)) ++i;
-    const Eigen::Index begin = i;
-    while (i < count && shown(i)) ++i;
-    if (i > begin) visit(begin, i);
-  }
-}
-
-/// One panel on its place.
-class PanelDrawing {
+/// Where rows of panels come to lie.
+class FigureDrawing {
  public:
-  PanelDrawing(const FigurePanel& panel, double top, Canvas& canvas) : panel_(panel), canvas_(canvas) {
-    x_ = {.from = kLeft, .to = kWidth - kRight};
-    const double above = top + kPanelTop + legend_height(panel);
-    y_ = {.from = above + inner_height(panel), .to = above};
-    for (const auto& band : panel.bands) include(band.x, band.low), include(band.x, band.high);
-    for (const auto& line : panel.lines) include(line.x, line.y);
-    for (const auto& dot : panel.dots) x_.include(dot.x()), y_.include(dot.y());
-    x_.settle();
-    y_.settle();
-    if (panel.equal) make_equal(x_, y_);
-    top_ = top;
+  explicit FigureDrawing(const Figure& figure)
+      : figure_(figure),
+        layout_(figure.columns > 1 ? kGridded : kSingle),
+        cell_(figure.width / static_cast<double>(std::max<std::int64_t>(1, figure.columns))),
+        keys_(figure.keys, figure.width - kSingle.right - title_left()) {
+    check(figure.columns >= 1 && figure.width > 0.0, "a figure has a width and a column");
+    for (const auto& note : figure.notes)
+      for (auto& line : internal::broken_text(note, kNoteSize, figure.width - kSingle.right - title_left()))
+        notes_.push_back(std::move(line));
   }
 
-  void draw() {
-    draw_grid();
-    for (const auto& band : panel_.bands) draw_band(band);
-    for (const auto& line : panel_.lines) draw_line(line);
-    for (const auto& dot : panel_.dots) canvas_.dot(place(dot.x(), dot.y()), 2.2, kInk);
-    for (const auto& mark : panel_.marks) draw_mark(mark);
-    canvas_.line(Points{{x_.from, y_.to}, {x_.from, y_.from}, {x_.to, y_.from}},
-                 {.colour = kFrame, .width = 1.0});
-    draw_legend();
-    canvas_.text({0.5 * (x_.from + x_.to), y_.from + 36.0}, panel_.x_label,
-                 {.anchor = Anchor::middle, .colour = kInk});
-    canvas_.text({18.0, 0.5 * (y_.from + y_.to)}, panel_.y_label,
-                 {.anchor = Anchor::middle, .colour = kInk, .upwards = true});
+  [[nodiscard]] double height() const {
+    double height = title_height() + keys_height() + (figure_.caption.empty() ? 8.0 : kCaption) +
+                    (notes_.empty() ? 0.0 : kBeforeNotes) + kNoteLine * static_cast<double>(notes_.size());
+    for (std::size_t i = 0; i < figure_.panels.size(); i += columns()) {
+      const auto row = row_of(i);
+      height += above(row) + inner(row) + below(row);
+    }
+    return height;
+  }
+
+  void draw(Canvas& canvas) const {
+    if (!figure_.title.empty())
+      canvas.text({title_left(), 22.0}, figure_.title, {.size = 14.0, .colour = kTitleInk});
+    double top = title_height();
+    keys_.draw(canvas, {title_left(), top + 10.0});
+    top += keys_height();
+    for (std::size_t i = 0; i < figure_.panels.size(); i += columns()) top = draw_row(canvas, row_of(i), top);
+    if (!figure_.caption.empty()) {
+      canvas.text({title_left(), top + 14.0}, figure_.caption, {.size = kNoteSize, .colour = kCaptionInk});
+      top += kCaption - 10.0;
+    }
+    if (!notes_.empty()) top += kBeforeNotes;
+    for (const auto& line : notes_) {
+      canvas.text({title_left(), top + 10.0}, line, {.size = kNoteSize, .colour = kCaptionInk});
+      top += kNoteLine;
+    }
   }
 
  private:
-  void include(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
-    check(x.size() == y.size(), "a curve has as many x as y");
-    for (Eigen::Index i = 0; i < x.size(); ++i)
-      if (x_.shows(x[i]) && y_.shows(y[i])) x_.include(x[i]), y_.include(y[i]);
-  }
-  [[nodiscard]] Eigen::Vector2d place(double x, double y) const { return {x_.at(x), y_.at(y)}; }
+  using Row = std::span<const FigurePanel>;
 
-  void draw_grid() {
-    for (const double v : x_.ticks()) {
-      canvas_.line(Points{{x_.at(v), y_.from}, {x_.at(v), y_.to}}, {.colour = kGrid, .width = 1.0});
-      canvas_.text({x_.at(v), y_.from + 17.0}, tick_text(v),
-                   {.size = 11.0, .anchor = Anchor::middle, .colour = kInk});
+  [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(figure_.columns); }
+  [[nodiscard]] double title_left() const { return figure_.columns > 1 ? 14.0 : kSingle.left; }
+  [[nodiscard]] double title_height() const { return figure_.title.empty() ? 6.0 : kTitle; }
+  [[nodiscard]] double keys_height() const { return keys_.height() > 0.0 ? keys_.height() + 6.0 : 0.0; }
+  [[nodiscard]] Row row_of(std::size_t first) const {
+    return Row(figure_.panels).subspan(first, std::min(columns(), figure_.panels.size() - first));
+  }
+  [[nodiscard]] double panel_width() const { return cell_ - layout_.left - layout_.right; }
+  [[nodiscard]] double legend_height(const FigurePanel& panel) const {
+    return Legend(panel, panel_width()).height();
+  }
+  [[nodiscard]] std::vector<std::string> note_lines(const FigurePanel& panel) const {
+    return internal::broken_text(panel.note, kPanelNoteSize, panel_width());
+  }
+  [[nodiscard]] double above(Row row) const {
+    double legend = 0.0;
+    bool title = false;
+    std::size_t note = 0;  // lines
+    for (const auto& panel : row) {
+      legend = std::max(legend, legend_height(panel));
+      title = title || !panel.title.empty();
+      note = std::max(note, note_lines(panel).size());
     }
-    for (const double v : y_.ticks(panel_.equal ? 6.0 : 4.0)) {
-      canvas_.line(Points{{x_.from, y_.at(v)}, {x_.to, y_.at(v)}}, {.colour = kGrid, .width = 1.0});
-      canvas_.text({x_.from - 7.0, y_.at(v) + 4.0}, tick_text(v),
-                   {.size = 11.0, .anchor = Anchor::end, .colour = kInk});
-    }
+    return layout_.above + (legend > 0.0 ? legend + layout_.legend : 0.0) + (title ? layout_.title : 0.0) +
+           layout_.note * static_cast<double>(note);
   }
-  void draw_band(const FigureBand& band) {
-    const auto shown = [&](Eigen::Index i) {
-      return x_.shows(band.x[i]) && y_.shows(band.low[i]) && y_.shows(band.high[i]);
-    };
-    for_each_run(band.x.size(), shown, [&](Eigen::Index begin, Eigen::Index end) {
-      Points points;
-      for (Eigen::Index i = begin; i < end; ++i) points.push_back(place(band.x[i], band.high[i]));
-      for (Eigen::Index i = end; i-- > begin;) points.push_back(place(band.x[i], band.low[i]));
-      canvas_.area(points, band.colour, 0.2);
-    });
+  [[nodiscard]] double inner(Row row) const {
+    if (figure_.panel_height > 0.0) return figure_.panel_height;
+    const bool equal = std::ranges::any_of(row, &FigurePanel::equal);
+    if (figure_.columns > 1) return equal ? panel_width() : 0.6 * panel_width();
+    return equal ? kSquare : kPlain;
   }
-  void draw_line(const FigureLine& line) {
-    const auto shown = [&](Eigen::Index i) { return x_.shows(line.x[i]) && y_.shows(line.y[i]); };
-    for_each_run(line.x.size(), shown, [&](Eigen::Index begin, Eigen::Index end) {
-      Points points;
-      for (Eigen::Index i = begin; i < end; ++i) points.push_back(place(line.x[i], line.y[i]));
-      canvas_.line(points, {.colour = line.colour, .width = line.width, .dashed = line.dashed});
-    });
-  }
-  void draw_mark(const FigureMark& mark) {
-    if (!x_.shows(mark.x) || mark.x < x_.low || mark.x > x_.high) return;
-    const double at = x_.at(mark.x);
-    canvas_.line(Points{{at, y_.from}, {at, y_.to}}, {.colour = kFrame, .width = 1.0, .dashed = true});
-    canvas_.text({at, y_.to - 5.0}, mark.name, {.size = 11.0, .anchor = Anchor::middle, .colour = kInk});
-  }
-  void draw_legend() {
-    double lines = 0.0;
-    for (const auto& entry : legend_of(panel_, lines)) {
-      const double y = top_ + 10.0 + entry.at.y(), x = entry.at.x();
-      if (entry.band)
-        canvas_.area(Points{{x, y - 5.0}, {x + 22.0, y - 5.0}, {x + 22.0, y + 5.0}, {x, y + 5.0}},
-                     entry.stroke.colour, 0.2);
-      else
-        canvas_.line(Points{{x, y}, {x + 22.0, y}}, entry.stroke);
-      canvas_.text({x + 28.0, y + 4.0}, entry.name, {.colour = kInk});
-    }
+  [[nodiscard]] double below(Row row) const {
+    const bool labelled = std::ranges::any_of(row, [](const FigurePanel& p) { return !p.x_label.empty(); });
+    return labelled ? layout_.below : layout_.below_bare;
   }
 
-  const FigurePanel& panel_;
-  Canvas& canvas_;
-  PlotAxis x_, y_;
-  double top_ = 0.0;
+  double draw_row(Canvas& canvas, Row row, double top) const {
+    const double axes = top + above(row);
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const auto& panel = row[c];
+      if (panel.blank) continue;
+      const double left = cell_ * static_cast<double>(c) + layout_.left;
+      double line = top + layout_.above;
+      if (!panel.title.empty() && layout_.title > 0.0) {
+        canvas.text({left, line + 5.0}, panel.title, {.size = 12.0, .colour = kTitleInk, .bold = true});
+        line += layout_.title;
+      }
+      if (layout_.note > 0.0)
+        for (const auto& text : note_lines(panel)) {
+          canvas.text({left, line + 3.0}, text, {.size = kPanelNoteSize, .colour = kCaptionInk});
+          line += layout_.note;
+        }
+      Legend(panel, panel_width()).draw(canvas, {left, axes - legend_height(panel) - layout_.legend_to_axes});
+      PanelDrawing(panel,
+                   {.left = left,
+                    .right = left + panel_width(),
+                    .top = axes,
+                    .bottom = axes + inner(row),
+                    .label_left = cell_ * static_cast<double>(c) + layout_.label_left,
+                    .label_below = layout_.label_below,
+                    .tick_size = layout_.tick_size,
+                    .label_size = layout_.label_size},
+                   canvas)
+          .draw();
+    }
+    return axes + inner(row) + below(row);
+  }
+
+  const Figure& figure_;
+  Layout layout_;
+  double cell_;
+  Legend keys_;
+  std::vector<std::string> notes_;
 };
-
-double title_height(const Figure& figure) { return figure.title.empty() ? 6.0 : kTitle; }
-
-double height_of(const Figure& figure) {
-  double height = title_height(figure) + (figure.caption.empty() ? 8.0 : kCaption);
-  for (const auto& panel : figure.panels)
-    height += kPanelTop + legend_height(panel) + inner_height(panel) + kPanelBottom;
-  return height;
-}
-
-void draw(const Figure& figure, Canvas& canvas) {
-  if (!figure.title.empty()) canvas.text({kLeft, 22.0}, figure.title, {.size = 14.0, .colour = kInk});
-  double top = title_height(figure);
-  for (const auto& panel : figure.panels) {
-    PanelDrawing(panel, top, canvas).draw();
-    top += kPanelTop + legend_height(panel) + inner_height(panel) + kPanelBottom;
-  }
-  if (!figure.caption.empty())
-    canvas.text({kLeft, top + 14.0}, figure.caption, {.size = 11.0, .colour = kFrame});
-}
 
 }  // namespace
 
+std::string tint(std::string_view colour, double share) {
+  std::string out = "#";
+  for (std::size_t i = 1; i + 1 < colour.size() && i < 7; i += 2) {
+    unsigned value = 0;
+    (void)std::from_chars(colour.data() + i, colour.data() + i + 2, value, 16);
+    out += fmt::format("{:02x}", std::lround(255.0 + std::clamp(share, 0.0, 1.0) * (value - 255.0)));
+  }
+  return out;
+}
+
 std::string figure_svg(const Figure& figure) {
-  const auto canvas = make_svg_canvas(kWidth, height_of(figure), figure.title);
-  draw(figure, *canvas);
+  const FigureDrawing drawing(figure);
+  const auto canvas = make_svg_canvas(figure.width, drawing.height(), figure.title);
+  drawing.draw(*canvas);
   return *canvas->finish();
 }
 
 Result<std::string> figure_png(const Figure& figure) {
-  auto canvas = make_png_canvas(kWidth, height_of(figure), kPngScale);
+  const FigureDrawing drawing(figure);
+  auto canvas = make_png_canvas(figure.width, drawing.height(), kPngScale);
   if (!canvas) return std::unexpected(canvas.error());
-  draw(figure, **canvas);
+  drawing.draw(**canvas);
   return (*canvas)->finish();
 }
 

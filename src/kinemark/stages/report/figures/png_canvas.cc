@@ -44,14 +44,14 @@ class PngCanvas final : public Canvas {
     cairo_set_source_rgb(context_.get(), 1.0, 1.0, 1.0);
     cairo_paint(context_.get());
     cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
-    cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   }
 
   void line(std::span<const Eigen::Vector2d> points, const Stroke& stroke) override {
     if (points.size() < 2) return;
     trace(points);
-    const std::array dashes{6.0, 4.0};
-    cairo_set_dash(context_.get(), dashes.data(), stroke.dashed ? 2 : 0, 0.0);
+    const std::array dashes =
+        stroke.dotted ? std::array{stroke.width, 2.0 * stroke.width} : std::array{6.0, 4.0};
+    cairo_set_dash(context_.get(), dashes.data(), stroke.dashed || stroke.dotted ? 2 : 0, 0.0);
     cairo_set_line_width(context_.get(), stroke.width);
     set_colour(stroke.colour, 1.0);
     cairo_stroke(context_.get());
@@ -72,6 +72,8 @@ class PngCanvas final : public Canvas {
   void text(const Eigen::Vector2d& position, const std::string& text, const Lettering& lettering) override {
     cairo_t* c = context_.get();
     cairo_save(c);
+    cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c, lettering.size);
     cairo_translate(c, position.x(), position.y());
     if (lettering.upwards) cairo_rotate(c, -0.5 * std::numbers::pi);

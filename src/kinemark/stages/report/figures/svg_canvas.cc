@@ -15,6 +15,11 @@ std::string path_of(std::span<const Eigen::Vector2d> points) {
   return out;
 }
 
+std::string dashes_of(const Stroke& stroke) {
+  if (stroke.dotted) return fmt::format(" stroke-dasharray=\"{:g} {:g}\"", stroke.width, 2.0 * stroke.width);
+  return stroke.dashed ? " stroke-dasharray=\"6 4\"" : "";
+}
+
 class SvgCanvas final : public Canvas {
  public:
   SvgCanvas(double width, double height, const std::string& title)
@@ -26,9 +31,8 @@ class SvgCanvas final : public Canvas {
 
   void line(std::span<const Eigen::Vector2d> points, const Stroke& stroke) override {
     if (points.size() < 2) return;
-    out_ +=
-        fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{} d=\"{}\"/>\n", stroke.colour,
-                    stroke.width, stroke.dashed ? " stroke-dasharray=\"6 4\"" : "", path_of(points));
+    out_ += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{} d=\"{}\"/>\n",
+                        stroke.colour, stroke.width, dashes_of(stroke), path_of(points));
   }
   void area(std::span<const Eigen::Vector2d> points, const std::string& colour, double opacity) override {
     if (points.size() < 3) return;
@@ -47,8 +51,9 @@ class SvgCanvas final : public Canvas {
         lettering.upwards
             ? fmt::format("transform=\"translate({:.2f} {:.2f}) rotate(-90)\"", position.x(), position.y())
             : fmt::format("x=\"{:.2f}\" y=\"{:.2f}\"", position.x(), position.y());
-    out_ += fmt::format("<text {} font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", place,
-                        lettering.size, anchor, lettering.colour, html_text(text));
+    out_ += fmt::format("<text {} font-size=\"{:g}\"{} text-anchor=\"{}\" fill=\"{}\">{}</text>\n", place,
+                        lettering.size, lettering.bold ? " font-weight=\"bold\"" : "", anchor,
+                        lettering.colour, html_text(text));
   }
   Result<std::string> finish() override { return out_ + "</svg>\n"; }
 

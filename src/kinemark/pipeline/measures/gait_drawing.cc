@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/measures/gait_drawing.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/gait/sheet_inputs.h"
+#include "kinemark/pipeline/measures/gait_cycles.h"
+#include "kinemark/pipeline/measures/measure_figures.h"
+
+namespace kinemark::pipeline {
+
+void add_recorded_kinetics(const std::filesystem::path& path, const data::Trial& trial,
+                           const analysis::Gait& gait, std::vector<SheetInput>& out) {
+  add_kinetic_channels(trial, gait.cycles, out);
+  const auto plates = plates_of(path, trial);
+  const auto vertical = vertical_of_plates(trial);
+  if (plates && vertical) add_ground_reaction(*plates, vertical->up, gait, out);
+}
+
+Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others) {
+  GaitDrawing out;
+  if (auto s = job.gait.check(true); !s) return std::unexpected(s.error());
+  auto formats = parse_figure_formats(job.figure_formats);
+  if (!formats) return std::unexpected(formats.error());
+  out.formats_ = std::move(*formats);
+  auto norms = read_gait_norms(job.gait.sheet.norms);
+  if (!norms) return std::unexpected(norms.error());
+  out.norms_ = std::move(*norms);
+  auto page = PageFile::begin(job.report, others, job.force);
+  if (!page) return std::unexpected(page.error());
+  out.page_.emplace(std::move(*page));
+  out.others_ = others;
+  std::ranges::copy(job.gait.sheet.norms, std::back_inserter(out.others_));
+  out.job_ = std::move(job);
+  return out;
+}
+
+Status GaitDrawing::find_walking(const std::filesystem::path& path, const data::Trial& trial) {
+  auto options = gait_options(job_.gait, true);
+  if (!options) return std::unexpected(options.error());
+  options->refits = job_.refits;
+  options->level = job_.level;
+  options->noise_sd_m = job_.noise_sd_m;
+  options->seed = job_.seed;
+  options->threads = job_.threads;
+  auto gait = measure_gait(path, trial, *options);
+  if (!gait) return std::unexpected(gait.error());
+  gait_ = std::move(*gait);
+  return {};
+}
+
+Status GaitDrawing::write(const std::filesystem::path& path, const data::Trial& trial,
+                          const std::vector<data::CycleCurves>& curves, const std::vector<SheetInput>& inputs,
+                          GaitPageFacts facts, JobOutcome& outcome) {
+  const auto name = path.filename().string();
+  std::vector<std::filesystem::path> targets;
+  std::vector<ResultFile> files;
+  data::Trial recorded;
+  if (const auto& target = job_.gait.write_events; !target.empty()) {
+    targets.push_back(target);
+    if (ending_of(target) == ".c3d") {
+      recorded = with_events(trial, *gait_);
+      files.push_back(marker_file(target, recorded));
+    } else {
+      files.push_back(text_file(target, [&] { return events_csv(*gait_, trial.markers.time, name); }));
+    }
+  }
+  if (const auto& target = job_.gait.write_cycles; !target.empty()) {
+    targets.push_back(target);
+    files.push_back(text_file(target, [&] { return curves_csv(curves, name); }));
+  }
+  if (!files.empty()) {
+    auto staging = Staging::create(targets, job_.force, others_);
+    if (!staging) return std::unexpected(staging.error());
+    auto written = write_results(*staging, files, {}, "walking");
+    if (!written) return std::unexpected(written.error());
+    std::ranges::move(*written, std::back_inserter(outcome.written));
+  }
+  if (job_.figures.empty() && !page_->wanted()) return {};
+  const auto report = make_gait_report(name, inputs, *gait_, norms_, job_.gait.sheet.angle_angle);
+  std::ranges::copy(report->sheet.remarks, std::back_inserter(outcome.warnings));
+  if (!job_.figures.empty()) {
+    auto staging =
+        Staging::create_in(job_.figures, gait_report_files(*report, formats_), job_.force, others_);
+    if (!staging) return std::unexpected(staging.error());
+    auto written =
+        write_results(*staging, gait_report_results(*report, job_.figures, formats_), {}, "the figures");
+    if (!written) return std::unexpected(written.error());
+    std::ranges::move(*written, std::back_inserter(outcome.written));
+  }
+  if (!page_->wanted()) return {};
+  facts.command_line = job_.command_line;
+  facts.warnings = outcome.warnings;
+  return page_->write(gait_report_page(*report, facts), outcome);
+}
+
+}  // namespace kinemark::pipeline

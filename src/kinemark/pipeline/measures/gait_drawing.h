@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The gait report of a job that computes angles itself: events from a recording, figures and a page to files.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/page_file.h"
+#include "kinemark/pipeline/gait/gait_report.h"
+#include "kinemark/pipeline/measures/gait_request.h"
+#include "kinemark/stages/analysis/gait/gait.h"
+
+namespace kinemark::pipeline {
+
+/// What of walking is drawn and written. Paths that are empty are not used.
+struct GaitDrawingJob : JobSettings {
+  GaitRequest gait;               ///< whose events, norms, pairs; write_events and write_cycles
+  std::filesystem::path figures;  ///< folder
+  std::string figure_formats;     ///< as parse_figure_formats()
+  std::filesystem::path report;   ///< page, .html
+  std::int64_t refits = 99;       ///< behind each interval of the measures; 0: none
+  double level = 0.95;            ///< of these intervals
+  double noise_sd_m = 0.0;        ///< of markers, per axis; 0: found from the samples
+
+  /// Whether anything is asked for.
+  [[nodiscard]] bool wanted() const {
+    return !figures.empty() || !report.empty() || !gait.write_events.empty() || !gait.write_cycles.empty();
+  }
+};
+
+/// Curves over the cycle with what else a recording has: joint kinetics among its channels, the force of
+/// plates under each foot.
+void add_recorded_kinetics(const std::filesystem::path& path, const data::Trial& trial,
+                           const analysis::Gait& gait, std::vector<SheetInput>& out);
+
+/// The outputs of a gait report, begun before a long computation.
+class GaitDrawing {
+ public:
+  /// Reads the norms and begins the page, so that what cannot work is told at once.
+  /// @param others  files that the job reads or writes
+  /// @return  Code::usage as GaitRequest::check() and parse_figure_formats(); else as read_gait_norms() and
+  ///          PageFile::begin()
+  static Result<GaitDrawing> begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others);
+
+  /// Find walking in the recording. Code::bad_input as measure_gait().
+  [[nodiscard]] Status find_walking(const std::filesystem::path& path, const data::Trial& trial);
+  /// What was found; nothing before find_walking().
+  [[nodiscard]] const std::optional<analysis::Gait>& gait() const { return gait_; }
+
+  /// Draw and write what was asked for, and add it to what the job has written. Walking must have been found.
+  /// @param path, trial  the recording
+  /// @param curves       angles in SI units, for `write_cycles`
+  /// @param inputs       all that is drawn, these curves among them
+  [[nodiscard]] Status write(const std::filesystem::path& path, const data::Trial& trial,
+                             const std::vector<data::CycleCurves>& curves,
+                             const std::vector<SheetInput>& inputs, GaitPageFacts facts, JobOutcome& outcome);
+
+ private:
+  GaitDrawing() = default;
+  GaitDrawingJob job_;
+  std::vector<std::string> formats_;
+  std::vector<std::filesystem::path> others_;
+  GaitNorms norms_;
+  std::optional<PageFile> page_;
+  std::optional<analysis::Gait> gait_;
+};
+
+}  // namespace kinemark::pipeline
